@@ -1,0 +1,5 @@
+//! Recorded accelerograms.
+
+mod accelerogram;
+
+pub use accelerogram::{Accelerogram, AccelerogramError};

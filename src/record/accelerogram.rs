@@ -1,0 +1,125 @@
+//! One component of ground acceleration, parsed once.
+
+use thiserror::Error;
+
+/// Why a sequence of samples is no accelerogram.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum AccelerogramError {
+    /// At least two samples are needed for a duration.
+    #[error("{found} samples: expected at least 2")]
+    TooFewSamples {
+        /// Number of samples given.
+        found: usize,
+    },
+    /// The sampling interval must be positive and finite.
+    #[error("sampling interval {0} s: expected a positive number")]
+    SamplingInterval(f64),
+    /// Every sample must be finite.
+    #[error("sample {index} is {value}: expected a finite number")]
+    NotFinite {
+        /// Zero-based index of the sample.
+        index: usize,
+        /// What was found.
+        value: f64,
+    },
+}
+
+/// Ground acceleration at equal intervals, in multiples of gravity.
+///
+/// Sample i is at t = i dt; between samples the acceleration is linear;
+/// before the first and after the last it is zero (a jump, if they are not).
+///
+/// ```
+/// use rocking::record::Accelerogram;
+/// let record = Accelerogram::try_new("hand", 0.5, vec![0.0, 0.2, -0.4, 0.0])?;
+/// assert_eq!(record.pga_g(), 0.4);
+/// assert_eq!(record.duration_s(), 1.5);
+/// // Cumulative trapezoid with v(0) = 0: 0.05, 0.0, -0.1 (in g s).
+/// assert!((record.pgv_g_s() - 0.1).abs() < 1e-15);
+/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accelerogram {
+    name: String,
+    dt_s: f64,
+    samples_g: Vec<f64>,
+}
+
+impl Accelerogram {
+    /// Accelerogram named `name` with samples `samples_g` (multiples of
+    /// gravity) every `dt_s` seconds.
+    ///
+    /// # Errors
+    /// [`AccelerogramError`] for fewer than two samples, an interval that is
+    /// not positive and finite, or a sample that is not finite.
+    pub fn try_new(
+        name: impl Into<String>,
+        dt_s: f64,
+        samples_g: Vec<f64>,
+    ) -> Result<Self, AccelerogramError> {
+        if !(dt_s > 0.0 && dt_s.is_finite()) {
+            return Err(AccelerogramError::SamplingInterval(dt_s));
+        }
+        if samples_g.len() < 2 {
+            let found = samples_g.len();
+            return Err(AccelerogramError::TooFewSamples { found });
+        }
+        if let Some(index) = samples_g.iter().position(|a| !a.is_finite()) {
+            let value = samples_g[index];
+            return Err(AccelerogramError::NotFinite { index, value });
+        }
+        Ok(Self { name: name.into(), dt_s, samples_g })
+    }
+
+    /// Name by which results refer to the record.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Sampling interval in s.
+    #[must_use]
+    pub fn dt_s(&self) -> f64 {
+        self.dt_s
+    }
+
+    /// Samples in multiples of gravity.
+    #[must_use]
+    pub fn samples_g(&self) -> &[f64] {
+        &self.samples_g
+    }
+
+    /// Time from the first to the last sample in s.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        (self.samples_g.len() - 1) as f64 * self.dt_s
+    }
+
+    /// Peak ground acceleration: largest absolute sample, as given, in
+    /// multiples of gravity.
+    #[must_use]
+    pub fn pga_g(&self) -> f64 {
+        self.samples_g.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
+    }
+
+    /// Peak ground velocity divided by gravity, in s: largest absolute value
+    /// at a sample of the cumulative trapezoid with v(0) = 0 and no baseline
+    /// correction.
+    #[must_use]
+    pub fn pgv_g_s(&self) -> f64 {
+        let mut sum = 0.0;
+        let mut peak: f64 = 0.0;
+        for pair in self.samples_g.windows(2) {
+            sum += pair[0] + pair[1];
+            peak = peak.max(f64::abs(sum));
+        }
+        0.5 * self.dt_s * peak
+    }
+
+    /// Peak ground velocity in m/s under gravity `gravity_m_s2`.
+    #[must_use]
+    pub fn pgv_m_s(&self, gravity_m_s2: f64) -> f64 {
+        self.pgv_g_s() * gravity_m_s2
+    }
+}

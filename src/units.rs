@@ -1,0 +1,66 @@
+//! Conversion factors: the only place in the crate that has any.
+
+/// Standard gravity in m/s2 (CGPM 1901).
+///
+/// The paper's Table 1 and the reference values use 9.81; a caller who
+/// needs that passes it, nothing here assumes it.
+///
+/// ```
+/// assert_eq!(rocking::units::STANDARD_GRAVITY_M_S2, 9.80665);
+/// ```
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
+
+/// Unit of acceleration in which a record is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AccelerationUnit {
+    /// Multiples of gravity.
+    Gravity,
+    /// Metres per second squared.
+    MetrePerSecondSquared,
+    /// Centimetres per second squared (gal).
+    CentimetrePerSecondSquared,
+}
+
+impl AccelerationUnit {
+    /// Reads a unit as people write it: `g`, `m/s2`, `cm/s2`, `gal`.
+    ///
+    /// ```
+    /// use rocking::units::AccelerationUnit;
+    /// assert_eq!(
+    ///     AccelerationUnit::parse("CM/S/S"),
+    ///     Some(AccelerationUnit::CentimetrePerSecondSquared)
+    /// );
+    /// assert_eq!(AccelerationUnit::parse("furlong"), None);
+    /// ```
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Self> {
+        let text = text.trim().to_ascii_lowercase();
+        match text.as_str() {
+            "g" => Some(Self::Gravity),
+            "m/s2" | "m/s^2" | "m/s**2" | "m/s/s" | "m/sec2" | "m/sec^2"
+            | "m/sec/sec" => Some(Self::MetrePerSecondSquared),
+            "cm/s2" | "cm/s^2" | "cm/s**2" | "cm/s/s" | "cm/sec2"
+            | "cm/sec^2" | "cm/sec/sec" | "gal" | "gals" => {
+                Some(Self::CentimetrePerSecondSquared)
+            }
+            _ => None,
+        }
+    }
+
+    /// Number in this unit that makes one `gravity_m_s2`: a reading divided
+    /// by it is a multiple of gravity.
+    ///
+    /// ```
+    /// use rocking::units::AccelerationUnit;
+    /// let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    /// assert_eq!(unit.per_gravity(9.81), 981.0);
+    /// ```
+    #[must_use]
+    pub fn per_gravity(self, gravity_m_s2: f64) -> f64 {
+        match self {
+            Self::Gravity => 1.0,
+            Self::MetrePerSecondSquared => gravity_m_s2,
+            Self::CentimetrePerSecondSquared => gravity_m_s2 * 100.0,
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
+
+use std::io::{self, Write as _};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Rocking of free-standing blocks under earthquakes, and its statistics.
+#[derive(Parser)]
+#[command(name = "rocking", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {}
+
+/// A command that did not do what it was asked: what is printed, and the
+/// exit status.
+#[derive(Debug)]
+pub struct Failure {
+    /// One message for people, on standard error.
+    pub message: String,
+    /// 1 for a failed gate, 2 for bad usage or input.
+    pub status: u8,
+}
+
+impl Failure {
+    /// Bad usage or bad input: exit status 2.
+    #[must_use]
+    pub fn input(message: impl std::fmt::Display) -> Self {
+        Self { message: message.to_string(), status: 2 }
+    }
+
+    /// A gate that failed: exit status 1.
+    #[must_use]
+    pub fn gate(message: impl std::fmt::Display) -> Self {
+        Self { message: message.to_string(), status: 1 }
+    }
+}
+
+impl<E: std::error::Error> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let mut message = error.to_string();
+        let mut source = error.source();
+        while let Some(inner) = source {
+            let text = inner.to_string();
+            if !message.contains(&text) {
+                message = format!("{message}: {text}");
+            }
+            source = inner.source();
+        }
+        Self::input(message)
+    }
+}
+
+/// Prints `text` on standard output; a closed pipe ends the program quietly.
+///
+/// # Errors
+/// [`Failure`] when standard output cannot be written for another reason.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => {
+            std::process::exit(0)
+        }
+        done => {
+            done.map_err(|e| Failure::input(format!("standard output: {e}")))
+        }
+    }
+}
+
+/// Parses the arguments, runs the command and gives the exit status.
+#[must_use]
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let outcome: Result<(), Failure> = match cli.command {};
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("rocking: {}", failure.message);
+            ExitCode::from(failure.status)
+        }
+    }
+}

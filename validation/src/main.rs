@@ -1,0 +1,7 @@
+//! The command line `rocking`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    rocking_validation::cli::run()
+}

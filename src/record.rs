@@ -16,10 +16,15 @@ mod error;
 mod fields;
 mod number;
 mod resorce;
+mod suite;
 mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
+pub use suite::{
+    PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
+    folder_files, is_index,
+};
 
 use crate::units::{self, AccelerationUnit};
 use text::{Text, excerpt};
@@ -188,6 +193,12 @@ fn unknown(text: &Text<'_>) -> RecordError {
     let index = index.unwrap_or(0);
     let found = excerpt(lines[index]);
     text.on_line(index, Fault::UnknownFormat { found, expected: FORMATS })
+}
+
+/// Name of the file at `path`, without its folder.
+fn decode_name(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// File name without folders and without what follows the last dot.

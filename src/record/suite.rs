@@ -10,7 +10,8 @@ mod index;
 mod pairing;
 
 use super::{Accelerogram, Fault, Format, ReadOptions, RecordError};
-use super::{bytes_of, decode_name, read};
+use super::{bytes_of, name_of, read};
+use crate::units::AccelerationUnit;
 
 /// Relative difference allowed between an index's PGA or PGV and the
 /// record's.
@@ -105,6 +106,33 @@ pub enum SuiteError {
     },
 }
 
+impl SuiteError {
+    /// The file that was refused: a record, else the folder or index.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        match self {
+            Self::Record(error) => error.file(),
+            Self::Mismatch { file, .. } => file,
+            Self::Unreadable { path, .. }
+            | Self::Empty { path, .. }
+            | Self::Index { path, .. }
+            | Self::Unverifiable { path }
+            | Self::SameName { path, .. }
+            | Self::Pair { path, .. } => path,
+        }
+    }
+
+    /// Line of that file, counted from 1.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Record(error) => error.line(),
+            Self::Index { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
+}
+
 /// Who chose the component of each pair that a study uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StudyRule {
@@ -135,6 +163,8 @@ pub struct SuiteMember {
     pub file: String,
     /// Format of the file.
     pub format: Format,
+    /// Unit in which the file is written.
+    pub unit: AccelerationUnit,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
@@ -181,15 +211,7 @@ impl Suite {
         path: &Path,
         options: &SuiteOptions,
     ) -> Result<Self, SuiteError> {
-        if path.is_dir() {
-            return Self::from_folder(path, options);
-        }
-        let bytes = bytes_of(path)?;
-        let shown = path.display().to_string();
-        let base = path.parent().unwrap_or(Path::new(""));
-        Self::from_index(&shown, &bytes, options, |file| {
-            bytes_of(&base.join(file))
-        })
+        Survey::read(path, options)?.into_suite()
     }
 
     /// Reads a suite from the bytes of an index and a function that gives
@@ -218,75 +240,9 @@ impl Suite {
         path: &str,
         bytes: &[u8],
         options: &SuiteOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        let index = index::Index::parse(path, bytes)?;
-        let mut members = Vec::with_capacity(index.rows().len());
-        for row in index.rows() {
-            let content = file_bytes(row.file())?;
-            members.push(row.member(&content, options)?);
-        }
-        let study_rule = if index.has("study_component") {
-            StudyRule::Index
-        } else {
-            StudyRule::FirstName
-        };
-        let paired = index.has("pair");
-        Self::assemble(path, members, study_rule, paired, Vec::new())
-    }
-
-    fn from_folder(
-        path: &Path,
-        options: &SuiteOptions,
-    ) -> Result<Self, SuiteError> {
-        let shown = path.display().to_string();
-        let mut members = Vec::new();
-        let mut ignored = Vec::new();
-        for file in folder_files(path)? {
-            let name = decode_name(&file);
-            let bytes = bytes_of(&file)?;
-            let shown = file.display().to_string();
-            match read(&shown, &bytes, &options.read) {
-                Ok(record) => members.push(SuiteMember {
-                    accelerogram: record.accelerogram,
-                    file: name,
-                    format: record.format,
-                    pair: None,
-                    study_component: false,
-                    attributes: BTreeMap::new(),
-                }),
-                Err(error) if is_no_record(&error) => ignored.push(error),
-                Err(error) => return Err(error.into()),
-            }
-        }
-        let rule = StudyRule::FirstName;
-        Self::assemble(&shown, members, rule, false, ignored)
-    }
-
-    /// Finds pairs and study components where none were given, and checks
-    /// what was given.
-    fn assemble(
-        path: &str,
-        mut members: Vec<SuiteMember>,
-        study_rule: StudyRule,
-        paired: bool,
-        ignored: Vec<RecordError>,
-    ) -> Result<Self, SuiteError> {
-        let path_owned = || path.to_owned();
-        if members.is_empty() {
-            let files = ignored.len();
-            return Err(SuiteError::Empty { path: path_owned(), files });
-        }
-        pairing::check_names(path, &members)?;
-        if !paired {
-            pairing::pair_by_name(&mut members);
-        }
-        if study_rule == StudyRule::FirstName {
-            pairing::mark_first(&mut members);
-        }
-        pairing::check_pairs(path, &members)?;
-        let name = super::stem(path.trim_end_matches('/')).to_owned();
-        Ok(Self { name, members, study_rule, ignored })
+        Survey::of_index(path, bytes, options, file_bytes)?.into_suite()
     }
 
     /// Name of the folder or index, without its ending.
@@ -338,6 +294,130 @@ impl Suite {
     }
 }
 
+/// What a folder or index holds, refused records included.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    path: String,
+    members: Vec<Result<SuiteMember, SuiteError>>,
+    ignored: Vec<RecordError>,
+    study_rule: StudyRule,
+    paired: bool,
+}
+
+impl Survey {
+    /// Reads every record of the folder or index at `path`.
+    ///
+    /// # Errors
+    /// [`SuiteError`] where the folder or index itself cannot be read.
+    pub fn read(
+        path: &Path,
+        options: &SuiteOptions,
+    ) -> Result<Self, SuiteError> {
+        if path.is_dir() {
+            return Self::of_folder(path, options);
+        }
+        let bytes = bytes_of(path)?;
+        let shown = path.display().to_string();
+        let base = path.parent().unwrap_or(Path::new(""));
+        Self::of_index(&shown, &bytes, options, |file| {
+            bytes_of(&base.join(file))
+        })
+    }
+
+    fn of_index(
+        path: &str,
+        bytes: &[u8],
+        options: &SuiteOptions,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+    ) -> Result<Self, SuiteError> {
+        let index = index::Index::parse(path, bytes)?;
+        let member =
+            |row: &index::Row| row.member(&file_bytes(row.file())?, options);
+        let members = index.rows().iter().map(member).collect();
+        let study_rule = if index.has("study_component") {
+            StudyRule::Index
+        } else {
+            StudyRule::FirstName
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            members,
+            ignored: Vec::new(),
+            study_rule,
+            paired: index.has("pair"),
+        })
+    }
+
+    fn of_folder(
+        path: &Path,
+        options: &SuiteOptions,
+    ) -> Result<Self, SuiteError> {
+        let mut members = Vec::new();
+        let mut ignored = Vec::new();
+        for file in folder_files(path)? {
+            let bytes = bytes_of(&file)?;
+            let shown = file.display().to_string();
+            match read(&shown, &bytes, &options.read) {
+                Ok(record) => members.push(Ok(SuiteMember {
+                    accelerogram: record.accelerogram,
+                    file: name_of(&file),
+                    format: record.format,
+                    unit: record.unit,
+                    pair: None,
+                    study_component: false,
+                    attributes: BTreeMap::new(),
+                })),
+                Err(error) if is_no_record(&error) => ignored.push(error),
+                Err(error) => members.push(Err(error.into())),
+            }
+        }
+        Ok(Self {
+            path: path.display().to_string(),
+            members,
+            ignored,
+            study_rule: StudyRule::FirstName,
+            paired: false,
+        })
+    }
+
+    /// Every record that was looked for, in the index's order or by file
+    /// name; pairs found by name are known to the suite only.
+    #[must_use]
+    pub fn members(&self) -> &[Result<SuiteMember, SuiteError>] {
+        &self.members
+    }
+
+    /// Files of a folder that hold no record, and why.
+    #[must_use]
+    pub fn ignored(&self) -> &[RecordError] {
+        &self.ignored
+    }
+
+    /// The suite, if no record was refused.
+    ///
+    /// # Errors
+    /// The first refused record; [`SuiteError::Empty`] without any; a name
+    /// that two records share; a pair that is none.
+    pub fn into_suite(self) -> Result<Suite, SuiteError> {
+        let Self { path, members, ignored, study_rule, paired } = self;
+        let mut members =
+            members.into_iter().collect::<Result<Vec<_>, _>>()?;
+        if members.is_empty() {
+            return Err(SuiteError::Empty { path, files: ignored.len() });
+        }
+        pairing::check_names(&path, &members)?;
+        if !paired {
+            pairing::pair_by_name(&mut members);
+        }
+        if study_rule == StudyRule::FirstName {
+            pairing::mark_first(&mut members);
+        }
+        pairing::check_pairs(&path, &members)?;
+        let name = super::stem(path.trim_end_matches('/')).to_owned();
+        Ok(Suite { name, members, study_rule, ignored })
+    }
+}
+
 /// Whether a file is no acceleration record at all, against one with a
 /// fault.
 fn is_no_record(error: &RecordError) -> bool {
@@ -361,7 +441,7 @@ pub fn folder_files(path: &Path) -> Result<Vec<PathBuf>, SuiteError> {
     let mut files = Vec::new();
     for entry in std::fs::read_dir(path).map_err(fail)? {
         let file = entry.map_err(fail)?.path();
-        if file.is_file() && !decode_name(&file).starts_with('.') {
+        if file.is_file() && !name_of(&file).starts_with('.') {
             files.push(file);
         }
     }

@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use rocking::record::{self, Fault, Format, ReadOptions, RecordError, Survey};
+use rocking::record::{
+    self, Fault, Format, ReadOptions, RecordError, Suite, SuiteMember, Survey,
+};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
 
@@ -148,6 +150,7 @@ impl Listing {
                     format: record.format,
                     unit: record.unit,
                     motion: record.accelerogram,
+                    place: None,
                 }))
             }
         }

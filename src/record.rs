@@ -253,3 +253,6 @@ fn complete(
     let channel = channel.label;
     Ok(Record { accelerogram, format, unit, unit_stated, channel })
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,136 +2,22 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
+mod error;
 mod index;
 mod pairing;
+mod survey;
 
-use super::{Accelerogram, Fault, Format, ReadOptions, RecordError};
-use super::{bytes_of, name_of, read};
+pub use error::SuiteError;
+pub use survey::{Survey, folder_files};
+
+use super::{Accelerogram, Format, ReadOptions, RecordError};
 use crate::units::AccelerationUnit;
 
 /// Relative difference allowed between an index's PGA or PGV and the
 /// record's.
 pub const PEAK_TOLERANCE: f64 = 1e-4;
-
-/// A suite that was refused.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum SuiteError {
-    /// The folder or index could not be read.
-    #[error("{path}: cannot be read: {reason}")]
-    Unreadable {
-        /// Folder or index.
-        path: String,
-        /// What the system said.
-        reason: String,
-    },
-    /// A record was refused.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// There is no record in it.
-    #[error(
-        "{path}: no readable record in it: expected at least one (files: {files})"
-    )]
-    Empty {
-        /// Folder or index.
-        path: String,
-        /// Number of files or rows looked at.
-        files: usize,
-    },
-    /// An index without a column `file`, or a row that does not fit.
-    #[error("{path}:{line}: {found:?}: expected {expected}")]
-    Index {
-        /// The index.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: String,
-    },
-    /// A record that is not what its row in the index says.
-    #[error(
-        "{path}:{line}: {file} has {quantity} {found}: expected {expected}, which the index states"
-    )]
-    Mismatch {
-        /// The index.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// The record.
-        file: String,
-        /// Column of the index.
-        quantity: &'static str,
-        /// Value of the record.
-        found: String,
-        /// Value of the index.
-        expected: String,
-    },
-    /// An index with checksums, and nothing to compute them with.
-    #[error(
-        "{path}: the index has sha256 sums: expected a function that computes them"
-    )]
-    Unverifiable {
-        /// The index.
-        path: String,
-    },
-    /// Two records that results could not tell apart.
-    #[error(
-        "{path}: two records are named {name:?}: expected different names"
-    )]
-    SameName {
-        /// Folder or index.
-        path: String,
-        /// The name.
-        name: String,
-    },
-    /// A pair without exactly one study component, or of more than two.
-    #[error(
-        "{path}: pair {pair:?} has {components} components, {study} for the study: expected at most 2, and 1 for the study"
-    )]
-    Pair {
-        /// Folder or index.
-        path: String,
-        /// The pair.
-        pair: String,
-        /// Number of components.
-        components: usize,
-        /// How many of them are marked for the study.
-        study: usize,
-    },
-}
-
-impl SuiteError {
-    /// The file that was refused: a record, else the folder or index.
-    #[must_use]
-    pub fn file(&self) -> &str {
-        match self {
-            Self::Record(error) => error.file(),
-            Self::Mismatch { file, .. } => file,
-            Self::Unreadable { path, .. }
-            | Self::Empty { path, .. }
-            | Self::Index { path, .. }
-            | Self::Unverifiable { path }
-            | Self::SameName { path, .. }
-            | Self::Pair { path, .. } => path,
-        }
-    }
-
-    /// Line of that file, counted from 1.
-    #[must_use]
-    pub fn line(&self) -> Option<usize> {
-        match self {
-            Self::Record(error) => error.line(),
-            Self::Index { line, .. } => Some(*line),
-            _ => None,
-        }
-    }
-}
 
 /// Who chose the component of each pair that a study uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -294,163 +180,11 @@ impl Suite {
     }
 }
 
-/// What a folder or index holds, refused records included.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Survey {
-    path: String,
-    members: Vec<Result<SuiteMember, SuiteError>>,
-    ignored: Vec<RecordError>,
-    study_rule: StudyRule,
-    paired: bool,
-}
-
-impl Survey {
-    /// Reads every record of the folder or index at `path`.
-    ///
-    /// # Errors
-    /// [`SuiteError`] where the folder or index itself cannot be read.
-    pub fn read(
-        path: &Path,
-        options: &SuiteOptions,
-    ) -> Result<Self, SuiteError> {
-        if path.is_dir() {
-            return Self::of_folder(path, options);
-        }
-        let bytes = bytes_of(path)?;
-        let shown = path.display().to_string();
-        let base = path.parent().unwrap_or(Path::new(""));
-        Self::of_index(&shown, &bytes, options, |file| {
-            bytes_of(&base.join(file))
-        })
-    }
-
-    fn of_index(
-        path: &str,
-        bytes: &[u8],
-        options: &SuiteOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
-    ) -> Result<Self, SuiteError> {
-        let index = index::Index::parse(path, bytes)?;
-        let member =
-            |row: &index::Row| row.member(&file_bytes(row.file())?, options);
-        let members = index.rows().iter().map(member).collect();
-        let study_rule = if index.has("study_component") {
-            StudyRule::Index
-        } else {
-            StudyRule::FirstName
-        };
-        Ok(Self {
-            path: path.to_owned(),
-            members,
-            ignored: Vec::new(),
-            study_rule,
-            paired: index.has("pair"),
-        })
-    }
-
-    fn of_folder(
-        path: &Path,
-        options: &SuiteOptions,
-    ) -> Result<Self, SuiteError> {
-        let mut members = Vec::new();
-        let mut ignored = Vec::new();
-        for file in folder_files(path)? {
-            let bytes = bytes_of(&file)?;
-            let shown = file.display().to_string();
-            match read(&shown, &bytes, &options.read) {
-                Ok(record) => members.push(Ok(SuiteMember {
-                    accelerogram: record.accelerogram,
-                    file: name_of(&file),
-                    format: record.format,
-                    unit: record.unit,
-                    pair: None,
-                    study_component: false,
-                    attributes: BTreeMap::new(),
-                })),
-                Err(error) if is_no_record(&error) => ignored.push(error),
-                Err(error) => members.push(Err(error.into())),
-            }
-        }
-        Ok(Self {
-            path: path.display().to_string(),
-            members,
-            ignored,
-            study_rule: StudyRule::FirstName,
-            paired: false,
-        })
-    }
-
-    /// Every record that was looked for, in the index's order or by file
-    /// name; pairs found by name are known to the suite only.
-    #[must_use]
-    pub fn members(&self) -> &[Result<SuiteMember, SuiteError>] {
-        &self.members
-    }
-
-    /// Files of a folder that hold no record, and why.
-    #[must_use]
-    pub fn ignored(&self) -> &[RecordError] {
-        &self.ignored
-    }
-
-    /// The suite, if no record was refused.
-    ///
-    /// # Errors
-    /// The first refused record; [`SuiteError::Empty`] without any; a name
-    /// that two records share; a pair that is none.
-    pub fn into_suite(self) -> Result<Suite, SuiteError> {
-        let Self { path, members, ignored, study_rule, paired } = self;
-        let mut members =
-            members.into_iter().collect::<Result<Vec<_>, _>>()?;
-        if members.is_empty() {
-            return Err(SuiteError::Empty { path, files: ignored.len() });
-        }
-        pairing::check_names(&path, &members)?;
-        if !paired {
-            pairing::pair_by_name(&mut members);
-        }
-        if study_rule == StudyRule::FirstName {
-            pairing::mark_first(&mut members);
-        }
-        pairing::check_pairs(&path, &members)?;
-        let name = super::stem(path.trim_end_matches('/')).to_owned();
-        Ok(Suite { name, members, study_rule, ignored })
-    }
-}
-
-/// Whether a file is no acceleration record at all, against one with a
-/// fault.
-fn is_no_record(error: &RecordError) -> bool {
-    matches!(
-        error.fault(),
-        Fault::UnknownFormat { .. }
-            | Fault::NotText { .. }
-            | Fault::Quantity(_)
-    )
-}
-
-/// Files of a folder by name, hidden ones and folders left out.
-///
-/// # Errors
-/// [`SuiteError::Unreadable`] for a folder that cannot be listed.
-pub fn folder_files(path: &Path) -> Result<Vec<PathBuf>, SuiteError> {
-    let fail = |error: std::io::Error| SuiteError::Unreadable {
-        path: path.display().to_string(),
-        reason: error.to_string(),
-    };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(fail)? {
-        let file = entry.map_err(fail)?.path();
-        if file.is_file() && !name_of(&file).starts_with('.') {
-            files.push(file);
-        }
-    }
-    files.sort();
-    Ok(files)
-}
-
 /// Whether the content is an index: its first line has a column `file`.
 #[must_use]
 pub fn is_index(bytes: &[u8]) -> bool {
     index::is_index(bytes)
 }
+
+#[cfg(test)]
+mod tests;

@@ -117,7 +117,7 @@ fn bad_input_gives_one_message_and_status_2() {
         ),
         (
             &["good.AT2", "--gravity", "-9.81"],
-            "rocking: gravity -9.81 m/s2: expected a positive number\n",
+            "rocking: good.AT2: gravity -9.81 m/s2: expected a positive number\n",
         ),
         (
             &["good.AT2", "--dt", "0.02"],

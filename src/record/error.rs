@@ -110,6 +110,9 @@ pub enum Fault {
     /// Velocity, displacement or a spectrum.
     #[error("{0:?}: expected an acceleration history")]
     Quantity(String),
+    /// A vertical component where horizontal ones are wanted.
+    #[error("{0:?} is a vertical component: expected a horizontal one")]
+    Vertical(String),
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),

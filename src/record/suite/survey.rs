@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::{StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions};
 use super::{index, pairing};
-use crate::record::{Fault, RecordError, bytes_of, name_of, read, stem};
+use crate::record::{
+    Fault, Record, RecordError, bytes_of, name_of, read_all, stem,
+};
 
 /// What a folder or index holds, refused records included.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,16 +72,15 @@ impl Survey {
         for file in folder_files(path)? {
             let bytes = bytes_of(&file)?;
             let shown = file.display().to_string();
-            match read(&shown, &bytes, &options.read) {
-                Ok(record) => members.push(Ok(SuiteMember {
-                    accelerogram: record.accelerogram,
-                    file: name_of(&file),
-                    format: record.format,
-                    unit: record.unit,
-                    pair: None,
-                    study_component: false,
-                    attributes: BTreeMap::new(),
-                })),
+            match read_all(&shown, &bytes, &options.read) {
+                Ok(records) => {
+                    for record in records {
+                        match horizontal(&file, record) {
+                            Ok(member) => members.push(Ok(member)),
+                            Err(error) => ignored.push(error),
+                        }
+                    }
+                }
                 Err(error) if is_no_record(&error) => ignored.push(error),
                 Err(error) => members.push(Err(error.into())),
             }
@@ -129,6 +130,28 @@ impl Survey {
         let name = stem(path.trim_end_matches('/')).to_owned();
         Ok(Suite { name, members, study_rule, ignored })
     }
+}
+
+/// A record of a folder as a member of the suite, unless it is vertical.
+fn horizontal(
+    path: &Path,
+    record: Record,
+) -> Result<SuiteMember, RecordError> {
+    let label = record.channel.as_deref();
+    if pairing::is_vertical(label, record.accelerogram.name()) {
+        let name = record.accelerogram.name().to_owned();
+        let fault = Fault::Vertical(name);
+        return Err(fault.whole(&path.display().to_string()));
+    }
+    Ok(SuiteMember {
+        accelerogram: record.accelerogram,
+        file: name_of(path),
+        format: record.format,
+        unit: record.unit,
+        pair: None,
+        study_component: false,
+        attributes: BTreeMap::new(),
+    })
 }
 
 /// Whether a file is no acceleration record at all, against one with a

@@ -1,6 +1,6 @@
 //! Indexes, folders, pairs: what is read, and what must be refused.
 
-use super::pairing::pair_key;
+use super::pairing::{is_vertical, pair_key};
 use super::*;
 
 const MOTION: &str = "0\n0.2\n-0.1\n";
@@ -141,6 +141,11 @@ fn pairs_share_a_name_but_for_the_orientation() {
         ("R_TAB-LN", Some("R_TAB")),
         ("R_0", Some("R")),
         ("R_H-CPE147", Some("R_H-CPE")),
+        ("IV.AQU..HNE.D.1900.ACC", Some("IV.AQU..HN.D.1900.ACC")),
+        ("IV.AQU..HNN.D.1900.ACC", Some("IV.AQU..HN.D.1900.ACC")),
+        ("MYG0041103111446.EW", Some("MYG0041103111446")),
+        ("MYGH041103111446.NS2", Some("MYGH041103111446.2")),
+        ("CE1:3_360_deg", Some("CE1")),
         ("R_UP", None),
         ("R_999", None),
         ("STATION", None),
@@ -149,7 +154,24 @@ fn pairs_share_a_name_but_for_the_orientation() {
         ("\u{e9}\u{e9}", None),
     ];
     for (stem, key) in cases {
-        assert_eq!(pair_key(stem), key, "{stem}");
+        assert_eq!(pair_key(stem).as_deref(), key, "{stem}");
+    }
+    let verticals = [
+        (None, "A_UP"),
+        (None, "A-DWN"),
+        (None, "A.UD2"),
+        (None, "IV.AQU..HNZ.D.1"),
+        (Some("2 Up"), "A:2_Up"),
+        (Some("U-D"), "A"),
+        (Some("HNZ"), "A"),
+    ];
+    for (label, name) in verticals {
+        assert!(is_vertical(label, name), "{name}");
+    }
+    for (label, name) in
+        [(None, "UP"), (None, "A_000"), (Some("1 90 deg"), "A:1_90_deg")]
+    {
+        assert!(!is_vertical(label, name), "{name}");
     }
 }
 

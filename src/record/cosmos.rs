@@ -233,7 +233,7 @@ fn label(header: &[&str], number: usize) -> String {
         let end = text::after_word(line, "chan")?;
         let rest = line[end..].trim_start();
         let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
-        let after = rest[digits..].trim_start().trim_start_matches(':');
+        let after = rest[digits..].trim_start().strip_prefix(':')?;
         let name = after.split(['(', ',']).next().unwrap_or("");
         let words: Vec<&str> = name.split_ascii_whitespace().take(2).collect();
         (digits > 0 && !words.is_empty())

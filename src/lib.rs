@@ -18,6 +18,7 @@
 
 pub mod block;
 pub mod excitation;
+pub mod ida;
 pub mod integrator;
 pub mod number;
 pub mod record;

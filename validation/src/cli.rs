@@ -5,6 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+pub mod records;
+
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
 #[command(name = "rocking", version, max_term_width = 100)]
@@ -14,7 +16,9 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Records(records::Args),
+}
 
 /// A command that did not do what it was asked: what is printed, and the
 /// exit status.
@@ -75,7 +79,9 @@ pub fn print(text: &str) -> Result<(), Failure> {
 #[must_use]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let outcome: Result<(), Failure> = match cli.command {};
+    let outcome: Result<(), Failure> = match cli.command {
+        Command::Records(args) => records::run(&args),
+    };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

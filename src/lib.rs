@@ -17,5 +17,8 @@
 //! "Statistical property parameterization of simple rocking block response".
 
 pub mod block;
+pub mod capacity;
 pub mod record;
+pub mod statistics;
+pub mod streams;
 pub mod units;

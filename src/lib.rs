@@ -18,6 +18,7 @@
 
 pub mod block;
 pub mod capacity;
+pub mod fragility;
 pub mod record;
 pub mod statistics;
 pub mod streams;

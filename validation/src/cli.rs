@@ -6,6 +6,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 pub mod boxplot;
+pub mod compare;
+pub mod fragility;
 pub mod lilliefors;
 pub mod quantile;
 pub mod samples;
@@ -21,6 +23,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Boxplot(boxplot::Args),
+    Compare(compare::Args),
+    Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
 }
@@ -86,6 +90,8 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
         Command::Boxplot(args) => boxplot::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),
     };

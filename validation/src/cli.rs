@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 pub mod boxplot;
+pub mod capacities;
 pub mod compare;
 pub mod fragility;
 pub mod lilliefors;
@@ -23,6 +24,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Boxplot(boxplot::Args),
+    Capacities(capacities::Args),
     Compare(compare::Args),
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
@@ -90,6 +92,7 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
         Command::Boxplot(args) => boxplot::run(&args),
+        Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),

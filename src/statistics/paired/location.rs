@@ -51,7 +51,7 @@ pub fn equivalence(
     let error = (sum_of_squares(&logs) / (n - 1.0) / n).sqrt();
     let t = StudentsT::new(0.0, 1.0, n - 1.0)
         .map_err(|_| PairedError::TooFew(logs.len()))?;
-    if !(error > 0.0) {
+    if error.is_nan() || error <= 0.0 {
         return Err(PairedError::Degenerate);
     }
     let half = t.inverse_cdf(0.95) * error;

@@ -3,4 +3,27 @@
 //!
 //! Nothing here integrates or fits: the structs of [`data`] arrive filled.
 
+mod boxplots;
+mod common;
 pub mod data;
+mod ida;
+
+use crate::drawing::DrawError;
+
+/// What every figure's data can do.
+pub trait Figure {
+    /// The words that go with it.
+    fn heading(&self) -> &data::Heading;
+
+    /// The drawing.
+    ///
+    /// # Errors
+    /// [`DrawError`] when the SVG grows too large.
+    fn svg(&self) -> Result<String, DrawError>;
+
+    /// The numbers, one header line, long format.
+    fn csv(&self) -> String;
+}
+
+#[cfg(test)]
+mod tests;

@@ -3,10 +3,19 @@
 //!
 //! Nothing here integrates or fits: the structs of [`data`] arrive filled.
 
+mod accepted;
 mod boxplots;
+mod capacities;
+mod chart;
 mod common;
 pub mod data;
+mod fates;
+mod fragilities;
+mod histories;
 mod ida;
+mod quantiles;
+mod sketch;
+mod tests_along;
 
 use crate::drawing::DrawError;
 

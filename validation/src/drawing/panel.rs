@@ -26,6 +26,8 @@ pub enum Marker {
     Plus,
     /// Filled square.
     Square,
+    /// Open square.
+    OpenSquare,
     /// Filled triangle.
     Triangle,
     /// Filled diamond.
@@ -65,7 +67,7 @@ impl Marker {
                 scene.line(&[(x - r, y), (x + r, y)], pen);
                 scene.line(&[(x, y - r), (x, y + r)], pen);
             }
-            Self::Square => {
+            Self::Square | Self::OpenSquare => {
                 let s = 0.88 * r;
                 let square = Rect {
                     left: x - s,
@@ -73,7 +75,12 @@ impl Marker {
                     top: y - s,
                     bottom: y + s,
                 };
-                scene.area(&square.corners(), fill);
+                if self == Self::Square {
+                    scene.area(&square.corners(), fill);
+                } else {
+                    scene.area(&square.corners(), Fill::solid(Ink::Paper));
+                    scene.outline(&square.corners(), pen);
+                }
             }
             Self::Triangle | Self::Down => {
                 let up = if self == Self::Triangle { r } else { -r };
@@ -149,6 +156,12 @@ impl<'s> Panel<'s> {
     #[must_use]
     pub fn frame(&self) -> Rect {
         self.frame
+    }
+
+    /// Both ends of the horizontal axis.
+    #[must_use]
+    pub fn horizontal_range(&self) -> Point {
+        self.x.range()
     }
 
     /// The scene, for shapes placed in px.
@@ -265,10 +278,26 @@ impl<'s> Panel<'s> {
         self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
     }
 
+    /// A note at a point of the data's coordinates, on its baseline.
+    pub fn words_at(
+        &mut self,
+        at: Point,
+        text: impl Into<String>,
+        align: Horizontal,
+    ) {
+        let line = TextLine::new(text, self.to_px(at), align);
+        self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+    }
+
     /// Words outside the right-hand edge, at an ordinate.
     pub fn right_of(&mut self, y: f64, text: impl Into<String>) {
-        let at = self.to_px((self.x.range().1, y));
-        let at = (at.0 + 5.0, at.1 + 0.33 * TEXT_PX);
+        let y = self.to_px((self.x.range().1, y)).1;
+        self.right_of_px(y, text);
+    }
+
+    /// Words outside the right-hand edge, at an ordinate in px.
+    pub fn right_of_px(&mut self, y: f64, text: impl Into<String>) {
+        let at = (self.frame.right + 5.0, y + 0.33 * TEXT_PX);
         let line = TextLine::new(text, at, Horizontal::Left);
         self.scene.text(line.size(TEXT_PX - 1.0));
     }

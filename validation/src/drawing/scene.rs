@@ -21,8 +21,10 @@ use super::svg::{PER_PX, Svg, TEXT_PX};
 
 /// Largest SVG, in bytes.
 pub const LIMIT_BYTES: usize = 150_000;
-/// How far a simplified line may be from the full one, in px.
-pub const TOLERANCE_PX: f64 = 0.05;
+/// How far a simplified line may be from the full one, in px: the first, and
+/// the next ones, with points on multiples of them, only where the SVG would
+/// be too large.
+pub const TOLERANCES_PX: [f64; 4] = [0.05, 0.1, 0.2, 0.5];
 
 /// A drawing that could not be made.
 #[derive(Debug, Error)]
@@ -191,11 +193,10 @@ impl Scene {
         }
     }
 
-    /// A polyline, simplified; nothing if a point is not finite.
+    /// A polyline; nothing if a point is not finite.
     pub fn line(&mut self, points: &[Point], pen: Pen) {
         if points.len() > 1 && finite(points) {
-            let points = simplify(points, TOLERANCE_PX);
-            self.shapes.push(Shape::Line(points, pen));
+            self.shapes.push(Shape::Line(points.to_vec(), pen));
         }
     }
 
@@ -252,28 +253,37 @@ impl Scene {
     /// [`DrawError`] when plotters refuses, or the SVG is larger than
     /// [`LIMIT_BYTES`].
     pub fn svg(&self) -> Result<String, DrawError> {
+        let mut bytes = 0;
+        for tolerance_px in TOLERANCES_PX {
+            let out = self.with_tolerance(tolerance_px)?;
+            bytes = out.len();
+            if bytes <= LIMIT_BYTES {
+                return Ok(out);
+            }
+        }
+        Err(DrawError::TooLarge {
+            name: self.caption.name.clone(),
+            bytes,
+            limit: LIMIT_BYTES,
+        })
+    }
+
+    fn with_tolerance(&self, tolerance_px: f64) -> Result<String, DrawError> {
         let mut out = String::new();
         let Caption { name, title, description } = &self.caption;
         let area = Svg::new(&mut out, self.size_px, name, title, description)
             .into_drawing_area();
-        self.draw(&area).map_err(|source| DrawError::Plotters {
-            name: name.clone(),
-            source,
+        self.draw(&area, tolerance_px).map_err(|source| {
+            DrawError::Plotters { name: name.clone(), source }
         })?;
         drop(area);
-        if out.len() > LIMIT_BYTES {
-            return Err(DrawError::TooLarge {
-                name: name.clone(),
-                bytes: out.len(),
-                limit: LIMIT_BYTES,
-            });
-        }
         Ok(out)
     }
 
     fn draw(
         &self,
         screen: &DrawingArea<Svg<'_>, Shift>,
+        tolerance_px: f64,
     ) -> Result<(), DrawingAreaErrorKind<Infallible>> {
         let (width, height) = self.size_px;
         let steps = |px: u32| 0..(px as i32 * PER_PX);
@@ -290,7 +300,9 @@ impl Scene {
             match shape {
                 Shape::Line(points, pen) => {
                     let style = line_style(*pen);
-                    area.draw(&PathElement::new(points.clone(), style))?;
+                    let points = simplify(points, tolerance_px);
+                    let points = snap(points, tolerance_px);
+                    area.draw(&PathElement::new(points, style))?;
                 }
                 Shape::Area(corners, fill) => {
                     let style = fill_style(*fill);
@@ -316,6 +328,15 @@ impl Scene {
         }
         area.present()
     }
+}
+
+/// Coarse lines on round coordinates, which take fewer characters.
+fn snap(points: Vec<Point>, tolerance_px: f64) -> Vec<Point> {
+    if tolerance_px <= TOLERANCES_PX[0] {
+        return points;
+    }
+    let round = |x: f64| (x / tolerance_px).round() * tolerance_px;
+    points.into_iter().map(|(x, y)| (round(x), round(y))).collect()
 }
 
 fn finite(points: &[Point]) -> bool {

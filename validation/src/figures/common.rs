@@ -1,7 +1,7 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
 use super::data::{Arm, Heading};
-use crate::drawing::{Caption, Entry, Grid, Ink, Pen, Sample, Scene};
+use crate::drawing::{Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene};
 use crate::drawing::{legend, markup};
 
 /// A scene with the grid's size, the legend drawn and room made for it.
@@ -57,7 +57,8 @@ impl Slendernesses {
         values.dedup();
         let study = |a: f64| {
             let k = (20.0 * a).round();
-            let known = (20.0 * a - k).abs() < 1e-9 && k >= 1.0 && k <= 6.0;
+            let known =
+                (20.0 * a - k).abs() < 1e-9 && (1.0..=6.0).contains(&k);
             known.then_some(k as usize - 1)
         };
         let all: Option<Vec<usize>> =
@@ -86,11 +87,6 @@ impl Slendernesses {
             Entry::new(Sample::Box(Ink::Series(*k)), slenderness(*a))
         };
         self.0.iter().map(entry).collect()
-    }
-
-    /// Each with its series, rising.
-    pub fn iter(&self) -> impl Iterator<Item = (f64, usize)> {
-        self.0.iter().copied()
     }
 }
 
@@ -124,4 +120,9 @@ pub fn arm_words(arm: Arm) -> &'static str {
         Arm::B => "arm B: 0.01 *g* steps, bisected",
         Arm::C => "arm C: equal dimensionless steps, bisected",
     }
+}
+
+/// Legend of the mark at an overturning.
+pub fn overturned_entry() -> Entry {
+    Entry::new(Sample::Mark(Marker::Cross, Ink::Text), "overturned")
 }

@@ -65,6 +65,7 @@ fn path(curve: &IdaCurve) -> Vec<(f64, f64)> {
         .overturning_im
         .or_else(|| first.and_then(|i| curve.im.get(i).copied()));
     if let Some(level) = level {
+        points.push((1.0, level));
         points.push((END, level));
     }
     points

@@ -3,6 +3,8 @@
 //! Everything here stands on the core's public interface alone.
 
 pub mod cli;
+pub mod drawing;
+pub mod figures;
 pub mod files;
 pub mod inputs;
 pub mod json;

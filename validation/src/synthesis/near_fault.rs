@@ -82,7 +82,7 @@ impl Modulation {
                 for j in -8..=8 {
                     let x = centre.0 + wide_ln * f64::from(i) / 8.0;
                     let y = centre.1 + wide_share * f64::from(j) / 8.0;
-                    if !(x >= 0.0 && y >= 0.01 && y <= 0.99) {
+                    if !(x >= 0.0 && (0.01..=0.99).contains(&y)) {
                         continue;
                     }
                     let mut m = Self::unit(libm::exp(x), y);

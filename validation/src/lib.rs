@@ -3,6 +3,7 @@
 //! Everything here stands on the core's public interface alone.
 
 pub mod cli;
+pub mod figures;
 pub mod files;
 pub mod json;
 pub mod synthesis;

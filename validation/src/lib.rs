@@ -6,4 +6,5 @@ pub mod cli;
 pub mod figures;
 pub mod files;
 pub mod json;
+pub mod study;
 pub mod synthesis;

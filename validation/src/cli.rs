@@ -5,6 +5,10 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+pub mod boxplot;
+pub mod quantile;
+pub mod samples;
+
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
 #[command(name = "rocking", version, max_term_width = 100)]
@@ -14,7 +18,10 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Boxplot(boxplot::Args),
+    Quantile(quantile::Args),
+}
 
 /// A command that did not do what it was asked: what is printed, and the
 /// exit status.
@@ -75,7 +82,10 @@ pub fn print(text: &str) -> Result<(), Failure> {
 #[must_use]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let outcome: Result<(), Failure> = match cli.command {};
+    let outcome: Result<(), Failure> = match cli.command {
+        Command::Boxplot(args) => boxplot::run(&args),
+        Command::Quantile(args) => quantile::run(&args),
+    };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

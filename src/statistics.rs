@@ -1,0 +1,14 @@
+//! Samples and what is computed from them.
+//!
+//! Quantiles by named type, the empirical distribution, boxplots, lognormal
+//! fits, tests of normality, paired comparison and the bootstrap. A sample is
+//! checked once, when it is made; what takes one relies on it.
+
+pub mod boxplot;
+pub mod normal;
+pub mod quantile;
+pub mod sample;
+
+pub use boxplot::Boxplot;
+pub use quantile::QuantileType;
+pub use sample::{ExtendedSample, Sample, SampleError};

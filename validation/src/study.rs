@@ -6,4 +6,25 @@ pub mod findings;
 pub mod grid;
 pub mod histories;
 pub mod output;
+pub mod runs;
 pub mod stripes;
+
+use rocking::block::BlockError;
+use rocking::capacity::CapacityError;
+use rocking::integrator::SceneError;
+use thiserror::Error;
+
+/// Why a study could not be done.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// A block outside the model's range.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// A run that cannot be done.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A curve that cannot be inverted.
+    #[error(transparent)]
+    Capacity(#[from] CapacityError),
+}

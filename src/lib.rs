@@ -19,6 +19,7 @@
 pub mod block;
 pub mod capacity;
 pub mod excitation;
+pub mod fragility;
 pub mod integrator;
 pub mod number;
 pub mod record;

@@ -5,10 +5,12 @@
 //! checked once, when it is made; what takes one relies on it.
 
 pub mod boxplot;
+pub mod lognormal;
 pub mod normal;
 pub mod quantile;
 pub mod sample;
 
 pub use boxplot::Boxplot;
+pub use lognormal::Lognormal;
 pub use quantile::QuantileType;
 pub use sample::{ExtendedSample, Sample, SampleError};

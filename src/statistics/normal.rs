@@ -5,7 +5,7 @@ use libm::{erf, erfc, exp, log, log1p};
 /// 1/sqrt(2 pi).
 const PEAK: f64 = 0.398_942_280_401_432_7;
 /// ln sqrt(2 pi).
-const LN_SQRT_TWO_PI: f64 = 0.918_938_533_204_672_8;
+pub(crate) const LN_SQRT_TWO_PI: f64 = 0.918_938_533_204_672_8;
 
 /// Density phi(z) = exp(-z^2/2)/sqrt(2 pi).
 ///

@@ -5,8 +5,10 @@
 //! checked once, when it is made; what takes one relies on it.
 
 pub mod boxplot;
+pub mod lilliefors;
 pub mod lognormal;
 pub mod normal;
+pub mod normality;
 pub mod quantile;
 pub mod sample;
 

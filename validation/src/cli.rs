@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 pub mod boxplot;
+pub mod lilliefors;
 pub mod quantile;
 pub mod samples;
 
@@ -20,6 +21,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Boxplot(boxplot::Args),
+    Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
 }
 
@@ -84,6 +86,7 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
         Command::Boxplot(args) => boxplot::run(&args),
+        Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),
     };
     match outcome {

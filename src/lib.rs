@@ -17,12 +17,12 @@
 //! "Statistical property parameterization of simple rocking block response".
 
 pub mod block;
+pub mod capacity;
 pub mod excitation;
 pub mod ida;
+pub mod fragility;
 pub mod integrator;
 pub mod number;
-pub mod capacity;
-pub mod fragility;
 pub mod record;
 pub mod statistics;
 pub mod streams;

@@ -8,3 +8,5 @@ pub mod figures;
 pub mod files;
 pub mod inputs;
 pub mod json;
+pub mod study;
+pub mod synthesis;

@@ -2,6 +2,12 @@
 //!
 //! Everything here stands on the core's public interface alone.
 
+pub mod cases;
 pub mod cli;
+pub mod engine;
 pub mod files;
 pub mod json;
+pub mod methods;
+pub mod naive;
+pub mod scene;
+pub mod verdict;

@@ -17,5 +17,8 @@
 //! "Statistical property parameterization of simple rocking block response".
 
 pub mod block;
+pub mod excitation;
+pub mod integrator;
+pub mod number;
 pub mod record;
 pub mod units;

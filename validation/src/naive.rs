@@ -223,10 +223,12 @@ impl Run<'_> {
         }
         self.t = at;
         let side = -self.ground(at).signum();
-        if self.trace.uplifts_s.is_empty() {
+        if self.trace.uplifts == 0 {
             self.trace.first_side = side;
+            self.trace.uplift_s = Some(at);
         }
-        self.trace.uplifts_s.push(at);
+        self.trace.uplifts += 1;
+        self.trace.rest_s = None;
         Some(Hop { side, z: 0.0, w: 0.0 })
     }
 
@@ -401,7 +403,7 @@ impl Run<'_> {
         let side = -hop.side;
         match self.rules.rest {
             Rest::Slower(share) if w < share * unit => {
-                self.trace.rests_s.push(self.t);
+                self.trace.rest_s = Some(self.t);
                 return None;
             }
             Rest::Chatter
@@ -410,7 +412,7 @@ impl Run<'_> {
                     && scene.restitution < 1.0 =>
             {
                 self.t += self.tail(w, side, ground / threshold);
-                self.trace.rests_s.push(self.t);
+                self.trace.rest_s = Some(self.t);
                 return None;
             }
             _ => {}

@@ -33,13 +33,13 @@ pub enum Forcing {
         /// Initial rotation in rad.
         rotation_rad: f64,
     },
-    /// Sine of `half_cycles` half periods.
+    /// Sine of one or two half periods.
     Sine {
         /// Amplitude in m/s2.
         amplitude_m_s2: f64,
         /// Circular frequency in rad/s.
         omega_rad_s: f64,
-        /// Number of half periods: 1 half-sine, 2 one-sine.
+        /// Half-sine (1) or one-sine (2).
         half_cycles: u32,
     },
     /// One period of a cosine.
@@ -127,11 +127,13 @@ pub struct Impact {
 /// What an engine saw.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Trace {
-    /// Every start from rest, s.
-    pub uplifts_s: Vec<f64>,
+    /// First start from rest, s.
+    pub uplift_s: Option<f64>,
+    /// Number of starts from rest.
+    pub uplifts: usize,
     /// Sign of theta after the first uplift.
     pub first_side: f64,
-    /// Impacts in order (at least the first hundred).
+    /// Impacts in order.
     pub impacts: Vec<Impact>,
     /// Largest |theta|/alpha; infinite where the criterion was met.
     pub peak_ratio: f64,
@@ -139,8 +141,8 @@ pub struct Trace {
     pub peak_time_s: Option<f64>,
     /// When the criterion was met, s.
     pub overturned_s: Option<f64>,
-    /// Instants at which rocking died out, s.
-    pub rests_s: Vec<f64>,
+    /// When rocking died out for good, s.
+    pub rest_s: Option<f64>,
 }
 
 /// Why an engine gave no trace.

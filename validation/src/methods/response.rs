@@ -58,9 +58,14 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     };
     let uplifts = file.list(expected, "uplifts")?;
     answer.put(
-        "uplift-times-p",
-        trace.uplifts_s.iter().map(|t| t * p).collect(),
-        times(uplifts)?,
+        "uplift-time-p",
+        trace.uplift_s.iter().map(|t| t * p).collect(),
+        times(uplifts)?.into_iter().take(1).collect(),
+    );
+    answer.put(
+        "uplifts",
+        vec![trace.uplifts as f64],
+        vec![file.f64(expected, "n_uplifts")?],
     );
     let side = uplifts.first().map(|u| file.f64(u, "side"));
     let side = side.transpose()?.unwrap_or(0.0);
@@ -76,12 +81,11 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
         1.0,
     );
     let rests = file.list(expected, "rest_times")?;
-    let rests: Result<Vec<f64>, MethodError> =
-        rests.iter().map(|t| Ok(file.number(t)? * p)).collect();
+    let rest = rests.last().map(|t| file.number(t)).transpose()?;
     answer.put(
-        "rest-times-p",
-        trace.rests_s.iter().map(|t| t * p).collect(),
-        rests?,
+        "rest-time-p",
+        trace.rest_s.iter().map(|t| t * p).collect(),
+        rest.iter().map(|t| t * p).collect(),
     );
     let overturns = expected["overturned_pi_over_2"] == true;
     if !overturns {
@@ -172,7 +176,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
         block.put("side", vec![trace.first_side], vec![side]);
         block.put(
             "uplift-time-p",
-            trace.uplifts_s.iter().take(1).map(|t| t * p).collect(),
+            trace.uplift_s.iter().map(|t| t * p).collect(),
             vec![uplift],
         );
         block.put(
@@ -297,8 +301,8 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
         vec![rotation_rad / scene.slenderness_rad],
     );
     answer.put(
-        "rest-times-p",
-        trace.rests_s.iter().map(|t| t * p).collect(),
+        "rest-time-p",
+        trace.rest_s.iter().map(|t| t * p).collect(),
         vec![file.f64(expected, "settling_time")? * p],
     );
     Ok(answer)
@@ -339,7 +343,11 @@ pub(super) fn rectangular_pulse(
     let trace = context.engine.respond(&scene(Criterion::HalfPi)?)?;
     let mut answer = Answer::default();
     answer.put("side", vec![trace.first_side], vec![-1.0]);
-    answer.put("uplift-time-p", trace.uplifts_s.clone(), vec![0.0]);
+    answer.put(
+        "uplift-time-p",
+        trace.uplift_s.iter().map(|t| t * p).collect(),
+        vec![0.0],
+    );
     if case["outcome"] == "overturns" {
         let first = context.engine.respond(&scene(Criterion::Alpha)?)?;
         for (name, trace, key) in [
@@ -370,8 +378,8 @@ pub(super) fn rectangular_pulse(
         vec![file.f64(case, "t_peak")? * p],
     );
     answer.put(
-        "rest-times-p",
-        trace.rests_s.iter().map(|t| t * p).collect(),
+        "rest-time-p",
+        trace.rest_s.iter().map(|t| t * p).collect(),
         vec![file.f64(case, "settling_time")? * p],
     );
     Ok(answer)

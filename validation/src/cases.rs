@@ -285,7 +285,17 @@ pub struct Case {
 
 /// The case files, by family, embedded.
 pub const FAMILIES: &[(&str, &str)] = &[
+    ("free-rocking", include_str!("../cases/free-rocking.toml")),
     ("hard-cases", include_str!("../cases/hard-cases.toml")),
+    (
+        "overturning-spectrum",
+        include_str!("../cases/overturning-spectrum.toml"),
+    ),
     ("pulse-trajectories", include_str!("../cases/pulse-trajectories.toml")),
+    ("rectangular-pulse", include_str!("../cases/rectangular-pulse.toml")),
     ("sampled-records", include_str!("../cases/sampled-records.toml")),
+    (
+        "sine-pulse-similarity",
+        include_str!("../cases/sine-pulse-similarity.toml"),
+    ),
 ];

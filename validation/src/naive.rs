@@ -108,9 +108,9 @@ pub struct Naive(pub Rules);
 /// Largest step in units of 1/p.
 const STEP_P: f64 = 0.005;
 /// Speed below which the chatter's tail takes over, over p alpha.
-const CHATTER: f64 = 1e-7;
+const CHATTER: f64 = 1e-6;
 /// Steps after which a run is given up.
-const MOST_STEPS: usize = 4_000_000;
+const MOST_STEPS: usize = 1_000_000;
 
 /// Rocking on one side: rotation and velocity away from the base.
 #[derive(Clone, Copy)]
@@ -264,12 +264,32 @@ impl Run<'_> {
         }
     }
 
-    /// Shortest step at which `done` holds, which it does at `high`.
-    fn first(&self, hop: Hop, high: f64, done: impl Fn(Hop) -> bool) -> f64 {
+    /// Step at which `level`, of one sign at 0+ and of the other at `high`,
+    /// crosses zero: false position with halving, to rounding; on the far
+    /// side of the crossing.
+    fn root(&self, hop: Hop, high: f64, level: impl Fn(Hop) -> f64) -> f64 {
         let (mut low, mut high) = (0.0, high);
-        for _ in 0..64 {
-            let mid = 0.5 * (low + high);
-            if done(self.step(hop, mid)) { high = mid } else { low = mid }
+        let mut at_high = level(self.step(hop, high));
+        let mut at_low = -at_high;
+        for round in 0..100 {
+            if !(high - low > 1e-16 * high) {
+                break;
+            }
+            let share = at_low / (at_low - at_high);
+            let mid = if round % 3 == 2 || round == 0 {
+                0.5 * (low + high)
+            } else {
+                low + share.clamp(0.01, 0.99) * (high - low)
+            };
+            if !(mid > low && mid < high) {
+                break;
+            }
+            let value = level(self.step(hop, mid));
+            if (value < 0.0) == (at_high < 0.0) {
+                (high, at_high) = (mid, value);
+            } else {
+                (low, at_low) = (mid, value);
+            }
         }
         high
     }
@@ -323,14 +343,11 @@ impl Run<'_> {
             let mut next = self.step(hop, h);
             let mut stop = h;
             let turns = located && hop.w * next.w < 0.0;
-            let turn = turns.then(|| {
-                let down = hop.w > 0.0;
-                self.first(hop, h, |x| (x.w < 0.0) == down)
-            });
+            let turn = turns.then(|| self.root(hop, h, |x| x.w));
             let turned = turn.map(|s| self.step(hop, s));
             if next.z >= limit || turned.is_some_and(|x| x.z >= limit) {
                 let high = turn.unwrap_or(h);
-                self.t += self.first(hop, high, |x| x.z >= limit);
+                self.t += self.root(hop, high, |x| x.z - limit);
                 self.trace.overturned_s = Some(self.t);
                 self.trace.peak_ratio = f64::INFINITY;
                 self.trace.peak_time_s = None;
@@ -340,7 +357,7 @@ impl Run<'_> {
             if next.z < 0.0 || dips {
                 if located {
                     let high = if dips { turn.unwrap_or(h) } else { h };
-                    stop = self.first(hop, high, |x| x.z < 0.0);
+                    stop = self.root(hop, high, |x| x.z);
                     next = self.step(hop, stop);
                 }
                 if let (Some(s), Some(x)) = (turn, turned)

@@ -15,18 +15,18 @@ struct Entry {
     entry: String,
 }
 
-/// Impact times (times `unit_time`) and speeds over `unit_speed`; as many as
-/// the reference lists where it lists only the first.
+/// Impact times times `rate` and speeds over `unit_speed`, as many as the
+/// reference lists; a block that goes on where it should not shows in its
+/// fate.
 fn put_impacts(
     answer: &mut Answer,
     trace: &Trace,
     listed: (Vec<f64>, Vec<f64>),
-    truncated: bool,
     rate: f64,
     unit_speed: f64,
 ) {
     let (times, speeds) = listed;
-    let count = if truncated { times.len() } else { usize::MAX };
+    let count = times.len();
     let impacts = || trace.impacts.iter().take(count);
     answer.put(
         "impact-times-p",
@@ -76,7 +76,6 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
         &mut answer,
         &trace,
         (times(impacts)?, speeds.iter().map(|v| v.abs()).collect()),
-        impacts.len() == 10,
         p,
         1.0,
     );
@@ -169,7 +168,6 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
             &mut block,
             &trace,
             (times.clone(), speeds.clone()),
-            impacts.len() == 6,
             p,
             p * alpha,
         );
@@ -184,7 +182,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
             trace.overturned_s.iter().map(|t| t * p).collect(),
             over.into_iter().collect(),
         );
-        if over.is_none() {
+        if case["expected"]["verdict"] == "returns" {
             block.put("peak-ratio", vec![trace.peak_ratio], vec![listed]);
         }
         // One list per quantity over all blocks.
@@ -291,7 +289,6 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
             times.iter().map(|t| t * p).collect(),
             file.column(impacts, "speed")?,
         ),
-        true,
         p,
         1.0,
     );
@@ -366,7 +363,7 @@ pub(super) fn rectangular_pulse(
     let times = file.column(impacts, "t")?;
     let speeds = file.column(impacts, "speed")?;
     let times = times.iter().map(|t| t * p).collect();
-    put_impacts(&mut answer, &trace, (times, speeds), true, p, 1.0);
+    put_impacts(&mut answer, &trace, (times, speeds), p, 1.0);
     answer.put(
         "peak-ratio",
         vec![trace.peak_ratio],

@@ -59,6 +59,12 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     scene("p-one-percent-high", "p 1 % too high", |s| {
         s.frequency_rad_s *= 1.01;
     }),
+    scene("p-one-percent-low", "p 1 % too low", |s| {
+        s.frequency_rad_s *= 0.99;
+    }),
+    scene("alpha-one-percent-low", "alpha 1 % too low", |s| {
+        s.slenderness_rad *= 0.99;
+    }),
     scene("alpha-one-percent-high", "alpha 1 % too high", |s| {
         s.slenderness_rad *= 1.01;
     }),

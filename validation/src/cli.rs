@@ -1,5 +1,7 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
+mod validate;
+
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
@@ -14,7 +16,10 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    /// Runs the declared cases and writes or checks their results.
+    Validate(validate::Args),
+}
 
 /// A command that did not do what it was asked: what is printed, and the
 /// exit status.
@@ -75,7 +80,9 @@ pub fn print(text: &str) -> Result<(), Failure> {
 #[must_use]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let outcome: Result<(), Failure> = match cli.command {};
+    let outcome: Result<(), Failure> = match cli.command {
+        Command::Validate(args) => validate::run(&args),
+    };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

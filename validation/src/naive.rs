@@ -272,7 +272,7 @@ impl Run<'_> {
         let mut at_high = level(self.step(hop, high));
         let mut at_low = -at_high;
         for round in 0..100 {
-            if !(high - low > 1e-16 * high) {
+            if high - low <= 1e-16 * high {
                 break;
             }
             let share = at_low / (at_low - at_high);
@@ -336,7 +336,7 @@ impl Run<'_> {
             }
             h = h.min(longest);
             // The last step of a piece ends on its end to the bit.
-            let last = !(self.t + h < end);
+            let last = self.t + h >= end;
             if last {
                 h = end - self.t;
             }

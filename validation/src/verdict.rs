@@ -1,5 +1,7 @@
 //! The one function that says whether a case holds, and its result.
 
+pub mod snapshot;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use thiserror::Error;
@@ -286,7 +288,7 @@ pub fn run_case(case: &Case) -> Outcome {
             }
             Ok(checks) => {
                 let rejection = strongest(wrong.name, &checks);
-                if !(rejection.margin > 1.0) {
+                if rejection.margin <= 1.0 {
                     outcome
                         .messages
                         .push(format!("wrong model `{name}` passes"));
@@ -303,6 +305,13 @@ pub fn run_case(case: &Case) -> Outcome {
         (Status::KnownFailure { .. }, true) => Verdict::UnexpectedPass,
     };
     outcome
+}
+
+/// Runs cases side by side; outcomes in the order of the cases.
+#[must_use]
+pub fn run_all(cases: &[Case]) -> Vec<Outcome> {
+    use rayon::prelude::*;
+    cases.par_iter().map(run_case).collect()
 }
 
 /// A rejection by the naive integrator proves something only if that

@@ -374,10 +374,12 @@ pub(super) fn rectangular_pulse(
         trace.peak_time_s.iter().map(|t| t * p).collect(),
         vec![file.f64(case, "t_peak")? * p],
     );
-    answer.put(
-        "rest-time-p",
-        trace.rest_s.iter().map(|t| t * p).collect(),
-        vec![file.f64(case, "settling_time")? * p],
-    );
+    if !case["settling_time"].is_null() {
+        answer.put(
+            "rest-time-p",
+            trace.rest_s.iter().map(|t| t * p).collect(),
+            vec![file.f64(case, "settling_time")? * p],
+        );
+    }
     Ok(answer)
 }

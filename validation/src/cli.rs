@@ -1,5 +1,7 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
+mod validate;
+
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
@@ -31,6 +33,8 @@ enum Command {
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
+    /// Runs the declared cases and writes or checks their results.
+    Validate(validate::Args),
 }
 
 /// A command that did not do what it was asked: what is printed, and the
@@ -100,6 +104,7 @@ pub fn run() -> ExitCode {
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),
+        Command::Validate(args) => validate::run(&args),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

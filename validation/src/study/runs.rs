@@ -5,10 +5,8 @@ use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Overturning, Response, RestIndex, Scene, respond_indexed,
-    uplift_threshold,
+    Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
 };
-use rocking::number::dispatch::Isa;
 use rocking::record::Accelerogram;
 
 use super::StudyError;
@@ -30,16 +28,13 @@ pub struct Setup {
 #[derive(Clone, Debug)]
 pub struct Prepared {
     unit: NormalisedRecord,
-    index: RestIndex,
 }
 
 impl Prepared {
     /// Prepares a record.
     #[must_use]
     pub fn new(record: &Accelerogram) -> Self {
-        let unit = NormalisedRecord::new(record);
-        let index = RestIndex::new(unit.samples());
-        Self { unit, index }
+        Self { unit: NormalisedRecord::new(record) }
     }
 
     /// The record.
@@ -142,8 +137,7 @@ impl Setup {
             excitation: Excitation::Record(scaled),
             initial_ratio: 0.0,
         };
-        let index = Some(&record.index);
-        Ok(respond_indexed(&scene, observe, index, Isa::best())?)
+        Ok(respond(&scene, observe)?)
     }
 
     /// Demand of `block` at dimensionless intensity `im`.

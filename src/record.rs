@@ -19,6 +19,7 @@ mod fields;
 mod keys;
 mod knet;
 mod number;
+mod quality;
 mod resorce;
 mod smc;
 mod suite;
@@ -26,6 +27,7 @@ mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
+pub use quality::{Remark, duplicates, remarks, remarks_together};
 pub use suite::{
     PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
     Survey, folder_files, is_index,

@@ -96,7 +96,6 @@ impl Survey {
 
     /// Every record that was looked for, in the index's order or by file
     /// name; pairs found by name are known to the suite only.
-    #[must_use]
     pub fn members(&self) -> &[Result<SuiteMember, SuiteError>] {
         &self.members
     }

@@ -70,10 +70,7 @@ fn cosmos_channels_are_read_by_their_announced_format() {
         ),
         (
             text.replacen("     3.000", "    3.000", 1),
-            format!(
-                "test:{}:31: \"3.000    -\": expected a number of 10",
-                row + 1
-            ),
+            format!("test:{}:35: \"3.000\": expected a number of 10", row + 1),
         ),
         (
             text.replacen("     3.000", "      3.00", 1),

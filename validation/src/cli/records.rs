@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Fault, Format, ReadOptions, RecordError, Suite, SuiteMember, Survey,
+    self, Fault, Format, ReadOptions, RecordError, Remark, Suite, SuiteMember,
+    Survey,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
@@ -53,6 +54,7 @@ struct Listed {
     motion: record::Accelerogram,
     /// Pair and whether the study uses this component, in a suite.
     place: Option<(Option<String>, bool)>,
+    remarks: Vec<Remark>,
 }
 
 impl Listed {
@@ -64,6 +66,7 @@ impl Listed {
             motion: member.accelerogram.clone(),
             place: in_suite
                 .then(|| (member.pair.clone(), member.study_component)),
+            remarks: Vec::new(),
         }
     }
 }
@@ -98,6 +101,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.paths {
         listing.add(path, options);
     }
+    listing.remark();
     if args.json {
         print(&listing.json(args.gravity))?;
     } else {
@@ -151,6 +155,7 @@ impl Listing {
                     unit: record.unit,
                     motion: record.accelerogram,
                     place: None,
+                    remarks: Vec::new(),
                 }))
             }
         }
@@ -199,6 +204,21 @@ impl Listing {
         self.records.extend(members.map(|m| Listed::member(m, true)));
     }
 
+    fn remark(&mut self) {
+        let records: Vec<_> = self
+            .records
+            .iter()
+            .map(|listed| {
+                let pair = listed.place.as_ref().and_then(|p| p.0.as_deref());
+                (&listed.motion, pair)
+            })
+            .collect();
+        let found = record::remarks_together(&records);
+        for (listed, remarks) in self.records.iter_mut().zip(found) {
+            listed.remarks = remarks;
+        }
+    }
+
     fn json(&self, gravity_m_s2: f64) -> String {
         let record = |listed: &Listed| {
             let motion = &listed.motion;
@@ -206,6 +226,13 @@ impl Listing {
                 Some((pair, study)) => (pair.as_deref(), Some(*study)),
                 None => (None, None),
             };
+            let remark = |remark: &Remark| {
+                json!({
+                    "code": remark.code(),
+                    "message": remark.to_string(),
+                })
+            };
+            let remarks = listed.remarks.iter().map(remark);
             json!({
                 "file": listed.file,
                 "format": listed.format.to_string(),
@@ -217,6 +244,7 @@ impl Listing {
                 "pgv_m_s": number(motion.pgv_m_s(gravity_m_s2)),
                 "pair": pair,
                 "study_component": study,
+                "remarks": remarks.collect::<Vec<_>>(),
             })
         };
         let refused = |list: &[Refused]| -> Vec<Value> {
@@ -274,6 +302,12 @@ impl Listing {
                     motion.pgv_m_s(gravity_m_s2),
                 ),
             );
+        }
+        for listed in &self.records {
+            for remark in &listed.remarks {
+                let (file, code) = (&listed.file, remark.code());
+                line(&mut text, format_args!("{file}: {code}: {remark}"));
+            }
         }
         for ignored in &self.ignored {
             line(&mut text, format_args!("set aside: {}", ignored.reason));

@@ -9,6 +9,9 @@ use crate::record::{
     Fault, Record, RecordError, bytes_of, name_of, read_all, stem,
 };
 
+/// The index in a folder or archive as PEER's site delivers it.
+const PEER_RESULTS: &str = "_SearchResults.csv";
+
 /// What a folder or index holds, refused records included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
@@ -28,9 +31,11 @@ impl Survey {
         path: &Path,
         options: &SuiteOptions,
     ) -> Result<Self, SuiteError> {
-        if path.is_dir() {
+        let results = path.join(PEER_RESULTS);
+        if path.is_dir() && !results.is_file() {
             return Self::of_folder(path, options);
         }
+        let path = if path.is_dir() { &results } else { path };
         let bytes = bytes_of(path)?;
         let shown = path.display().to_string();
         let base = path.parent().unwrap_or(Path::new(""));
@@ -126,9 +131,15 @@ impl Survey {
             pairing::mark_first(&mut members);
         }
         pairing::check_pairs(&path, &members)?;
-        let name = stem(path.trim_end_matches('/')).to_owned();
+        let name = suite_name(&path);
         Ok(Suite { name, members, study_rule, ignored })
     }
+}
+
+/// Name of a suite by its folder or index.
+fn suite_name(path: &str) -> String {
+    let folder = path.strip_suffix(PEER_RESULTS).filter(|f| !f.is_empty());
+    stem(folder.unwrap_or(path).trim_end_matches('/')).to_owned()
 }
 
 /// A record of a folder as a member of the suite, unless it is vertical.

@@ -33,6 +33,12 @@ pub struct RecordError {
 }
 
 impl RecordError {
+    /// The error of a file whose bytes could not be had.
+    #[must_use]
+    pub fn unreadable(file: &str, reason: String) -> Self {
+        Fault::Unreadable(reason).whole(file)
+    }
+
     /// Name of the file, as it was given.
     #[must_use]
     pub fn file(&self) -> &str {

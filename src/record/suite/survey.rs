@@ -31,16 +31,64 @@ impl Survey {
         path: &Path,
         options: &SuiteOptions,
     ) -> Result<Self, SuiteError> {
-        let results = path.join(PEER_RESULTS);
-        if path.is_dir() && !results.is_file() {
-            return Self::of_folder(path, options);
-        }
-        let path = if path.is_dir() { &results } else { path };
-        let bytes = bytes_of(path)?;
         let shown = path.display().to_string();
+        if path.is_dir() {
+            let names: Vec<String> =
+                folder_files(path)?.iter().map(|file| name_of(file)).collect();
+            return Self::of_files(&shown, &names, options, |name| {
+                bytes_of(&path.join(name))
+            });
+        }
+        let bytes = bytes_of(path)?;
         let base = path.parent().unwrap_or(Path::new(""));
         Self::of_index(&shown, &bytes, options, |file| {
             bytes_of(&base.join(file))
+        })
+    }
+
+    /// Reads every record among the files of a folder or archive, given by
+    /// its path, the files' names and a function that gives the bytes of
+    /// each. If one of them is PEER's `_SearchResults.csv`, that is the
+    /// index.
+    ///
+    /// # Errors
+    /// [`SuiteError`] where an index cannot be read.
+    pub fn of_files(
+        path: &str,
+        names: &[String],
+        options: &SuiteOptions,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+    ) -> Result<Self, SuiteError> {
+        if let Some(results) = names.iter().find(|n| *n == PEER_RESULTS) {
+            let bytes = file_bytes(results)?;
+            let shown = format!("{path}/{results}");
+            return Self::of_index(&shown, &bytes, options, file_bytes);
+        }
+        let mut members = Vec::new();
+        let mut ignored = Vec::new();
+        for name in names {
+            let shown = format!("{path}/{name}");
+            let records = file_bytes(name)
+                .and_then(|bytes| read_all(&shown, &bytes, &options.read));
+            match records {
+                Ok(records) => {
+                    for record in records {
+                        match horizontal(&shown, name, record) {
+                            Ok(member) => members.push(Ok(member)),
+                            Err(error) => ignored.push(error),
+                        }
+                    }
+                }
+                Err(error) if is_no_record(&error) => ignored.push(error),
+                Err(error) => members.push(Err(error.into())),
+            }
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            members,
+            ignored,
+            study_rule: StudyRule::FirstName,
+            paired: false,
         })
     }
 
@@ -65,37 +113,6 @@ impl Survey {
             ignored: Vec::new(),
             study_rule,
             paired: index.has("pair"),
-        })
-    }
-
-    fn of_folder(
-        path: &Path,
-        options: &SuiteOptions,
-    ) -> Result<Self, SuiteError> {
-        let mut members = Vec::new();
-        let mut ignored = Vec::new();
-        for file in folder_files(path)? {
-            let bytes = bytes_of(&file)?;
-            let shown = file.display().to_string();
-            match read_all(&shown, &bytes, &options.read) {
-                Ok(records) => {
-                    for record in records {
-                        match horizontal(&file, record) {
-                            Ok(member) => members.push(Ok(member)),
-                            Err(error) => ignored.push(error),
-                        }
-                    }
-                }
-                Err(error) if is_no_record(&error) => ignored.push(error),
-                Err(error) => members.push(Err(error.into())),
-            }
-        }
-        Ok(Self {
-            path: path.display().to_string(),
-            members,
-            ignored,
-            study_rule: StudyRule::FirstName,
-            paired: false,
         })
     }
 
@@ -144,18 +161,18 @@ fn suite_name(path: &str) -> String {
 
 /// A record of a folder as a member of the suite, unless it is vertical.
 fn horizontal(
-    path: &Path,
+    shown: &str,
+    file: &str,
     record: Record,
 ) -> Result<SuiteMember, RecordError> {
     let label = record.channel.as_deref();
     if pairing::is_vertical(label, record.accelerogram.name()) {
         let name = record.accelerogram.name().to_owned();
-        let fault = Fault::Vertical(name);
-        return Err(fault.whole(&path.display().to_string()));
+        return Err(Fault::Vertical(name).whole(shown));
     }
     Ok(SuiteMember {
         accelerogram: record.accelerogram,
-        file: name_of(path),
+        file: file.to_owned(),
         format: record.format,
         unit: record.unit,
         pair: None,

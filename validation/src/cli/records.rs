@@ -5,21 +5,20 @@ use std::path::{Path, PathBuf};
 
 use rocking::record::{
     self, Fault, Format, ReadOptions, RecordError, Remark, Suite, SuiteMember,
-    Survey,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
 
 use super::{Failure, print};
-use crate::inputs::suite_options;
+use crate::inputs;
 use crate::json::number;
 
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Record files, folders of them, or index files (CSV with a column
-    /// `file`).
+    /// Record files, folders or zips of them, or index files (CSV with a
+    /// column `file`, or PEER's search results).
     #[arg(required = true)]
     paths: Vec<PathBuf>,
     /// Sampling interval in s, for files that state none.
@@ -127,7 +126,7 @@ impl From<&RecordError> for Refused {
 
 impl Listing {
     fn add(&mut self, path: &Path, options: ReadOptions) {
-        if path.is_dir() {
+        if path.is_dir() || inputs::is_zip(path) {
             return self.add_survey(path, options);
         }
         let file = path.display().to_string();
@@ -167,7 +166,7 @@ impl Listing {
             line: error.line(),
             reason: error.to_string(),
         };
-        let survey = match Survey::read(path, &suite_options(options)) {
+        let survey = match inputs::survey(path, options) {
             Ok(survey) => survey,
             Err(error) => return self.refused.push(refused(&error)),
         };

@@ -6,11 +6,13 @@
 //! [`NullDistribution`] and p-values between them; published tables and
 //! other packages' are not used.
 
+mod assess;
 mod simulation;
 mod table;
 
 use thiserror::Error;
 
+pub use assess::{Assessment, Inapplicable, Null, Scale};
 pub use simulation::{CriticalValue, NullDistribution};
 pub use table::Table;
 

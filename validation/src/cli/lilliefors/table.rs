@@ -9,7 +9,7 @@ use rocking::statistics::lilliefors::{NullDistribution, Table};
 use crate::cli::Failure;
 use crate::files::write_atomically;
 
-/// Simulates every size of the table and writes it: 2.1e8 samples, some
+/// Simulates every size of the table and writes it: 3.4e8 samples, some
 /// minutes of one core.
 ///
 /// # Errors

@@ -5,17 +5,18 @@ mod table;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::statistics::Sample;
 use rocking::statistics::lilliefors::{
     Assessment, Inapplicable, LillieforsError, Null, NullDistribution, Scale,
-    Table, Verdict,
+    ShiftedNull, Table, Verdict,
 };
+use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::normality::{
     Test, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
+use rocking::statistics::{ExtendedSample, Sample};
 use serde_json::{Value, json};
 
-use super::samples::SampleFile;
+use super::samples::{SampleFile, Shift};
 use super::{Failure, print};
 use crate::json;
 
@@ -42,13 +43,15 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["critical_values", "write_table"])]
     log: bool,
     /// Test the logarithms of the values above this shift (implies --log).
+    /// `min` takes the smallest value and leaves it out; the null is then
+    /// simulated with the smallest value taken from every draw.
     #[arg(
         long,
-        value_name = "X",
+        value_name = "X|min",
         conflicts_with_all = ["critical_values", "write_table"],
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
-    shift: Option<f64>,
+    shift: Option<Shift>,
     /// Simulate the critical value of one size and level.
     #[arg(long, requires = "n")]
     critical_values: bool,
@@ -133,32 +136,24 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
 }
 
 fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
-    if args.seed.is_some() && args.replicates.is_none() {
+    let simulates =
+        args.replicates.is_some() || args.shift == Some(Shift::Min);
+    if args.seed.is_some() && !simulates {
         return Err(Failure::input(
             "--seed is not used without --replicates: the table is given",
         ));
     }
-    let sample = file.extended()?;
-    let scale = match (args.shift, args.log) {
-        (Some(shift), _) if !(shift >= 0.0 && shift.is_finite()) => {
-            return Err(Failure::input(format!(
-                "--shift {shift}: expected a finite number, not negative"
-            )));
+    let whole = file.extended()?;
+    let shift = args.shift.or(args.log.then_some(Shift::Given(0.0)));
+    let (scale, sample) = match shift {
+        None => (Scale::Linear, whole),
+        Some(shift) => {
+            let (shift, above) = shift.split(file.values());
+            let scale = Scale::Logarithmic { shift };
+            (scale, ExtendedSample::try_new(&above)?)
         }
-        (Some(shift), _) => Scale::Logarithmic { shift },
-        (None, true) => Scale::Logarithmic { shift: 0.0 },
-        (None, false) => Scale::Linear,
     };
-    let n = sample.len();
-    let beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
-    let replicates = args.replicates.or(beyond.then_some(REPLICATES_BEYOND));
-    let simulated = match replicates {
-        Some(replicates) if n >= 4 && sample.censored() == 0 => {
-            let seed = args.seed.unwrap_or(0);
-            Some(NullDistribution::simulate(n, replicates, seed)?)
-        }
-        _ => None,
-    };
+    let (method, simulated) = simulated_null(args, &sample, scale)?;
     let null = simulated
         .as_ref()
         .map_or(Null::Table(Table::embedded()), Null::Simulated);
@@ -169,10 +164,42 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
         return Err(error.into());
     }
     if args.json {
-        let out = to_json(&assessment, replicates);
+        let out = to_json(&assessment, method, simulated.as_ref());
         return print(&format!("{out:#}\n"));
     }
     print(&to_text(&assessment))
+}
+
+/// The null distribution to simulate, if the table is not used, and how the
+/// p-value comes about.
+fn simulated_null(
+    args: &Args,
+    sample: &ExtendedSample,
+    scale: Scale,
+) -> Result<(&'static str, Option<NullDistribution>), Failure> {
+    let (n, seed) = (sample.len(), args.seed.unwrap_or(0));
+    if n < 4 || sample.censored() > 0 {
+        return Ok(("none", None));
+    }
+    if let (Some(Shift::Min), Scale::Logarithmic { shift }) =
+        (args.shift, scale)
+    {
+        let moment = fit(sample, shift, FitMethod::Moment);
+        let Ok(moment) = moment else { return Ok(("none", None)) };
+        let dispersion = moment.distribution.dispersion();
+        let replicates = args.replicates.unwrap_or(REPLICATES_BEYOND);
+        let null =
+            ShiftedNull::smallest_value(n + 1, dispersion, replicates, seed)?;
+        return Ok(("simulation, smallest value as shift", Some(null.null)));
+    }
+    let beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
+    let Some(replicates) =
+        args.replicates.or(beyond.then_some(REPLICATES_BEYOND))
+    else {
+        return Ok(("table", None));
+    };
+    let null = NullDistribution::simulate(n, replicates, seed)?;
+    Ok(("simulation", Some(null)))
 }
 
 /// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk of the tested values.
@@ -191,12 +218,15 @@ fn verdict(assessment: &Assessment) -> (&'static str, Option<String>) {
     }
 }
 
-fn to_json(assessment: &Assessment, replicates: Option<u64>) -> Value {
+fn to_json(
+    assessment: &Assessment,
+    method: &str,
+    null: Option<&NullDistribution>,
+) -> Value {
     let (statistic, p) = (assessment.statistic, assessment.p_value);
     let tested = assessment.tested.as_ref();
     let (verdict, reason) = verdict(assessment);
     let [ad, cvm, sw] = others(assessment);
-    let method = if replicates.is_some() { "simulation" } else { "table" };
     let number = json::optional;
     json!({
         "n": assessment.n,
@@ -213,7 +243,7 @@ fn to_json(assessment: &Assessment, replicates: Option<u64>) -> Value {
         "verdict": verdict,
         "reason": reason,
         "method": p.map(|_| method),
-        "replicates": p.and(replicates),
+        "replicates": p.and(null.map(|null| null.sorted().len())),
         "anderson_darling": number(ad.map(|t| t.statistic)),
         "anderson_darling_p_value": number(ad.map(|t| t.p_value)),
         "cramer_von_mises": number(cvm.map(|t| t.statistic)),

@@ -4,6 +4,7 @@
 //! fits, tests of normality, paired comparison and the bootstrap. A sample is
 //! checked once, when it is made; what takes one relies on it.
 
+pub mod acceptance;
 pub mod bootstrap;
 pub mod boxplot;
 pub mod lilliefors;

@@ -14,6 +14,7 @@ pub mod normal;
 pub mod normality;
 pub mod paired;
 pub mod quantile;
+pub mod rivals;
 pub mod sample;
 
 pub use boxplot::Boxplot;

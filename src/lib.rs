@@ -18,7 +18,11 @@
 
 pub mod block;
 pub mod capacity;
+pub mod excitation;
 pub mod fragility;
+pub mod ida;
+pub mod integrator;
+pub mod number;
 pub mod record;
 pub mod statistics;
 pub mod streams;

@@ -41,3 +41,6 @@ pub trait Figure {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+pub(crate) use tests::demonstration;

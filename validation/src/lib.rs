@@ -7,3 +7,4 @@ pub mod drawing;
 pub mod figures;
 pub mod files;
 pub mod json;
+pub mod report;

@@ -4,8 +4,14 @@ mod made_up;
 mod spare;
 mod xml;
 
+use super::Figure;
 use crate::drawing::geometry::Rect;
 use crate::drawing::scene::LIMIT_BYTES;
+
+/// Every figure once, from made-up numbers.
+pub(crate) fn demonstration() -> Vec<Box<dyn Figure>> {
+    made_up::all()
+}
 
 /// Writes each demonstration figure where `ROCKING_FIGURES` says, to be
 /// looked at.

@@ -26,6 +26,9 @@ impl Figure for Boxplots {
 const HALF: f64 = 0.30;
 /// Half height at the notch.
 const WAIST: f64 = 0.15;
+/// Where the interval of the median is drawn, below the box.
+const BELOW: f64 = -0.43;
+const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
 /// Ratios beyond are cut, with an arrow head at the edge.
 const WIDEST: (f64, f64) = (0.0, 3.0);
 
@@ -50,6 +53,10 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
         if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
     let cross = Sample::Mark(Marker::Cross, Ink::Text);
     legend.push(Entry::new(cross, "outlier"));
+    if summaries(figure).any(|b| b.median_interval.is_some()) {
+        let words = "exact 95 % interval of the median";
+        legend.push(Entry::new(Sample::Line(INTERVAL), words));
+    }
     let beyond = |b: &&NotchedBox| b.outliers.iter().any(|x| *x > high);
     if summaries(figure).any(|b| beyond(&b)) {
         let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
@@ -163,6 +170,9 @@ fn draw_box(
     panel.scene().outline(&corners, pen);
     let waist = [(b.median, y - WAIST), (b.median, y + WAIST)];
     panel.line(waist, Pen::new(ink, 1.6));
+    if let Some((from, to)) = b.median_interval {
+        panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
+    }
     for x in &b.outliers {
         if *x >= low && *x <= high {
             panel.marks([(*x, y)], Marker::Cross, 3.0, ink);

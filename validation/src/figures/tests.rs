@@ -131,3 +131,32 @@ fn histogram_counts_every_finite_datum_once() {
     let none = Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
     assert!(none.edges.is_empty() && none.counts.is_empty());
 }
+
+#[test]
+fn thinned_histories_draw_the_same() {
+    let full = made_up::histories();
+    let thin = full.clone().thinned();
+    let points = |h: &super::data::Histories| -> usize {
+        let curves = h.panels.iter().flat_map(|p| &p.curves);
+        curves.map(|c| c.time_s.len()).sum()
+    };
+    assert!(4 * points(&thin) < points(&full));
+    for (a, b) in full.panels.iter().zip(&thin.panels) {
+        for (full, thin) in a.curves.iter().zip(&b.curves) {
+            let mut at = 0;
+            for (t, y) in full.time_s.iter().zip(&full.ratio) {
+                while thin.time_s[at + 1] < *t {
+                    at += 1;
+                }
+                let (t0, t1) = (thin.time_s[at], thin.time_s[at + 1]);
+                let (y0, y1) = (thin.ratio[at], thin.ratio[at + 1]);
+                let rise = (y1 - y0) / (t1 - t0);
+                let off = (y0 + rise * (t - t0) - y).abs();
+                // In px, 300 of them for 30 s and for a ratio of one.
+                let slope = 30.0 * rise;
+                let px = 300.0 * off / (1.0 + slope * slope).sqrt();
+                assert!(px < 0.0501, "{px}");
+            }
+        }
+    }
+}

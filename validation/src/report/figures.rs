@@ -8,6 +8,9 @@ use crate::drawing::colour;
 /// Rows of data shown on the page; the file has all.
 const PREVIEW_ROWS: usize = 25;
 
+/// A wider drawing scrolls on a phone instead of shrinking to its width.
+const WIDE_PX: u32 = 640;
+
 /// A drawing ready for the page.
 #[derive(Debug, Clone, Default)]
 pub struct ShownFigure {
@@ -30,11 +33,15 @@ pub struct ShownFigure {
 /// The figure with title, reading and data.
 pub fn figure(shown: &ShownFigure) -> Markup {
     let label = format!("{}, drawing", shown.number);
+    let class = if width_px(&shown.svg) > WIDE_PX {
+        "scroll drawing wide"
+    } else {
+        "scroll drawing"
+    };
     html! {
         figure id=(shown.name) {
             h3 { (shown.number) ". " (shown.title) }
-            div.scroll.drawing role="region" aria-label=(label) tabindex="0"
-            {
+            div class=(class) role="region" aria-label=(label) tabindex="0" {
                 (PreEscaped(inline(&shown.svg)))
             }
             figcaption { (shown.reading) }
@@ -47,6 +54,13 @@ pub fn figure(shown: &ShownFigure) -> Markup {
             }
         }
     }
+}
+
+/// The width that the SVG says it has, or 0.
+fn width_px(svg: &str) -> u32 {
+    let value = svg.split(" width=\"").nth(1);
+    let digits = value.and_then(|v| v.split('"').next());
+    digits.and_then(|d| d.parse().ok()).unwrap_or(0)
 }
 
 /// The SVG without its own style sheet, which the page has once.

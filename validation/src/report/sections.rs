@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::figures;
+use super::figures::{self, ShownFigure};
 use super::table::{self, scrolled};
 use super::{Family, Finding, Part, ReportInput, Summary, Verdict};
 
@@ -20,7 +20,7 @@ pub fn all(input: &ReportInput) -> Vec<Part> {
     };
     let i = input;
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
-        findings(&i.findings)
+        findings(&i.findings, &i.figures)
     });
     add(!i.families.is_empty(), "evidence", "Evidence", &|| {
         html! { @for family in &i.families { (cases(family)) } }
@@ -97,7 +97,7 @@ fn mark(verdict: Verdict) -> Markup {
     }
 }
 
-fn findings(findings: &[Finding]) -> Markup {
+fn findings(findings: &[Finding], shown: &[ShownFigure]) -> Markup {
     let body = html! {
         table.cards {
             caption { "Claims, what was measured, and the verdict." }
@@ -112,13 +112,24 @@ fn findings(findings: &[Finding]) -> Markup {
                     th scope="col" { "Verdict" }
                 }
             }
-            tbody { @for f in findings { (finding(f)) } }
+            tbody { @for f in findings { (finding(f, shown)) } }
         }
     };
     scrolled("Findings", body)
 }
 
-fn finding(f: &Finding) -> Markup {
+/// A link to a figure, by its number where the page has it.
+fn link(name: &str, shown: &[ShownFigure]) -> Markup {
+    html! {
+        @if let Some(figure) = shown.iter().find(|f| f.name == name) {
+            a href={ "#" (name) } { (figure.number) }
+        } @else {
+            (name)
+        }
+    }
+}
+
+fn finding(f: &Finding, shown: &[ShownFigure]) -> Markup {
     html! {
         tr id={ "finding-" (f.id) } {
             th scope="row" {
@@ -128,7 +139,7 @@ fn finding(f: &Finding) -> Markup {
                     span.source {
                         @for (k, name) in f.figures.iter().enumerate() {
                             @if k > 0 { ", " } @else { " See " }
-                            a href={ "#" (name) } { (name) }
+                            (link(name, shown))
                         }
                         "."
                     }

@@ -21,7 +21,7 @@ pub struct PlainTable {
 pub fn plain(table: &PlainTable) -> Markup {
     let body = html! {
         table {
-            caption { (table.title) }
+            caption { (table.reading) }
             (head(&table.header))
             tbody { @for row in &table.rows { (line(row)) } }
         }
@@ -29,7 +29,6 @@ pub fn plain(table: &PlainTable) -> Markup {
     html! {
         div id=(table.name) {
             h3 { (table.title) }
-            @if !table.reading.is_empty() { p { (table.reading) } }
             (scrolled(&table.title, body))
         }
     }

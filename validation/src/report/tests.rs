@@ -29,7 +29,7 @@ fn made_up() -> ReportInput {
         rejects: "energy ratio taken for velocity ratio".into(),
         passed: k != 2,
     };
-    let shown = |figure: &Box<dyn Figure>| {
+    let shown = |figure: &dyn Figure| {
         let heading = figure.heading();
         ShownFigure {
             name: heading.name.clone(),
@@ -66,7 +66,7 @@ fn made_up() -> ReportInput {
             header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
             rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
         }],
-        figures: demonstration().iter().map(shown).collect(),
+        figures: demonstration().iter().map(|f| shown(f.as_ref())).collect(),
         provenance: vec![
             ("version".into(), "0.1.0".into()),
             (

@@ -1,9 +1,24 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
+mod validate;
+
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+
+pub mod boxplot;
+pub mod capacities;
+pub mod compare;
+pub mod excitation;
+pub mod fragility;
+pub mod ida;
+pub mod lilliefors;
+pub mod quantile;
+pub mod records;
+pub mod respond;
+pub mod samples;
+pub mod scene;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
@@ -14,7 +29,19 @@ struct Cli {
 }
 
 #[derive(Subcommand)]
-enum Command {}
+enum Command {
+    Respond(Box<respond::Args>),
+    Ida(Box<ida::Args>),
+    Records(records::Args),
+    Boxplot(boxplot::Args),
+    Capacities(capacities::Args),
+    Compare(compare::Args),
+    Fragility(fragility::Args),
+    Lilliefors(lilliefors::Args),
+    Quantile(quantile::Args),
+    /// Runs the declared cases and writes or checks their results.
+    Validate(validate::Args),
+}
 
 /// A command that did not do what it was asked: what is printed, and the
 /// exit status.
@@ -71,11 +98,50 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Runs `work` on `threads` threads, or on as many as the machine has.
+///
+/// # Errors
+/// [`Failure`] for zero threads, or threads that cannot be started.
+pub fn with_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Failure> {
+    if threads == Some(0) {
+        return Err(Failure::input("--threads 0: expected at least 1"));
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()?;
+    Ok(pool.install(work))
+}
+
+/// A progress bar of `length` steps, shown on a terminal only.
+#[must_use]
+pub fn progress(length: u64) -> indicatif::ProgressBar {
+    use std::io::IsTerminal as _;
+    if io::stderr().is_terminal() {
+        indicatif::ProgressBar::new(length)
+    } else {
+        indicatif::ProgressBar::hidden()
+    }
+}
+
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let outcome: Result<(), Failure> = match cli.command {};
+    let outcome: Result<(), Failure> = match cli.command {
+        Command::Respond(args) => respond::run(&args),
+        Command::Ida(args) => ida::run(&args),
+        Command::Records(args) => records::run(&args),
+        Command::Boxplot(args) => boxplot::run(&args),
+        Command::Capacities(args) => capacities::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Fragility(args) => fragility::run(&args),
+        Command::Lilliefors(args) => lilliefors::run(&args),
+        Command::Quantile(args) => quantile::run(&args),
+        Command::Validate(args) => validate::run(&args),
+    };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

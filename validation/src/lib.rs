@@ -2,9 +2,18 @@
 //!
 //! Everything here stands on the core's public interface alone.
 
+pub mod cases;
 pub mod cli;
 pub mod drawing;
+pub mod engine;
 pub mod figures;
 pub mod files;
+pub mod inputs;
 pub mod json;
 pub mod report;
+pub mod methods;
+pub mod naive;
+pub mod scene;
+pub mod study;
+pub mod synthesis;
+pub mod verdict;

@@ -1,0 +1,164 @@
+//! What moves the ground: a scaled record or an analytic pulse.
+
+mod pulse;
+mod rest_index;
+
+pub(crate) use pulse::Shape;
+
+pub use pulse::{Pulse, PulseError, PulseKind};
+pub use rest_index::RestIndex;
+
+use crate::record::Accelerogram;
+
+/// Ground acceleration as the block feels it.
+#[derive(Clone, Copy, Debug)]
+pub enum Excitation<'a> {
+    /// A record, linear between samples and zero outside.
+    Record(ScaledRecord<'a>),
+    /// An analytic pulse from t = 0.
+    Pulse(&'a Pulse),
+    /// None: free motion from an initial rotation.
+    Free,
+}
+
+/// A record scaled to an amplitude.
+///
+/// Sample i acts as `amplitude * samples[i]` in multiples of gravity. Where
+/// the samples are normalised by their peak the amplitude *is* the peak
+/// ground acceleration, to the last bit: a block whose uplift threshold
+/// equals it does not move.
+#[derive(Clone, Copy, Debug)]
+pub struct ScaledRecord<'a> {
+    samples: &'a [f64],
+    dt_s: f64,
+    amplitude: f64,
+    index: Option<&'a RestIndex>,
+}
+
+impl<'a> ScaledRecord<'a> {
+    /// The record as it is, times `factor`.
+    #[must_use]
+    pub fn by_factor(record: &'a Accelerogram, factor: f64) -> Self {
+        Self {
+            samples: record.samples_g(),
+            dt_s: record.dt_s(),
+            amplitude: factor,
+            index: None,
+        }
+    }
+
+    /// The record scaled to a peak ground acceleration in multiples of
+    /// gravity.
+    #[must_use]
+    pub fn to_pga(record: &'a NormalisedRecord, pga_g: f64) -> Self {
+        Self {
+            samples: &record.samples,
+            dt_s: record.dt_s,
+            amplitude: pga_g,
+            index: Some(&record.index),
+        }
+    }
+
+    /// Samples before scaling.
+    #[must_use]
+    pub fn samples(&self) -> &'a [f64] {
+        self.samples
+    }
+
+    /// Sampling interval in s.
+    #[must_use]
+    pub fn dt_s(&self) -> f64 {
+        self.dt_s
+    }
+
+    /// Index of the samples, where one was made.
+    #[must_use]
+    pub fn index(&self) -> Option<&'a RestIndex> {
+        self.index
+    }
+
+    /// Factor on every sample.
+    #[must_use]
+    pub fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+}
+
+/// A record divided by its peak, made once and shared by all levels and
+/// blocks of an IDA.
+///
+/// ```
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::record::Accelerogram;
+/// let record = Accelerogram::try_new("hand", 0.1, vec![0.1, -0.3, 0.2])?;
+/// let unit = NormalisedRecord::new(&record);
+/// assert_eq!(unit.samples()[1], -1.0);
+/// assert_eq!(unit.pga_g(), 0.3);
+/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct NormalisedRecord {
+    name: String,
+    samples: Vec<f64>,
+    dt_s: f64,
+    pga_g: f64,
+    pgv_g_s: f64,
+    index: RestIndex,
+}
+
+impl NormalisedRecord {
+    /// Divides the record by its peak; a record of zeros stays as it is.
+    #[must_use]
+    pub fn new(record: &Accelerogram) -> Self {
+        let pga_g = record.pga_g();
+        let unit = if pga_g > 0.0 { pga_g } else { 1.0 };
+        let samples: Vec<f64> =
+            record.samples_g().iter().map(|a| a / unit).collect();
+        Self {
+            index: RestIndex::new(&samples),
+            name: record.name().to_owned(),
+            samples,
+            dt_s: record.dt_s(),
+            pga_g,
+            pgv_g_s: record.pgv_g_s(),
+        }
+    }
+
+    /// The record's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Samples divided by the peak, in [-1, 1].
+    #[must_use]
+    pub fn samples(&self) -> &[f64] {
+        &self.samples
+    }
+
+    /// Sampling interval in s.
+    #[must_use]
+    pub fn dt_s(&self) -> f64 {
+        self.dt_s
+    }
+
+    /// Peak ground acceleration of the record as given, multiples of
+    /// gravity.
+    #[must_use]
+    pub fn pga_g(&self) -> f64 {
+        self.pga_g
+    }
+
+    /// Peak ground velocity of the record as given over gravity, in s.
+    #[must_use]
+    pub fn pgv_g_s(&self) -> f64 {
+        self.pgv_g_s
+    }
+
+    /// PGV over PGA in s: the factor, times p, from PGA/(g tan alpha) to
+    /// p PGV/(g tan alpha). Not a number for a record of zeros.
+    #[must_use]
+    pub fn velocity_ratio_s(&self) -> f64 {
+        self.pgv_g_s / self.pga_g
+    }
+}

@@ -1,0 +1,497 @@
+//! Analytic pulses.
+
+use thiserror::Error;
+
+/// Shape of a pulse; amplitudes in multiples of gravity.
+///
+/// Every pulse starts at t = 0 and is zero afterwards (a jump, if it does not
+/// end at zero).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PulseKind {
+    /// a sin(omega t) for one full period.
+    OneSine {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Circular frequency in rad/s.
+        omega_rad_s: f64,
+    },
+    /// a sin(omega t) for half a period.
+    HalfSine {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Circular frequency in rad/s.
+        omega_rad_s: f64,
+    },
+    /// a cos(omega t) for one full period.
+    OneCosine {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Circular frequency in rad/s.
+        omega_rad_s: f64,
+    },
+    /// Constant a.
+    Rectangle {
+        /// Acceleration over g.
+        amplitude_g: f64,
+        /// Duration in s.
+        duration_s: f64,
+    },
+    /// Isosceles triangle.
+    Triangle {
+        /// Peak acceleration over g, at half the duration.
+        amplitude_g: f64,
+        /// Duration in s.
+        duration_s: f64,
+    },
+    /// a (1 - x^2) exp(-x^2/2), x = sqrt(2) pi (t - t_c)/T, over `cycles`
+    /// periods T about the centre t_c.
+    RickerSymmetric {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Period T in s.
+        period_s: f64,
+        /// Length in periods.
+        cycles: f64,
+    },
+    /// (a / beta) (x^2 - 3) x exp(-x^2/2), x = 2 pi (t - t_c)/(sqrt(3) T),
+    /// with beta = 1.38 such that the peak is a.
+    RickerAntisymmetric {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Period T in s.
+        period_s: f64,
+        /// Length in periods.
+        cycles: f64,
+    },
+    /// Derivative of the velocity
+    /// (V/2) (1 + cos(2 pi f u/gamma)) cos(2 pi f u + nu), with
+    /// u = t - gamma/(2 f) and |u| <= gamma/(2 f).
+    MavroeidisPapageorgiou {
+        /// Velocity amplitude V over g, in s.
+        velocity_g_s: f64,
+        /// Prevailing frequency f in Hz.
+        frequency_hz: f64,
+        /// Oscillatory character gamma.
+        gamma: f64,
+        /// Phase nu in rad.
+        phase_rad: f64,
+    },
+}
+
+/// Why a pulse was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PulseError {
+    /// Amplitudes must be finite.
+    #[error("pulse amplitude {0}: expected a finite number")]
+    Amplitude(f64),
+    /// Frequencies, periods, durations and cycles must be positive.
+    #[error("pulse {what} {found}: expected a positive number")]
+    NotPositive {
+        /// The quantity.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+    },
+    /// The phase must be finite.
+    #[error("pulse phase {0} rad: expected a finite number")]
+    Phase(f64),
+}
+
+/// An analytic pulse, checked.
+///
+/// ```
+/// use rocking::excitation::{Pulse, PulseKind};
+/// let pulse = Pulse::try_new(PulseKind::OneSine {
+///     amplitude_g: 0.3,
+///     omega_rad_s: 6.0,
+/// })?;
+/// assert_eq!(pulse.pga_g(), 0.3);
+/// // v = (a/omega) (1 - cos(omega t)) peaks at 2 a/omega.
+/// assert!((pulse.pgv_g_s() - 0.1).abs() < 1e-15);
+/// # Ok::<(), rocking::excitation::PulseError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulse {
+    kind: PulseKind,
+}
+
+/// A smooth stretch of a pulse, as the integrator expands it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Shape {
+    /// Sum of `amplitude * sin(rate * t + phase)`, t from the pulse's start.
+    Sines([Sine; 3]),
+    /// `at_zero + slope * t`.
+    Line { at_zero: f64, slope: f64 },
+    /// `scale * (q0 + q1 x + q2 x^2 + q3 x^3) exp(-x^2/2)`,
+    /// x = rate * (t - centre).
+    Gauss { scale: f64, polynomial: [f64; 4], rate: f64, centre_s: f64 },
+}
+
+/// One sine of a sum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sine {
+    pub amplitude: f64,
+    pub rate_rad_s: f64,
+    pub phase_rad: f64,
+}
+
+const NO_SINE: Sine = Sine { amplitude: 0.0, rate_rad_s: 0.0, phase_rad: 0.0 };
+
+/// Peak of (x^2 - 3) x exp(-x^2/2): sqrt(6) sqrt(3 - sqrt(6))
+/// exp(-(3 - sqrt(6))/2).
+const RICKER_BETA: f64 = 1.380_119_046_160_749_3;
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+impl Pulse {
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// [`PulseError`] for an amplitude or phase that is not finite, and for a
+    /// frequency, period, duration or count that is not positive.
+    pub fn try_new(kind: PulseKind) -> Result<Self, PulseError> {
+        let amplitude = |a: f64| {
+            if a.is_finite() { Ok(()) } else { Err(PulseError::Amplitude(a)) }
+        };
+        let positive = |what, x: f64| {
+            if x > 0.0 && x.is_finite() {
+                Ok(())
+            } else {
+                Err(PulseError::NotPositive { what, found: x })
+            }
+        };
+        match kind {
+            PulseKind::OneSine { amplitude_g, omega_rad_s }
+            | PulseKind::HalfSine { amplitude_g, omega_rad_s }
+            | PulseKind::OneCosine { amplitude_g, omega_rad_s } => {
+                amplitude(amplitude_g)?;
+                positive("circular frequency", omega_rad_s)?;
+            }
+            PulseKind::Rectangle { amplitude_g, duration_s }
+            | PulseKind::Triangle { amplitude_g, duration_s } => {
+                amplitude(amplitude_g)?;
+                positive("duration", duration_s)?;
+            }
+            PulseKind::RickerSymmetric { amplitude_g, period_s, cycles }
+            | PulseKind::RickerAntisymmetric {
+                amplitude_g,
+                period_s,
+                cycles,
+            } => {
+                amplitude(amplitude_g)?;
+                positive("period", period_s)?;
+                positive("number of cycles", cycles)?;
+            }
+            PulseKind::MavroeidisPapageorgiou {
+                velocity_g_s,
+                frequency_hz,
+                gamma,
+                phase_rad,
+            } => {
+                amplitude(velocity_g_s)?;
+                positive("frequency", frequency_hz)?;
+                positive("gamma", gamma)?;
+                if !phase_rad.is_finite() {
+                    return Err(PulseError::Phase(phase_rad));
+                }
+            }
+        }
+        Ok(Self { kind })
+    }
+
+    /// The shape and its parameters.
+    #[must_use]
+    pub fn kind(&self) -> PulseKind {
+        self.kind
+    }
+
+    /// The same pulse with every acceleration times `factor`.
+    ///
+    /// # Errors
+    /// [`PulseError::Amplitude`] if the product is not finite.
+    pub fn scaled(&self, factor: f64) -> Result<Self, PulseError> {
+        let mut kind = self.kind;
+        match &mut kind {
+            PulseKind::OneSine { amplitude_g: a, .. }
+            | PulseKind::HalfSine { amplitude_g: a, .. }
+            | PulseKind::OneCosine { amplitude_g: a, .. }
+            | PulseKind::Rectangle { amplitude_g: a, .. }
+            | PulseKind::Triangle { amplitude_g: a, .. }
+            | PulseKind::RickerSymmetric { amplitude_g: a, .. }
+            | PulseKind::RickerAntisymmetric { amplitude_g: a, .. }
+            | PulseKind::MavroeidisPapageorgiou { velocity_g_s: a, .. } => {
+                *a *= factor;
+            }
+        }
+        Self::try_new(kind)
+    }
+
+    /// The same pulse scaled to a peak ground acceleration over g; where the
+    /// amplitude is the peak, to the last bit.
+    ///
+    /// # Errors
+    /// [`PulseError::Amplitude`] if the amplitude is not finite, as for a
+    /// pulse of amplitude zero.
+    pub fn with_pga(&self, pga_g: f64) -> Result<Self, PulseError> {
+        let own = self.pga_g();
+        let mut kind = self.kind;
+        match &mut kind {
+            PulseKind::OneSine { amplitude_g: a, .. }
+            | PulseKind::HalfSine { amplitude_g: a, .. }
+            | PulseKind::OneCosine { amplitude_g: a, .. }
+            | PulseKind::Rectangle { amplitude_g: a, .. }
+            | PulseKind::Triangle { amplitude_g: a, .. }
+            | PulseKind::RickerSymmetric { amplitude_g: a, .. }
+                if own > 0.0 =>
+            {
+                *a = pga_g.copysign(*a);
+                Self::try_new(kind)
+            }
+            _ => self.scaled(pga_g / own),
+        }
+    }
+
+    /// Duration in s.
+    #[must_use]
+    pub fn duration_s(&self) -> f64 {
+        match self.kind {
+            PulseKind::OneSine { omega_rad_s, .. }
+            | PulseKind::OneCosine { omega_rad_s, .. } => TAU / omega_rad_s,
+            PulseKind::HalfSine { omega_rad_s, .. } => PI / omega_rad_s,
+            PulseKind::Rectangle { duration_s, .. }
+            | PulseKind::Triangle { duration_s, .. } => duration_s,
+            PulseKind::RickerSymmetric { period_s, cycles, .. }
+            | PulseKind::RickerAntisymmetric { period_s, cycles, .. } => {
+                cycles * period_s
+            }
+            PulseKind::MavroeidisPapageorgiou {
+                frequency_hz, gamma, ..
+            } => gamma / frequency_hz,
+        }
+    }
+
+    /// Smooth stretches: where each ends (s) and its shape.
+    pub(crate) fn stretches(&self) -> Vec<(f64, Shape)> {
+        let end = self.duration_s();
+        let sine = |amplitude, rate_rad_s, phase_rad| Sine {
+            amplitude,
+            rate_rad_s,
+            phase_rad,
+        };
+        match self.kind {
+            PulseKind::OneSine { amplitude_g, omega_rad_s }
+            | PulseKind::HalfSine { amplitude_g, omega_rad_s } => {
+                let only = sine(amplitude_g, omega_rad_s, 0.0);
+                vec![(end, Shape::Sines([only, NO_SINE, NO_SINE]))]
+            }
+            PulseKind::OneCosine { amplitude_g, omega_rad_s } => {
+                let only = sine(amplitude_g, omega_rad_s, 0.5 * PI);
+                vec![(end, Shape::Sines([only, NO_SINE, NO_SINE]))]
+            }
+            PulseKind::Rectangle { amplitude_g, .. } => {
+                vec![(end, Shape::Line { at_zero: amplitude_g, slope: 0.0 })]
+            }
+            PulseKind::Triangle { amplitude_g, .. } => {
+                let slope = 2.0 * amplitude_g / end;
+                let up = Shape::Line { at_zero: 0.0, slope };
+                let down =
+                    Shape::Line { at_zero: 2.0 * amplitude_g, slope: -slope };
+                vec![(0.5 * end, up), (end, down)]
+            }
+            PulseKind::RickerSymmetric { amplitude_g, period_s, .. } => {
+                let shape = Shape::Gauss {
+                    scale: amplitude_g,
+                    polynomial: [1.0, 0.0, -1.0, 0.0],
+                    rate: SQRT_2 * PI / period_s,
+                    centre_s: 0.5 * end,
+                };
+                vec![(end, shape)]
+            }
+            PulseKind::RickerAntisymmetric {
+                amplitude_g, period_s, ..
+            } => {
+                let shape = Shape::Gauss {
+                    scale: amplitude_g / RICKER_BETA,
+                    polynomial: [0.0, -3.0, 0.0, 1.0],
+                    rate: TAU / (3.0_f64.sqrt() * period_s),
+                    centre_s: 0.5 * end,
+                };
+                vec![(end, shape)]
+            }
+            PulseKind::MavroeidisPapageorgiou {
+                velocity_g_s,
+                frequency_hz,
+                gamma,
+                phase_rad,
+            } => {
+                // a = -V W { sin(W u + nu)/2
+                //   + (1 + 1/gamma)/4 sin(W (1 + 1/gamma) u + nu)
+                //   + (1 - 1/gamma)/4 sin(W (1 - 1/gamma) u + nu) },
+                // u = t - gamma/(2 f), hence phases nu - W k gamma/(2 f).
+                let rate = TAU * frequency_hz;
+                let half = 0.5 * gamma / frequency_hz;
+                let term = |weight: f64, ratio: f64| {
+                    let own = rate * ratio;
+                    sine(
+                        -velocity_g_s * rate * weight,
+                        own,
+                        (-own).mul_add(half, phase_rad),
+                    )
+                };
+                let up = 1.0 + 1.0 / gamma;
+                let down = 1.0 - 1.0 / gamma;
+                let terms = [
+                    term(0.5, 1.0),
+                    term(0.25 * up, up),
+                    term(0.25 * down, down),
+                ];
+                vec![(end, Shape::Sines(terms))]
+            }
+        }
+    }
+
+    /// Acceleration over g at `t_s`; zero outside the pulse.
+    #[must_use]
+    pub fn acceleration_g(&self, t_s: f64) -> f64 {
+        if !(t_s >= 0.0) {
+            return 0.0;
+        }
+        self.stretches()
+            .into_iter()
+            .find(|(end_s, _)| t_s <= *end_s)
+            .map_or(0.0, |(_, shape)| shape.at(t_s))
+    }
+
+    /// Peak ground acceleration over g.
+    #[must_use]
+    pub fn pga_g(&self) -> f64 {
+        match self.kind {
+            PulseKind::OneSine { amplitude_g, .. }
+            | PulseKind::HalfSine { amplitude_g, .. }
+            | PulseKind::OneCosine { amplitude_g, .. }
+            | PulseKind::Rectangle { amplitude_g, .. }
+            | PulseKind::Triangle { amplitude_g, .. }
+            | PulseKind::RickerSymmetric { amplitude_g, .. } => {
+                amplitude_g.abs()
+            }
+            PulseKind::RickerAntisymmetric { .. }
+            | PulseKind::MavroeidisPapageorgiou { .. } => {
+                self.extreme(|t| self.acceleration_g(t))
+            }
+        }
+    }
+
+    /// Peak ground velocity over g in s, with v(0) = 0.
+    #[must_use]
+    pub fn pgv_g_s(&self) -> f64 {
+        match self.kind {
+            PulseKind::OneSine { amplitude_g, omega_rad_s }
+            | PulseKind::HalfSine { amplitude_g, omega_rad_s } => {
+                2.0 * amplitude_g.abs() / omega_rad_s
+            }
+            PulseKind::OneCosine { amplitude_g, omega_rad_s } => {
+                amplitude_g.abs() / omega_rad_s
+            }
+            PulseKind::Rectangle { amplitude_g, duration_s } => {
+                amplitude_g.abs() * duration_s
+            }
+            PulseKind::Triangle { amplitude_g, duration_s } => {
+                0.5 * amplitude_g.abs() * duration_s
+            }
+            // Antiderivatives of the Gaussian shapes: (1 - x^2) G = (x G)',
+            // (x^2 - 3) x G = ((1 - x^2) G)'.
+            PulseKind::RickerSymmetric { amplitude_g, .. } => {
+                let x = |t: f64| self.gauss_argument(t);
+                let first = x(0.0) * gauss(x(0.0));
+                let rate = self.gauss_rate();
+                self.extreme(|t| {
+                    amplitude_g / rate * (x(t) * gauss(x(t)) - first)
+                })
+            }
+            PulseKind::RickerAntisymmetric { amplitude_g, .. } => {
+                let x = |t: f64| self.gauss_argument(t);
+                let part = |x: f64| (1.0 - x * x) * gauss(x);
+                let first = part(x(0.0));
+                let scale = amplitude_g / (RICKER_BETA * self.gauss_rate());
+                self.extreme(|t| scale * (part(x(t)) - first))
+            }
+            PulseKind::MavroeidisPapageorgiou {
+                velocity_g_s,
+                frequency_hz,
+                gamma,
+                phase_rad,
+            } => {
+                let rate = TAU * frequency_hz;
+                let half = 0.5 * gamma / frequency_hz;
+                // The velocity is zero at both ends: 1 + cos(pi) = 0.
+                self.extreme(|t| {
+                    let u = t - half;
+                    0.5 * velocity_g_s
+                        * (1.0 + libm::cos(rate * u / gamma))
+                        * libm::cos(rate * u + phase_rad)
+                })
+            }
+        }
+    }
+
+    fn gauss_rate(&self) -> f64 {
+        match self.stretches()[0].1 {
+            Shape::Gauss { rate, .. } => rate,
+            Shape::Sines(_) | Shape::Line { .. } => 1.0,
+        }
+    }
+
+    fn gauss_argument(&self, t_s: f64) -> f64 {
+        self.gauss_rate() * (t_s - 0.5 * self.duration_s())
+    }
+
+    /// Largest absolute value of `f` over the pulse: a fine scan, then
+    /// golden-section search about the best point.
+    fn extreme(&self, f: impl Fn(f64) -> f64) -> f64 {
+        const SCAN: u32 = 20_000;
+        let end = self.duration_s();
+        let at = |k: u32| end * f64::from(k) / f64::from(SCAN);
+        let mut best = 0;
+        for k in 0..=SCAN {
+            if f(at(k)).abs() > f(at(best)).abs() {
+                best = k;
+            }
+        }
+        let mut low = at(best.saturating_sub(1));
+        let mut high = at((best + 1).min(SCAN));
+        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+        for _ in 0..60 {
+            let left = high - golden * (high - low);
+            let right = low + golden * (high - low);
+            if f(left).abs() > f(right).abs() {
+                high = right;
+            } else {
+                low = left;
+            }
+        }
+        f(0.5 * (low + high)).abs().max(f(at(best)).abs())
+    }
+}
+
+fn gauss(x: f64) -> f64 {
+    libm::exp(-0.5 * x * x)
+}
+
+impl Shape {
+    fn at(&self, t_s: f64) -> f64 {
+        match self {
+            Shape::Sines(sines) => sines.iter().fold(0.0, |sum, sine| {
+                let angle = sine.rate_rad_s.mul_add(t_s, sine.phase_rad);
+                sine.amplitude.mul_add(libm::sin(angle), sum)
+            }),
+            Shape::Line { at_zero, slope } => slope.mul_add(t_s, *at_zero),
+            Shape::Gauss { scale, polynomial: q, rate, centre_s } => {
+                let x = rate * (t_s - centre_s);
+                let sum = q[3].mul_add(x, q[2]).mul_add(x, q[1]);
+                scale * sum.mul_add(x, q[0]) * gauss(x)
+            }
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! Integration of a scene: block, excitation, model, and what to record.
+//!
+//! One driver (rest, flight, events, end) for both equations of motion.
+//! Eq. 1 is stepped by its Taylor polynomial, order 8, one step a sample;
+//! Eq. 2 by its exponential series, to rounding. Events are roots of the
+//! step's own polynomial, all isolated. The block goes to rest only when the
+//! series of impacts provably ends; it skips to the next exceedance of the
+//! uplift threshold; after the excitation energy decides in closed form.
+
+mod accuracy;
+mod coast;
+mod driver;
+mod dynamics;
+mod forcing;
+mod roots;
+mod taylor;
+
+pub use dynamics::{Model, Overturning, uplift_threshold};
+
+use thiserror::Error;
+
+use crate::block::{Block, Restitution};
+use crate::excitation::{Excitation, RestIndex};
+use crate::number::dispatch::{Isa, Work as Dispatched};
+use driver::Driver;
+use dynamics::Dynamics;
+use forcing::{PulseForcing, RecordForcing, Silence};
+
+/// A scene: what is integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The block.
+    pub block: Block,
+    /// What an impact leaves of the angular velocity.
+    pub restitution: Restitution,
+    /// Equation of motion.
+    pub model: Model,
+    /// When the block counts as overturned.
+    pub overturning: Overturning,
+    /// What moves the ground.
+    pub excitation: Excitation<'a>,
+    /// Initial rotation over the slenderness angle, released at rest; in
+    /// [0, 1).
+    pub initial_ratio: f64,
+}
+
+/// What to record beyond outcome and peak; each costs what it needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Observe {
+    /// Impacts and the time of coming to rest.
+    pub events: bool,
+    /// Error estimate and condition number.
+    pub accuracy: bool,
+    /// Rotation every so many seconds.
+    pub history_interval_s: Option<f64>,
+    /// Stop at this time (s) instead of when nothing more can happen.
+    pub until_s: Option<f64>,
+}
+
+/// What became of the block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome {
+    /// The ground acceleration never exceeded the uplift threshold.
+    NoUplift,
+    /// It rocked and stands.
+    Rocked {
+        /// Peak |theta|/alpha.
+        peak_ratio: f64,
+    },
+    /// It overturned.
+    Overturned {
+        /// When the criterion was met, s.
+        time_s: f64,
+        /// Sign of the rotation.
+        side: Side,
+    },
+}
+
+impl Outcome {
+    /// Engineering demand parameter: peak |theta|/alpha, infinite when
+    /// overturned, zero without uplift.
+    #[must_use]
+    pub fn edp(&self) -> f64 {
+        match self {
+            Self::NoUplift => 0.0,
+            Self::Rocked { peak_ratio } => *peak_ratio,
+            Self::Overturned { .. } => f64::INFINITY,
+        }
+    }
+
+    /// True when the block overturned.
+    #[must_use]
+    pub fn is_overturned(&self) -> bool {
+        matches!(self, Self::Overturned { .. })
+    }
+}
+
+/// Side of the rotation: the sign of theta.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// theta > 0.
+    Positive,
+    /// theta < 0, the side to which a positive ground acceleration drives.
+    Negative,
+}
+
+impl Side {
+    /// +1 or -1.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
+        }
+    }
+
+    pub(crate) fn flipped(self) -> Self {
+        match self {
+            Self::Positive => Self::Negative,
+            Self::Negative => Self::Positive,
+        }
+    }
+}
+
+/// An impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// Time in s.
+    pub time_s: f64,
+    /// Absolute angular velocity just before it, rad/s.
+    pub speed_before_rad_s: f64,
+}
+
+/// A point of a history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HistoryPoint {
+    /// Time in s.
+    pub time_s: f64,
+    /// Rotation theta in rad, signed.
+    pub rotation_rad: f64,
+    /// Angular velocity in rad/s, signed.
+    pub velocity_rad_s: f64,
+}
+
+/// How much was computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Taylor polynomials expanded.
+    pub steps: u64,
+    /// Impacts solved.
+    pub impacts: u64,
+    /// Turning points located.
+    pub turning_points: u64,
+    /// Uplifts from rest.
+    pub uplifts: u64,
+    /// Intervals (or blocks of intervals) looked at while at rest.
+    pub rest_scans: u64,
+}
+
+/// The answer to a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// What became of the block, by the double-precision run.
+    pub outcome: Outcome,
+    /// Largest |theta|/alpha reached before overturning or at all.
+    pub peak_ratio: f64,
+    /// When the peak was reached, s.
+    pub peak_time_s: Option<f64>,
+    /// First uplift, s.
+    pub uplift_time_s: Option<f64>,
+    /// Final coming to rest, s; recorded with events.
+    pub rest_time_s: Option<f64>,
+    /// Impacts in order; recorded with events.
+    pub impacts: Vec<Impact>,
+    /// Distance of the run from the other fate, in units of the slenderness
+    /// angle (see the design of the criterion in [`Overturning`]).
+    pub fate_margin: f64,
+    /// Bound on the error of the peak ratio; recorded with accuracy.
+    pub error_estimate: Option<f64>,
+    /// Bound on the error of the fate margin; recorded with accuracy.
+    pub fate_error: Option<f64>,
+    /// Relative sensitivity of the peak to restitution and initial state;
+    /// recorded with accuracy.
+    pub condition_number: Option<f64>,
+    /// Work counters.
+    pub work: Work,
+    /// Signed rotation in time; recorded when asked for.
+    pub history: Vec<HistoryPoint>,
+}
+
+impl Response {
+    /// False where the error estimate does not clear the fate margin: the
+    /// fate cannot be told in double precision. True without an estimate.
+    #[must_use]
+    pub fn is_resolved(&self) -> bool {
+        self.fate_error.is_none_or(|error| self.fate_margin >= error)
+    }
+}
+
+/// Why a scene cannot be integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The initial rotation must lie below overturning.
+    #[error("initial rotation ratio {0}: expected a number in [0, 1)")]
+    InitialRatio(f64),
+    /// The amplitude of a record must be finite.
+    #[error(
+        "record scaled by {0}: expected a finite amplitude of the excitation"
+    )]
+    Amplitude(f64),
+    /// Intervals and horizons must be positive.
+    #[error("{what} {found} s: expected a positive number")]
+    Time {
+        /// What the time is for.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+    },
+}
+
+/// Integrates a scene.
+///
+/// # Errors
+/// [`SceneError`] for an initial rotation outside [0, 1), an amplitude that
+/// is not finite, or a time that is not positive.
+///
+/// ```
+/// use rocking::block::{Block, Restitution};
+/// use rocking::excitation::{Excitation, Pulse, PulseKind};
+/// use rocking::integrator::{
+///     Model, Observe, Overturning, Scene, respond,
+/// };
+/// let pulse = Pulse::try_new(PulseKind::OneSine {
+///     amplitude_g: 1.5 / 9.81,
+///     omega_rad_s: 12.0,
+/// })?;
+/// let scene = Scene {
+///     block: Block::try_new(0.1, 3.0)?,
+///     restitution: Restitution::constant(0.92)?,
+///     model: Model::Nonlinear,
+///     overturning: Overturning::Alpha,
+///     excitation: Excitation::Pulse(&pulse),
+///     initial_ratio: 0.0,
+/// };
+/// let answer = respond(&scene, &Observe::default())?;
+/// // A 36-digit reference: 0.493881599743772889432469876681278552.
+/// assert!((answer.peak_ratio - 0.493_881_599_743_773).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn respond(
+    scene: &Scene<'_>,
+    observe: &Observe,
+) -> Result<Response, SceneError> {
+    respond_with(scene, observe, Isa::best())
+}
+
+/// [`respond`] at a given instruction-set level, which changes the speed
+/// alone.
+///
+/// # Errors
+/// As [`respond`].
+pub fn respond_with(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    isa: Isa,
+) -> Result<Response, SceneError> {
+    if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
+        return Err(SceneError::InitialRatio(scene.initial_ratio));
+    }
+    for (what, time) in [
+        ("history interval", observe.history_interval_s),
+        ("end of observation", observe.until_s),
+    ] {
+        if let Some(found) = time
+            && !(found > 0.0 && found.is_finite())
+        {
+            return Err(SceneError::Time { what, found });
+        }
+    }
+    if let Excitation::Record(record) = scene.excitation
+        && !record.amplitude().is_finite()
+    {
+        return Err(SceneError::Amplitude(record.amplitude()));
+    }
+    let own;
+    let index = match scene.excitation {
+        Excitation::Record(record) => Some(match record.index() {
+            Some(index) => index,
+            None => {
+                own = RestIndex::new(record.samples());
+                &own
+            }
+        }),
+        Excitation::Pulse(_) | Excitation::Free => None,
+    };
+    Ok(isa.run(Run { scene, observe, index }))
+}
+
+/// One run, compiled for each instruction-set level.
+struct Run<'a> {
+    scene: &'a Scene<'a>,
+    observe: &'a Observe,
+    index: Option<&'a RestIndex>,
+}
+
+/// Coefficients of the polynomial for Eq. 1 under a record: order 8, for
+/// steps to [`SHORT_STEP`].
+const SHORT: usize = 9;
+/// The same for longer steps: order 10.
+const LONG: usize = 11;
+/// Longest step (in 1/p) at which order 8 leaves less than rounding.
+const SHORT_STEP: f64 = 0.04;
+/// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
+/// of any step that a shorter series leaves too much of: order 13.
+pub(crate) const SMOOTH: usize = 14;
+
+impl Dispatched for Run<'_> {
+    type Output = Response;
+
+    #[inline(always)]
+    fn run(self) -> Response {
+        let Scene { block, restitution, model, overturning, .. } = *self.scene;
+        let p = block.frequency_rad_s();
+        let dynamics =
+            Dynamics::<f64>::new(&block, restitution, model, overturning);
+        match (self.scene.excitation, self.index) {
+            (Excitation::Record(record), Some(index)) => {
+                let forcing = RecordForcing::new(record, index, p);
+                let step = forcing.step();
+                match model {
+                    Model::Nonlinear if step <= SHORT_STEP => {
+                        Driver::<_, _, SHORT, 2>::new(dynamics, &forcing)
+                            .run(self.scene, self.observe)
+                    }
+                    Model::Nonlinear => {
+                        Driver::<_, _, LONG, 2>::new(dynamics, &forcing)
+                            .run(self.scene, self.observe)
+                    }
+                    Model::Linearized => {
+                        Driver::<_, _, SMOOTH, 2>::new(dynamics, &forcing)
+                            .run(self.scene, self.observe)
+                    }
+                }
+            }
+            (Excitation::Pulse(pulse), _) => {
+                let forcing = PulseForcing::new(pulse, p);
+                Driver::<_, _, SMOOTH, SMOOTH>::new(dynamics, &forcing)
+                    .run(self.scene, self.observe)
+            }
+            (Excitation::Record(_) | Excitation::Free, _) => {
+                Driver::<_, _, SMOOTH, 1>::new(dynamics, &Silence::nothing())
+                    .run(self.scene, self.observe)
+            }
+        }
+    }
+}

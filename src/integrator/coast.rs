@@ -1,0 +1,460 @@
+//! Free motion after the excitation, in closed form.
+//!
+//! Energy above the base, D = w^2/2 + U(u), is constant between impacts and
+//! falls by eta^2 at each. With E_s the saddle's energy, a block that moves
+//! outwards with D > E_s, or is beyond the saddle with D < E_s, overturns;
+//! one that moves inwards with D > E_s meets the base first and overturns on
+//! the other side if eta^2 D > E_s. Times follow by Carlson's R_F (Eq. 1) or
+//! atanh (Eq. 2).
+
+use crate::integrator::driver::{Motion, Record};
+use crate::integrator::dynamics::{Dynamics, Model, Overturning};
+use crate::integrator::{Impact, Side};
+use crate::number::Real;
+
+/// Impacts logged at most where the motion never ends.
+const ENDLESS_IMPACTS: usize = 1000;
+
+/// Impact speed over alpha p below which the tail of impacts is summed.
+const TAIL_SPEED: f64 = 1e-10;
+
+/// What the free motion is asked.
+pub(crate) struct Coast<'a, N> {
+    pub dynamics: &'a Dynamics<N>,
+    /// When it starts, s.
+    pub start_s: N,
+    /// Log impacts and the time of rest.
+    pub events: bool,
+    /// When observation ends, s.
+    pub until_s: Option<N>,
+}
+
+/// How it ends.
+pub(crate) struct Fate<N> {
+    pub overturned: Option<(N, Side)>,
+    /// Smallest distance of a decision taken here from the other one, where
+    /// the criterion is decided by the saddle.
+    pub margin: Option<f64>,
+}
+
+/// A level of energy: above the base, and below the saddle. Both are kept,
+/// because near the saddle their sum is known and their difference is what
+/// matters.
+#[derive(Clone, Copy)]
+struct Level<N> {
+    above_base: N,
+    below_saddle: N,
+}
+
+impl<N: Real> Level<N> {
+    fn of(d: &Dynamics<N>, u: N, w: N) -> Self {
+        Self {
+            above_base: (N::ratio(1, 2) * w).mul_add(w, d.potential(u)),
+            below_saddle: d.depth(u, w),
+        }
+    }
+
+    fn after_impact(self, d: &Dynamics<N>) -> Self {
+        let above_base = d.eta * d.eta * self.above_base;
+        Self { above_base, below_saddle: d.saddle_energy() - above_base }
+    }
+
+    /// Speed at the base.
+    fn speed(self) -> N {
+        (self.above_base + self.above_base).sqrt()
+    }
+}
+
+/// Decides the free motion from `motion` on, completing `record`.
+pub(crate) fn coast<N: Real>(
+    ask: &Coast<'_, N>,
+    motion: Motion<N>,
+    record: &mut Record<N>,
+) -> Fate<N> {
+    let d = ask.dynamics;
+    let Motion { side, u, w } = motion;
+    let zero = N::zero();
+    let level = Level::of(d, u, w);
+    let passes = level.below_saddle < zero;
+    let inward = w < zero;
+    let outward =
+        if u > d.alpha { !(inward && passes) } else { !inward && passes };
+    let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
+    if let Some(accuracy) = &mut record.accuracy
+        && d.overturning == Overturning::HalfPi
+    {
+        // The distance is w - 2 sin((alpha - u)/2): its derivative by u is
+        // at most 1.
+        accuracy.decision([1.0, 1.0], d.alpha.to_f64());
+    }
+    if outward {
+        return fly_out(ask, motion, level, decision(d, gap), record);
+    }
+    // The block turns, or already moves inwards, and meets the base.
+    let here = Place { u, speed: w.abs() };
+    let time = if inward {
+        transit(d, Place { u: zero, speed: level.speed() }, here, level)
+    } else {
+        let top = turning(d, level);
+        let rise = transit(d, here, Place { u: top, speed: zero }, level);
+        raise(ask, record, top, ask.start_s + rise / d.p, (u, w));
+        rise + hop(d, level)
+    };
+    let impact_s = ask.start_s + time / d.p;
+    if ask.past(impact_s) {
+        return Fate { overturned: None, margin: margin_of(d, gap) };
+    }
+    let next = level.after_impact(d);
+    let w = d.eta * level.speed();
+    let saddle_speed = (d.saddle_energy() + d.saddle_energy()).sqrt();
+    let second = ((w - saddle_speed) / d.alpha).to_f64().abs();
+    let margin = gap.min(second);
+    if let Some(accuracy) = &mut record.accuracy
+        && d.overturning == Overturning::HalfPi
+        && second < gap
+    {
+        // The speed at the base has the energy's error over itself.
+        let share = (d.eta / level.speed()).to_f64();
+        let by_u = slope(d, u).to_f64() * share;
+        accuracy.decision([by_u, motion.w.to_f64() * share], d.alpha.to_f64());
+    }
+    if next.below_saddle < zero {
+        log_impact(ask, record, impact_s, level.speed());
+        let motion = Motion { side: side.flipped(), u: zero, w };
+        let later = Coast { start_s: impact_s, ..*ask };
+        return fly_out(&later, motion, next, decision(d, margin), record);
+    }
+    hops(ask, record, impact_s, level, (u, motion.w));
+    Fate { overturned: None, margin: margin_of(d, margin) }
+}
+
+/// Signed distance along the unstable direction from the stable manifold:
+/// w - 2 sin((alpha - u)/2) for Eq. 1, w - (alpha - u) for Eq. 2.
+fn gap<N: Real>(d: &Dynamics<N>, u: N, w: N) -> N {
+    let y = d.alpha - u;
+    match d.model {
+        Model::Nonlinear => {
+            let (s, _) = (y * N::ratio(1, 2)).sin_cos();
+            w - (s + s)
+        }
+        Model::Linearized => w - y,
+    }
+}
+
+/// Under |theta| >= alpha the peak itself is the margin.
+fn margin_of<N: Real>(d: &Dynamics<N>, margin: f64) -> Option<f64> {
+    (d.overturning == Overturning::HalfPi).then_some(margin)
+}
+
+/// Margin of an overturning in free motion: under |theta| >= alpha it never
+/// turns back.
+fn decision<N: Real>(d: &Dynamics<N>, margin: f64) -> f64 {
+    match d.overturning {
+        Overturning::Alpha => f64::INFINITY,
+        Overturning::HalfPi => margin,
+    }
+}
+
+impl<N: Real> Coast<'_, N> {
+    /// True from the end of observation on.
+    fn past(&self, time_s: N) -> bool {
+        self.until_s.is_some_and(|until| !(time_s < until))
+    }
+}
+
+/// Overturning on the current branch.
+fn fly_out<N: Real>(
+    ask: &Coast<'_, N>,
+    motion: Motion<N>,
+    level: Level<N>,
+    margin: f64,
+    record: &mut Record<N>,
+) -> Fate<N> {
+    let d = ask.dynamics;
+    let Motion { side, u, w } = motion;
+    let here = Place { u, speed: w.abs() };
+    let end = Place { u: d.limit, speed: speed_at(d, d.limit, level) };
+    let time = if !(u < d.limit) {
+        N::zero()
+    } else if w < N::zero() {
+        // Beyond the saddle and moving inwards, but turned back before it:
+        // in to the mirror image of the turning point, and out again.
+        let mirror = d.alpha + (d.alpha - turning(d, level));
+        let turn = Place { u: mirror, speed: N::zero() };
+        transit(d, turn, here, level) + transit(d, turn, end, level)
+    } else {
+        transit(d, here, end, level)
+    };
+    let time_s = ask.start_s + time / d.p;
+    if ask.past(time_s) {
+        return Fate { overturned: None, margin: Some(margin) };
+    }
+    if let Some(accuracy) = &mut record.accuracy {
+        accuracy.overturned(d.alpha.to_f64());
+    }
+    Fate { overturned: Some((time_s, side)), margin: Some(margin) }
+}
+
+/// Raises the peak if the top of a hop does and is reached in time.
+fn raise<N: Real>(
+    ask: &Coast<'_, N>,
+    record: &mut Record<N>,
+    top: N,
+    time_s: N,
+    (u, w): (N, N),
+) {
+    if ask.past(time_s) || !(top > record.peak) {
+        return;
+    }
+    let d = ask.dynamics;
+    record.peak = top;
+    record.peak_time_s = Some(time_s);
+    record.work.turning_points += 1;
+    if let Some(accuracy) = &mut record.accuracy {
+        accuracy.peak_by_energy(
+            (slope(d, u).to_f64(), w.to_f64()),
+            slope(d, top).to_f64(),
+            top.to_f64(),
+            d.alpha.to_f64(),
+        );
+    }
+}
+
+/// dU/du: sin(alpha - u) or alpha - u.
+fn slope<N: Real>(d: &Dynamics<N>, u: N) -> N {
+    let y = d.alpha - u;
+    match d.model {
+        Model::Nonlinear => y.sin_cos().0,
+        Model::Linearized => y,
+    }
+}
+
+fn log_impact<N: Real>(
+    ask: &Coast<'_, N>,
+    record: &mut Record<N>,
+    time_s: N,
+    speed: N,
+) {
+    record.work.impacts += 1;
+    if ask.events {
+        record.impacts.push(Impact {
+            time_s: time_s.to_f64(),
+            speed_before_rad_s: (speed * ask.dynamics.p).to_f64(),
+        });
+    }
+}
+
+/// The hops from an impact on, with the level before it, to rest.
+fn hops<N: Real>(
+    ask: &Coast<'_, N>,
+    record: &mut Record<N>,
+    first_s: N,
+    before: Level<N>,
+    state: (N, N),
+) {
+    let d = ask.dynamics;
+    let tail = d.alpha * N::from_f64(TAIL_SPEED);
+    let two = N::from_f64(2.0);
+    let mut level = before;
+    let mut time_s = first_s;
+    for count in 0.. {
+        if ask.past(time_s) {
+            return;
+        }
+        let speed = level.speed();
+        log_impact(ask, record, time_s, speed);
+        level = level.after_impact(d);
+        let half = hop(d, level);
+        // Only the first hop after the excitation can raise the peak.
+        if count == 0 {
+            let top = turning(d, level);
+            raise(ask, record, top, time_s + half / d.p, state);
+        }
+        let endless = !(d.eta < N::one()) && count + 1 >= ENDLESS_IMPACTS;
+        if !ask.events || endless {
+            return;
+        }
+        let after = d.eta * speed;
+        if after < tail && d.eta < N::one() {
+            // Each remaining hop lasts 2 w/D, D the base acceleration.
+            let down = d.restoring(N::zero());
+            let rest = two * after / (down * (N::one() - d.eta));
+            record.rest_time_s = Some(time_s + rest / d.p);
+            return;
+        }
+        time_s = time_s + two * half / d.p;
+    }
+}
+
+/// Rotation at which a level below the saddle turns the block.
+///
+/// Eq. 1: u = 2 asin[(D/2)/sin((alpha + psi)/2)] with
+/// sin(psi/2) = sqrt(q/2), q below the saddle; Eq. 2:
+/// u = 2 D/(alpha + sqrt(2 q)).
+fn turning<N: Real>(d: &Dynamics<N>, level: Level<N>) -> N {
+    let two = N::from_f64(2.0);
+    let half = N::ratio(1, 2);
+    let (energy, room) = (level.above_base, level.below_saddle);
+    match d.model {
+        Model::Nonlinear => {
+            let psi = two * (half * room).sqrt().asin();
+            let (s, _) = (half * (d.alpha + psi)).sin_cos();
+            two * (half * energy / s).asin()
+        }
+        Model::Linearized => two * energy / (d.alpha + (two * room).sqrt()),
+    }
+}
+
+/// Time (in 1/p) from the base to the turning point: a quarter period.
+///
+/// Eq. 1: sqrt(D/2) R_F(q^2 c^2, q^2 (1 - q^2), s^2 (1 - q^2)) with
+/// s = sin(alpha/2), c = cos(alpha/2), q^2 = s^2 - D/2. Eq. 2: atanh(v),
+/// v = sqrt(2 D)/alpha.
+fn hop<N: Real>(d: &Dynamics<N>, level: Level<N>) -> N {
+    let half = N::ratio(1, 2);
+    match d.model {
+        Model::Nonlinear => {
+            let (s, c) = (half * d.alpha).sin_cos();
+            let q2 = half * level.below_saddle;
+            let other = N::one() - q2;
+            (half * level.above_base).sqrt()
+                * carlson_rf(q2 * c * c, q2 * other, s * s * other)
+        }
+        Model::Linearized => {
+            // v = speed/alpha, (1 + v)/(1 - v) - 1 = 2 v (1 + v)/(1 - v^2).
+            let v = level.speed() / d.alpha;
+            let room = two_over_square(level.below_saddle, d.alpha);
+            half * ((v + v) * (N::one() + v) / room).ln_1p()
+        }
+    }
+}
+
+/// 2 q / alpha^2 = 1 - v^2, without cancellation near the saddle.
+fn two_over_square<N: Real>(q: N, alpha: N) -> N {
+    (q + q) / (alpha * alpha)
+}
+
+/// A place on an orbit: rotation and absolute velocity. Near a turning point
+/// the velocity cannot be had from the rotation without losing half of the
+/// digits, so it is carried along.
+#[derive(Clone, Copy)]
+struct Place<N> {
+    u: N,
+    speed: N,
+}
+
+/// Velocity at rotation u of a level.
+fn speed_at<N: Real>(d: &Dynamics<N>, u: N, level: Level<N>) -> N {
+    let y = d.alpha - u;
+    let q = level.below_saddle + level.below_saddle;
+    match d.model {
+        Model::Nonlinear => {
+            let (s, _) = (N::ratio(1, 2) * y).sin_cos();
+            clip(N::from_f64(4.0) * s * s - q).sqrt()
+        }
+        Model::Linearized => clip(y * y - q).sqrt(),
+    }
+}
+
+/// Time (in 1/p) between two places of monotone motion, `from` below `to`:
+/// the integral of du / sqrt(2 (D - U(u))), which depends on |alpha - u|
+/// alone.
+fn transit<N: Real>(
+    d: &Dynamics<N>,
+    from: Place<N>,
+    to: Place<N>,
+    level: Level<N>,
+) -> N {
+    let high = (d.alpha - from.u, from.speed);
+    let low = (d.alpha - to.u, to.speed);
+    let zero = N::zero();
+    let part = |first, second| match d.model {
+        Model::Nonlinear => stretch(first, second),
+        Model::Linearized => linear_stretch(first, second),
+    };
+    if !(low.0 < zero) {
+        part(high, low)
+    } else if high.0 > zero {
+        let saddle = (zero, speed_at(d, d.alpha, level));
+        part(high, saddle) + part((-low.0, low.1), saddle)
+    } else {
+        part((-low.0, low.1), (-high.0, high.1))
+    }
+}
+
+/// Integral of dy / w, w^2 = y^2 - 2 q, from y2 to y1, y1 >= y2 >= 0: the
+/// difference of ln(y + w).
+fn linear_stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
+    let dy = y1 - y2;
+    if !(dy > N::zero()) {
+        return N::zero();
+    }
+    let dw = dy * (y1 + y2) / (w1 + w2);
+    ((dy + dw) / (y2 + w2)).ln_1p()
+}
+
+/// Integral of dy / w, w^2 = 4 sin^2(y/2) - 2 q, from y2 to y1 with
+/// y1 >= y2 >= 0.
+///
+/// With z = sin^2(y/2) it is the integral of
+/// dz / (2 sqrt(z (1 - z) (z - q/2))), by Carlson's addition formula
+/// R_F(U1^2, U2^2, U3^2), U_i = (X_i Y_j Y_k + Y_i X_j X_k)/(z1 - z2), X and
+/// Y the square roots of the factors at the two ends (DLMF 19.29.4).
+fn stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
+    let half = N::ratio(1, 2);
+    let (s1, c1) = (half * y1).sin_cos();
+    let (s2, c2) = (half * y2).sin_cos();
+    let (r1, r2) = (half * w1, half * w2);
+    let width =
+        (half * (y1 - y2)).sin_cos().0 * (half * (y1 + y2)).sin_cos().0;
+    if !(width > N::zero()) {
+        return N::zero();
+    }
+    let u1 = (s1 * c2 * r2 + s2 * c1 * r1) / width;
+    let u2 = (c1 * s2 * r2 + c2 * s1 * r1) / width;
+    let u3 = (r1 * s2 * c2 + r2 * s1 * c1) / width;
+    carlson_rf(u1 * u1, u2 * u2, u3 * u3)
+}
+
+/// The number, or zero where rounding made it negative.
+fn clip<N: Real>(x: N) -> N {
+    if x > N::zero() { x } else { N::zero() }
+}
+
+/// Carlson's symmetric elliptic integral R_F(x, y, z) by duplication; at
+/// most one argument may vanish (DLMF 19.20, 19.36).
+fn carlson_rf<N: Real>(mut x: N, mut y: N, mut z: N) -> N {
+    let vanishing = [x, y, z].iter().filter(|v| **v == N::zero()).count();
+    if vanishing > 1 {
+        // The saddle is reached after infinite time.
+        return N::one() / N::zero();
+    }
+    let third = N::ratio(1, 3);
+    let quarter = N::ratio(1, 4);
+    // The series below is of order 8 in the relative spread.
+    let close = (N::ROUNDOFF / 8.0).sqrt().sqrt().sqrt();
+    loop {
+        let mean = (x + y + z) * third;
+        let spread = |v: N| ((mean - v) / mean).abs().to_f64();
+        if spread(x).max(spread(y)).max(spread(z)) < 0.5 * close {
+            let dx = (mean - x) / mean;
+            let dy = (mean - y) / mean;
+            let dz = -(dx + dy);
+            let e2 = dx * dy - dz * dz;
+            let e3 = dx * dy * dz;
+            let series = N::one() - e2 * N::ratio(1, 10)
+                + e3 * N::ratio(1, 14)
+                + e2 * e2 * N::ratio(1, 24)
+                - e2 * e3 * N::ratio(3, 44)
+                - e2 * e2 * e2 * N::ratio(5, 208)
+                + e3 * e3 * N::ratio(3, 104)
+                + e2 * e2 * e3 * N::ratio(1, 16);
+            return series / mean.sqrt();
+        }
+        let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
+        let lambda = rx * ry + ry * rz + rz * rx;
+        x = (x + lambda) * quarter;
+        y = (y + lambda) * quarter;
+        z = (z + lambda) * quarter;
+    }
+}

@@ -1,0 +1,162 @@
+//! The equation of motion in the form that the integrator steps.
+//!
+//! With u = |theta|, time in units of 1/p, the ground acceleration over
+//! gravity f = s a/g seen from the pivot s = sgn(theta), both models read
+//!
+//! ```text
+//! u'' = A S(u) - B C(u)
+//! Eq. 1:  S = sin u, C = cos u, A = cos alpha - f sin alpha,
+//!         B = cos alpha (tan alpha + f)
+//! Eq. 2:  S = u,     C = 1,     A = 1,   B = alpha + f
+//! ```
+//!
+//! B vanishes exactly at the uplift threshold and u is small near the base,
+//! so grazing uplifts and the last hops before rest keep their relative
+//! precision, which the variable alpha - |theta| would lose.
+
+use crate::block::{Block, Restitution};
+use crate::number::Real;
+
+/// Equation of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// Eq. 1, valid for large rotations; uplift when |a| > g tan alpha.
+    Nonlinear,
+    /// Eq. 2, linearised; uplift when |a| > g alpha.
+    Linearized,
+}
+
+/// When a block counts as overturned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overturning {
+    /// |theta| reaches alpha (the paper's first sign of overturning).
+    Alpha,
+    /// |theta| exceeds pi/2.
+    HalfPi,
+}
+
+/// Constants of a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Dynamics<N> {
+    pub model: Model,
+    pub overturning: Overturning,
+    pub alpha: N,
+    /// Uplift threshold over gravity.
+    pub threshold: N,
+    /// Rotation that counts as overturned.
+    pub limit: N,
+    pub p: N,
+    pub eta: N,
+    sine: N,
+    cosine: N,
+}
+
+/// Threshold of uplift over gravity: tan(alpha) for Eq. 1, alpha for Eq. 2.
+///
+/// The divisor of the dimensionless intensity PGA/(g tan alpha) is this
+/// number, so that an intensity of 1 is the threshold to the last bit.
+#[must_use]
+pub fn uplift_threshold(block: &Block, model: Model) -> f64 {
+    match model {
+        Model::Nonlinear => libm::tan(block.slenderness_rad()),
+        Model::Linearized => block.slenderness_rad(),
+    }
+}
+
+impl<N: Real> Dynamics<N> {
+    pub fn new(
+        block: &Block,
+        restitution: Restitution,
+        model: Model,
+        overturning: Overturning,
+    ) -> Self {
+        let alpha = N::from_f64(block.slenderness_rad());
+        let (sine, cosine) = alpha.sin_cos();
+        let threshold = match model {
+            Model::Nonlinear if N::ROUNDOFF < f64::ROUNDOFF => sine / cosine,
+            _ => N::from_f64(uplift_threshold(block, model)),
+        };
+        Self {
+            model,
+            overturning,
+            alpha,
+            threshold,
+            limit: match overturning {
+                Overturning::Alpha => alpha,
+                Overturning::HalfPi => N::right_angle(),
+            },
+            p: N::from_f64(block.frequency_rad_s()),
+            eta: N::from_f64(restitution.velocity_ratio()),
+            sine,
+            cosine,
+        }
+    }
+
+    /// Series of A and B from the series of f.
+    #[inline(always)]
+    pub fn drive<const F: usize>(&self, f: &[N; F]) -> ([N; F], [N; F]) {
+        match self.model {
+            Model::Nonlinear => {
+                let mut a = f.map(|x| -(x * self.sine));
+                a[0] = self.cosine - f[0] * self.sine;
+                let mut b = f.map(|x| x * self.cosine);
+                b[0] = (self.threshold + f[0]) * self.cosine;
+                (a, b)
+            }
+            Model::Linearized => {
+                let mut a = [N::zero(); F];
+                a[0] = N::one();
+                let mut b = *f;
+                b[0] = self.threshold + f[0];
+                (a, b)
+            }
+        }
+    }
+
+    /// Downward acceleration at the base under forcing f: B at u = 0.
+    pub fn restoring(&self, f: N) -> N {
+        match self.model {
+            Model::Nonlinear => (self.threshold + f) * self.cosine,
+            Model::Linearized => self.threshold + f,
+        }
+    }
+
+    /// The saddle's energy above the base:
+    /// 1 - cos alpha (Eq. 1), alpha^2/2 (Eq. 2).
+    pub fn saddle_energy(&self) -> N {
+        self.potential(self.alpha)
+    }
+
+    /// Potential energy without ground motion, zero at the base:
+    /// cos(alpha - u) - cos(alpha) (Eq. 1), u (alpha - u/2) (Eq. 2), in
+    /// product form.
+    pub fn potential(&self, u: N) -> N {
+        let half = u * N::ratio(1, 2);
+        match self.model {
+            Model::Nonlinear => {
+                let (s, _) = half.sin_cos();
+                let (other, _) = (self.alpha - half).sin_cos();
+                N::from_f64(2.0) * s * other
+            }
+            Model::Linearized => u * (self.alpha - half),
+        }
+    }
+
+    /// Energy below the saddle: positive when the block cannot pass it.
+    /// 2 sin^2((alpha - u)/2) - w^2/2, or (alpha - u)^2/2 - w^2/2.
+    pub fn depth(&self, u: N, w: N) -> N {
+        let half = N::ratio(1, 2);
+        let y = self.alpha - u;
+        let hill = match self.model {
+            Model::Nonlinear => {
+                let (s, _) = (y * half).sin_cos();
+                N::from_f64(2.0) * s * s
+            }
+            Model::Linearized => half * y * y,
+        };
+        // (hill - w^2/2) as a product of sums: no cancellation of squares.
+        let speed = w.abs();
+        let root = (hill + hill).sqrt();
+        half * (root - speed) * (root + speed)
+    }
+}

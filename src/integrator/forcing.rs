@@ -1,0 +1,425 @@
+//! The excitation as the driver meets it: pieces with a Taylor series each.
+
+use crate::excitation::{Pulse, RestIndex, ScaledRecord, Shape};
+use crate::integrator::roots::first_descent;
+use crate::integrator::taylor::value;
+use crate::number::Real;
+
+/// Longest step in units of 1/p for which the Taylor orders in use leave
+/// nothing above rounding.
+pub(crate) const LONGEST_STEP: f64 = 0.1;
+
+/// Longest step in units of a pulse's own phase.
+const LONGEST_PHASE: f64 = 0.25;
+
+/// A place in the excitation: a piece and the time since its start, in units
+/// of 1/p.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place<N> {
+    pub piece: usize,
+    pub offset: N,
+}
+
+/// Where a resting block lifts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exceedance<N> {
+    pub place: Place<N>,
+    /// Sign of the ground acceleration.
+    pub positive: bool,
+    /// True where the acceleration crosses the threshold there, false where
+    /// it is above it at once (a jump).
+    pub crossing: bool,
+}
+
+/// An excitation cut into pieces on each of which it is smooth.
+pub(crate) trait Forcing<N: Real, const F: usize> {
+    /// Number of pieces.
+    fn pieces(&self) -> usize;
+
+    /// Start of a piece in s.
+    fn start_s(&self, piece: usize) -> N;
+
+    /// Length of a piece in units of 1/p.
+    fn length(&self, piece: usize) -> N;
+
+    /// Number of equal steps in which a piece is integrated.
+    fn steps(&self) -> usize;
+
+    /// Series of a/g about a place.
+    fn series(&self, place: Place<N>) -> [N; F];
+
+    /// First place from `from` on where |a/g| exceeds `threshold`, and the
+    /// number of pieces looked at.
+    fn exceedance(
+        &self,
+        from: Place<N>,
+        threshold: N,
+    ) -> (Option<Exceedance<N>>, u64);
+}
+
+/// A record: one piece an interval between samples.
+pub(crate) struct RecordForcing<'a, N> {
+    record: ScaledRecord<'a>,
+    index: &'a RestIndex,
+    length: N,
+    inverse: N,
+    steps: usize,
+}
+
+impl<'a, N: Real> RecordForcing<'a, N> {
+    pub fn new(
+        record: ScaledRecord<'a>,
+        index: &'a RestIndex,
+        frequency_rad_s: f64,
+    ) -> Self {
+        let length = N::from_f64(record.dt_s()) * N::from_f64(frequency_rad_s);
+        let steps = libm::ceil(length.to_f64() / LONGEST_STEP).max(1.0);
+        Self {
+            record,
+            index,
+            length,
+            inverse: N::one() / length,
+            steps: steps as usize,
+        }
+    }
+
+    /// Length of a step in units of 1/p.
+    pub fn step(&self) -> f64 {
+        self.length.to_f64() / self.steps as f64
+    }
+
+    #[inline(always)]
+    fn sample(&self, i: usize) -> N {
+        N::from_f64(self.record.samples()[i])
+            * N::from_f64(self.record.amplitude())
+    }
+}
+
+impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
+    fn pieces(&self) -> usize {
+        self.record.samples().len() - 1
+    }
+
+    fn start_s(&self, piece: usize) -> N {
+        N::from_f64(piece as f64) * N::from_f64(self.record.dt_s())
+    }
+
+    #[inline(always)]
+    fn length(&self, _piece: usize) -> N {
+        self.length
+    }
+
+    #[inline(always)]
+    fn steps(&self) -> usize {
+        self.steps
+    }
+
+    #[inline(always)]
+    fn series(&self, place: Place<N>) -> [N; 2] {
+        let here = self.sample(place.piece);
+        let next = self.sample(place.piece + 1);
+        let rate = (next - here) * self.inverse;
+        [rate.mul_add(place.offset, here), rate]
+    }
+
+    fn exceedance(
+        &self,
+        from: Place<N>,
+        threshold: N,
+    ) -> (Option<Exceedance<N>>, u64) {
+        let amplitude = self.record.amplitude().abs();
+        let samples = self.record.samples();
+        let bound = threshold.to_f64() * (1.0 - 1e-14);
+        let mut piece = from.piece;
+        let mut scanned = 0;
+        while piece < self.pieces() {
+            if let Some(next) = self.index.skip(piece, bound / amplitude) {
+                piece = next;
+                scanned += 1;
+                continue;
+            }
+            scanned += 1;
+            let peak = samples[piece].abs().max(samples[piece + 1].abs());
+            if peak * amplitude > bound {
+                let offset =
+                    if piece == from.piece { from.offset } else { N::zero() };
+                let found = self.within(Place { piece, offset }, threshold);
+                if found.is_some() {
+                    return (found, scanned);
+                }
+            }
+            piece += 1;
+        }
+        (None, scanned)
+    }
+}
+
+impl<N: Real> RecordForcing<'_, N> {
+    /// Exceedance within one interval, from an offset on.
+    fn within(&self, from: Place<N>, threshold: N) -> Option<Exceedance<N>> {
+        let here = self.series(from)[0];
+        if here.abs() > threshold {
+            let positive = here > N::zero();
+            // A crossing computed elsewhere may be off by rounding; from
+            // rest the block cannot be above the threshold inside an
+            // interval unless it crossed there.
+            let crossing = from.offset > N::zero();
+            return Some(Exceedance { place: from, positive, crossing });
+        }
+        let next = self.sample(from.piece + 1);
+        if !(next.abs() > threshold) {
+            return None;
+        }
+        let first = self.sample(from.piece);
+        let positive = next > N::zero();
+        let level = if positive { threshold } else { -threshold };
+        let share = (level - first) / (next - first);
+        let offset = share * self.length;
+        let offset = if offset > from.offset { offset } else { from.offset };
+        let place = Place { piece: from.piece, offset };
+        Some(Exceedance { place, positive, crossing: true })
+    }
+}
+
+/// A pulse: equal pieces of each smooth stretch.
+pub(crate) struct PulseForcing<N> {
+    pieces: Vec<PulsePiece<N>>,
+    p: N,
+}
+
+struct PulsePiece<N> {
+    start_s: N,
+    length: N,
+    shape: Shape,
+}
+
+impl<N: Real> PulseForcing<N> {
+    pub fn new(pulse: &Pulse, frequency_rad_s: f64) -> Self {
+        let p = N::from_f64(frequency_rad_s);
+        let mut pieces = Vec::new();
+        let mut start = 0.0;
+        for (end, shape) in pulse.stretches() {
+            let duration = end - start;
+            let rate = match shape {
+                Shape::Sines(sines) => sines
+                    .iter()
+                    .fold(0.0_f64, |most, s| most.max(s.rate_rad_s.abs())),
+                Shape::Line { .. } => 0.0,
+                // The Gaussian's series converges more slowly.
+                Shape::Gauss { rate, .. } => 2.0 * rate,
+            };
+            let by_block = duration * frequency_rad_s / LONGEST_STEP;
+            let by_phase = duration * rate / LONGEST_PHASE;
+            let count = libm::ceil(by_block.max(by_phase)).max(1.0);
+            let share = N::from_f64(duration) / N::from_f64(count);
+            for k in 0..count as usize {
+                pieces.push(PulsePiece {
+                    start_s: share
+                        .mul_add(N::from_f64(k as f64), N::from_f64(start)),
+                    length: share * p,
+                    shape,
+                });
+            }
+            start = end;
+        }
+        Self { pieces, p }
+    }
+}
+
+impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
+    fn pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    fn start_s(&self, piece: usize) -> N {
+        self.pieces[piece].start_s
+    }
+
+    fn length(&self, piece: usize) -> N {
+        self.pieces[piece].length
+    }
+
+    fn steps(&self) -> usize {
+        1
+    }
+
+    fn series(&self, place: Place<N>) -> [N; F] {
+        let piece = &self.pieces[place.piece];
+        let t = piece.start_s + place.offset / self.p;
+        shape_series(&piece.shape, t, self.p)
+    }
+
+    fn exceedance(
+        &self,
+        from: Place<N>,
+        threshold: N,
+    ) -> (Option<Exceedance<N>>, u64) {
+        let mut scanned = 0;
+        for piece in from.piece..self.pieces.len() {
+            scanned += 1;
+            let offset =
+                if piece == from.piece { from.offset } else { N::zero() };
+            let place = Place { piece, offset };
+            let series: [N; F] = self.series(place);
+            let above = series[0].abs() > threshold;
+            // At the very first instant, or after a jump, the block lifts
+            // at once; inside a smooth stretch rounding cannot jump.
+            if above {
+                let positive = series[0] > N::zero();
+                let crossing = offset > N::zero() || self.continues(piece);
+                let found = Exceedance { place, positive, crossing };
+                return (Some(found), scanned);
+            }
+            let left = self.pieces[piece].length - offset;
+            let mut first: Option<(N, bool)> = None;
+            for positive in [true, false] {
+                let mut gap = series;
+                for x in &mut gap {
+                    *x = if positive { -*x } else { *x };
+                }
+                gap[0] = gap[0] + threshold;
+                let Some(tau) = first_descent(&gap, left) else { continue };
+                // A touch is no exceedance.
+                let beyond = tau + left * N::from_f64(1e-6);
+                if tau < left && !(value(&gap, beyond) < N::zero()) {
+                    continue;
+                }
+                if first.is_none_or(|(best, _)| tau < best) {
+                    first = Some((tau, positive));
+                }
+            }
+            if let Some((tau, positive)) = first
+                && tau < left
+            {
+                let place = Place { piece, offset: offset + tau };
+                let found = Exceedance { place, positive, crossing: true };
+                return (Some(found), scanned);
+            }
+        }
+        (None, scanned)
+    }
+}
+
+impl<N: Real> PulseForcing<N> {
+    /// True where the piece goes on from the one before without a jump.
+    fn continues(&self, piece: usize) -> bool {
+        piece > 0
+    }
+}
+
+/// No ground motion: equal pieces of silence.
+pub(crate) struct Silence<N> {
+    pieces: usize,
+    start_s: N,
+    length: N,
+    p: N,
+}
+
+impl<N: Real> Silence<N> {
+    /// No piece at all: free motion is left to the closed form.
+    pub fn nothing() -> Self {
+        Self { pieces: 0, start_s: N::zero(), length: N::one(), p: N::one() }
+    }
+
+    /// Silence for stepping through the free motion from `start_s` on.
+    pub fn endless(start_s: N, p: N) -> Self {
+        let length = N::from_f64(LONGEST_STEP);
+        Self { pieces: usize::MAX, start_s, length, p }
+    }
+}
+
+impl<N: Real> Forcing<N, 1> for Silence<N> {
+    fn pieces(&self) -> usize {
+        self.pieces
+    }
+
+    fn start_s(&self, piece: usize) -> N {
+        let step = self.length / self.p;
+        N::from_f64(piece as f64).mul_add(step, self.start_s)
+    }
+
+    fn length(&self, _piece: usize) -> N {
+        self.length
+    }
+
+    fn steps(&self) -> usize {
+        1
+    }
+
+    fn series(&self, _place: Place<N>) -> [N; 1] {
+        [N::zero()]
+    }
+
+    fn exceedance(
+        &self,
+        _from: Place<N>,
+        _threshold: N,
+    ) -> (Option<Exceedance<N>>, u64) {
+        (None, 0)
+    }
+}
+
+/// Series of a shape about time `t` (s) in units of 1/p.
+fn shape_series<N: Real, const F: usize>(shape: &Shape, t: N, p: N) -> [N; F] {
+    let mut out = [N::zero(); F];
+    match shape {
+        Shape::Sines(sines) => {
+            for sine in sines.iter().filter(|s| s.amplitude != 0.0) {
+                let rate = N::from_f64(sine.rate_rad_s);
+                let angle = rate * t + N::from_f64(sine.phase_rad);
+                let (s, c) = angle.sin_cos();
+                let step = rate / p;
+                let mut term = N::from_f64(sine.amplitude);
+                for (k, x) in out.iter_mut().enumerate() {
+                    let derivative = match k % 4 {
+                        0 => s,
+                        1 => c,
+                        2 => -s,
+                        _ => -c,
+                    };
+                    *x = *x + term * derivative;
+                    term = term * step * N::ratio(1, k as i32 + 1);
+                }
+            }
+        }
+        Shape::Line { at_zero, slope } => {
+            let slope = N::from_f64(*slope);
+            out[0] = slope * t + N::from_f64(*at_zero);
+            if F > 1 {
+                out[1] = slope / p;
+            }
+        }
+        Shape::Gauss { scale, polynomial, rate, centre_s } => {
+            let rate = N::from_f64(*rate);
+            let x = rate * (t - N::from_f64(*centre_s));
+            let half = N::ratio(-1, 2);
+            // G' = -x G in the variable x.
+            let mut g = [N::zero(); F];
+            g[0] = (half * x * x).exp();
+            for k in 0..F - 1 {
+                let before = if k > 0 { g[k - 1] } else { N::zero() };
+                g[k + 1] = -(x * g[k] + before) * N::ratio(1, k as i32 + 1);
+            }
+            let q = polynomial.map(N::from_f64);
+            let three = N::from_f64(3.0);
+            let two = N::from_f64(2.0);
+            let about = [
+                q[0] + x * (q[1] + x * (q[2] + x * q[3])),
+                q[1] + x * (two * q[2] + three * x * q[3]),
+                q[2] + three * x * q[3],
+                q[3],
+            ];
+            let step = rate / p;
+            let mut power = N::from_f64(*scale);
+            for k in 0..F {
+                let mut sum = N::zero();
+                for (j, a) in about.iter().enumerate().take(k + 1) {
+                    sum = sum + *a * g[k - j];
+                }
+                out[k] = sum * power;
+                power = power * step;
+            }
+        }
+    }
+    out
+}

@@ -1,0 +1,203 @@
+//! Roots of a step's polynomial: isolated first, refined afterwards.
+//!
+//! Signs at the ends of a step say nothing about what happens inside: two
+//! impacts can lie within one sample. Sign variations of the Bernstein
+//! coefficients bound the number of roots (Descartes); where more than one is
+//! possible the interval is halved until each is alone.
+
+use crate::integrator::taylor::{slope, value};
+use crate::number::Real;
+
+/// Depth at which a pair of roots that halving could not tell apart counts
+/// as contact without crossing.
+const DEPTH: u32 = 48;
+
+/// Largest degree plus one of a polynomial here.
+const MOST: usize = 40;
+
+/// First tau in (0, length] at which the polynomial, positive just after 0,
+/// ceases to be positive.
+///
+/// Zero leading coefficients are divided out first: a step may start on the
+/// event (a simple zero after an impact, a triple one after an uplift). A
+/// polynomial that is not positive just after 0 has its root at 0.
+#[inline(always)]
+pub(crate) fn first_descent<N: Real>(c: &[N], length: N) -> Option<N> {
+    let start = c.iter().position(|x| *x != N::zero())?;
+    let c = &c[start..];
+    if !(c[0] > N::zero()) {
+        return Some(N::zero());
+    }
+    if surely_positive(c, length) {
+        return None;
+    }
+    isolate(c, length)
+}
+
+/// True where |c_1| L + |c_2| L^2 + ... cannot outweigh the terms that keep
+/// the polynomial positive.
+#[inline(always)]
+fn surely_positive<N: Real>(c: &[N], length: N) -> bool {
+    let mut rest = N::zero();
+    for k in (2..c.len()).rev() {
+        rest = rest.mul_add(length, c[k].abs());
+    }
+    if c.len() < 2 {
+        return true;
+    }
+    let falling = if c[1] < N::zero() { c[1] } else { N::zero() };
+    let low = falling.mul_add(length, c[0]);
+    low - rest * length * length > N::zero()
+}
+
+#[inline(never)]
+fn isolate<N: Real>(c: &[N], length: N) -> Option<N> {
+    let n = c.len() - 1;
+    // Bernstein coefficients on [0, length]:
+    // b_j = sum_{k<=j} C(j,k)/C(n,k) c_k length^k.
+    let mut scaled = [0.0; MOST];
+    let mut power = 1.0;
+    let length_f64 = length.to_f64();
+    let mut binomial = 1.0;
+    for k in 0..=n {
+        scaled[k] = c[k].to_f64() * power / binomial;
+        power *= length_f64;
+        binomial *= (n - k) as f64 / (k + 1) as f64;
+    }
+    // Repeated differences turn scaled powers into Bernstein coefficients.
+    let mut b = scaled;
+    for round in 1..=n {
+        for j in (round..=n).rev() {
+            b[j] += b[j - 1];
+        }
+    }
+    let b = &mut b[..=n];
+    search(b, 0.0, 1.0, DEPTH).and_then(|(low, high)| {
+        refine(c, length * N::from_f64(low), length * N::from_f64(high))
+    })
+}
+
+/// Leftmost isolating interval in units of the whole, positive at its left
+/// end.
+fn search(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
+    let variations = b
+        .iter()
+        .filter(|x| **x != 0.0)
+        .map(|x| x.is_sign_positive())
+        .fold((None, 0), |(last, count), sign| {
+            let changed = last.is_some_and(|before| before != sign);
+            (Some(sign), count + u32::from(changed))
+        })
+        .1;
+    let end = b[b.len() - 1];
+    if variations == 0 {
+        return (end == 0.0).then_some((low, high));
+    }
+    if variations == 1 {
+        // One crossing; positive on the left, so the right end is below.
+        return Some((low, high));
+    }
+    if depth == 0 {
+        return (!(end > 0.0)).then_some((low, high));
+    }
+    // De Casteljau at the middle.
+    let n = b.len() - 1;
+    let mut left = [0.0; MOST];
+    let mut right = [0.0; MOST];
+    right[..=n].copy_from_slice(b);
+    for (k, first) in left.iter_mut().enumerate().take(n + 1) {
+        *first = right[0];
+        for j in 0..n - k {
+            right[j] = 0.5 * (right[j] + right[j + 1]);
+        }
+    }
+    // `right[j]` now holds the diagonal from the middle to the end.
+    let middle = 0.5 * (low + high);
+    if let Some(found) = search(&left[..=n], low, middle, depth - 1) {
+        return Some(found);
+    }
+    search(&right[..=n], middle, high, depth - 1)
+}
+
+/// The root in [low, high] by Newton's iteration inside a bracket whose left
+/// end is positive.
+fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
+    let half = N::ratio(1, 2);
+    if value(c, high) > N::zero() {
+        // Isolation in double precision saw a contact that is none.
+        return None;
+    }
+    let mut tau = half * (low + high);
+    for _ in 0..200 {
+        let here = value(c, tau);
+        if here > N::zero() {
+            low = tau;
+        } else if here < N::zero() {
+            high = tau;
+        } else {
+            return Some(tau);
+        }
+        let step = here / slope(c, tau);
+        let next = tau - step;
+        let inside = next > low && next < high;
+        if inside && step.abs() <= tau.abs() * N::from_f64(N::NEWTON_STEP) {
+            return Some(next);
+        }
+        let width = high - low;
+        let next = if inside { next } else { half * (low + high) };
+        if !(width > high * N::from_f64(2.0 * N::ROUNDOFF)) {
+            return Some(high);
+        }
+        tau = next;
+    }
+    Some(tau)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_descent;
+
+    /// Coefficients of the product of (r - tau) for the roots given.
+    fn with_roots(roots: &[f64]) -> Vec<f64> {
+        let mut c = vec![1.0];
+        for r in roots {
+            let mut next = vec![0.0; c.len() + 1];
+            for (k, x) in c.iter().enumerate() {
+                next[k] += r * x;
+                next[k + 1] -= x;
+            }
+            c = next;
+        }
+        c
+    }
+
+    #[test]
+    fn finds_the_first_of_two_crossings_in_a_step() {
+        let c = with_roots(&[0.3, 0.31]);
+        let found = first_descent(&c, 1.0);
+        assert!((found.unwrap_or(9.0) - 0.3).abs() < 1e-14);
+        // Signs at the ends are equal: a test of the ends alone misses it.
+        assert!(c[0] > 0.0 && c.iter().sum::<f64>() > 0.0);
+    }
+
+    #[test]
+    fn finds_close_pairs_and_leaves_near_misses() {
+        let c = with_roots(&[0.5, 0.5 + 1e-6]);
+        let found = first_descent(&c, 1.0).unwrap_or(9.0);
+        assert!((found - 0.5).abs() < 1e-9, "{found}");
+        // (tau - 1/2)^2 + 1e-12 never vanishes.
+        assert_eq!(first_descent(&[0.25 + 1e-12, -1.0, 1.0], 1.0), None);
+    }
+
+    #[test]
+    fn deflates_a_start_on_the_event() {
+        // tau (0.7 - tau), tau^3 (0.7 - tau)
+        assert_eq!(first_descent(&[0.0, 0.5, -1.0], 1.0), Some(0.5));
+        let triple = first_descent(&[0.0, 0.0, 0.0, 0.25, -1.0], 1.0);
+        assert_eq!(triple, Some(0.25));
+        assert_eq!(first_descent(&[0.0, 0.5, -1.0], 0.4), None);
+        assert_eq!(first_descent(&[0.0, 0.5, -1.0], 0.5), Some(0.5));
+        assert_eq!(first_descent(&[0.0, -0.5, 1.0], 0.5), Some(0.0));
+        assert_eq!(first_descent(&[0.0, 0.0], 0.5), None);
+    }
+}

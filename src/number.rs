@@ -1,0 +1,189 @@
+//! Arithmetic that has the same bits everywhere.
+//!
+//! One trait for the few operations that the model needs, so that the same
+//! source runs in double precision and in others. There is no constructor
+//! from a rounded constant: inputs enter by [`Number::from_f64`], exactly,
+//! and coefficients by [`Number::ratio`], rounded in the type's own
+//! precision.
+
+pub mod dispatch;
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// Arithmetic of the step kernels: no comparison, no branch.
+pub trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// The number that `x` is, exactly.
+    fn from_f64(x: f64) -> Self;
+
+    /// The quotient `i / j`, rounded in this type's precision.
+    fn ratio(i: i32, j: i32) -> Self;
+
+    /// `self * b + c` with one rounding where the type has one.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+
+    /// Sine and cosine of an angle in [0, pi/4] or a little beyond.
+    fn sin_cos_small(self) -> (Self, Self);
+
+    /// Zero.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+
+    /// One.
+    #[inline(always)]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+}
+
+/// A scalar: comparison and the elementary functions on top of arithmetic.
+pub trait Real: Number + PartialOrd + std::fmt::Debug {
+    /// Half the distance from 1 to the next number: the unit roundoff.
+    const ROUNDOFF: f64;
+
+    /// Relative step at which Newton's iteration, which squares it, is done.
+    const NEWTON_STEP: f64;
+
+    /// Nearest double.
+    fn to_f64(self) -> f64;
+
+    /// Square root.
+    fn sqrt(self) -> Self;
+
+    /// Absolute value.
+    fn abs(self) -> Self;
+
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// Exponential.
+    fn exp(self) -> Self;
+
+    /// Natural logarithm of 1 + x.
+    fn ln_1p(self) -> Self;
+
+    /// Arc sine.
+    fn asin(self) -> Self;
+
+    /// pi/2.
+    fn right_angle() -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+
+    #[inline(always)]
+    fn ratio(i: i32, j: i32) -> Self {
+        f64::from(i) / f64::from(j)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        f64::mul_add(self, b, c)
+    }
+
+    #[inline(always)]
+    fn sin_cos_small(self) -> (Self, Self) {
+        sin_cos_polynomials(self)
+    }
+}
+
+/// Sine and cosine on [-pi/4, pi/4] by minimax polynomials (coefficients of
+/// FreeBSD's `k_sin` and `k_cos`), explicit fused operations, no branch:
+/// below one unit in the last place.
+#[inline(always)]
+fn sin_cos_polynomials<N: Number>(x: N) -> (N, N) {
+    const SINE: [f64; 6] = [
+        -1.666_666_666_666_663_2e-1,
+        8.333_333_333_322_49e-3,
+        -1.984_126_982_985_795e-4,
+        2.755_731_370_707_006_8e-6,
+        -2.505_076_025_340_686_3e-8,
+        1.589_690_995_211_55e-10,
+    ];
+    const COSINE: [f64; 6] = [
+        4.166_666_666_666_66e-2,
+        -1.388_888_888_887_411e-3,
+        2.480_158_728_947_673e-5,
+        -2.755_731_435_139_066_3e-7,
+        2.087_572_321_298_175e-9,
+        -1.135_964_755_778_819_5e-11,
+    ];
+    let z = x * x;
+    let mut s = N::from_f64(SINE[5]);
+    let mut c = N::from_f64(COSINE[5]);
+    for k in (0..5).rev() {
+        s = s.mul_add(z, N::from_f64(SINE[k]));
+        c = c.mul_add(z, N::from_f64(COSINE[k]));
+    }
+    let half = z * N::from_f64(0.5);
+    let sine = (s * z).mul_add(x, x);
+    let cosine = (c * z).mul_add(z, N::one() - half);
+    (sine, cosine)
+}
+
+impl Real for f64 {
+    const ROUNDOFF: f64 = 0.5 * f64::EPSILON;
+    const NEWTON_STEP: f64 = 1e-8;
+
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        (libm::sin(self), libm::cos(self))
+    }
+
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+
+    fn ln_1p(self) -> Self {
+        libm::log1p(self)
+    }
+
+    fn asin(self) -> Self {
+        libm::asin(self)
+    }
+
+    fn right_angle() -> Self {
+        std::f64::consts::FRAC_PI_2
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Number;
+
+    #[test]
+    fn short_sine_and_cosine_are_good_to_an_ulp() {
+        for k in 0..=10_000 {
+            let x = f64::from(k) * 0.8e-4;
+            let (s, c) = x.sin_cos_small();
+            assert!((s - libm::sin(x)).abs() <= f64::EPSILON * x.max(1e-300));
+            assert!((c - libm::cos(x)).abs() <= f64::EPSILON);
+        }
+    }
+}

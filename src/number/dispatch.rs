@@ -1,0 +1,110 @@
+//! Run-time choice of the instruction set.
+//!
+//! Every fused multiply-add in a result path is explicit, so all levels give
+//! the same bits; the level decides the speed alone (a fused operation is a
+//! library call where the instruction set has none). An [`Isa`] is made by
+//! detection only, which is what makes the `unsafe` calls here sound. This is
+//! the only file of the crate with `unsafe`.
+#![expect(
+    unsafe_code,
+    reason = "calling a #[target_feature] function is unsafe; detection makes it sound"
+)]
+
+/// An instruction-set level that this machine was found to have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Isa(Level);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Baseline,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+/// A piece of work that [`Isa::run`] compiles once for each level.
+///
+/// Everything that `run` calls on its hot path must be `#[inline(always)]`:
+/// code that is not inlined keeps the baseline instruction set.
+pub trait Work {
+    /// What the work gives.
+    type Output;
+
+    /// Does the work.
+    fn run(self) -> Self::Output;
+}
+
+impl Isa {
+    /// Levels that this machine has, the baseline first.
+    #[must_use]
+    pub fn available() -> Vec<Isa> {
+        #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut))]
+        let mut levels = vec![Isa(Level::Baseline)];
+        #[cfg(target_arch = "x86_64")]
+        {
+            let avx2 = std::arch::is_x86_feature_detected!("avx2")
+                && std::arch::is_x86_feature_detected!("fma");
+            if avx2 {
+                levels.push(Isa(Level::Avx2));
+            }
+            if avx2
+                && std::arch::is_x86_feature_detected!("avx512f")
+                && std::arch::is_x86_feature_detected!("avx512vl")
+                && std::arch::is_x86_feature_detected!("avx512dq")
+            {
+                levels.push(Isa(Level::Avx512));
+            }
+        }
+        levels
+    }
+
+    /// The best level that this machine has.
+    #[must_use]
+    pub fn best() -> Isa {
+        use std::sync::OnceLock;
+        static BEST: OnceLock<Isa> = OnceLock::new();
+        *BEST.get_or_init(|| {
+            Self::available().pop().unwrap_or(Isa(Level::Baseline))
+        })
+    }
+
+    /// The level's name: `baseline`, `avx2` or `avx512`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Level::Baseline => "baseline",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx512 => "avx512",
+        }
+    }
+
+    /// Runs `work` with this level's instructions.
+    #[inline]
+    pub fn run<W: Work>(self, work: W) -> W::Output {
+        match self.0 {
+            Level::Baseline => work.run(),
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: an `Isa` of this level exists only where detection
+            // found the features.
+            Level::Avx2 => unsafe { avx2(work) },
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            Level::Avx512 => unsafe { avx512(work) },
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn avx2<W: Work>(work: W) -> W::Output {
+    work.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
+fn avx512<W: Work>(work: W) -> W::Output {
+    work.run()
+}

@@ -316,6 +316,14 @@ impl<'s> Panel<'s> {
         if self.empty {
             let middle = ((f.left + f.right) / 2.0, (f.top + f.bottom) / 2.0);
             let words = TextLine::new(self.reason, middle, Horizontal::Centre);
+            let around = words.extent();
+            let backing = Rect {
+                left: around.left - 6.0,
+                right: around.right + 6.0,
+                top: around.top - 4.0,
+                bottom: around.bottom + 4.0,
+            };
+            self.scene.area(&backing.corners(), Fill::solid(Ink::Paper));
             self.scene.text(words.ink(Ink::Muted));
         }
         self.axis_lines();

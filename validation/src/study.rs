@@ -4,9 +4,12 @@
 pub mod analyses;
 pub mod capacities;
 pub mod choice;
+pub mod distributions;
+pub mod figures;
 pub mod findings;
 pub mod grid;
 pub mod histories;
+pub mod normality;
 pub mod output;
 pub mod runs;
 pub mod stripes;
@@ -16,6 +19,9 @@ use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
 use rocking::integrator::SceneError;
 use rocking::record::{AccelerogramError, SuiteError};
+use rocking::statistics::SampleError;
+use rocking::statistics::boxplot::BoxplotError;
+use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
 /// Why a study could not be done.
@@ -37,6 +43,15 @@ pub enum StudyError {
     /// A curve that cannot be inverted.
     #[error(transparent)]
     Capacity(#[from] CapacityError),
+    /// A sample without values, or with one that is not a number.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// A quantile that does not exist.
+    #[error(transparent)]
+    Quantile(#[from] QuantileError),
+    /// A box that reaches infinity.
+    #[error(transparent)]
+    Boxplot(#[from] BoxplotError),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,

@@ -1,0 +1,177 @@
+//! The paper's figures, filled from the analyses.
+
+mod distributions;
+mod fragilities;
+mod quantiles;
+mod ratios;
+mod single;
+
+use super::StudyError;
+use super::analyses::{Plan, SuiteResults};
+use super::distributions::Distributions;
+use crate::figures::data::{
+    AcceptedShares, Arm, BlockSketch, Boxplots, ByConstant, Capacities,
+    Fragilities, Heading, Histories, IdaCurves, Quantiles, TestsAlongDemand,
+};
+
+/// Everything that the figures are made of.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// What was run.
+    pub plan: Plan,
+    /// The ordinary suite.
+    pub ordinary: SuiteResults,
+    /// The pulse-type suite.
+    pub pulse: SuiteResults,
+    /// Capacity samples: suites, arms, measures.
+    pub distributions: Vec<Distributions>,
+}
+
+/// What a figure shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// Figure 1.
+    Sketch(BlockSketch),
+    /// Figures 2 and 3.
+    Histories(Histories),
+    /// Figures 4 and 5.
+    IdaCurves(IdaCurves),
+    /// Figures 6, 7 and 9.
+    Boxplots(Boxplots),
+    /// Figures 8 and 10.
+    Quantiles(Quantiles),
+    /// Figure 11.
+    Capacities(Capacities),
+    /// Figures 12 and 14.
+    AcceptedShares(AcceptedShares),
+    /// Figure 13.
+    TestsAlongDemand(TestsAlongDemand),
+    /// Figures 15 to 17.
+    Fragilities(Fragilities),
+    /// Figure 18.
+    ByConstant(ByConstant),
+}
+
+/// A figure and the sentence that says what one sees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What it shows.
+    pub content: Content,
+    /// What one sees, in one sentence made from the numbers.
+    pub reading: String,
+}
+
+impl Figure {
+    /// Name, title, description.
+    #[must_use]
+    pub fn heading(&self) -> &Heading {
+        match &self.content {
+            Content::Sketch(f) => &f.heading,
+            Content::Histories(f) => &f.heading,
+            Content::IdaCurves(f) => &f.heading,
+            Content::Boxplots(f) => &f.heading,
+            Content::Quantiles(f) => &f.heading,
+            Content::Capacities(f) => &f.heading,
+            Content::AcceptedShares(f) => &f.heading,
+            Content::TestsAlongDemand(f) => &f.heading,
+            Content::Fragilities(f) => &f.heading,
+            Content::ByConstant(f) => &f.heading,
+        }
+    }
+
+    /// The numbers behind it.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        match &self.content {
+            Content::Sketch(f) => f.csv(),
+            Content::Histories(f) => f.csv(),
+            Content::IdaCurves(f) => f.csv(),
+            Content::Boxplots(f) => f.csv(),
+            Content::Quantiles(f) => f.csv(),
+            Content::Capacities(f) => f.csv(),
+            Content::AcceptedShares(f) => f.csv(),
+            Content::TestsAlongDemand(f) => f.csv(),
+            Content::Fragilities(f) => f.csv(),
+            Content::ByConstant(f) => f.csv(),
+        }
+    }
+}
+
+impl Results {
+    /// Figures 1 to 18, in order; those of the grid's arms once for each arm
+    /// drawn.
+    ///
+    /// # Errors
+    /// [`StudyError`] where a curve cannot be read.
+    pub fn figures(&self) -> Result<Vec<Figure>, StudyError> {
+        let drawn = self.plan.drawn();
+        let mut out = vec![single::sketch()];
+        for suite in [&self.ordinary, &self.pulse] {
+            out.push(single::histories(suite, self.plan.common()));
+        }
+        for suite in [&self.ordinary, &self.pulse] {
+            out.push(single::curves(suite, self.plan.common())?);
+        }
+        for number in [6, 7] {
+            for arm in &drawn {
+                out.extend(ratios::slendernesses(
+                    &self.ordinary,
+                    *arm,
+                    number,
+                )?);
+            }
+        }
+        for arm in &drawn {
+            out.push(quantiles::slendernesses(&self.ordinary, *arm)?);
+        }
+        for arm in &drawn {
+            out.extend(ratios::adjusted(&self.ordinary, *arm)?);
+        }
+        for arm in &drawn {
+            out.push(quantiles::adjusted(&self.ordinary, *arm)?);
+        }
+        let one = self.plan.common();
+        out.push(distributions::inverted(self, one)?);
+        out.push(distributions::shares(self, 12)?);
+        for arm in &drawn {
+            out.push(distributions::along(self, *arm)?);
+        }
+        out.push(distributions::shares(self, 14)?);
+        for number in [15, 16, 17] {
+            out.push(fragilities::thresholds(self, one, number)?);
+        }
+        out.push(fragilities::constants(self, one)?);
+        Ok(out)
+    }
+
+    /// The suite of that kind.
+    #[must_use]
+    pub fn suite(&self, kind: &str) -> &SuiteResults {
+        if kind == self.pulse.kind { &self.pulse } else { &self.ordinary }
+    }
+}
+
+/// Name of a figure, with the arm's letter where both arms have one.
+fn name(number: u32, arm: Option<Arm>) -> String {
+    match arm {
+        Some(arm) => {
+            format!("figure-{number:02}-{}", arm.letter().to_lowercase())
+        }
+        None => format!("figure-{number:02}"),
+    }
+}
+
+/// Percent with one decimal, for sentences.
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Least and largest of some numbers, those that are not finite left out.
+fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.filter(|x| x.is_finite()).fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(low, high), x| {
+            (if x < low { x } else { low }, if x > high { x } else { high })
+        },
+    )
+}

@@ -19,6 +19,7 @@
 pub mod block;
 pub mod capacity;
 pub mod excitation;
+pub mod ida;
 pub mod fragility;
 pub mod integrator;
 pub mod number;

@@ -23,7 +23,7 @@ pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
 pub use suite::{
     PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
-    folder_files, is_index,
+    Survey, folder_files, is_index,
 };
 
 use crate::units::{self, AccelerationUnit};
@@ -147,6 +147,11 @@ pub fn read_all(
     if !(gravity > 0.0 && gravity.is_finite()) {
         return Err(Fault::Gravity(gravity).whole(file));
     }
+    if let Some(dt_s) = options.dt_s
+        && !(dt_s > 0.0 && dt_s.is_finite())
+    {
+        return Err(Fault::Interval(dt_s.to_string()).whole(file));
+    }
     let content = text::decode(file, bytes)?;
     let text = Text::new(file, &content)?;
     let (format, channels) = if resorce::recognises(&text) {
@@ -196,7 +201,7 @@ fn unknown(text: &Text<'_>) -> RecordError {
 }
 
 /// Name of the file at `path`, without its folder.
-fn decode_name(path: &Path) -> String {
+fn name_of(path: &Path) -> String {
     path.file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
@@ -248,3 +253,6 @@ fn complete(
     let channel = channel.label;
     Ok(Record { accelerogram, format, unit, unit_stated, channel })
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,11 +4,14 @@
 //! fits, tests of normality, paired comparison and the bootstrap. A sample is
 //! checked once, when it is made; what takes one relies on it.
 
+pub mod bootstrap;
 pub mod boxplot;
 pub mod lilliefors;
 pub mod lognormal;
+pub mod multiple;
 pub mod normal;
 pub mod normality;
+pub mod paired;
 pub mod quantile;
 pub mod sample;
 

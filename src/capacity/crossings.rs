@@ -109,8 +109,15 @@ impl ResponseCurve {
         for pair in self.vertices.windows(2) {
             let (a, b) = (pair[0], pair[1]);
             if (a.edp >= level) != (b.edp >= level) {
-                let share = (level - a.edp) / (b.edp - a.edp);
-                crossings.push(f64::mul_add(share, b.im - a.im, a.im));
+                // A vertex on the level is its crossing, unrounded.
+                crossings.push(if level == a.edp {
+                    a.im
+                } else if level == b.edp {
+                    b.im
+                } else {
+                    let share = (level - a.edp) / (b.edp - a.edp);
+                    f64::mul_add(share, b.im - a.im, a.im)
+                });
             }
         }
         if crossings.len() % 2 == 0 {

@@ -67,8 +67,9 @@ fn unit(
         return match AccelerationUnit::parse(named) {
             Some(unit) => Ok(Some(unit)),
             None => {
+                let rest = line[end..].trim_start();
                 let fault = Fault::Unit(excerpt(named));
-                Err(text.at(index, end, fault))
+                Err(text.at(index, line.len() - rest.len(), fault))
             }
         };
     }

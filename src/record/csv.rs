@@ -102,6 +102,19 @@ fn step(
             !((times[i] - (start + i as f64 * dt)).abs() <= 2.0 * allowed)
         })
     };
+    // Times without a rounding error, however few decimals they have.
+    let first = times[1] - start;
+    let exact = |i: usize| {
+        let off = times[i] - (start + i as f64 * first);
+        off.abs() <= 1e-9 * first
+    };
+    if (1..times.len()).all(exact) && first > 0.0 {
+        return Ok(if (written - first).abs() <= 1e-9 * first {
+            written
+        } else {
+            first
+        });
+    }
     if !(mean > 0.0 && allowed < 0.25 * mean) {
         let fault = Fault::Interval(format!("{mean}"));
         return Err(text.on_line(lines_of[1], fault));
@@ -110,15 +123,14 @@ fn step(
         return Ok(written);
     }
     let uneven = (1..times.len()).find(|&i| {
-        !((times[i] - times[i - 1] - (times[1] - start)).abs()
-            <= 4.0 * allowed)
+        !((times[i] - times[i - 1] - first).abs() <= 4.0 * allowed)
     });
     match uneven.or_else(|| off(mean)) {
         None => Ok(mean),
         Some(i) => {
             let fault = Fault::Step {
                 found_s: times[i],
-                expected_s: times[i - 1] + (times[1] - start),
+                expected_s: times[i - 1] + first,
             };
             Err(text.on_line(lines_of[i], fault))
         }

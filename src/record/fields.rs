@@ -125,10 +125,10 @@ impl Line<'_, '_> {
             let field = field.unwrap_or("");
             let found = field.trim_start_matches(' ');
             let expected = || format!("a number of {width} characters");
+            let byte = start + field.len() - found.len();
             if field.len() < width {
-                return Err(self.refuse(start, found, expected()));
+                return Err(self.refuse(byte, found, expected()));
             }
-            let byte = start + width - found.len();
             samples.push(self.number(byte, found, expected)?);
         }
         Ok(())

@@ -2,108 +2,22 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
-
+mod error;
 mod index;
 mod pairing;
+mod survey;
 
-use super::{Accelerogram, Fault, Format, ReadOptions, RecordError};
-use super::{bytes_of, decode_name, read};
+pub use error::SuiteError;
+pub use survey::{Survey, folder_files};
+
+use super::{Accelerogram, Format, ReadOptions, RecordError};
+use crate::units::AccelerationUnit;
 
 /// Relative difference allowed between an index's PGA or PGV and the
 /// record's.
 pub const PEAK_TOLERANCE: f64 = 1e-4;
-
-/// A suite that was refused.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum SuiteError {
-    /// The folder or index could not be read.
-    #[error("{path}: cannot be read: {reason}")]
-    Unreadable {
-        /// Folder or index.
-        path: String,
-        /// What the system said.
-        reason: String,
-    },
-    /// A record was refused.
-    #[error(transparent)]
-    Record(#[from] RecordError),
-    /// There is no record in it.
-    #[error(
-        "{path}: no readable record in it: expected at least one (files: {files})"
-    )]
-    Empty {
-        /// Folder or index.
-        path: String,
-        /// Number of files or rows looked at.
-        files: usize,
-    },
-    /// An index without a column `file`, or a row that does not fit.
-    #[error("{path}:{line}: {found:?}: expected {expected}")]
-    Index {
-        /// The index.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: String,
-    },
-    /// A record that is not what its row in the index says.
-    #[error(
-        "{path}:{line}: {file} has {quantity} {found}: expected {expected}, which the index states"
-    )]
-    Mismatch {
-        /// The index.
-        path: String,
-        /// Line, counted from 1.
-        line: usize,
-        /// The record.
-        file: String,
-        /// Column of the index.
-        quantity: &'static str,
-        /// Value of the record.
-        found: String,
-        /// Value of the index.
-        expected: String,
-    },
-    /// An index with checksums, and nothing to compute them with.
-    #[error(
-        "{path}: the index has sha256 sums: expected a function that computes them"
-    )]
-    Unverifiable {
-        /// The index.
-        path: String,
-    },
-    /// Two records that results could not tell apart.
-    #[error(
-        "{path}: two records are named {name:?}: expected different names"
-    )]
-    SameName {
-        /// Folder or index.
-        path: String,
-        /// The name.
-        name: String,
-    },
-    /// A pair without exactly one study component, or of more than two.
-    #[error(
-        "{path}: pair {pair:?} has {components} components, {study} for the study: expected at most 2, and 1 for the study"
-    )]
-    Pair {
-        /// Folder or index.
-        path: String,
-        /// The pair.
-        pair: String,
-        /// Number of components.
-        components: usize,
-        /// How many of them are marked for the study.
-        study: usize,
-    },
-}
 
 /// Who chose the component of each pair that a study uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,6 +49,8 @@ pub struct SuiteMember {
     pub file: String,
     /// Format of the file.
     pub format: Format,
+    /// Unit in which the file is written.
+    pub unit: AccelerationUnit,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
@@ -181,15 +97,7 @@ impl Suite {
         path: &Path,
         options: &SuiteOptions,
     ) -> Result<Self, SuiteError> {
-        if path.is_dir() {
-            return Self::from_folder(path, options);
-        }
-        let bytes = bytes_of(path)?;
-        let shown = path.display().to_string();
-        let base = path.parent().unwrap_or(Path::new(""));
-        Self::from_index(&shown, &bytes, options, |file| {
-            bytes_of(&base.join(file))
-        })
+        Survey::read(path, options)?.into_suite()
     }
 
     /// Reads a suite from the bytes of an index and a function that gives
@@ -218,75 +126,9 @@ impl Suite {
         path: &str,
         bytes: &[u8],
         options: &SuiteOptions,
-        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        let index = index::Index::parse(path, bytes)?;
-        let mut members = Vec::with_capacity(index.rows().len());
-        for row in index.rows() {
-            let content = file_bytes(row.file())?;
-            members.push(row.member(&content, options)?);
-        }
-        let study_rule = if index.has("study_component") {
-            StudyRule::Index
-        } else {
-            StudyRule::FirstName
-        };
-        let paired = index.has("pair");
-        Self::assemble(path, members, study_rule, paired, Vec::new())
-    }
-
-    fn from_folder(
-        path: &Path,
-        options: &SuiteOptions,
-    ) -> Result<Self, SuiteError> {
-        let shown = path.display().to_string();
-        let mut members = Vec::new();
-        let mut ignored = Vec::new();
-        for file in folder_files(path)? {
-            let name = decode_name(&file);
-            let bytes = bytes_of(&file)?;
-            let shown = file.display().to_string();
-            match read(&shown, &bytes, &options.read) {
-                Ok(record) => members.push(SuiteMember {
-                    accelerogram: record.accelerogram,
-                    file: name,
-                    format: record.format,
-                    pair: None,
-                    study_component: false,
-                    attributes: BTreeMap::new(),
-                }),
-                Err(error) if is_no_record(&error) => ignored.push(error),
-                Err(error) => return Err(error.into()),
-            }
-        }
-        let rule = StudyRule::FirstName;
-        Self::assemble(&shown, members, rule, false, ignored)
-    }
-
-    /// Finds pairs and study components where none were given, and checks
-    /// what was given.
-    fn assemble(
-        path: &str,
-        mut members: Vec<SuiteMember>,
-        study_rule: StudyRule,
-        paired: bool,
-        ignored: Vec<RecordError>,
-    ) -> Result<Self, SuiteError> {
-        let path_owned = || path.to_owned();
-        if members.is_empty() {
-            let files = ignored.len();
-            return Err(SuiteError::Empty { path: path_owned(), files });
-        }
-        pairing::check_names(path, &members)?;
-        if !paired {
-            pairing::pair_by_name(&mut members);
-        }
-        if study_rule == StudyRule::FirstName {
-            pairing::mark_first(&mut members);
-        }
-        pairing::check_pairs(path, &members)?;
-        let name = super::stem(path.trim_end_matches('/')).to_owned();
-        Ok(Self { name, members, study_rule, ignored })
+        Survey::of_index(path, bytes, options, file_bytes)?.into_suite()
     }
 
     /// Name of the folder or index, without its ending.
@@ -338,39 +180,11 @@ impl Suite {
     }
 }
 
-/// Whether a file is no acceleration record at all, against one with a
-/// fault.
-fn is_no_record(error: &RecordError) -> bool {
-    matches!(
-        error.fault(),
-        Fault::UnknownFormat { .. }
-            | Fault::NotText { .. }
-            | Fault::Quantity(_)
-    )
-}
-
-/// Files of a folder by name, hidden ones and folders left out.
-///
-/// # Errors
-/// [`SuiteError::Unreadable`] for a folder that cannot be listed.
-pub fn folder_files(path: &Path) -> Result<Vec<PathBuf>, SuiteError> {
-    let fail = |error: std::io::Error| SuiteError::Unreadable {
-        path: path.display().to_string(),
-        reason: error.to_string(),
-    };
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(path).map_err(fail)? {
-        let file = entry.map_err(fail)?.path();
-        if file.is_file() && !decode_name(&file).starts_with('.') {
-            files.push(file);
-        }
-    }
-    files.sort();
-    Ok(files)
-}
-
 /// Whether the content is an index: its first line has a column `file`.
 #[must_use]
 pub fn is_index(bytes: &[u8]) -> bool {
     index::is_index(bytes)
 }
+
+#[cfg(test)]
+mod tests;

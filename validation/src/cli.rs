@@ -1,11 +1,17 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
+mod validate;
+
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+pub mod records;
 pub mod boxplot;
+pub mod capacities;
+pub mod compare;
+pub mod fragility;
 pub mod lilliefors;
 pub mod quantile;
 pub mod samples;
@@ -20,9 +26,15 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Records(records::Args),
     Boxplot(boxplot::Args),
+    Capacities(capacities::Args),
+    Compare(compare::Args),
+    Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
+    /// Runs the declared cases and writes or checks their results.
+    Validate(validate::Args),
 }
 
 /// A command that did not do what it was asked: what is printed, and the
@@ -85,9 +97,14 @@ pub fn print(text: &str) -> Result<(), Failure> {
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
+        Command::Records(args) => records::run(&args),
         Command::Boxplot(args) => boxplot::run(&args),
+        Command::Capacities(args) => capacities::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),
+        Command::Validate(args) => validate::run(&args),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

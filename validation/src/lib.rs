@@ -2,9 +2,17 @@
 //!
 //! Everything here stands on the core's public interface alone.
 
+pub mod cases;
 pub mod cli;
+pub mod drawing;
 pub mod figures;
+pub mod engine;
 pub mod files;
+pub mod inputs;
 pub mod json;
 pub mod study;
 pub mod synthesis;
+pub mod methods;
+pub mod naive;
+pub mod scene;
+pub mod verdict;

@@ -221,6 +221,7 @@ impl Row {
             accelerogram: record.accelerogram,
             file: self.file.clone(),
             format: record.format,
+            unit: record.unit,
             pair: self.cell("pair").map(str::to_owned),
             study_component,
             attributes,

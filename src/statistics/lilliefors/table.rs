@@ -138,7 +138,7 @@ impl Table {
         n: usize,
         d: f64,
     ) -> Result<PValue, LillieforsError> {
-        if !(d > 0.0) {
+        if d.is_nan() || d <= 0.0 {
             return Err(LillieforsError::Statistic(d));
         }
         let column = self.column(n)?;

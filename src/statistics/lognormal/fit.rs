@@ -147,7 +147,7 @@ pub fn fit(
             let at = |p| finite_quantile(sample, quantile_type, p);
             let (x16, x50, x84) = (at(0.16)?, at(0.5)?, at(0.84)?);
             let beta = 0.5 * log((x84 - shift) / (x16 - shift));
-            if !(beta > 0.0) {
+            if beta.is_nan() || beta <= 0.0 {
                 return Err(FitError::Degenerate);
             }
             (log(x50 - shift), beta, y.len())

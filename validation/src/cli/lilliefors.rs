@@ -40,13 +40,13 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
     /// Test the logarithms of the values.
-    #[arg(long, requires = "sample")]
+    #[arg(long, conflicts_with_all = ["critical_values", "write_table"])]
     log: bool,
     /// Test the logarithms of the values above this shift (implies --log).
     #[arg(
         long,
         value_name = "X",
-        requires = "sample",
+        conflicts_with_all = ["critical_values", "write_table"],
         allow_negative_numbers = true
     )]
     shift: Option<f64>,
@@ -54,7 +54,7 @@ pub struct Args {
     #[arg(long, requires = "n")]
     critical_values: bool,
     /// Size of the samples.
-    #[arg(long, requires = "critical_values")]
+    #[arg(long, conflicts_with_all = ["sample", "write_table"])]
     n: Option<usize>,
     /// Level of the test.
     #[arg(
@@ -282,10 +282,9 @@ fn report(
         });
         return print(&format!("{out:#}\n"));
     }
-    let mut text = format!(
-        "values              {n}, {} distinct\n",
-        distinct.map_or("unknown".to_owned(), |d| d.to_string())
-    );
+    let mut text = format!("values              {n}");
+    text += &distinct.map_or(String::new(), |d| format!(", {d} distinct"));
+    text += "\n";
     if let (Some(s), Some(p)) = (statistic, p) {
         text += &format!(
             "Lilliefors D        {:.6} (D+ {:.6}, D- {:.6})\n\

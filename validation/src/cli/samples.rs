@@ -33,6 +33,16 @@ pub enum SampleFileError {
         /// The line's text.
         found: String,
     },
+    /// A value below zero where ratios are formed.
+    #[error("{}:{line}: found {found}: expected a number, not negative", path.display())]
+    Negative {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: usize,
+        /// The value.
+        found: f64,
+    },
     /// The values make no sample of the kind needed.
     #[error("{}{}: {source}", path.display(), line.map_or(String::new(), |l| format!(":{l}")))]
     Sample {
@@ -86,18 +96,6 @@ impl SampleFile {
         &self.values
     }
 
-    /// Number of the line that the value of this place stands on.
-    #[must_use]
-    pub fn line(&self, index: usize) -> Option<usize> {
-        self.lines.get(index).copied()
-    }
-
-    /// The file's path.
-    #[must_use]
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     /// The values as a finite sample.
     ///
     /// # Errors
@@ -114,13 +112,30 @@ impl SampleFile {
         ExtendedSample::try_new(&self.values).map_err(|e| self.refuse(e))
     }
 
+    /// The values in the order of the lines, none negative.
+    ///
+    /// # Errors
+    /// [`SampleFileError::Negative`] for a negative value,
+    /// [`SampleFileError::Sample`] for no value.
+    pub fn values_not_negative(&self) -> Result<&[f64], SampleFileError> {
+        self.extended()?;
+        match self.values.iter().position(|&x| x < 0.0) {
+            None => Ok(&self.values),
+            Some(i) => Err(SampleFileError::Negative {
+                path: self.path.clone(),
+                line: self.lines[i],
+                found: self.values[i],
+            }),
+        }
+    }
+
     fn refuse(&self, source: SampleError) -> SampleFileError {
         let number = match source {
             SampleError::NotFinite { number, .. }
             | SampleError::NotExtended { number, .. } => Some(number),
             _ => None,
         };
-        let line = number.and_then(|n| self.line(n - 1));
+        let line = number.and_then(|n| self.lines.get(n - 1).copied());
         SampleFileError::Sample { path: self.path.clone(), line, source }
     }
 }

@@ -109,7 +109,7 @@ impl Intensity {
 }
 
 /// The letter of a panel: a, b, c and so on.
-fn letter(panel: usize) -> String {
+pub(super) fn letter(panel: usize) -> String {
     let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i));
     match letter {
         Some(c) if c.is_ascii_lowercase() => char::from(c).to_string(),

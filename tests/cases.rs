@@ -1,0 +1,121 @@
+//! One trial for every declared case, its kind in the name, and trials that
+//! fail when something declared goes untested.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use rocking_validation::cases::{Case, Cost, FAMILIES, load_all};
+use rocking_validation::methods::{METHODS, WRONG_MODELS};
+use rocking_validation::verdict::run_case;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    let cases = match load_all() {
+        Ok(cases) => cases,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let mut trials = coverage(&cases);
+    trials.extend(
+        cases.into_iter().filter(|case| case.cost == Cost::Quick).map(trial),
+    );
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+fn trial(case: Case) -> Trial {
+    let kind = case.kind.name();
+    Trial::test(case.id.clone(), move || {
+        let outcome = run_case(&case);
+        if outcome.verdict.is_accepted() {
+            return Ok(());
+        }
+        let mut text = format!("{}: {}", case.claim, outcome.verdict.name());
+        for message in &outcome.messages {
+            text.push_str("\n- ");
+            text.push_str(message);
+        }
+        Err(Failed::from(text))
+    })
+    .with_kind(kind)
+}
+
+fn coverage(cases: &[Case]) -> Vec<Trial> {
+    let mut trials = Vec::new();
+    let mut add = |name: &str, missing: Vec<String>| {
+        let name = format!("coverage/{name}");
+        trials.push(Trial::test(name, move || {
+            if missing.is_empty() {
+                Ok(())
+            } else {
+                Err(Failed::from(missing.join("\n")))
+            }
+        }));
+    };
+    let used = |get: fn(&Case) -> Vec<String>| -> BTreeSet<String> {
+        cases.iter().flat_map(get).collect()
+    };
+    let methods = used(|case| vec![case.method.clone()]);
+    add("every-method-has-a-case", {
+        let unused =
+            METHODS.iter().filter(|(name, _)| !methods.contains(*name));
+        unused.map(|(name, _)| format!("no case uses `{name}`")).collect()
+    });
+    add("every-case-has-a-method", {
+        let known = |name: &&String| METHODS.iter().all(|(m, _)| m != name);
+        methods.iter().filter(known).map(|m| format!("no `{m}`")).collect()
+    });
+    let rejected = used(|case| case.tolerance.reject.clone());
+    add("every-wrong-model-is-rejected", {
+        let idle = WRONG_MODELS.iter().filter(|m| !rejected.contains(m.name));
+        idle.map(|m| format!("no case rejects `{}`", m.name)).collect()
+    });
+    add("cases-are-found", {
+        let families = FAMILIES.iter().map(|(family, _)| family);
+        let empty = families.filter(|f| cases.iter().all(|c| c.family != **f));
+        let mut missing: Vec<String> =
+            empty.map(|f| format!("family `{f}` has no case")).collect();
+        if cases.is_empty() {
+            missing.push("no case at all".to_owned());
+        }
+        missing
+    });
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    add("every-case-file-is-a-family", {
+        let stems = names(&root.join("validation/cases"), ".toml");
+        let unknown = stems.iter().filter(|stem| {
+            FAMILIES
+                .iter()
+                .all(|(family, _)| format!("{family}.toml") != **stem)
+        });
+        unknown.map(|stem| format!("cases/{stem} is no family")).collect()
+    });
+    let origins = used(|case| vec![case.expect.origin.clone()]);
+    add("every-reference-is-used", {
+        let mut idle = Vec::new();
+        for folder in ["fixtures/references", "fixtures/oracles"] {
+            for name in names(&root.join(folder), ".json") {
+                let path = format!("{folder}/{name}");
+                if !origins.iter().any(|o| o.contains(&path)) {
+                    idle.push(format!("no case uses {path}"));
+                }
+            }
+        }
+        idle
+    });
+    trials
+}
+
+/// Names in a folder that end so; none where the folder is missing.
+fn names(folder: &Path, ending: &str) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut names: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .filter(|name| name.ends_with(ending))
+        .collect();
+    names.sort();
+    names
+}

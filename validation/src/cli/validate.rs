@@ -1,0 +1,183 @@
+//! `rocking validate`: the declared cases, judged.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use super::{Failure, print};
+use crate::cases::{Case, Cost, FAMILIES, load_all};
+use crate::files::write_atomically;
+use crate::json;
+use crate::verdict::{Outcome, Verdict, run_all, snapshot};
+
+/// Runs the declared cases. Without `--family` and `--check` it writes the
+/// results to OUT/data/validation.json.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Run this family alone; nothing is written.
+    #[arg(long)]
+    family: Option<String>,
+    /// Run the long cases as well; nothing is written.
+    #[arg(long)]
+    full: bool,
+    /// Compare with the results in OUT, write nothing, fail where they
+    /// differ.
+    #[arg(long, conflicts_with_all = ["family", "full"])]
+    check: bool,
+    /// Folder of the reports.
+    #[arg(long, value_name = "DIR", default_value = "reports")]
+    out: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for unreadable cases or an unknown family (status 2), for a
+/// case that is not accepted and for results that differ (status 1).
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let cases = selected(args)?;
+    let outcomes = run_all(&cases);
+    let text = if args.json {
+        format!("{:#}\n", machine(&outcomes))
+    } else {
+        people(&outcomes)
+    };
+    print(&text)?;
+    let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
+    if refused > 0 {
+        return Err(Failure::gate(format!(
+            "{refused} of {} cases are not accepted",
+            outcomes.len()
+        )));
+    }
+    let path = args.out.join("data/validation.json");
+    let text = snapshot::text(&cases, &outcomes);
+    if args.check {
+        return compare(&path, &text);
+    }
+    if args.family.is_none() && !args.full {
+        let folder = path.parent().unwrap_or(&args.out);
+        std::fs::create_dir_all(folder).map_err(|e| {
+            Failure::input(format!("cannot make {}: {e}", folder.display()))
+        })?;
+        write_atomically(&path, text)?;
+    }
+    Ok(())
+}
+
+fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
+    let mut cases = load_all()?;
+    if let Some(family) = &args.family {
+        if FAMILIES.iter().all(|(name, _)| name != family) {
+            let names: Vec<&str> =
+                FAMILIES.iter().map(|(name, _)| *name).collect();
+            return Err(Failure::input(format!(
+                "no family `{family}`: expected one of {}",
+                names.join(", ")
+            )));
+        }
+        cases.retain(|case| case.family == *family);
+    }
+    cases.retain(|case| args.full || case.cost == Cost::Quick);
+    Ok(cases)
+}
+
+fn compare(path: &Path, text: &str) -> Result<(), Failure> {
+    let found = std::fs::read_to_string(path).map_err(|e| {
+        Failure::input(format!("cannot read {}: {e}", path.display()))
+    })?;
+    if found == text {
+        return Ok(());
+    }
+    let read = |text: &str| -> BTreeMap<String, serde_json::Value> {
+        serde_json::from_str(text).unwrap_or_default()
+    };
+    let (old, new) = (read(&found), read(text));
+    let changed: Vec<&str> = old
+        .keys()
+        .chain(new.keys())
+        .filter(|id| old.get(*id) != new.get(*id))
+        .map(String::as_str)
+        .collect::<std::collections::BTreeSet<_>>()
+        .into_iter()
+        .collect();
+    Err(Failure::gate(format!(
+        "{} is stale in {} cases:\n  {}\n`rocking validate` accepts what is \
+         there now",
+        path.display(),
+        changed.len(),
+        changed.join("\n  ")
+    )))
+}
+
+fn machine(outcomes: &[Outcome]) -> serde_json::Value {
+    let cases: Vec<serde_json::Value> = outcomes
+        .iter()
+        .map(|outcome| {
+            json!({
+                "id": outcome.id,
+                "kind": outcome.kind.name(),
+                "verdict": outcome.verdict.name(),
+                "margin": json::number(outcome.worst_margin()),
+                "rejected": outcome.rejections.iter().map(|r| json!({
+                    "model": r.model,
+                    "margin": json::number(r.margin),
+                    "quantity": r.quantity,
+                })).collect::<Vec<_>>(),
+                "messages": outcome.messages,
+            })
+        })
+        .collect();
+    json!({ "cases": cases })
+}
+
+fn people(outcomes: &[Outcome]) -> String {
+    let mut text = String::new();
+    for outcome in outcomes {
+        let _ = writeln!(
+            text,
+            "{:<15} {:>9.1e}  {} ({} wrong models rejected)",
+            outcome.verdict.name(),
+            outcome.worst_margin(),
+            outcome.id,
+            outcome.rejections.iter().filter(|r| r.margin > 1.0).count()
+        );
+        for message in &outcome.messages {
+            let _ = writeln!(text, "    {}", message.replace('\n', "\n    "));
+        }
+    }
+    let odd: Vec<String> = outcomes
+        .iter()
+        .flat_map(|outcome| {
+            outcome.bounds_to_look_at().into_iter().map(|check| {
+                let id = &outcome.id;
+                format!("  {:.0e}  {id} {}", check.margin, check.quantity)
+            })
+        })
+        .collect();
+    if !odd.is_empty() {
+        let _ = writeln!(
+            text,
+            "\nBounds to be looked at (margin below 1e-3 or above 0.9):\n{}",
+            odd.join("\n")
+        );
+    }
+    let mut kinds: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for outcome in outcomes {
+        let key = (outcome.kind.name(), outcome.verdict.name());
+        *kinds.entry(key).or_default() += 1;
+    }
+    let _ = writeln!(text);
+    for ((kind, verdict), count) in kinds {
+        let _ = writeln!(text, "{count:>5} {kind}: {verdict}");
+    }
+    let passed =
+        outcomes.iter().filter(|o| o.verdict == Verdict::Pass).count();
+    let _ = writeln!(text, "{passed} of {} cases pass", outcomes.len());
+    text
+}

@@ -1,0 +1,189 @@
+//! The core behind its public interface.
+
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
+use rocking::integrator::{
+    self, Model, Observe, Outcome, Overturning, Response,
+};
+use rocking::record::Accelerogram;
+
+use crate::scene::{
+    Criterion, Engine, EngineError, Equation, Forcing, Impact, Scene, Trace,
+};
+
+/// The code under test.
+pub struct Core;
+
+impl Engine for Core {
+    fn respond(&self, scene: &Scene) -> Result<Trace, EngineError> {
+        let observe = Observe {
+            events: true,
+            until_s: scene.until_s,
+            ..Observe::default()
+        };
+        let response = respond(scene, &observe)?;
+        Ok(Trace {
+            uplift_s: response.uplift_time_s,
+            uplifts: usize::try_from(response.work.uplifts)
+                .unwrap_or(usize::MAX),
+            first_side: first_side(scene, &response)?,
+            peak_ratio: response.outcome.edp(),
+            peak_time_s: response
+                .peak_time_s
+                .filter(|_| !response.outcome.is_overturned()),
+            overturned_s: match response.outcome {
+                Outcome::Overturned { time_s, .. } => Some(time_s),
+                _ => None,
+            },
+            rest_s: response.rest_time_s,
+            impacts: response
+                .impacts
+                .iter()
+                .map(|impact| Impact {
+                    time_s: impact.time_s,
+                    speed_rad_s: impact.speed_before_rad_s,
+                })
+                .collect(),
+        })
+    }
+}
+
+/// Sign of the rotation after the first uplift. An overturned block shows
+/// it by its side and its impacts; any other by a history of its first hop.
+fn first_side(scene: &Scene, response: &Response) -> Result<f64, EngineError> {
+    if let Outcome::Overturned { side, .. } = response.outcome {
+        let even = response.impacts.len().is_multiple_of(2);
+        return Ok(if even { side.sign() } else { -side.sign() });
+    }
+    let (Some(start), Some(first)) =
+        (response.uplift_time_s, response.impacts.first())
+    else {
+        return Ok(match &scene.forcing {
+            Forcing::Free { rotation_rad } => rotation_rad.signum(),
+            _ => 0.0,
+        });
+    };
+    let observe = Observe {
+        history_interval_s: Some(0.25 * (first.time_s - start)),
+        until_s: Some(first.time_s),
+        ..Observe::default()
+    };
+    let history = respond(scene, &observe)?.history;
+    let moved = history.iter().find(|point| point.rotation_rad != 0.0);
+    Ok(moved.map_or(0.0, |point| point.rotation_rad.signum()))
+}
+
+/// Runs the core on a scene of the harness.
+///
+/// # Errors
+/// [`EngineError::Refused`] with the core's own words.
+pub fn respond(
+    scene: &Scene,
+    observe: &Observe,
+) -> Result<Response, EngineError> {
+    fn refused(error: impl std::fmt::Display) -> EngineError {
+        EngineError::Refused(error.to_string())
+    }
+    let block = Block::try_new(scene.slenderness_rad, scene.frequency_rad_s)
+        .map_err(refused)?;
+    let restitution =
+        Restitution::constant(scene.restitution).map_err(refused)?;
+    let record = record(scene).transpose().map_err(refused)?;
+    let kind = pulse(scene);
+    let pulse = kind.map(Pulse::try_new).transpose().map_err(refused)?;
+    let mut initial_ratio = 0.0;
+    let excitation = match (&record, &pulse, &scene.forcing) {
+        (Some(record), ..) => {
+            Excitation::Record(ScaledRecord::by_factor(record, 1.0))
+        }
+        (_, Some(pulse), _) => Excitation::Pulse(pulse),
+        (.., Forcing::Free { rotation_rad }) => {
+            initial_ratio = rotation_rad.abs() / scene.slenderness_rad;
+            Excitation::Free
+        }
+        _ => Excitation::Free,
+    };
+    let scene = integrator::Scene {
+        block,
+        restitution,
+        model: match scene.equation {
+            Equation::Nonlinear => Model::Nonlinear,
+            Equation::Linearized => Model::Linearized,
+        },
+        overturning: match scene.criterion {
+            Criterion::Alpha => Overturning::Alpha,
+            Criterion::HalfPi => Overturning::HalfPi,
+        },
+        excitation,
+        initial_ratio,
+    };
+    integrator::respond(&scene, observe).map_err(refused)
+}
+
+type Record = Result<Accelerogram, rocking::record::AccelerogramError>;
+
+fn record(scene: &Scene) -> Option<Record> {
+    let Forcing::Samples { dt_s, acceleration_m_s2 } = &scene.forcing else {
+        return None;
+    };
+    let samples = acceleration_m_s2.iter().map(|a| a / scene.gravity_m_s2);
+    Some(Accelerogram::try_new("case", *dt_s, samples.collect()))
+}
+
+fn pulse(scene: &Scene) -> Option<PulseKind> {
+    let g = scene.gravity_m_s2;
+    Some(match scene.forcing {
+        Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles } => {
+            let amplitude_g = amplitude_m_s2 / g;
+            match half_cycles {
+                1 => PulseKind::HalfSine { amplitude_g, omega_rad_s },
+                2 => PulseKind::OneSine { amplitude_g, omega_rad_s },
+                _ => return None,
+            }
+        }
+        Forcing::Cosine { amplitude_m_s2, omega_rad_s } => {
+            PulseKind::OneCosine {
+                amplitude_g: amplitude_m_s2 / g,
+                omega_rad_s,
+            }
+        }
+        Forcing::Rectangle { amplitude_m_s2, duration_s } => {
+            PulseKind::Rectangle {
+                amplitude_g: amplitude_m_s2 / g,
+                duration_s,
+            }
+        }
+        Forcing::Triangle { amplitude_m_s2, duration_s } => {
+            PulseKind::Triangle { amplitude_g: amplitude_m_s2 / g, duration_s }
+        }
+        Forcing::Ricker {
+            amplitude_m_s2,
+            period_s,
+            cycles,
+            antisymmetric,
+        } => {
+            let amplitude_g = amplitude_m_s2 / g;
+            if antisymmetric {
+                PulseKind::RickerAntisymmetric {
+                    amplitude_g,
+                    period_s,
+                    cycles,
+                }
+            } else {
+                PulseKind::RickerSymmetric { amplitude_g, period_s, cycles }
+            }
+        }
+        Forcing::Mavroeidis {
+            velocity_m_s,
+            frequency_hz,
+            gamma,
+            phase_rad,
+        } => PulseKind::MavroeidisPapageorgiou {
+            velocity_g_s: velocity_m_s / g,
+            frequency_hz,
+            gamma,
+            phase_rad,
+        },
+        Forcing::Free { .. } | Forcing::Samples { .. } => return None,
+    })
+}

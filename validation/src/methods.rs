@@ -1,0 +1,118 @@
+//! Registry of what a case can ask to be computed, and of wrong models.
+
+mod references;
+mod response;
+mod spectrum;
+mod wrong;
+
+pub use wrong::{RIGHT_NAIVE, WRONG_MODELS, WrongModel, wrong_model};
+
+use std::collections::BTreeMap;
+
+use serde::de::DeserializeOwned;
+use thiserror::Error;
+
+use crate::cases::Case;
+use crate::engine::Core;
+use crate::scene::{Engine, EngineError};
+
+/// Numbers by name.
+pub type Quantities = BTreeMap<String, Vec<f64>>;
+
+/// What a method observed, and what it expected where the case names a
+/// reference or an oracle instead of writing the values.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Answer {
+    /// From the code under test.
+    pub observed: Quantities,
+    /// From outside it.
+    pub expected: Quantities,
+}
+
+impl Answer {
+    /// Adds a quantity with what is expected of it.
+    pub fn put(&mut self, name: &str, observed: Vec<f64>, expected: Vec<f64>) {
+        self.observed.insert(name.to_owned(), observed);
+        self.expected.insert(name.to_owned(), expected);
+    }
+}
+
+/// Why a method gave no answer.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MethodError {
+    /// No method of this name is registered.
+    #[error("method `{0}` is not registered")]
+    Unknown(String),
+    /// The input is not what the method reads.
+    #[error("input: {0}")]
+    Input(String),
+    /// A reference lacks what was asked for.
+    #[error("{file}: {what}")]
+    Reference {
+        /// The file.
+        file: &'static str,
+        /// What is missing.
+        what: String,
+    },
+    /// The engine gave no trace.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    /// An oracle has no value for this input.
+    #[error("oracle: {0}")]
+    Oracle(String),
+}
+
+/// What a method works with.
+pub struct Context<'a> {
+    /// The case.
+    pub case: &'a Case,
+    /// What answers scenes: the core, or a wrong model.
+    pub engine: &'a dyn Engine,
+    /// A wrong model that the method itself carries out.
+    pub wrong: Option<&'static str>,
+}
+
+impl Context<'_> {
+    /// The case's input.
+    ///
+    /// # Errors
+    /// [`MethodError::Input`] for missing, unknown or malformed keys.
+    pub fn input<T: DeserializeOwned>(&self) -> Result<T, MethodError> {
+        let table = toml::Value::Table(self.case.input.clone());
+        table.try_into().map_err(|e| MethodError::Input(e.to_string()))
+    }
+}
+
+type Run = fn(&Context) -> Result<Answer, MethodError>;
+
+/// Registered methods by name.
+pub const METHODS: &[(&str, Run)] = &[
+    ("trajectory", response::trajectory),
+    ("linear-pulse", response::linear_pulse),
+    ("free-rocking", response::free_rocking),
+    ("rectangular-pulse", response::rectangular_pulse),
+    ("overturning-edges", spectrum::edges),
+];
+
+/// Runs a case's method, on the core or on a wrong model.
+///
+/// # Errors
+/// [`MethodError`] when no answer can be given.
+pub fn run(
+    case: &Case,
+    wrong: Option<&'static WrongModel>,
+) -> Result<Answer, MethodError> {
+    let (_, method) = METHODS
+        .iter()
+        .find(|(name, _)| *name == case.method)
+        .ok_or_else(|| MethodError::Unknown(case.method.clone()))?;
+    match wrong {
+        None => method(&Context { case, engine: &Core, wrong: None }),
+        Some(model) => {
+            let engine = model.engine(&Core);
+            let wrong = model.by_method().then_some(model.name);
+            method(&Context { case, engine: engine.as_ref(), wrong })
+        }
+    }
+}

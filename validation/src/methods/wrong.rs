@@ -1,0 +1,222 @@
+//! Wrong models: what a case must be able to tell from the right one.
+
+use crate::naive::{
+    Events, Hold, Loss, Naive, Pushback, Rest, Rules, Threshold,
+};
+use crate::scene::{Engine, EngineError, Equation, Forcing, Scene, Trace};
+
+/// A named mistake.
+#[derive(Debug)]
+pub struct WrongModel {
+    /// Name in `reject` lists.
+    pub name: &'static str,
+    /// The mistake, in words.
+    pub what: &'static str,
+    how: How,
+}
+
+#[derive(Debug)]
+enum How {
+    /// A wrong input, given to the engine under test.
+    Scene(fn(&mut Scene)),
+    /// A wrong algorithm, on the naive integrator.
+    Naive(Rules),
+    /// Carried out by the method itself.
+    Method,
+}
+
+const RIGHT: Rules = Rules {
+    events: Events::Located,
+    rest: Rest::Chatter,
+    loss: Loss::Every,
+    pushback: Pushback::Hop,
+    hold: Hold::Linear,
+    threshold: Threshold::Own,
+    after_end: true,
+};
+
+/// The naive integrator without a mistake.
+pub static RIGHT_NAIVE: WrongModel = WrongModel {
+    name: "naive-with-right-rules",
+    what: "no mistake",
+    how: How::Naive(RIGHT),
+};
+
+/// All wrong models.
+pub static WRONG_MODELS: &[WrongModel] = &[
+    scene("ground-sign", "ground acceleration of the other sign", |s| {
+        scale(&mut s.forcing, -1.0);
+    }),
+    scene("eta-squared", "energy ratio used as velocity ratio", |s| {
+        s.restitution *= s.restitution;
+    }),
+    scene("other-equation", "Eq. 2 for Eq. 1, or Eq. 1 for Eq. 2", |s| {
+        s.equation = match s.equation {
+            Equation::Nonlinear => Equation::Linearized,
+            Equation::Linearized => Equation::Nonlinear,
+        };
+    }),
+    scene("p-one-percent-high", "p 1 % too high", |s| {
+        s.frequency_rad_s *= 1.01;
+    }),
+    scene("p-one-percent-low", "p 1 % too low", |s| {
+        s.frequency_rad_s *= 0.99;
+    }),
+    scene("alpha-one-percent-low", "alpha 1 % too low", |s| {
+        s.slenderness_rad *= 0.99;
+    }),
+    scene("alpha-one-percent-high", "alpha 1 % too high", |s| {
+        s.slenderness_rad *= 1.01;
+    }),
+    scene("other-gravity", "9.80665 for 9.81 m/s2", |s| {
+        s.gravity_m_s2 *= 9.80665 / 9.81;
+    }),
+    scene("tangent-for-angle", "amplitude over g tan(alpha) in Eq. 2", |s| {
+        let alpha = s.slenderness_rad;
+        scale(&mut s.forcing, libm::tan(alpha) / alpha);
+    }),
+    scene("one-sample-late", "sample i taken at (i + 1) dt", |s| {
+        if let Forcing::Samples { acceleration_m_s2, .. } = &mut s.forcing {
+            acceleration_m_s2.insert(0, 0.0);
+        }
+    }),
+    scene("last-sample-lost", "record one sample short", |s| {
+        if let Forcing::Samples { acceleration_m_s2, .. } = &mut s.forcing {
+            acceleration_m_s2.pop();
+        }
+    }),
+    naive(
+        "missed-impact",
+        "the first impact passes without loss",
+        Rules { loss: Loss::FirstMissed, ..RIGHT },
+    ),
+    naive(
+        "sign-only-events",
+        "impacts at the end of a step, by sign alone",
+        Rules { events: Events::StepEnds, ..RIGHT },
+    ),
+    naive(
+        "rotation-kept-at-impact",
+        "impact at the end of a step with the rotation found there",
+        Rules {
+            events: Events::StepEndsRotationKept,
+            // Without a located impact the chatter never dies out.
+            rest: Rest::Slower(1e-3),
+            ..RIGHT
+        },
+    ),
+    naive(
+        "crude-rest",
+        "rest below a tenth of p alpha, whatever the ground does",
+        Rules { rest: Rest::Slower(0.1), ..RIGHT },
+    ),
+    naive(
+        "suppressed-hop",
+        "no change of pivot while the ground pushes back",
+        Rules { pushback: Pushback::Suppressed, ..RIGHT },
+    ),
+    naive(
+        "zero-order-hold",
+        "acceleration constant between samples",
+        Rules { hold: Hold::Zero, ..RIGHT },
+    ),
+    naive(
+        "other-threshold",
+        "g alpha in Eq. 1, g tan(alpha) in Eq. 2",
+        Rules { threshold: Threshold::Other, ..RIGHT },
+    ),
+    naive(
+        "stops-with-the-record",
+        "no motion after the last sample",
+        Rules { after_end: false, ..RIGHT },
+    ),
+    method(
+        "plain-bisection",
+        "one bisection over the whole range of amplitudes",
+    ),
+    method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
+];
+
+const fn scene(
+    name: &'static str,
+    what: &'static str,
+    change: fn(&mut Scene),
+) -> WrongModel {
+    WrongModel { name, what, how: How::Scene(change) }
+}
+
+const fn naive(
+    name: &'static str,
+    what: &'static str,
+    rules: Rules,
+) -> WrongModel {
+    WrongModel { name, what, how: How::Naive(rules) }
+}
+
+const fn method(name: &'static str, what: &'static str) -> WrongModel {
+    WrongModel { name, what, how: How::Method }
+}
+
+/// The wrong model of this name.
+#[must_use]
+pub fn wrong_model(name: &str) -> Option<&'static WrongModel> {
+    WRONG_MODELS.iter().find(|model| model.name == name)
+}
+
+impl WrongModel {
+    /// Whether it runs on the naive integrator.
+    #[must_use]
+    pub fn is_naive(&self) -> bool {
+        matches!(self.how, How::Naive(_))
+    }
+
+    /// Whether the method itself carries it out.
+    #[must_use]
+    pub fn by_method(&self) -> bool {
+        matches!(self.how, How::Method)
+    }
+
+    /// The engine that makes the mistake.
+    #[must_use]
+    pub fn engine<'a>(
+        &'a self,
+        right: &'a dyn Engine,
+    ) -> Box<dyn Engine + 'a> {
+        match &self.how {
+            How::Scene(change) => Box::new(Changed { right, change: *change }),
+            How::Naive(rules) => Box::new(Naive(*rules)),
+            How::Method => Box::new(Changed { right, change: |_| {} }),
+        }
+    }
+}
+
+struct Changed<'a> {
+    right: &'a dyn Engine,
+    change: fn(&mut Scene),
+}
+
+impl Engine for Changed<'_> {
+    fn respond(&self, scene: &Scene) -> Result<Trace, EngineError> {
+        let mut scene = scene.clone();
+        (self.change)(&mut scene);
+        self.right.respond(&scene)
+    }
+}
+
+/// Multiplies the ground motion.
+pub(super) fn scale(forcing: &mut Forcing, factor: f64) {
+    match forcing {
+        Forcing::Free { rotation_rad } => *rotation_rad *= factor.signum(),
+        Forcing::Sine { amplitude_m_s2, .. }
+        | Forcing::Cosine { amplitude_m_s2, .. }
+        | Forcing::Rectangle { amplitude_m_s2, .. }
+        | Forcing::Triangle { amplitude_m_s2, .. }
+        | Forcing::Ricker { amplitude_m_s2, .. } => *amplitude_m_s2 *= factor,
+        Forcing::Mavroeidis { velocity_m_s, .. } => *velocity_m_s *= factor,
+        Forcing::Samples { acceleration_m_s2, .. } => {
+            for a in acceleration_m_s2 {
+                *a *= factor;
+            }
+        }
+    }
+}

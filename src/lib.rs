@@ -19,8 +19,8 @@
 pub mod block;
 pub mod capacity;
 pub mod excitation;
-pub mod ida;
 pub mod fragility;
+pub mod ida;
 pub mod integrator;
 pub mod number;
 pub mod record;

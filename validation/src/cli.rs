@@ -7,13 +7,13 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-pub mod records;
 pub mod boxplot;
 pub mod capacities;
 pub mod compare;
 pub mod fragility;
 pub mod lilliefors;
 pub mod quantile;
+pub mod records;
 pub mod samples;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.

@@ -5,14 +5,14 @@
 pub mod cases;
 pub mod cli;
 pub mod drawing;
-pub mod figures;
 pub mod engine;
+pub mod figures;
 pub mod files;
 pub mod inputs;
 pub mod json;
-pub mod study;
-pub mod synthesis;
 pub mod methods;
 pub mod naive;
 pub mod scene;
+pub mod study;
+pub mod synthesis;
 pub mod verdict;

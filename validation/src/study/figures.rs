@@ -9,10 +9,7 @@ mod single;
 use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
-use crate::figures::data::{
-    AcceptedShares, Arm, BlockSketch, Boxplots, ByConstant, Capacities,
-    Fragilities, Heading, Histories, IdaCurves, Quantiles, TestsAlongDemand,
-};
+use crate::figures::data::Arm;
 
 /// Everything that the figures are made of.
 #[derive(Clone, Debug)]
@@ -27,74 +24,12 @@ pub struct Results {
     pub distributions: Vec<Distributions>,
 }
 
-/// What a figure shows.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Content {
-    /// Figure 1.
-    Sketch(BlockSketch),
-    /// Figures 2 and 3.
-    Histories(Histories),
-    /// Figures 4 and 5.
-    IdaCurves(IdaCurves),
-    /// Figures 6, 7 and 9.
-    Boxplots(Boxplots),
-    /// Figures 8 and 10.
-    Quantiles(Quantiles),
-    /// Figure 11.
-    Capacities(Capacities),
-    /// Figures 12 and 14.
-    AcceptedShares(AcceptedShares),
-    /// Figure 13.
-    TestsAlongDemand(TestsAlongDemand),
-    /// Figures 15 to 17.
-    Fragilities(Fragilities),
-    /// Figure 18.
-    ByConstant(ByConstant),
-}
-
 /// A figure and the sentence that says what one sees.
-#[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// What it shows.
-    pub content: Content,
+    /// The drawing and its numbers.
+    pub drawing: Box<dyn crate::figures::Figure + Send + Sync>,
     /// What one sees, in one sentence made from the numbers.
     pub reading: String,
-}
-
-impl Figure {
-    /// Name, title, description.
-    #[must_use]
-    pub fn heading(&self) -> &Heading {
-        match &self.content {
-            Content::Sketch(f) => &f.heading,
-            Content::Histories(f) => &f.heading,
-            Content::IdaCurves(f) => &f.heading,
-            Content::Boxplots(f) => &f.heading,
-            Content::Quantiles(f) => &f.heading,
-            Content::Capacities(f) => &f.heading,
-            Content::AcceptedShares(f) => &f.heading,
-            Content::TestsAlongDemand(f) => &f.heading,
-            Content::Fragilities(f) => &f.heading,
-            Content::ByConstant(f) => &f.heading,
-        }
-    }
-
-    /// The numbers behind it.
-    #[must_use]
-    pub fn csv(&self) -> String {
-        match &self.content {
-            Content::Sketch(f) => f.csv(),
-            Content::Histories(f) => f.csv(),
-            Content::IdaCurves(f) => f.csv(),
-            Content::Boxplots(f) => f.csv(),
-            Content::Quantiles(f) => f.csv(),
-            Content::Capacities(f) => f.csv(),
-            Content::AcceptedShares(f) => f.csv(),
-            Content::TestsAlongDemand(f) => f.csv(),
-            Content::Fragilities(f) => f.csv(),
-            Content::ByConstant(f) => f.csv(),
-        }
-    }
 }
 
 impl Results {

@@ -5,11 +5,8 @@ use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Overturning, Response, RestIndex, Scene, respond_indexed,
-    uplift_threshold,
+    Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
 };
-use rocking::number::dispatch::Isa;
-use rocking::record::Accelerogram;
 
 use super::StudyError;
 use crate::figures::data::Arm;
@@ -24,29 +21,6 @@ pub struct Setup {
     /// Width to which arms B and C bisect the first overturning, in
     /// dimensionless intensity.
     pub tolerance: f64,
-}
-
-/// A record, prepared for many runs.
-#[derive(Clone, Debug)]
-pub struct Prepared {
-    unit: NormalisedRecord,
-    index: RestIndex,
-}
-
-impl Prepared {
-    /// Prepares a record.
-    #[must_use]
-    pub fn new(record: &Accelerogram) -> Self {
-        let unit = NormalisedRecord::new(record);
-        let index = RestIndex::new(unit.samples());
-        Self { unit, index }
-    }
-
-    /// The record.
-    #[must_use]
-    pub fn unit(&self) -> &NormalisedRecord {
-        &self.unit
-    }
 }
 
 /// Highest intensity tried: a chain that stands there is censored.
@@ -129,11 +103,11 @@ impl Setup {
     fn respond(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         pga_g: f64,
         observe: &Observe,
     ) -> Result<Response, StudyError> {
-        let scaled = ScaledRecord::to_pga(&record.unit, pga_g);
+        let scaled = ScaledRecord::to_pga(record, pga_g);
         let scene = Scene {
             block,
             restitution: self.restitution,
@@ -142,8 +116,7 @@ impl Setup {
             excitation: Excitation::Record(scaled),
             initial_ratio: 0.0,
         };
-        let index = Some(&record.index);
-        Ok(respond_indexed(&scene, observe, index, Isa::best())?)
+        Ok(respond(&scene, observe)?)
     }
 
     /// Demand of `block` at dimensionless intensity `im`.
@@ -153,7 +126,7 @@ impl Setup {
     pub fn demand(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         im: f64,
     ) -> Result<f64, StudyError> {
         let pga_g = im * uplift_threshold(&block, Model::Nonlinear);
@@ -163,7 +136,7 @@ impl Setup {
     fn demand_at(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         pga_g: f64,
     ) -> Result<f64, StudyError> {
         let observe = Observe::default();
@@ -177,7 +150,7 @@ impl Setup {
     pub fn chain(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         arms: &[Arm],
     ) -> Result<Vec<ResponseCurve>, StudyError> {
         let threshold = uplift_threshold(&block, Model::Nonlinear);
@@ -210,10 +183,10 @@ impl Setup {
     pub fn demand_adjusted(
         &self,
         p_rad_s: f64,
-        record: &Prepared,
+        record: &NormalisedRecord,
         im: f64,
     ) -> Result<(f64, f64), StudyError> {
-        let pga_g = record.unit.pga_g();
+        let pga_g = record.pga_g();
         let slenderness_rad = libm::atan(pga_g / im);
         let block = Block::try_new(slenderness_rad, p_rad_s)?;
         Ok((self.demand_at(block, record, pga_g)?, slenderness_rad))
@@ -227,7 +200,7 @@ impl Setup {
     pub fn chain_adjusted(
         &self,
         reference: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         arm: Arm,
     ) -> Result<ResponseCurve, StudyError> {
         let threshold = uplift_threshold(&reference, Model::Nonlinear);
@@ -248,7 +221,7 @@ impl Setup {
     pub fn history(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         im: f64,
         interval_s: f64,
     ) -> Result<(Vec<f64>, f64), StudyError> {

@@ -2,7 +2,7 @@
 
 use rocking::statistics::{QuantileType, Sample};
 
-use super::{Content, Figure, Results, name, percent, range};
+use super::{Figure, Results, name, percent, range};
 use crate::figures::data::{
     AcceptedShares, Arm, BlockShare, Capacities, CapacityCurve, CapacityPanel,
     Heading, Histogram, Intensity, SharePanel, TestedBlock, TestsAlongDemand,
@@ -78,7 +78,7 @@ pub(super) fn inverted(
     }
     let (pga, pgv) = (onsets[0], onsets[1]);
     Ok(Figure {
-        content: Content::Capacities(Capacities {
+        drawing: Box::new(Capacities {
             heading: Heading {
                 name: name(11, None),
                 title: "Intensity given demand, original and shifted".into(),
@@ -144,7 +144,7 @@ pub(super) fn shares(
     }
     let measure = if number == 12 { "PGA" } else { "PGV" };
     Ok(Figure {
-        content: Content::AcceptedShares(AcceptedShares {
+        drawing: Box::new(AcceptedShares {
             heading: Heading {
                 name: name(number, None),
                 title: format!(
@@ -199,7 +199,7 @@ pub(super) fn along(
         });
     }
     Ok(Figure {
-        content: Content::TestsAlongDemand(TestsAlongDemand {
+        drawing: Box::new(TestsAlongDemand {
             heading: Heading {
                 name: name(13, Some(arm)),
                 title: "Lilliefors' test along the demand, p = 3".into(),

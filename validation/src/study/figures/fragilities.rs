@@ -4,7 +4,7 @@ use rocking::fragility::transform;
 use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{self, ExtendedSample, QuantileType};
 
-use super::{Content, Figure, Results, name};
+use super::{Figure, Results, name};
 use crate::figures::data::{
     Arm, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
     Fragilities, FragilityPanel, Heading, Intensity, Lognormal, Threshold,
@@ -136,7 +136,7 @@ pub(super) fn thresholds(
         }
     };
     Ok(Figure {
-        content: Content::Fragilities(Fragilities {
+        drawing: Box::new(Fragilities {
             heading: Heading {
                 name: name(number, None),
                 title: title.into(),
@@ -190,7 +190,7 @@ pub(super) fn constants(
         });
     }
     Ok(Figure {
-        content: Content::ByConstant(ByConstant {
+        drawing: Box::new(ByConstant {
             heading: Heading {
                 name: name(18, None),
                 title: "The constant c of Eq. 7".into(),

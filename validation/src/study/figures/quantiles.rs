@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
-use super::{Content, Figure, name};
+use super::{Figure, name};
 use crate::figures::data::{
     Arm, Heading, Intensity, QuantileGroup, QuantilePanel, Quantiles,
 };
@@ -34,7 +34,7 @@ pub(super) fn slendernesses(
     })?;
     let words = overturning_in_words(&panels);
     Ok(Figure {
-        content: Content::Quantiles(Quantiles {
+        drawing: Box::new(Quantiles {
             heading: Heading {
                 name: name(8, Some(arm)),
                 title: "16/50/84 % demand given intensity, five \
@@ -75,7 +75,7 @@ pub(super) fn adjusted(
     })?;
     let words = overturning_in_words(&panels);
     Ok(Figure {
-        content: Content::Quantiles(Quantiles {
+        drawing: Box::new(Quantiles {
             heading: Heading {
                 name: name(10, Some(arm)),
                 title: "16/50/84 % demand given intensity: scaled records \

@@ -2,7 +2,7 @@
 
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::{Content, Figure, name, percent, range};
+use super::{Figure, name, percent, range};
 use crate::figures::data::{
     Arm, BoxPanel, Boxplots, Heading, Intensity, NotchedBox, Stripe,
     StripeKind,
@@ -39,7 +39,7 @@ pub(super) fn slendernesses(
     let p = if number == 6 { "p = 1" } else { "p = 3 and 4" };
     let reading = medians_in_words(&panels);
     Ok(Some(Figure {
-        content: Content::Boxplots(Boxplots {
+        drawing: Box::new(Boxplots {
             heading: Heading {
                 name: name(number, Some(arm)),
                 title: format!(
@@ -82,7 +82,7 @@ pub(super) fn adjusted(
         .collect::<Result<Vec<_>, StudyError>>()?;
     let reading = medians_in_words(&panels);
     Ok(Some(Figure {
-        content: Content::Boxplots(Boxplots {
+        drawing: Box::new(Boxplots {
             heading: Heading {
                 name: name(9, Some(arm)),
                 title: "Slenderness adjustment against record scaling".into(),

@@ -1,6 +1,6 @@
 //! Figures 1 to 5: the block, and single records.
 
-use super::{Content, Figure, name};
+use super::{Figure, name};
 use crate::figures::data::{
     Arm, BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
     IdaCurves, IdaPanel, Intensity,
@@ -17,7 +17,7 @@ const FAITHFUL: f64 = 0.003;
 
 pub(super) fn sketch() -> Figure {
     Figure {
-        content: Content::Sketch(BlockSketch {
+        drawing: Box::new(BlockSketch {
             heading: Heading {
                 name: name(1, None),
                 title: "The rocking block".into(),
@@ -68,7 +68,7 @@ pub(super) fn histories(suite: &SuiteResults, arm: Arm) -> Figure {
         suite.kind
     );
     Figure {
-        content: Content::Histories(Histories {
+        drawing: Box::new(Histories {
             heading: Heading {
                 name: name(number, None),
                 title,
@@ -181,7 +181,7 @@ pub(super) fn curves(
         })
         .collect();
     Ok(Figure {
-        content: Content::IdaCurves(IdaCurves {
+        drawing: Box::new(IdaCurves {
             heading: Heading {
                 name: name(number, None),
                 title: format!(

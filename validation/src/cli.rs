@@ -15,6 +15,7 @@ pub mod lilliefors;
 pub mod quantile;
 pub mod records;
 pub mod samples;
+pub mod study;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
@@ -33,6 +34,7 @@ enum Command {
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
+    Study(study::Args),
     /// Runs the declared cases and writes or checks their results.
     Validate(validate::Args),
 }
@@ -104,6 +106,7 @@ pub fn run() -> ExitCode {
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),
+        Command::Study(args) => study::run(&args),
         Command::Validate(args) => validate::run(&args),
     };
     match outcome {

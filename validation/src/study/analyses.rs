@@ -97,6 +97,9 @@ pub struct SuiteResults {
     pub sha256: String,
     /// The records.
     pub records: Vec<Facts>,
+    /// Records whose onset is not exactly at intensity 1, for the reference
+    /// block with p = 3.
+    pub onset_violations: usize,
     /// Positions of the records that the single-record figures show.
     pub chosen: [usize; 3],
     /// Curves by arm.
@@ -176,7 +179,13 @@ impl Plan {
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
         let chosen = by_rank(&ratios);
+        let reference = blocks[position(1, REFERENCE)];
+        let violations: Vec<bool> = records
+            .par_iter()
+            .map(|record| self.setup.violates_onset(reference, record))
+            .collect::<Result<_, _>>()?;
         let mut results = SuiteResults {
+            onset_violations: violations.iter().filter(|v| **v).count(),
             kind: suite.kind,
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),

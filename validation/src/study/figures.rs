@@ -6,9 +6,16 @@ mod quantiles;
 mod ratios;
 mod single;
 
+pub(crate) use fragilities::{
+    BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, usfl7,
+};
+pub(crate) use ratios::{adjusted_boxes, demand_boxes, of_arm, pairs};
+pub(crate) use single::median_of;
+
 use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
+use super::sensitivities::Varied;
 use crate::figures::data::Arm;
 
 /// Everything that the figures are made of.
@@ -22,6 +29,8 @@ pub struct Results {
     pub pulse: SuiteResults,
     /// Capacity samples: suites, arms, measures.
     pub distributions: Vec<Distributions>,
+    /// Curves under other choices, ordinary suite.
+    pub varied: Vec<Varied>,
 }
 
 /// A figure and the sentence that says what one sees.
@@ -102,7 +111,7 @@ fn percent(share: f64) -> String {
 }
 
 /// Least and largest of some numbers, those that are not finite left out.
-fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.filter(|x| x.is_finite()).fold(
         (f64::INFINITY, f64::NEG_INFINITY),
         |(low, high), x| {

@@ -5,7 +5,8 @@ use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
+    Model, Observe, Outcome, Overturning, Response, Scene, respond,
+    uplift_threshold,
 };
 
 use super::StudyError;
@@ -131,6 +132,25 @@ impl Setup {
     ) -> Result<f64, StudyError> {
         let pga_g = im * uplift_threshold(&block, Model::Nonlinear);
         self.demand_at(block, record, pga_g)
+    }
+
+    /// Whether the onset of rocking is not exactly at intensity 1: a motion
+    /// there, or none at 1 + 1e-9.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the record cannot be scaled so.
+    pub fn violates_onset(
+        &self,
+        block: Block,
+        record: &NormalisedRecord,
+    ) -> Result<bool, StudyError> {
+        let threshold = uplift_threshold(&block, Model::Nonlinear);
+        let moves = |pga_g| -> Result<bool, StudyError> {
+            let observe = Observe::default();
+            let response = self.respond(block, record, pga_g, &observe)?;
+            Ok(response.outcome != Outcome::NoUplift)
+        };
+        Ok(moves(threshold)? || !moves(threshold * (1.0 + 1e-9))?)
     }
 
     fn demand_at(

@@ -1,5 +1,6 @@
 //! Figures 6, 7 and 9: paired ratios by stripe.
 
+use rocking::statistics::paired::Pairs;
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::{Figure, name, percent, range};
@@ -13,7 +14,6 @@ use crate::study::grid::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
     position,
 };
-use crate::study::stripes::Paired;
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
 pub(super) fn slendernesses(
@@ -116,7 +116,7 @@ pub(crate) fn pairs(
     stripes: &StripeDemands,
     frequency: usize,
     slenderness: Option<usize>,
-) -> Vec<(f64, Paired)> {
+) -> Result<Vec<(f64, Pairs)>, StudyError> {
     let reference = &stripes.demands[position(frequency, REFERENCE)];
     let compared = match slenderness {
         Some(s) => &stripes.demands[position(frequency, s)],
@@ -125,25 +125,53 @@ pub(crate) fn pairs(
     STRIPES
         .iter()
         .zip(compared.iter().zip(reference))
-        .map(|(im, (a, b))| (*im, Paired::new(a, b)))
+        .map(|(im, (a, b))| Ok((*im, Pairs::try_new(a, b)?)))
+        .collect()
+}
+
+/// Boxes of a slenderness over the reference; none where stripes were not
+/// run.
+pub(crate) fn demand_boxes(
+    suite: &SuiteResults,
+    arm: Arm,
+    frequency: usize,
+    slenderness: usize,
+) -> Result<Vec<Stripe>, StudyError> {
+    match of_arm(suite, arm) {
+        Some(stripes) => boxes(stripes, frequency, Some(slenderness)),
+        None => Ok(Vec::new()),
+    }
+}
+
+/// Boxes of Figure 9 by frequency parameter; none where stripes were not
+/// run.
+pub(crate) fn adjusted_boxes(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Vec<(f64, Vec<Stripe>)>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(Vec::new()) };
+    FREQUENCIES_RAD_S
+        .into_iter()
+        .enumerate()
+        .map(|(frequency, p)| Ok((p, boxes(stripes, frequency, None)?)))
         .collect()
 }
 
 /// Boxes of the stripes with at least ten usable ratios.
-pub(crate) fn boxes(
+fn boxes(
     stripes: &StripeDemands,
     frequency: usize,
     slenderness: Option<usize>,
 ) -> Result<Vec<Stripe>, StudyError> {
-    pairs(stripes, frequency, slenderness)
+    pairs(stripes, frequency, slenderness)?
         .into_iter()
         .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
         .map(|(level, paired)| {
             Ok(Stripe {
                 level,
                 usable: paired.ratios.len(),
-                records: paired.records,
-                summary: Some(notched(&paired.values())?),
+                records: paired.n,
+                summary: Some(notched(&paired.ratios)?),
             })
         })
         .collect()

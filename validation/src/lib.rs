@@ -9,5 +9,6 @@ pub mod files;
 pub mod json;
 pub mod methods;
 pub mod naive;
+pub mod oracles;
 pub mod scene;
 pub mod verdict;

@@ -1,10 +1,12 @@
 //! What moves the ground: a scaled record or an analytic pulse.
 
 mod pulse;
+mod rest_index;
 
 pub(crate) use pulse::Shape;
 
 pub use pulse::{Pulse, PulseError, PulseKind};
+pub use rest_index::RestIndex;
 
 use crate::record::Accelerogram;
 
@@ -30,6 +32,7 @@ pub struct ScaledRecord<'a> {
     samples: &'a [f64],
     dt_s: f64,
     amplitude: f64,
+    index: Option<&'a RestIndex>,
 }
 
 impl<'a> ScaledRecord<'a> {
@@ -40,6 +43,7 @@ impl<'a> ScaledRecord<'a> {
             samples: record.samples_g(),
             dt_s: record.dt_s(),
             amplitude: factor,
+            index: None,
         }
     }
 
@@ -47,7 +51,12 @@ impl<'a> ScaledRecord<'a> {
     /// gravity.
     #[must_use]
     pub fn to_pga(record: &'a NormalisedRecord, pga_g: f64) -> Self {
-        Self { samples: &record.samples, dt_s: record.dt_s, amplitude: pga_g }
+        Self {
+            samples: &record.samples,
+            dt_s: record.dt_s,
+            amplitude: pga_g,
+            index: Some(&record.index),
+        }
     }
 
     /// Samples before scaling.
@@ -60,6 +69,12 @@ impl<'a> ScaledRecord<'a> {
     #[must_use]
     pub fn dt_s(&self) -> f64 {
         self.dt_s
+    }
+
+    /// Index of the samples, where one was made.
+    #[must_use]
+    pub fn index(&self) -> Option<&'a RestIndex> {
+        self.index
     }
 
     /// Factor on every sample.
@@ -88,6 +103,7 @@ pub struct NormalisedRecord {
     dt_s: f64,
     pga_g: f64,
     pgv_g_s: f64,
+    index: RestIndex,
 }
 
 impl NormalisedRecord {
@@ -96,9 +112,12 @@ impl NormalisedRecord {
     pub fn new(record: &Accelerogram) -> Self {
         let pga_g = record.pga_g();
         let unit = if pga_g > 0.0 { pga_g } else { 1.0 };
+        let samples: Vec<f64> =
+            record.samples_g().iter().map(|a| a / unit).collect();
         Self {
+            index: RestIndex::new(&samples),
             name: record.name().to_owned(),
-            samples: record.samples_g().iter().map(|a| a / unit).collect(),
+            samples,
             dt_s: record.dt_s(),
             pga_g,
             pgv_g_s: record.pgv_g_s(),

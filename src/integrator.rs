@@ -16,12 +16,11 @@ mod roots;
 mod taylor;
 
 pub use dynamics::{Model, Overturning, uplift_threshold};
-pub use forcing::RestIndex;
 
 use thiserror::Error;
 
 use crate::block::{Block, Restitution};
-use crate::excitation::Excitation;
+use crate::excitation::{Excitation, RestIndex};
 use crate::number::dispatch::{Isa, Work as Dispatched};
 use driver::Driver;
 use dynamics::Dynamics;
@@ -178,6 +177,8 @@ pub struct Response {
     pub fate_margin: f64,
     /// Bound on the error of the peak ratio; recorded with accuracy.
     pub error_estimate: Option<f64>,
+    /// Bound on the error of the fate margin; recorded with accuracy.
+    pub fate_error: Option<f64>,
     /// Relative sensitivity of the peak to restitution and initial state;
     /// recorded with accuracy.
     pub condition_number: Option<f64>,
@@ -192,7 +193,7 @@ impl Response {
     /// fate cannot be told in double precision. True without an estimate.
     #[must_use]
     pub fn is_resolved(&self) -> bool {
-        self.error_estimate.is_none_or(|error| self.fate_margin >= error)
+        self.fate_error.is_none_or(|error| self.fate_margin >= error)
     }
 }
 
@@ -203,7 +204,7 @@ pub enum SceneError {
     /// The initial rotation must lie below overturning.
     #[error("initial rotation ratio {0}: expected a number in [0, 1)")]
     InitialRatio(f64),
-    /// Eq. 1 holds to pi/2 and the block's own angle must be below it.
+    /// The amplitude of a record must be finite.
     #[error(
         "record scaled by {0}: expected a finite amplitude of the excitation"
     )]
@@ -251,22 +252,17 @@ pub fn respond(
     scene: &Scene<'_>,
     observe: &Observe,
 ) -> Result<Response, SceneError> {
-    let index = match scene.excitation {
-        Excitation::Record(record) => Some(RestIndex::new(record.samples())),
-        Excitation::Pulse(_) | Excitation::Free => None,
-    };
-    respond_indexed(scene, observe, index.as_ref(), Isa::best())
+    respond_with(scene, observe, Isa::best())
 }
 
-/// [`respond`] with an index of the record made once for many runs, at a
-/// given instruction-set level (which changes the speed alone).
+/// [`respond`] at a given instruction-set level, which changes the speed
+/// alone.
 ///
 /// # Errors
 /// As [`respond`].
-pub fn respond_indexed(
+pub fn respond_with(
     scene: &Scene<'_>,
     observe: &Observe,
-    index: Option<&RestIndex>,
     isa: Isa,
 ) -> Result<Response, SceneError> {
     if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
@@ -287,6 +283,17 @@ pub fn respond_indexed(
     {
         return Err(SceneError::Amplitude(record.amplitude()));
     }
+    let own;
+    let index = match scene.excitation {
+        Excitation::Record(record) => Some(match record.index() {
+            Some(index) => index,
+            None => {
+                own = RestIndex::new(record.samples());
+                &own
+            }
+        }),
+        Excitation::Pulse(_) | Excitation::Free => None,
+    };
     Ok(isa.run(Run { scene, observe, index }))
 }
 
@@ -297,11 +304,16 @@ struct Run<'a> {
     index: Option<&'a RestIndex>,
 }
 
-/// Coefficients of the polynomial for Eq. 1 under a record: order 8.
-const RECORD: usize = 9;
-/// Coefficients where the step is longer in the excitation's own time, or
-/// where the series stands for the exponential: order 13.
-const SMOOTH: usize = 14;
+/// Coefficients of the polynomial for Eq. 1 under a record: order 8, for
+/// steps to [`SHORT_STEP`].
+const SHORT: usize = 9;
+/// The same for longer steps: order 10.
+const LONG: usize = 11;
+/// Longest step (in 1/p) at which order 8 leaves less than rounding.
+const SHORT_STEP: f64 = 0.04;
+/// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
+/// of any step that a shorter series leaves too much of: order 13.
+pub(crate) const SMOOTH: usize = 14;
 
 impl Dispatched for Run<'_> {
     type Output = Response;
@@ -315,9 +327,14 @@ impl Dispatched for Run<'_> {
         match (self.scene.excitation, self.index) {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
+                let step = forcing.step();
                 match model {
+                    Model::Nonlinear if step <= SHORT_STEP => {
+                        Driver::<_, _, SHORT, 2>::new(dynamics, &forcing)
+                            .run(self.scene, self.observe)
+                    }
                     Model::Nonlinear => {
-                        Driver::<_, _, RECORD, 2>::new(dynamics, &forcing)
+                        Driver::<_, _, LONG, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }
                     Model::Linearized => {

@@ -17,8 +17,13 @@
 //! "Statistical property parameterization of simple rocking block response".
 
 pub mod block;
+pub mod capacity;
 pub mod excitation;
+pub mod fragility;
+pub mod ida;
 pub mod integrator;
 pub mod number;
 pub mod record;
+pub mod statistics;
+pub mod streams;
 pub mod units;

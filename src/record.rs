@@ -1,5 +1,258 @@
-//! Recorded accelerograms.
+//! Recorded accelerograms: from a file's bytes to samples in multiples of
+//! gravity.
+//!
+//! Formats are told by content. A file is read whole or refused: a cut
+//! number, a changed count, an unknown unit or a missing sampling interval
+//! gives a [`RecordError`] with its place, never a repaired record.
+
+use std::fmt;
+use std::path::Path;
 
 mod accelerogram;
+mod at2;
+mod column;
+mod csv;
+mod error;
+mod fields;
+mod number;
+mod resorce;
+mod suite;
+mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
+pub use error::{Fault, RecordError};
+pub use suite::{
+    PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
+    Survey, folder_files, is_index,
+};
+
+use crate::units::{self, AccelerationUnit};
+use text::{Text, excerpt};
+
+/// How a record file is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Format {
+    /// PEER's AT2, every generation.
+    At2,
+    /// One value a line, without a header.
+    Column,
+    /// Two columns, time and acceleration.
+    Csv,
+    /// RESORCE, 5E14.7.
+    Resorce,
+}
+
+/// Formats by name, for messages.
+const FORMATS: &str = "at2, resorce, csv (time, acceleration), column";
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::At2 => "at2",
+            Self::Column => "column",
+            Self::Csv => "csv",
+            Self::Resorce => "resorce",
+        })
+    }
+}
+
+/// What the caller knows about a file.
+///
+/// What a file states can be said again, but not be overruled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReadOptions {
+    /// Sampling interval in s, for files that state none.
+    pub dt_s: Option<f64>,
+    /// Unit of the samples, for files that state none; without either,
+    /// multiples of gravity.
+    pub unit: Option<AccelerationUnit>,
+    /// Gravity in m/s2 by which an SI record is divided.
+    pub gravity_m_s2: f64,
+}
+
+impl Default for ReadOptions {
+    /// Nothing but standard gravity.
+    fn default() -> Self {
+        let gravity_m_s2 = units::STANDARD_GRAVITY_M_S2;
+        Self { dt_s: None, unit: None, gravity_m_s2 }
+    }
+}
+
+/// One component as it was read.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Record {
+    /// The component.
+    pub accelerogram: Accelerogram,
+    /// Format of the file.
+    pub format: Format,
+    /// Unit in which the file is written.
+    pub unit: AccelerationUnit,
+    /// Whether the file or the caller stated the unit; if not, multiples of
+    /// gravity were assumed.
+    pub unit_stated: bool,
+    /// Name of the channel, where the file gives one.
+    pub channel: Option<String>,
+}
+
+/// What a format's reader finds: one component in the file's own unit.
+struct Channel {
+    dt: Option<f64>,
+    unit: Option<AccelerationUnit>,
+    samples: Vec<f64>,
+    label: Option<String>,
+}
+
+/// Reads the one component of a file with content `bytes`; `file` names it
+/// in messages, its stem names the accelerogram.
+///
+/// # Errors
+/// [`RecordError`] for content of no known format, a number that is cut or
+/// not finite, a count that differs from the header's, an unknown unit, a
+/// missing sampling interval, an interval or unit in `options` that
+/// contradicts the file, or several components.
+///
+/// ```
+/// use rocking::record::{self, ReadOptions};
+/// let options = ReadOptions { dt_s: Some(0.01), ..ReadOptions::default() };
+/// let record = record::read("folder/a.txt", b"0.0\n0.1\n-0.3\n", &options)?;
+/// assert_eq!(record.accelerogram.name(), "a");
+/// assert_eq!(record.accelerogram.pga_g(), 0.3);
+/// # Ok::<(), rocking::record::RecordError>(())
+/// ```
+pub fn read(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Record, RecordError> {
+    let mut records = read_all(file, bytes, options)?;
+    match records.pop() {
+        Some(record) if records.is_empty() => Ok(record),
+        Some(_) => Err(Fault::SeveralChannels(records.len() + 1).whole(file)),
+        None => Err(Fault::Ends("an acceleration channel").whole(file)),
+    }
+}
+
+/// Reads all components of a file, in the file's order.
+///
+/// # Errors
+/// As [`read`], without the limit to one component.
+pub fn read_all(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Vec<Record>, RecordError> {
+    let gravity = options.gravity_m_s2;
+    if !(gravity > 0.0 && gravity.is_finite()) {
+        return Err(Fault::Gravity(gravity).whole(file));
+    }
+    if let Some(dt_s) = options.dt_s
+        && !(dt_s > 0.0 && dt_s.is_finite())
+    {
+        return Err(Fault::Interval(dt_s.to_string()).whole(file));
+    }
+    let content = text::decode(file, bytes)?;
+    let text = Text::new(file, &content)?;
+    let (format, channels) = if resorce::recognises(&text) {
+        (Format::Resorce, vec![resorce::read(&text)?])
+    } else if at2::recognises(&text) {
+        (Format::At2, vec![at2::read(&text)?])
+    } else if column::recognises(&text) {
+        (Format::Column, vec![column::read(&text)?])
+    } else if csv::recognises(&text) {
+        (Format::Csv, vec![csv::read(&text)?])
+    } else {
+        return Err(unknown(&text));
+    };
+    let several = channels.len() > 1;
+    channels
+        .into_iter()
+        .map(|channel| complete(&text, format, channel, several, options))
+        .collect()
+}
+
+/// Reads the one component of the file at `path`.
+///
+/// # Errors
+/// As [`read`], and [`Fault::Unreadable`] for a file that cannot be read.
+pub fn read_file(
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<Record, RecordError> {
+    let file = path.display().to_string();
+    read(&file, &bytes_of(path)?, options)
+}
+
+/// Bytes of the file at `path`.
+fn bytes_of(path: &Path) -> Result<Vec<u8>, RecordError> {
+    std::fs::read(path).map_err(|error| {
+        let file = path.display().to_string();
+        Fault::Unreadable(error.to_string()).whole(&file)
+    })
+}
+
+fn unknown(text: &Text<'_>) -> RecordError {
+    let lines = text.lines();
+    let index = lines.iter().position(|line| !line.trim().is_empty());
+    let index = index.unwrap_or(0);
+    let found = excerpt(lines[index]);
+    text.on_line(index, Fault::UnknownFormat { found, expected: FORMATS })
+}
+
+/// Name of the file at `path`, without its folder.
+fn name_of(path: &Path) -> String {
+    path.file_name()
+        .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+/// File name without folders and without what follows the last dot.
+fn stem(file: &str) -> &str {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    match name.rsplit_once('.') {
+        Some((stem, _)) if !stem.is_empty() => stem,
+        _ => name,
+    }
+}
+
+/// Settles interval and unit between file and caller, and converts.
+fn complete(
+    text: &Text<'_>,
+    format: Format,
+    channel: Channel,
+    several: bool,
+    options: &ReadOptions,
+) -> Result<Record, RecordError> {
+    let fail = |fault: Fault| fault.whole(text.file());
+    let dt_s = match (channel.dt, options.dt_s) {
+        (Some(stated_s), Some(given_s)) if stated_s != given_s => {
+            return Err(fail(Fault::IntervalConflict { stated_s, given_s }));
+        }
+        (Some(dt_s), _) | (None, Some(dt_s)) => dt_s,
+        (None, None) => return Err(fail(Fault::IntervalMissing)),
+    };
+    if !(dt_s > 0.0 && dt_s.is_finite()) {
+        return Err(fail(Fault::Interval(dt_s.to_string())));
+    }
+    let unit = match (channel.unit, options.unit) {
+        (Some(stated), Some(given)) if stated != given => {
+            return Err(fail(Fault::UnitConflict { stated, given }));
+        }
+        (stated, given) => stated.or(given),
+    };
+    let unit_stated = unit.is_some();
+    let unit = unit.unwrap_or(AccelerationUnit::Gravity);
+    let per_gravity = unit.per_gravity(options.gravity_m_s2);
+    let samples = channel.samples.iter().map(|a| a / per_gravity).collect();
+    let mut name = stem(text.file()).to_owned();
+    if let Some(label) = channel.label.as_ref().filter(|_| several) {
+        name = format!("{name}:{label}");
+    }
+    let accelerogram = Accelerogram::try_new(name, dt_s, samples)
+        .map_err(|error| fail(error.into()))?;
+    let channel = channel.label;
+    Ok(Record { accelerogram, format, unit, unit_stated, channel })
+}
+
+#[cfg(test)]
+mod tests;

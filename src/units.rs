@@ -1,5 +1,7 @@
 //! Conversion factors: the only place in the crate that has any.
 
+use std::fmt;
+
 /// Standard gravity in m/s2 (CGPM 1901).
 ///
 /// The paper's Table 1 and the reference values use 9.81; a caller who
@@ -62,5 +64,15 @@ impl AccelerationUnit {
             Self::MetrePerSecondSquared => gravity_m_s2,
             Self::CentimetrePerSecondSquared => gravity_m_s2 * 100.0,
         }
+    }
+}
+
+impl fmt::Display for AccelerationUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Gravity => "g",
+            Self::MetrePerSecondSquared => "m/s2",
+            Self::CentimetrePerSecondSquared => "cm/s2",
+        })
     }
 }

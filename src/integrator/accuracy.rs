@@ -7,7 +7,7 @@
 //! is plenty: one digit is asked for.
 
 /// Multiple of the standard deviation that is reported as the bound.
-const COVERAGE: f64 = 8.0;
+const COVERAGE: f64 = 32.0;
 
 /// Tracked quantities, in units of 1/p.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,6 +23,8 @@ pub(crate) struct Accuracy {
     /// Snapshot at the largest peak so far.
     peak_error: f64,
     peak_condition: f64,
+    /// Error of the last decision taken by the saddle.
+    decision_error: f64,
 }
 
 /// A 2 by 2 matrix by rows.
@@ -106,14 +108,24 @@ impl Accuracy {
         self.peak_condition = condition;
     }
 
-    /// Error of the current rotation over alpha, for an overturned run.
-    pub fn error_now(&self, alpha: f64) -> f64 {
-        COVERAGE * self.deviation() / alpha + f64::EPSILON
+    /// Notes the error of a run that overturns in the current state.
+    pub fn overturned(&mut self, alpha: f64) {
+        self.peak_error = COVERAGE * self.deviation() / alpha + f64::EPSILON;
     }
 
-    /// Notes the error of a run that overturned.
-    pub fn overturned(&mut self, error: f64) {
-        self.peak_error = error;
+    /// Notes the error of a decision about fate, a quantity with these
+    /// derivatives by u and w.
+    pub fn decision(&mut self, gradient: [f64; 2], alpha: f64) {
+        let [a, b] = gradient;
+        let variance =
+            a * a * self.uu + 2.0 * a * b * self.uw + b * b * self.ww;
+        let error = COVERAGE * variance.max(0.0).sqrt() / alpha;
+        self.decision_error = error + f64::EPSILON;
+    }
+
+    /// Bound on the error of the fate margin.
+    pub fn fate_error(&self) -> f64 {
+        self.decision_error.max(self.peak_error)
     }
 
     /// Bound on the error of the peak ratio.

@@ -80,15 +80,23 @@ pub(crate) fn coast<N: Real>(
     let outward =
         if u > d.alpha { !(inward && passes) } else { !inward && passes };
     let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
+    if let Some(accuracy) = &mut record.accuracy
+        && d.overturning == Overturning::HalfPi
+    {
+        // The distance is w - 2 sin((alpha - u)/2): its derivative by u is
+        // at most 1.
+        accuracy.decision([1.0, 1.0], d.alpha.to_f64());
+    }
     if outward {
         return fly_out(ask, motion, level, decision(d, gap), record);
     }
     // The block turns, or already moves inwards, and meets the base.
+    let here = Place { u, speed: w.abs() };
     let time = if inward {
-        transit(d, zero, u, level)
+        transit(d, Place { u: zero, speed: level.speed() }, here, level)
     } else {
         let top = turning(d, level);
-        let rise = transit(d, u, top, level);
+        let rise = transit(d, here, Place { u: top, speed: zero }, level);
         raise(ask, record, top, ask.start_s + rise / d.p, (u, w));
         rise + hop(d, level)
     };
@@ -101,6 +109,15 @@ pub(crate) fn coast<N: Real>(
     let saddle_speed = (d.saddle_energy() + d.saddle_energy()).sqrt();
     let second = ((w - saddle_speed) / d.alpha).to_f64().abs();
     let margin = gap.min(second);
+    if let Some(accuracy) = &mut record.accuracy
+        && d.overturning == Overturning::HalfPi
+        && second < gap
+    {
+        // The speed at the base has the energy's error over itself.
+        let share = (d.eta / level.speed()).to_f64();
+        let by_u = slope(d, u).to_f64() * share;
+        accuracy.decision([by_u, motion.w.to_f64() * share], d.alpha.to_f64());
+    }
     if next.below_saddle < zero {
         log_impact(ask, record, impact_s, level.speed());
         let motion = Motion { side: side.flipped(), u: zero, w };
@@ -155,23 +172,25 @@ fn fly_out<N: Real>(
 ) -> Fate<N> {
     let d = ask.dynamics;
     let Motion { side, u, w } = motion;
+    let here = Place { u, speed: w.abs() };
+    let end = Place { u: d.limit, speed: speed_at(d, d.limit, level) };
     let time = if !(u < d.limit) {
         N::zero()
     } else if w < N::zero() {
         // Beyond the saddle and moving inwards, but turned back before it:
         // in to the mirror image of the turning point, and out again.
-        let turn = d.alpha + (d.alpha - turning(d, level));
-        transit(d, turn, u, level) + transit(d, turn, d.limit, level)
+        let mirror = d.alpha + (d.alpha - turning(d, level));
+        let turn = Place { u: mirror, speed: N::zero() };
+        transit(d, turn, here, level) + transit(d, turn, end, level)
     } else {
-        transit(d, u, d.limit, level)
+        transit(d, here, end, level)
     };
     let time_s = ask.start_s + time / d.p;
     if ask.past(time_s) {
         return Fate { overturned: None, margin: Some(margin) };
     }
     if let Some(accuracy) = &mut record.accuracy {
-        let error = accuracy.error_now(d.alpha.to_f64());
-        accuracy.overturned(error);
+        accuracy.overturned(d.alpha.to_f64());
     }
     Fate { overturned: Some((time_s, side)), margin: Some(margin) }
 }
@@ -315,56 +334,82 @@ fn two_over_square<N: Real>(q: N, alpha: N) -> N {
     (q + q) / (alpha * alpha)
 }
 
-/// Time (in 1/p) between two rotations, `from` below `to`, on a stretch of
-/// monotone motion: the integral of du / sqrt(2 (D - U(u))), which depends
-/// on |alpha - u| alone.
-fn transit<N: Real>(d: &Dynamics<N>, from: N, to: N, level: Level<N>) -> N {
-    let (high, low) = (d.alpha - from, d.alpha - to);
-    let zero = N::zero();
-    let part = |y1: N, y2: N| match d.model {
-        Model::Nonlinear => stretch(level.below_saddle, y1, y2),
-        Model::Linearized => linear_stretch(level.below_saddle, y1, y2),
-    };
-    if !(low < zero) {
-        part(high, low)
-    } else if high > zero {
-        part(high, zero) + part(-low, zero)
-    } else {
-        part(-low, -high)
+/// A place on an orbit: rotation and absolute velocity. Near a turning point
+/// the velocity cannot be had from the rotation without losing half of the
+/// digits, so it is carried along.
+#[derive(Clone, Copy)]
+struct Place<N> {
+    u: N,
+    speed: N,
+}
+
+/// Velocity at rotation u of a level.
+fn speed_at<N: Real>(d: &Dynamics<N>, u: N, level: Level<N>) -> N {
+    let y = d.alpha - u;
+    let q = level.below_saddle + level.below_saddle;
+    match d.model {
+        Model::Nonlinear => {
+            let (s, _) = (N::ratio(1, 2) * y).sin_cos();
+            clip(N::from_f64(4.0) * s * s - q).sqrt()
+        }
+        Model::Linearized => clip(y * y - q).sqrt(),
     }
 }
 
-/// Integral of dy / sqrt(y^2 - 2 q) from y2 to y1, y1 >= y2 >= 0: the
-/// difference of ln(y + sqrt(y^2 - 2 q)).
-fn linear_stretch<N: Real>(q: N, y1: N, y2: N) -> N {
+/// Time (in 1/p) between two places of monotone motion, `from` below `to`:
+/// the integral of du / sqrt(2 (D - U(u))), which depends on |alpha - u|
+/// alone.
+fn transit<N: Real>(
+    d: &Dynamics<N>,
+    from: Place<N>,
+    to: Place<N>,
+    level: Level<N>,
+) -> N {
+    let high = (d.alpha - from.u, from.speed);
+    let low = (d.alpha - to.u, to.speed);
+    let zero = N::zero();
+    let part = |first, second| match d.model {
+        Model::Nonlinear => stretch(first, second),
+        Model::Linearized => linear_stretch(first, second),
+    };
+    if !(low.0 < zero) {
+        part(high, low)
+    } else if high.0 > zero {
+        let saddle = (zero, speed_at(d, d.alpha, level));
+        part(high, saddle) + part((-low.0, low.1), saddle)
+    } else {
+        part((-low.0, low.1), (-high.0, high.1))
+    }
+}
+
+/// Integral of dy / w, w^2 = y^2 - 2 q, from y2 to y1, y1 >= y2 >= 0: the
+/// difference of ln(y + w).
+fn linear_stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     let dy = y1 - y2;
     if !(dy > N::zero()) {
         return N::zero();
     }
-    let root = |y: N| clip(y * y - (q + q)).sqrt();
-    let (r1, r2) = (root(y1), root(y2));
-    let dr = dy * (y1 + y2) / (r1 + r2);
-    ((dy + dr) / (y2 + r2)).ln_1p()
+    let dw = dy * (y1 + y2) / (w1 + w2);
+    ((dy + dw) / (y2 + w2)).ln_1p()
 }
 
-/// Integral of dx / sqrt(sin^2 x - q/2), x = y/2, from y2 to y1 with
+/// Integral of dy / w, w^2 = 4 sin^2(y/2) - 2 q, from y2 to y1 with
 /// y1 >= y2 >= 0.
 ///
-/// With z = sin^2 x it is the integral of
+/// With z = sin^2(y/2) it is the integral of
 /// dz / (2 sqrt(z (1 - z) (z - q/2))), by Carlson's addition formula
 /// R_F(U1^2, U2^2, U3^2), U_i = (X_i Y_j Y_k + Y_i X_j X_k)/(z1 - z2), X and
 /// Y the square roots of the factors at the two ends (DLMF 19.29.4).
-fn stretch<N: Real>(q: N, y1: N, y2: N) -> N {
+fn stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     let half = N::ratio(1, 2);
     let (s1, c1) = (half * y1).sin_cos();
     let (s2, c2) = (half * y2).sin_cos();
+    let (r1, r2) = (half * w1, half * w2);
     let width =
         (half * (y1 - y2)).sin_cos().0 * (half * (y1 + y2)).sin_cos().0;
     if !(width > N::zero()) {
         return N::zero();
     }
-    let r1 = clip(s1 * s1 - half * q).sqrt();
-    let r2 = clip(s2 * s2 - half * q).sqrt();
     let u1 = (s1 * c2 * r2 + s2 * c1 * r1) / width;
     let u2 = (c1 * s2 * r2 + c2 * s1 * r1) / width;
     let u3 = (r1 * s2 * c2 + r2 * s1 * c1) / width;

@@ -8,7 +8,8 @@ use crate::integrator::forcing::{Forcing, Place, Silence};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{expand, slope, value};
 use crate::integrator::{
-    HistoryPoint, Impact, Observe, Outcome, Response, Scene, Side, Work,
+    HistoryPoint, Impact, Observe, Outcome, Response, SMOOTH, Scene, Side,
+    Work,
 };
 use crate::number::Real;
 
@@ -16,6 +17,14 @@ use crate::number::Real;
 /// geometric tail of the impacts stand for the rest of them: the tail's own
 /// error is of second order in it.
 const TAIL_SPEED: f64 = 1e-10;
+
+/// Truncation allowed per unit of time, in roundoffs of the slenderness
+/// angle: well below what rounding does anyway.
+const TRUNCATION_SHARE: f64 = 0.03;
+
+/// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
+/// error estimate says what it leaves.
+const HALVINGS: u32 = 12;
 
 /// State of a block in motion, in units of 1/p: u = |theta| on a side.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +54,8 @@ pub(crate) struct Driver<'f, N, G, const LEN: usize, const F: usize> {
     events: bool,
     interval_s: Option<f64>,
     until_s: Option<N>,
+    /// Truncation allowed per unit of p-time.
+    tolerance: N,
 }
 
 /// How a flight through the excitation ended.
@@ -87,7 +98,7 @@ enum Event<N> {
     Overturning(N),
 }
 
-impl<'f, N, G, const LEN: usize, const F: usize> Driver<'f, N, G, LEN, F>
+impl<'f, N, G, const SIZE: usize, const F: usize> Driver<'f, N, G, SIZE, F>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -111,6 +122,8 @@ where
             events: false,
             interval_s: None,
             until_s: None,
+            tolerance: dynamics.alpha
+                * N::from_f64(TRUNCATION_SHARE * N::ROUNDOFF),
         }
     }
 
@@ -234,11 +247,53 @@ where
     /// One step: to its end, or to the first event in it.
     #[inline(always)]
     fn advance(&mut self, step: &mut Step<N>, length: N) -> Advance<N> {
+        if let Some(done) = self.attempt::<SIZE>(step, length) {
+            return done;
+        }
+        self.advance_hard(step, length)
+    }
+
+    /// A step of which the short series leaves too much: a longer series,
+    /// then a shorter step.
+    #[inline(never)]
+    fn advance_hard(&mut self, step: &mut Step<N>, length: N) -> Advance<N> {
+        let mut part = length;
+        for halving in 0..=HALVINGS {
+            let last = halving == HALVINGS;
+            let tolerance = self.tolerance;
+            if last {
+                self.tolerance = N::one() / N::zero();
+            }
+            let done = self.attempt::<SMOOTH>(step, part);
+            self.tolerance = tolerance;
+            match done {
+                // Short of the step's end: go on from there.
+                Some(Advance::Reached) if halving > 0 => {
+                    return Advance::Bounced;
+                }
+                Some(done) => return done,
+                None => part = part * N::ratio(1, 2),
+            }
+        }
+        // Not a number: nothing bounds the motion any more.
+        Advance::Ended(Flight::Stopped)
+    }
+
+    /// A step by a series of `LEN` coefficients, unless it leaves too much.
+    #[inline(always)]
+    fn attempt<const LEN: usize>(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+    ) -> Option<Advance<N>> {
         let Motion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let (a, b) = self.dynamics.drive(&oriented);
-        let (c, v) = self.expand(u, w, (&a, &b));
+        let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, (&a, &b));
         self.record.work.steps += 1;
+        if last_term(&c, length) > self.tolerance * length {
+            return None;
+        }
         let event = self.first_event(&c, length);
         let tau = match event {
             Event::None => length,
@@ -257,25 +312,31 @@ where
         match event {
             Event::None => {
                 step.motion = Motion { side, u: end_u, w: end_w };
-                Advance::Reached
+                Some(Advance::Reached)
             }
             Event::Overturning(_) => {
                 let time_s = self.time_s(step.place);
                 let motion = Motion { side, u: end_u, w: end_w };
                 let margin = self.margin_beyond(step.place, motion);
-                Advance::Ended(Flight::Overturned { time_s, side, margin })
+                Some(Advance::Ended(Flight::Overturned {
+                    time_s,
+                    side,
+                    margin,
+                }))
             }
             Event::Impact(_) => {
                 let before = slope(&v[..LEN - 1], tau);
-                self.impact(step, -end_w, before)
-                    .map_or(Advance::Bounced, Advance::Ended)
+                Some(
+                    self.impact(step, -end_w, before)
+                        .map_or(Advance::Bounced, Advance::Ended),
+                )
             }
         }
     }
 
     /// Taylor polynomial of the motion.
     #[inline(always)]
-    fn expand(
+    fn expand<const LEN: usize>(
         &self,
         u: N,
         w: N,
@@ -303,7 +364,11 @@ where
 
     /// First impact or overturning in (0, length].
     #[inline(always)]
-    fn first_event(&self, c: &[N; LEN], length: N) -> Event<N> {
+    fn first_event<const LEN: usize>(
+        &self,
+        c: &[N; LEN],
+        length: N,
+    ) -> Event<N> {
         // Bound on |u(tau) - u_0 - w_0 tau| / tau over the step.
         let mut rest = N::zero();
         for k in (2..LEN).rev() {
@@ -343,7 +408,7 @@ where
 
     /// Raises the peak by the turning points in (0, tau).
     #[inline(always)]
-    fn turning_points(
+    fn turning_points<const LEN: usize>(
         &mut self,
         c: &[N; LEN],
         v: &[N; LEN],
@@ -369,7 +434,7 @@ where
     }
 
     #[inline(never)]
-    fn locate_turning_points(
+    fn locate_turning_points<const LEN: usize>(
         &mut self,
         c: &[N; LEN],
         v: &[N; LEN],
@@ -542,11 +607,12 @@ where
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
             let (a, b) = self.dynamics.drive(&f);
-            let (c, v) = self.expand(u, w, (&a, &b));
-            if let Some(tau) = first_descent(&v[..LEN - 1], left) {
+            let (c, v): ([N; SMOOTH], [N; SMOOTH]) =
+                self.expand(u, w, (&a, &b));
+            if let Some(tau) = first_descent(&v[..SMOOTH - 1], left) {
                 return self.beyond(value(&c, tau));
             }
-            (u, w) = (value(&c, left), value(&v[..LEN - 1], left));
+            (u, w) = (value(&c, left), value(&v[..SMOOTH - 1], left));
             if !(u < N::right_angle()) {
                 return f64::INFINITY;
             }
@@ -562,11 +628,19 @@ where
 
     /// Accumulates the error of a step.
     #[inline(never)]
-    fn track(&mut self, c: &[N; LEN], drive: (N, N), tau: N, u: N, w: N) {
+    fn track<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        drive: (N, N),
+        tau: N,
+        u: N,
+        w: N,
+    ) {
         let model = self.dynamics.model;
         let Some(accuracy) = &mut self.record.accuracy else { return };
         let (a, b) = (drive.0.to_f64(), drive.1.to_f64());
         let u0 = c[0].to_f64();
+        let last = last_term(c, tau).to_f64();
         let tau = tau.to_f64();
         let (j, force) = match model {
             Model::Nonlinear => {
@@ -575,17 +649,13 @@ where
             }
             Model::Linearized => (1.0, u0.abs() + b.abs()),
         };
-        // The next term of the series is about tau times the last one.
-        let mut last = c[LEN - 1].to_f64().abs();
-        for _ in 0..LEN {
-            last *= tau;
-        }
         // The forcing itself carries a roundoff: the threshold's size.
         let size = force + self.dynamics.threshold.to_f64();
         let unit = N::ROUNDOFF;
-        let error_u = unit * u.to_f64().abs() + last;
-        let speed = unit * w.to_f64().abs();
-        let error_w = speed + unit * size * tau + last / tau.max(1e-30);
+        let error_u = unit * u.to_f64().abs().max(u0) + last;
+        let speed = w.to_f64().abs().max(c[1].to_f64().abs());
+        let slip = if tau > 0.0 { last / tau } else { 0.0 };
+        let error_w = unit * (speed + size * tau) + slip;
         accuracy.step(j, tau, [error_u, error_w]);
     }
 
@@ -643,7 +713,7 @@ where
 
     /// Points of a history within a step.
     #[inline(never)]
-    fn sample_step(
+    fn sample_step<const LEN: usize>(
         &mut self,
         c: &[N; LEN],
         v: &[N; LEN],
@@ -693,8 +763,7 @@ where
                 margin = Some(beyond);
                 overturned = Some((time_s, side));
                 if let Some(accuracy) = &mut self.record.accuracy {
-                    let error = accuracy.error_now(alpha.to_f64());
-                    accuracy.overturned(error);
+                    accuracy.overturned(alpha.to_f64());
                 }
             }
             Flight::End(motion) => {
@@ -720,7 +789,7 @@ where
     #[inline(never)]
     fn trace(&mut self, motion: Motion<N>, end_s: N) {
         let silence = Silence::endless(end_s, self.dynamics.p);
-        let mut free = Driver::<N, _, LEN, 1>::new(self.dynamics, &silence);
+        let mut free = Driver::<N, _, SMOOTH, 1>::new(self.dynamics, &silence);
         free.events = true;
         free.interval_s = self.interval_s;
         free.until_s = self.until_s.or_else(|| {
@@ -779,11 +848,36 @@ where
             impacts: record.impacts,
             fate_margin,
             error_estimate: accuracy.map(|a| a.peak_error()),
+            fate_error: accuracy.map(|a| a.fate_error()),
             condition_number: accuracy.map(|a| a.peak_condition()),
             work: record.work,
             history: record.history,
         }
     }
+}
+
+/// Estimate of what a series leaves over a step: the next coefficient is at
+/// most about a quarter of the last (1/(LEN) for the motion alone; the rest
+/// allows for strong forcing).
+#[inline(always)]
+fn last_term<N: Real, const LEN: usize>(c: &[N; LEN], tau: N) -> N {
+    let mut power = tau;
+    let square = tau * tau;
+    let mut left = (LEN - 1) / 2;
+    let mut base = square;
+    let mut even = N::one();
+    while left > 0 {
+        if left % 2 == 1 {
+            even = even * base;
+        }
+        base = base * base;
+        left /= 2;
+    }
+    power = power * even;
+    if LEN % 2 == 0 {
+        power = power * tau;
+    }
+    N::ratio(1, 4) * c[LEN - 1].abs() * power
 }
 
 /// Moves the origin of the polynomial `c` to `by`.

@@ -1,6 +1,6 @@
 //! The excitation as the driver meets it: pieces with a Taylor series each.
 
-use crate::excitation::{Pulse, ScaledRecord, Shape};
+use crate::excitation::{Pulse, RestIndex, ScaledRecord, Shape};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
@@ -60,48 +60,32 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
 /// A record: one piece an interval between samples.
 pub(crate) struct RecordForcing<'a, N> {
     record: ScaledRecord<'a>,
-    peaks: &'a RestIndex,
+    index: &'a RestIndex,
     length: N,
     inverse: N,
     steps: usize,
 }
 
-/// Largest absolute sample of each run of 64 intervals: a resting block skips
-/// whole runs. Made once a record, shared by all levels and blocks.
-#[derive(Clone, Debug)]
-pub struct RestIndex(Vec<f64>);
-
-const RUN: usize = 64;
-
-impl RestIndex {
-    /// Index of the samples of a record, before scaling.
-    #[must_use]
-    pub fn new(samples: &[f64]) -> Self {
-        let intervals = samples.len().saturating_sub(1);
-        let peak = |first: usize| {
-            samples[first..=(first + RUN).min(intervals)]
-                .iter()
-                .fold(0.0_f64, |peak, x| peak.max(x.abs()))
-        };
-        Self((0..intervals).step_by(RUN).map(peak).collect())
-    }
-}
-
 impl<'a, N: Real> RecordForcing<'a, N> {
     pub fn new(
         record: ScaledRecord<'a>,
-        peaks: &'a RestIndex,
+        index: &'a RestIndex,
         frequency_rad_s: f64,
     ) -> Self {
         let length = N::from_f64(record.dt_s()) * N::from_f64(frequency_rad_s);
         let steps = libm::ceil(length.to_f64() / LONGEST_STEP).max(1.0);
         Self {
             record,
-            peaks,
+            index,
             length,
             inverse: N::one() / length,
             steps: steps as usize,
         }
+    }
+
+    /// Length of a step in units of 1/p.
+    pub fn step(&self) -> f64 {
+        self.length.to_f64() / self.steps as f64
     }
 
     #[inline(always)]
@@ -149,10 +133,8 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
         let mut piece = from.piece;
         let mut scanned = 0;
         while piece < self.pieces() {
-            if piece.is_multiple_of(RUN)
-                && !(self.peaks.0[piece / RUN] * amplitude > bound)
-            {
-                piece += RUN;
+            if let Some(next) = self.index.skip(piece, bound / amplitude) {
+                piece = next;
                 scanned += 1;
                 continue;
             }

@@ -7,6 +7,15 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+pub mod boxplot;
+pub mod capacities;
+pub mod compare;
+pub mod fragility;
+pub mod lilliefors;
+pub mod quantile;
+pub mod records;
+pub mod samples;
+
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
 #[command(name = "rocking", version, max_term_width = 100)]
@@ -17,6 +26,13 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Records(records::Args),
+    Boxplot(boxplot::Args),
+    Capacities(capacities::Args),
+    Compare(compare::Args),
+    Fragility(fragility::Args),
+    Lilliefors(lilliefors::Args),
+    Quantile(quantile::Args),
     /// Runs the declared cases and writes or checks their results.
     Validate(validate::Args),
 }
@@ -81,6 +97,13 @@ pub fn print(text: &str) -> Result<(), Failure> {
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
+        Command::Records(args) => records::run(&args),
+        Command::Boxplot(args) => boxplot::run(&args),
+        Command::Capacities(args) => capacities::run(&args),
+        Command::Compare(args) => compare::run(&args),
+        Command::Fragility(args) => fragility::run(&args),
+        Command::Lilliefors(args) => lilliefors::run(&args),
+        Command::Quantile(args) => quantile::run(&args),
         Command::Validate(args) => validate::run(&args),
     };
     match outcome {

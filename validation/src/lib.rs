@@ -4,11 +4,16 @@
 
 pub mod cases;
 pub mod cli;
+pub mod drawing;
 pub mod engine;
+pub mod figures;
 pub mod files;
+pub mod inputs;
 pub mod json;
 pub mod methods;
 pub mod naive;
 pub mod oracles;
 pub mod scene;
+pub mod study;
+pub mod synthesis;
 pub mod verdict;

@@ -1,0 +1,195 @@
+//! One record's response curve.
+
+use thiserror::Error;
+
+/// Why a response curve or a level was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum CapacityError {
+    /// A curve starts somewhere.
+    #[error("response curve without a vertex: expected the vertex at EDP 0")]
+    Empty,
+    /// The first vertex is the onset of rocking.
+    #[error("first vertex has EDP {0}: expected the onset of rocking, EDP 0")]
+    FirstEdp(f64),
+    /// Intensities are positive, finite and strictly increasing.
+    #[error(
+        "vertex {number} has intensity {im} after {previous}: expected finite, strictly increasing, positive intensities"
+    )]
+    Intensity {
+        /// Place in the curve, from 1.
+        number: usize,
+        /// The intensity found.
+        im: f64,
+        /// The one before it, 0 for the first.
+        previous: f64,
+    },
+    /// Overturned is not a value of the EDP.
+    #[error(
+        "vertex {number} has EDP {edp}: expected a finite number, not negative; overturning is given apart"
+    )]
+    Edp {
+        /// Place in the curve, from 1.
+        number: usize,
+        /// The EDP found.
+        edp: f64,
+    },
+    /// Overturning ends the curve.
+    #[error(
+        "overturning at intensity {overturning}: expected a finite intensity above that of the last vertex, {last}"
+    )]
+    Overturning {
+        /// The intensity found.
+        overturning: f64,
+        /// The last vertex's intensity.
+        last: f64,
+    },
+    /// Levels are positive.
+    #[error("EDP level {0}: expected a positive finite number")]
+    Level(f64),
+    /// Scale factors are positive.
+    #[error("scale factor {0}: expected a positive finite number")]
+    Factor(f64),
+}
+
+/// A vertex: an intensity and the response there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Vertex {
+    pub im: f64,
+    pub edp: f64,
+}
+
+/// EDP against IM of one record: linear between vertices, which begin at the
+/// onset of rocking (EDP 0), up to the intensity of first overturning.
+///
+/// Overturning is no EDP: nothing is interpolated towards it. A record that
+/// never overturned within the intensities run is censored there.
+///
+/// ```
+/// use rocking::capacity::{InversionRule, ResponseCurve};
+/// let vertices = [(1.0, 0.0), (1.2, 0.4), (1.4, 0.8), (1.6, 0.5)];
+/// let curve = ResponseCurve::try_new(&vertices, Some(2.0))?;
+/// let crossings = curve.crossings(0.6)?;
+/// assert_eq!(crossings.all().len(), 3);
+/// assert_eq!(crossings.capacity(InversionRule::Last).im(), 2.0);
+/// # Ok::<(), rocking::capacity::CapacityError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseCurve {
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) overturning_im: Option<f64>,
+}
+
+impl ResponseCurve {
+    /// A curve through vertices (IM, EDP), and the intensity of first
+    /// overturning if there was one.
+    ///
+    /// # Errors
+    /// [`CapacityError`] unless intensities are positive and strictly
+    /// increasing, EDPs finite and not negative with the first one 0, and
+    /// overturning lies above the last vertex.
+    pub fn try_new(
+        vertices: &[(f64, f64)],
+        overturning_im: Option<f64>,
+    ) -> Result<Self, CapacityError> {
+        let mut previous = 0.0;
+        for (i, &(im, edp)) in vertices.iter().enumerate() {
+            let number = i + 1;
+            if !(im > previous && im.is_finite()) {
+                return Err(CapacityError::Intensity { number, im, previous });
+            }
+            if !(edp >= 0.0 && edp.is_finite()) {
+                return Err(CapacityError::Edp { number, edp });
+            }
+            previous = im;
+        }
+        let &(_, first) = vertices.first().ok_or(CapacityError::Empty)?;
+        if first != 0.0 {
+            return Err(CapacityError::FirstEdp(first));
+        }
+        if let Some(overturning) = overturning_im
+            && !(overturning > previous && overturning.is_finite())
+        {
+            return Err(CapacityError::Overturning {
+                overturning,
+                last: previous,
+            });
+        }
+        let vertices =
+            vertices.iter().map(|&(im, edp)| Vertex { im, edp }).collect();
+        Ok(Self { vertices, overturning_im })
+    }
+
+    /// The same responses against another intensity measure, proportional
+    /// to this one for the record (PGV for PGA).
+    ///
+    /// # Errors
+    /// [`CapacityError::Factor`] unless the factor is positive and finite.
+    pub fn scaled(&self, factor: f64) -> Result<Self, CapacityError> {
+        if !(factor > 0.0 && factor.is_finite()) {
+            return Err(CapacityError::Factor(factor));
+        }
+        let scale = |v: &Vertex| Vertex { im: factor * v.im, edp: v.edp };
+        Ok(Self {
+            vertices: self.vertices.iter().map(scale).collect(),
+            overturning_im: self.overturning_im.map(|im| factor * im),
+        })
+    }
+
+    /// Intensity of the onset of rocking, the first vertex.
+    #[must_use]
+    pub fn onset_im(&self) -> f64 {
+        self.vertices[0].im
+    }
+
+    /// Intensity of the last vertex, the last one that stood.
+    #[must_use]
+    pub fn last_im(&self) -> f64 {
+        self.vertices[self.vertices.len() - 1].im
+    }
+
+    /// Intensity of first overturning; none if the record never overturned.
+    #[must_use]
+    pub fn overturning_im(&self) -> Option<f64> {
+        self.overturning_im
+    }
+
+    /// The vertices (IM, EDP), overturning not among them.
+    pub fn vertices(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.vertices.iter().map(|v| (v.im, v.edp))
+    }
+
+    /// EDP at an intensity, by the curve: 0 up to the onset, infinite from
+    /// the first overturning on (nothing stands again), linear between
+    /// vertices, and none where the curve says nothing (beyond its last
+    /// vertex, or not a number).
+    ///
+    /// ```
+    /// use rocking::capacity::ResponseCurve;
+    /// let vertices = [(1.0, 0.0), (2.0, 0.5)];
+    /// let curve = ResponseCurve::try_new(&vertices, Some(3.0))?;
+    /// assert_eq!(curve.edp_at(0.5), Some(0.0));
+    /// assert_eq!(curve.edp_at(1.5), Some(0.25));
+    /// assert_eq!(curve.edp_at(2.5), None);
+    /// assert_eq!(curve.edp_at(3.0), Some(f64::INFINITY));
+    /// # Ok::<(), rocking::capacity::CapacityError>(())
+    /// ```
+    #[must_use]
+    pub fn edp_at(&self, im: f64) -> Option<f64> {
+        if self.overturning_im.is_some_and(|first| im >= first) {
+            return Some(f64::INFINITY);
+        }
+        if im <= self.onset_im() {
+            return Some(0.0);
+        }
+        self.vertices.windows(2).find_map(|pair| {
+            let (a, b) = (pair[0], pair[1]);
+            if im == b.im {
+                return Some(b.edp);
+            }
+            let share = (im - a.im) / (b.im - a.im);
+            (im > a.im && im < b.im)
+                .then(|| f64::mul_add(share, b.edp - a.edp, a.edp))
+        })
+    }
+}

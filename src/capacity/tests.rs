@@ -1,0 +1,195 @@
+use super::*;
+
+/// The curves of exact rational arithmetic; see the table below.
+fn curve(vertices: &[(f64, f64)], overturning: Option<f64>) -> ResponseCurve {
+    ResponseCurve::try_new(vertices, overturning).unwrap()
+}
+
+fn e2() -> ResponseCurve {
+    curve(
+        &[
+            (1.0, 0.0),
+            (1.1, 0.2),
+            (1.2, 0.5),
+            (1.3, 0.3),
+            (1.4, 0.15),
+            (1.5, 0.4),
+            (1.6, 0.8),
+        ],
+        Some(1.7),
+    )
+}
+
+fn e3() -> ResponseCurve {
+    let vertices =
+        [(1.0, 0.0), (1.2, 0.4), (1.4, 0.8), (1.6, 0.5), (1.8, 0.3)];
+    curve(&vertices, Some(2.0))
+}
+
+fn e4() -> ResponseCurve {
+    let vertices = [
+        (1.0, 0.0),
+        (1.2, 0.1),
+        (1.4, 0.3),
+        (1.6, 0.1),
+        (1.8, 0.2),
+        (2.0, 0.6),
+    ];
+    curve(&vertices, Some(2.2))
+}
+
+fn e5() -> ResponseCurve {
+    let vertices =
+        [(1.0, 0.0), (1.2, 0.6), (1.4, 0.3), (1.6, 0.7), (1.8, 0.9)];
+    curve(&vertices, Some(2.0))
+}
+
+fn e7() -> ResponseCurve {
+    curve(&[(1.0, 0.0), (1.2, 0.4), (1.4, 0.2), (1.6, 0.1)], None)
+}
+
+fn close(a: f64, b: f64) -> bool {
+    a == b || (a - b).abs() < 4e-15
+}
+
+#[test]
+fn crossings_agree_with_exact_rationals() {
+    let (e2, e3, e4, e5, e7) = (e2(), e3(), e4(), e5(), e7());
+    let inf = f64::INFINITY;
+    let cases: [(&ResponseCurve, f64, &[f64]); 15] = [
+        (&e2, 0.18, &[1.09, 1.38, 1.412]),
+        (&e2, 0.25, &[67.0 / 60.0, 4.0 / 3.0, 36.0 / 25.0]),
+        (&e2, 0.35, &[1.15, 1.275, 1.48]),
+        (&e2, 0.45, &[71.0 / 60.0, 1.225, 1.5125]),
+        (&e2, 0.6, &[1.55]),
+        (&e2, 1.0, &[1.7]),
+        (&e3, 0.5, &[1.25, 1.6, 2.0]),
+        (&e3, 0.8, &[1.4, 1.4, 2.0]),
+        (&e4, 0.29, &[1.39, 1.41, 1.845]),
+        (&e4, 0.30, &[1.4, 1.4, 1.85]),
+        (&e4, 0.31, &[1.855]),
+        (&e5, 0.30, &[1.1]),
+        (&e5, 0.31, &[331.0 / 300.0, 209.0 / 150.0, 1.405]),
+        (&e7, 0.3, &[1.15, 1.3, inf]),
+        (&e7, 0.5, &[inf]),
+    ];
+    for (curve, level, expected) in cases {
+        let crossings = curve.crossings(level).unwrap();
+        let ours = crossings.all();
+        assert_eq!(ours.len(), expected.len(), "level {level}: {ours:?}");
+        for (a, b) in ours.iter().zip(expected) {
+            assert!(close(*a, *b), "level {level}: {ours:?}");
+        }
+    }
+}
+
+#[test]
+fn capacities_agree_with_exact_rationals() {
+    use InversionRule::{First, Median, Monotone};
+    let (e2, e3, e4, e5) = (e2(), e3(), e4(), e5());
+    let cases = [
+        (&e2, 0.18, 1.38, 1.09, 1.122),
+        (&e2, 0.25, 4.0 / 3.0, 67.0 / 60.0, 367.0 / 300.0),
+        (&e2, 0.35, 1.275, 1.15, 1.355),
+        (&e2, 0.45, 1.225, 71.0 / 60.0, 353.0 / 240.0),
+        (&e3, 0.5, 1.6, 1.25, 1.65),
+        (&e3, 0.8, 1.4, 1.4, 2.0),
+        (&e4, 0.29, 1.41, 1.39, 1.825),
+        (&e4, 0.30, 1.4, 1.4, 1.85),
+        (&e4, 0.31, 1.855, 1.855, 1.855),
+        (&e5, 0.30, 1.1, 1.1, 1.1),
+        (&e5, 0.31, 209.0 / 150.0, 331.0 / 300.0, 1.115),
+    ];
+    for (curve, level, median, first, monotone) in cases {
+        for (rule, expected) in
+            [(Median, median), (First, first), (Monotone, monotone)]
+        {
+            let ours = curve.capacity(level, rule).unwrap().im();
+            assert!(close(ours, expected), "{rule} at {level}: {ours}");
+        }
+    }
+}
+
+#[test]
+fn a_record_that_never_reaches_the_level_is_censored() {
+    let censored = Capacity::Censored { last_im: 1.6 };
+    for rule in
+        [InversionRule::Median, InversionRule::First, InversionRule::Monotone]
+    {
+        assert_eq!(e7().capacity(0.5, rule), Ok(censored));
+    }
+    let median = e7().capacity(0.3, InversionRule::Median).unwrap();
+    assert!(close(median.im(), 1.3));
+    // The infinite length below the level is censored too.
+    assert_eq!(e7().capacity(0.3, InversionRule::Monotone), Ok(censored));
+}
+
+#[test]
+fn capacity_at_one_is_the_first_overturning_level() {
+    for (curve, overturning) in [(e2(), 1.7), (e3(), 2.0), (e4(), 2.2)] {
+        let capacity = curve.capacity(1.0, InversionRule::Median);
+        assert_eq!(capacity, Ok(Capacity::Reached(overturning)));
+    }
+    let bare = curve(&[(1.0, 0.0)], Some(1.199_833));
+    for level in [1e-6, 0.5, 1.0] {
+        let capacity = bare.capacity(level, InversionRule::Median);
+        assert_eq!(capacity, Ok(Capacity::Reached(1.199_833)));
+    }
+}
+
+#[test]
+fn the_monotone_companion_never_falls_and_the_median_does() {
+    let curve = e2();
+    let levels: Vec<f64> = (1..=100).map(|k| f64::from(k) / 100.0).collect();
+    let falls = |rule| {
+        let ims: Vec<f64> = levels
+            .iter()
+            .map(|&e| curve.capacity(e, rule).unwrap().im())
+            .collect();
+        ims.windows(2).any(|pair| pair[1] < pair[0] - 1e-14)
+    };
+    assert!(!falls(InversionRule::Monotone));
+    assert!(falls(InversionRule::Median));
+}
+
+#[test]
+fn scaling_moves_intensities_only() {
+    let scaled = e2().scaled(2.0).unwrap();
+    let capacity = scaled.capacity(0.18, InversionRule::Last).unwrap();
+    assert!(close(capacity.im(), 2.824));
+    assert_eq!(scaled.overturning_im(), Some(3.4));
+    assert!(e2().scaled(0.0).is_err() && e2().scaled(f64::NAN).is_err());
+}
+
+#[test]
+fn stripes_are_infinite_from_the_first_overturning_on() {
+    let curve = e2();
+    assert_eq!(curve.edp_at(1.0), Some(0.0));
+    assert!(close(curve.edp_at(1.15).unwrap(), 0.35));
+    assert_eq!(curve.edp_at(1.2), Some(0.5));
+    assert_eq!(curve.edp_at(1.65), None);
+    assert_eq!(curve.edp_at(1.7), Some(f64::INFINITY));
+    assert_eq!(curve.edp_at(9.0), Some(f64::INFINITY));
+    assert_eq!(e7().edp_at(9.0), None);
+    assert_eq!(e7().edp_at(f64::NAN), None);
+}
+
+#[test]
+fn bad_curves_are_refused_with_what_was_found() {
+    let refused = |vertices: &[(f64, f64)], overturning| {
+        ResponseCurve::try_new(vertices, overturning).unwrap_err()
+    };
+    assert_eq!(refused(&[], None), CapacityError::Empty);
+    assert_eq!(refused(&[(1.0, 0.1)], None), CapacityError::FirstEdp(0.1));
+    let error = refused(&[(1.0, 0.0), (1.0, 0.2)], None);
+    assert!(matches!(error, CapacityError::Intensity { number: 2, .. }));
+    let error = refused(&[(1.0, 0.0), (1.1, f64::INFINITY)], None);
+    assert!(matches!(error, CapacityError::Edp { number: 2, .. }));
+    let error = refused(&[(1.0, 0.0), (f64::NAN, 0.1)], None);
+    assert!(matches!(error, CapacityError::Intensity { number: 2, .. }));
+    for overturning in [0.5, 1.0, f64::INFINITY, f64::NAN] {
+        let error = refused(&[(1.0, 0.0)], Some(overturning));
+        assert!(matches!(error, CapacityError::Overturning { .. }));
+    }
+    assert!(e2().crossings(0.0).is_err() && e2().crossings(f64::NAN).is_err());
+}

@@ -1,0 +1,522 @@
+//! Incremental dynamic analysis: one block, one record, rising intensity.
+//!
+//! Levels rise until the first overturning, with no resurrection; the first
+//! overturning bracket may be bisected. The intensity of a curve is
+//! PGA/(g tan alpha) (g alpha for Eq. 2); p PGV/(g tan alpha) is that times
+//! p PGV/PGA.
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::block::{Block, BlockError, Restitution};
+use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use crate::integrator::{
+    Model, Observe, Outcome, Overturning, Scene, SceneError, respond,
+    uplift_threshold,
+};
+
+/// Intensities at which a curve is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grid {
+    /// Peak ground accelerations k `step_g`, k = 1, 2, ... (multiples of
+    /// gravity); the paper's step is 0.01.
+    Pga {
+        /// Step in multiples of gravity.
+        step_g: f64,
+    },
+    /// Dimensionless intensities 1 + k `step`, the same for every block.
+    Im {
+        /// Step in PGA/(g tan alpha).
+        step: f64,
+    },
+}
+
+/// How a level's intensity is reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The record is scaled; the block stays.
+    RecordScaling,
+    /// The record stays as recorded; the slenderness is adjusted to
+    /// alpha = atan(PGA/(g IM)) (PGA/(g IM) for Eq. 2) at equal p, and the
+    /// rotation is normalised by the adjusted alpha.
+    SlendernessAdjustment,
+}
+
+/// One kind of analysis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Analysis {
+    /// The block; under slenderness adjustment, the block whose grid of
+    /// levels is used.
+    pub block: Block,
+    /// Coefficient of restitution.
+    pub restitution: Restitution,
+    /// Equation of motion.
+    pub model: Model,
+    /// Overturning criterion.
+    pub overturning: Overturning,
+    /// Levels.
+    pub grid: Grid,
+    /// How levels are reached.
+    pub method: Method,
+    /// Width in IM to which the first overturning bracket is bisected.
+    pub refine: Option<f64>,
+    /// Where levels end if the block does not overturn (IM).
+    pub highest_im: f64,
+    /// Levels above the first overturning are looked at up to here.
+    pub resurrections: Option<Resurrections>,
+}
+
+/// How far up resurrections are sought.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Resurrections {
+    /// To a multiple of the first overturning level.
+    Multiple(f64),
+    /// To an intensity.
+    To(f64),
+}
+
+/// Where curves end that never overturn, unless told otherwise (IM).
+pub const HIGHEST_IM: f64 = 100.0;
+
+/// Default width in IM to which the first overturning bracket is bisected.
+pub const REFINEMENT: f64 = 1e-4;
+
+impl Analysis {
+    /// The paper's analysis: Eq. 1, overturning at alpha, 0.01 g levels, no
+    /// refinement, no resurrections.
+    #[must_use]
+    pub fn paper(block: Block, restitution: Restitution) -> Self {
+        Self {
+            block,
+            restitution,
+            model: Model::Nonlinear,
+            overturning: Overturning::Alpha,
+            grid: Grid::Pga { step_g: 0.01 },
+            method: Method::RecordScaling,
+            refine: None,
+            highest_im: HIGHEST_IM,
+            resurrections: None,
+        }
+    }
+}
+
+/// Why an analysis was refused.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum IdaError {
+    /// Steps, tolerances and ends must be positive and finite.
+    #[error("{what} {found}: expected a positive number")]
+    NotPositive {
+        /// The quantity.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+    },
+    /// A record of zeros has no intensity.
+    #[error("record {record}: its peak ground acceleration is zero")]
+    Silent {
+        /// The record.
+        record: String,
+    },
+    /// An adjusted slenderness is no slenderness.
+    #[error("record {record} at IM {im}: {source}")]
+    Slenderness {
+        /// The record.
+        record: String,
+        /// The level.
+        im: f64,
+        /// What was wrong.
+        #[source]
+        source: BlockError,
+    },
+    /// The scene could not be integrated.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// One analysis of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IdaPoint {
+    /// Dimensionless intensity PGA/(g tan alpha).
+    pub im: f64,
+    /// Peak ground acceleration applied, multiples of gravity.
+    pub pga_g: f64,
+    /// Slenderness of the block analysed, rad.
+    pub slenderness_rad: f64,
+    /// What became of it.
+    pub outcome: Outcome,
+    /// Margin to the other fate.
+    pub fate_margin: f64,
+    /// False where double precision cannot tell the fate.
+    pub resolved: bool,
+}
+
+impl IdaPoint {
+    /// Peak |theta|/alpha; infinite when overturned.
+    #[must_use]
+    pub fn edp(&self) -> f64 {
+        self.outcome.edp()
+    }
+}
+
+/// The first overturning of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstOverturning {
+    /// Level of the grid that overturned first, IM.
+    pub scanned_im: f64,
+    /// Upper end of the bisected bracket, where one was asked for.
+    pub refined: Option<IdaPoint>,
+    /// Highest intensity below it found standing.
+    pub standing_im: f64,
+}
+
+impl FirstOverturning {
+    /// The overturning intensity: refined, or the level.
+    #[must_use]
+    pub fn im(&self) -> f64 {
+        self.refined.map_or(self.scanned_im, |point| point.im)
+    }
+}
+
+/// IDA curve of one record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IdaCurve {
+    /// The record's name.
+    pub record: String,
+    /// PGA of the record as given, multiples of gravity.
+    pub record_pga_g: f64,
+    /// PGV/PGA of the record in s.
+    pub velocity_ratio_s: f64,
+    /// Analyses in rising intensity, the first overturned one last; levels
+    /// at or below the uplift threshold are not run.
+    pub points: Vec<IdaPoint>,
+    /// First overturning; none within the highest level otherwise.
+    pub overturning: Option<FirstOverturning>,
+    /// Levels above the first overturning, where resurrections were sought.
+    pub above: Vec<IdaPoint>,
+    /// Analyses made, bisection included.
+    pub analyses: u64,
+}
+
+impl IdaCurve {
+    /// Standing analyses, in rising intensity.
+    pub fn standing(&self) -> impl Iterator<Item = &IdaPoint> {
+        self.points.iter().filter(|point| !point.outcome.is_overturned())
+    }
+
+    /// Factor from PGA/(g tan alpha) to p PGV/(g tan alpha) for a block of
+    /// frequency parameter p.
+    #[must_use]
+    pub fn velocity_factor(&self, frequency_rad_s: f64) -> f64 {
+        frequency_rad_s * self.velocity_ratio_s
+    }
+
+    /// Levels above the first overturning at which the block stands again.
+    #[must_use]
+    pub fn resurrections(&self) -> usize {
+        let stands = |point: &&IdaPoint| !point.outcome.is_overturned();
+        self.above.iter().filter(stands).count()
+    }
+}
+
+/// IDA of one record.
+///
+/// # Errors
+/// [`IdaError`] for steps that are not positive or a record of zeros.
+///
+/// ```
+/// use rocking::block::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, curve};
+/// use rocking::record::Accelerogram;
+/// // One triangular lobe of half a second, 0.2 g high.
+/// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analysis = Analysis::paper(block, Restitution::constant(0.92)?);
+/// let curve = curve(&NormalisedRecord::new(&record), &analysis)?;
+/// // The first level that moves the block is 0.11 g > g tan(0.1).
+/// assert_eq!(curve.points[0].pga_g, 0.11);
+/// assert!(curve.overturning.is_some());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn curve(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+) -> Result<IdaCurve, IdaError> {
+    check(record, analysis)?;
+    let mut chain = Chain { record, analysis, analyses: 0 };
+    let threshold = uplift_threshold(&analysis.block, analysis.model);
+    let mut points = Vec::new();
+    let mut overturning = None;
+    let mut standing_im = 1.0;
+    let mut level = chain.first_level(threshold);
+    loop {
+        let im = chain.level_im(level, threshold);
+        if im > analysis.highest_im {
+            break;
+        }
+        let point = chain.at_level(level, threshold)?;
+        points.push(point);
+        if point.outcome.is_overturned() {
+            let refined = chain.bisect(standing_im, point)?;
+            overturning = Some(FirstOverturning {
+                scanned_im: point.im,
+                refined: refined.map(|(_, upper)| upper),
+                standing_im: refined.map_or(standing_im, |(low, _)| low),
+            });
+            break;
+        }
+        standing_im = point.im;
+        level += 1;
+    }
+    let mut above = Vec::new();
+    if let (Some(first), Some(reach)) = (overturning, analysis.resurrections) {
+        let end = match reach {
+            Resurrections::Multiple(times) => times * first.scanned_im,
+            Resurrections::To(im) => im,
+        };
+        loop {
+            level += 1;
+            if chain.level_im(level, threshold) > end {
+                break;
+            }
+            above.push(chain.at_level(level, threshold)?);
+        }
+    }
+    Ok(IdaCurve {
+        record: record.name().to_owned(),
+        record_pga_g: record.pga_g(),
+        velocity_ratio_s: record.velocity_ratio_s(),
+        points,
+        overturning,
+        above,
+        analyses: chain.analyses,
+    })
+}
+
+/// IDA of every record under every analysis: `result[a][r]`, in parallel
+/// over chains, the same for any number of threads. `done` is called after
+/// each chain.
+///
+/// # Errors
+/// The first error in the order of analyses and records.
+pub fn curves(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    done: impl Fn() + Sync,
+) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    // Small blocks of p, alpha first would leave the long chains for the
+    // end; rayon steals single chains, so order matters little here.
+    let chains: Vec<(usize, usize)> = (0..analyses.len())
+        .flat_map(|a| (0..records.len()).map(move |r| (a, r)))
+        .collect();
+    let flat: Vec<Result<IdaCurve, IdaError>> = chains
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(a, r)| {
+            let result = curve(&records[r], &analyses[a]);
+            done();
+            result
+        })
+        .collect();
+    let mut flat = flat.into_iter();
+    (0..analyses.len())
+        .map(|_| flat.by_ref().take(records.len()).collect())
+        .collect()
+}
+
+/// Engineering demand parameter at one intensity, whatever happens below it:
+/// peak |theta|/alpha, infinite when overturned.
+///
+/// A stripe with the no-resurrection rule is infinite from the first
+/// overturning on; the caller has the curve to know.
+///
+/// # Errors
+/// As [`curve`].
+pub fn at(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+    im: f64,
+) -> Result<IdaPoint, IdaError> {
+    check(record, analysis)?;
+    if !(im > 0.0 && im.is_finite()) {
+        return Err(IdaError::NotPositive { what: "intensity", found: im });
+    }
+    let threshold = uplift_threshold(&analysis.block, analysis.model);
+    Chain { record, analysis, analyses: 0 }.at_im(im, im * threshold)
+}
+
+fn check(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+) -> Result<(), IdaError> {
+    let positive = |what, found: f64| {
+        if found > 0.0 && found.is_finite() {
+            Ok(())
+        } else {
+            Err(IdaError::NotPositive { what, found })
+        }
+    };
+    match analysis.grid {
+        Grid::Pga { step_g } => positive("step in g", step_g)?,
+        Grid::Im { step } => positive("step in IM", step)?,
+    }
+    positive("highest IM", analysis.highest_im)?;
+    if let Some(tolerance) = analysis.refine {
+        positive("refinement", tolerance)?;
+    }
+    match analysis.resurrections {
+        Some(Resurrections::Multiple(x)) => positive("resurrections", x)?,
+        Some(Resurrections::To(x)) => positive("resurrections", x)?,
+        None => {}
+    }
+    if record.pga_g() > 0.0 {
+        Ok(())
+    } else {
+        Err(IdaError::Silent { record: record.name().to_owned() })
+    }
+}
+
+/// One record under one analysis, counting runs.
+struct Chain<'a> {
+    record: &'a NormalisedRecord,
+    analysis: &'a Analysis,
+    analyses: u64,
+}
+
+/// Margins below this are worth an error estimate.
+const NEAR: f64 = 1e-6;
+
+impl Chain<'_> {
+    /// PGA of a level in multiples of gravity.
+    fn level_pga_g(&self, level: u64, threshold: f64) -> f64 {
+        let k = level as f64;
+        match self.analysis.grid {
+            Grid::Pga { step_g } => {
+                // k/100 is the nearest double to the level, k 0.01 is not.
+                let parts = (1.0 / step_g).round();
+                if (parts * step_g - 1.0).abs() < 1e-12 {
+                    k / parts
+                } else {
+                    k * step_g
+                }
+            }
+            Grid::Im { .. } => self.level_im(level, threshold) * threshold,
+        }
+    }
+
+    fn level_im(&self, level: u64, threshold: f64) -> f64 {
+        match self.analysis.grid {
+            Grid::Pga { .. } => self.level_pga_g(level, threshold) / threshold,
+            Grid::Im { step } => {
+                let parts = (1.0 / step).round();
+                if (parts * step - 1.0).abs() < 1e-12 {
+                    1.0 + level as f64 / parts
+                } else {
+                    (level as f64).mul_add(step, 1.0)
+                }
+            }
+        }
+    }
+
+    /// First level above the uplift threshold.
+    fn first_level(&self, threshold: f64) -> u64 {
+        match self.analysis.grid {
+            Grid::Im { .. } => 1,
+            Grid::Pga { step_g } => {
+                let mut level = (threshold / step_g) as u64;
+                while !(self.level_pga_g(level, threshold) > threshold) {
+                    level += 1;
+                }
+                level
+            }
+        }
+    }
+
+    fn at_level(
+        &mut self,
+        level: u64,
+        threshold: f64,
+    ) -> Result<IdaPoint, IdaError> {
+        let im = self.level_im(level, threshold);
+        self.at_im(im, self.level_pga_g(level, threshold))
+    }
+
+    /// One analysis at an intensity, which is `pga_g` for the block of the
+    /// grid.
+    fn at_im(&mut self, im: f64, pga_g: f64) -> Result<IdaPoint, IdaError> {
+        let analysis = self.analysis;
+        let (block, amplitude) = match analysis.method {
+            Method::RecordScaling => (analysis.block, pga_g),
+            Method::SlendernessAdjustment => {
+                let own = self.record.pga_g();
+                let slenderness_rad = match analysis.model {
+                    Model::Nonlinear => libm::atan(own / im),
+                    Model::Linearized => own / im,
+                };
+                let block = Block::try_new(
+                    slenderness_rad,
+                    analysis.block.frequency_rad_s(),
+                )
+                .map_err(|source| IdaError::Slenderness {
+                    record: self.record.name().to_owned(),
+                    im,
+                    source,
+                })?;
+                (block, own)
+            }
+        };
+        let record = ScaledRecord::to_pga(self.record, amplitude);
+        let scene = Scene {
+            block,
+            restitution: analysis.restitution,
+            model: analysis.model,
+            overturning: analysis.overturning,
+            excitation: Excitation::Record(record),
+            initial_ratio: 0.0,
+        };
+        self.analyses += 1;
+        let response = respond(&scene, &Observe::default())?;
+        let resolved = response.fate_margin > NEAR || {
+            let careful = Observe { accuracy: true, ..Observe::default() };
+            respond(&scene, &careful)?.is_resolved()
+        };
+        Ok(IdaPoint {
+            im,
+            pga_g: amplitude,
+            slenderness_rad: block.slenderness_rad(),
+            outcome: response.outcome,
+            fate_margin: response.fate_margin,
+            resolved,
+        })
+    }
+
+    /// Bisects between a standing intensity and the first overturned level:
+    /// the highest standing intensity and the lowest overturned analysis.
+    fn bisect(
+        &mut self,
+        standing_im: f64,
+        overturned: IdaPoint,
+    ) -> Result<Option<(f64, IdaPoint)>, IdaError> {
+        let Some(tolerance) = self.analysis.refine else {
+            return Ok(None);
+        };
+        let threshold =
+            uplift_threshold(&self.analysis.block, self.analysis.model);
+        let (mut low, mut high) = (standing_im, overturned);
+        while high.im - low > tolerance {
+            let middle = 0.5 * (low + high.im);
+            if !(middle > low && middle < high.im) {
+                break;
+            }
+            let point = self.at_im(middle, middle * threshold)?;
+            if point.outcome.is_overturned() {
+                high = point;
+            } else {
+                low = middle;
+            }
+        }
+        Ok(Some((low, high)))
+    }
+}

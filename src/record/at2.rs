@@ -1,0 +1,158 @@
+//! PEER's AT2: a few lines of header, then fixed-width samples.
+//!
+//! Generations differ in the line that counts: `NPTS=  4096, DT= .0100 SEC`
+//! with or without commas, unit, filter poles and blanks, and the oldest
+//! `4096  .0100  NPTS, DT` with the values first.
+
+use super::number::{self, Reading};
+use super::text::{self, Text, excerpt};
+use super::{Channel, Fault, RecordError, fields};
+use crate::units::AccelerationUnit;
+
+/// Header lines among which the counting line is sought.
+const HEADER_LINES: usize = 20;
+
+const COUNTING_LINE: &str = "a line like `NPTS= 4096, DT= .0100 SEC`";
+
+/// Whether the content is AT2's.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    let head = &text.lines()[..text.lines().len().min(HEADER_LINES)];
+    let named = |line: &&str| {
+        text::contains(line, "STRONG MOTION DATABASE")
+            || text::contains(line, "STRONG-MOTION DATA")
+            || text::contains(line, "TIME SERIES IN UNITS OF")
+            || text::contains(line, "TIME HISTORY IN UNITS OF")
+    };
+    head.iter().any(|line| text::after_word(line, "NPTS").is_some())
+        || head.iter().take(4).any(named)
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let lines = text.lines();
+    let counting = (0..lines.len().min(HEADER_LINES))
+        .find(|&i| text::after_word(lines[i], "NPTS").is_some());
+    let Some(counting) = counting else {
+        return Err(text.at_end(Fault::Ends(COUNTING_LINE)));
+    };
+    let unit = unit(text, counting)?;
+    let (count, dt) = counts(text, counting)?;
+    let mut first = counting + 1;
+    while lines.get(first).is_some_and(|line| line.trim().is_empty()) {
+        first += 1;
+    }
+    let layout = fields::infer(&lines[first.min(lines.len())..]);
+    let samples = fields::read(text, first, lines.len(), layout)?;
+    text.check_count(samples.len(), count)?;
+    Ok(Channel { dt, unit, samples, label: None })
+}
+
+/// The unit named before the counting line.
+fn unit(
+    text: &Text<'_>,
+    counting: usize,
+) -> Result<Option<AccelerationUnit>, RecordError> {
+    for (index, line) in text.lines()[..counting].iter().enumerate() {
+        let Some(end) = after_units_of(line) else { continue };
+        let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
+        if other.iter().any(|name| text::contains(&line[..end], name)) {
+            let fault = Fault::Quantity(excerpt(line));
+            return Err(text.on_line(index, fault));
+        }
+        let named = line[end..]
+            .split_ascii_whitespace()
+            .next()
+            .unwrap_or("")
+            .trim_end_matches(['.', ',', ';', ':']);
+        return match AccelerationUnit::parse(named) {
+            Some(unit) => Ok(Some(unit)),
+            None => {
+                let rest = line[end..].trim_start();
+                let fault = Fault::Unit(excerpt(named));
+                Err(text.at(index, line.len() - rest.len(), fault))
+            }
+        };
+    }
+    Ok(None)
+}
+
+fn after_units_of(line: &str) -> Option<usize> {
+    let units = text::after_word(line, "UNITS")?;
+    let of = text::after_word(&line[units..], "OF")?;
+    Some(units + of)
+}
+
+/// Number of samples and sampling interval of the counting line.
+fn counts(
+    text: &Text<'_>,
+    index: usize,
+) -> Result<(usize, Option<f64>), RecordError> {
+    let line = text.lines()[index];
+    let header = |found: &str, expected| {
+        text.on_line(index, Fault::Header { found: excerpt(found), expected })
+    };
+    let after = |word| {
+        text::after_word(line, word).map(|end| {
+            line[end..].trim_start_matches([' ', '\t', '=', ':', ','])
+        })
+    };
+    let starts_number = |rest: &str| {
+        rest.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+    };
+    let npts = after("NPTS").unwrap_or("");
+    let dt = after("DT");
+    if starts_number(npts) {
+        let count = read_count(npts)
+            .ok_or_else(|| header(npts, "a number of samples"))?;
+        return match dt {
+            None => Ok((count, None)),
+            Some(dt) => read_interval(dt)
+                .map(|dt| (count, Some(dt)))
+                .map_err(|fault| text.on_line(index, fault)),
+        };
+    }
+    // The oldest generation: values before their names.
+    let mut values = line.split([' ', '\t', ',']).filter(|p| !p.is_empty());
+    let (first, second) = (values.next(), values.next());
+    let count = first
+        .and_then(read_count)
+        .ok_or_else(|| header(line, COUNTING_LINE))?;
+    if dt.is_none() {
+        return Ok((count, None));
+    }
+    read_interval(second.unwrap_or(""))
+        .map(|dt| (count, Some(dt)))
+        .map_err(|fault| text.on_line(index, fault))
+}
+
+/// The count at the beginning of a text, ended by a separator.
+fn read_count(rest: &str) -> Option<usize> {
+    let end = rest
+        .find(|c: char| matches!(c, ' ' | '\t' | ',' | ';'))
+        .unwrap_or(rest.len());
+    let digits = &rest[..end];
+    let plain = digits.bytes().all(|b| b.is_ascii_digit());
+    digits.parse().ok().filter(|_| plain)
+}
+
+/// The interval at the beginning of a text, in seconds if a unit follows.
+fn read_interval(rest: &str) -> Result<f64, Fault> {
+    let end = number::token_at(rest.as_bytes(), 0)
+        .map_or(rest.len(), |token| token.end);
+    let seconds = match number::read(&rest[..end]) {
+        Reading::Finite(value, _) if value > 0.0 => value,
+        _ => return Err(Fault::Interval(excerpt(rest))),
+    };
+    let unit: String = rest[end..]
+        .trim_start()
+        .chars()
+        .take_while(|c| c.is_alphanumeric())
+        .collect();
+    let known = ["", "S", "SEC", "SECS", "SECOND", "SECONDS", "NPTS"];
+    let plain = known.iter().any(|name| unit.eq_ignore_ascii_case(name));
+    // A pole count may follow directly where the unit is missing.
+    if plain || unit.bytes().all(|b| b.is_ascii_digit()) {
+        return Ok(seconds);
+    }
+    Err(Fault::Interval(excerpt(rest)))
+}

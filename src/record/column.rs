@@ -1,0 +1,45 @@
+//! One value a line and no header; lines that begin with `#` are comments.
+
+use super::number::{self, Reading};
+use super::text::{Text, excerpt};
+use super::{Channel, Fault, RecordError};
+
+/// Whether the first line that is no comment is one number.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    text.lines()
+        .iter()
+        .find(|line| !line.starts_with('#'))
+        .is_some_and(|line| number::is_number(line.trim()))
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let mut samples = Vec::with_capacity(text.lines().len());
+    for (index, line) in text.lines().iter().enumerate() {
+        if line.starts_with('#') {
+            continue;
+        }
+        samples.push(one_number(text, index, line)?);
+    }
+    Ok(Channel { dt: None, unit: None, samples, label: None })
+}
+
+/// The number that a line or a field of it is.
+pub(super) fn one_number(
+    text: &Text<'_>,
+    index: usize,
+    found: &str,
+) -> Result<f64, RecordError> {
+    let found = found.trim();
+    match number::read(found) {
+        Reading::Finite(value, _) => Ok(value),
+        Reading::NotFinite => {
+            Err(text.on_line(index, Fault::NotFinite(excerpt(found))))
+        }
+        Reading::Other => {
+            let expected = "a number".to_owned();
+            let fault = Fault::Number { found: excerpt(found), expected };
+            Err(text.on_line(index, fault))
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Two columns, time and acceleration, with one header line or none.
+//!
+//! Separator: semicolon, comma, tab or blanks. Lines that begin with `#` are
+//! comments. The first sample counts as t = 0, whatever its time.
+
+use super::column::one_number;
+use super::number;
+use super::text::{Text, excerpt};
+use super::{Channel, Fault, RecordError};
+use crate::units::AccelerationUnit;
+
+/// Whether the first or second line has two numbers.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    let mut lines = text.lines().iter().filter(|l| !l.starts_with('#'));
+    let pair = |line: Option<&&str>| {
+        line.is_some_and(|line| {
+            let parts = split(line);
+            parts.len() == 2 && parts.iter().all(|p| number::is_number(p))
+        })
+    };
+    pair(lines.next()) || pair(lines.next())
+}
+
+fn split(line: &str) -> Vec<&str> {
+    let line = line.trim();
+    for separator in [';', ','] {
+        if line.contains(separator) {
+            return line.split(separator).map(str::trim).collect();
+        }
+    }
+    line.split_whitespace().collect()
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let mut times = Vec::new();
+    let mut samples = Vec::new();
+    let mut lines_of = Vec::new();
+    let mut decimals = 0;
+    let mut unit = None;
+    let mut head = true;
+    for (index, line) in text.lines().iter().enumerate() {
+        if line.starts_with('#') {
+            continue;
+        }
+        let parts = split(line);
+        if head && !parts.iter().all(|p| number::is_number(p)) {
+            unit = header(text, index, line)?;
+            head = false;
+            continue;
+        }
+        head = false;
+        let &[time, value] = parts.as_slice() else {
+            let expected = "two numbers, time and acceleration".to_owned();
+            let fault = Fault::Number { found: excerpt(line), expected };
+            return Err(text.on_line(index, fault));
+        };
+        times.push(one_number(text, index, time)?);
+        samples.push(one_number(text, index, value)?);
+        lines_of.push(index);
+        if let number::Reading::Finite(_, form) = number::read(time) {
+            decimals = decimals.max(places(time, form));
+        }
+    }
+    let dt = step(text, &times, &lines_of, decimals)?;
+    Ok(Channel { dt: Some(dt), unit, samples, label: None })
+}
+
+/// Decimal places that a written time resolves.
+fn places(time: &str, form: number::Form) -> i32 {
+    let digits = i32::try_from(form.decimals.unwrap_or(0)).unwrap_or(0);
+    let exponent = &time[time.len() - form.exponent..];
+    let power = exponent
+        .trim_start_matches(['e', 'E', 'd', 'D'])
+        .parse::<i32>()
+        .unwrap_or(0);
+    digits.saturating_sub(power).clamp(0, 18)
+}
+
+/// The constant step of `times`, each rounded to `places` decimals.
+///
+/// Where the step itself has that many decimals, it is taken as written.
+fn step(
+    text: &Text<'_>,
+    times: &[f64],
+    lines_of: &[usize],
+    places: i32,
+) -> Result<f64, RecordError> {
+    let (Some(&start), Some(&end)) = (times.first(), times.last()) else {
+        return Err(text.at_end(Fault::Ends("time and acceleration")));
+    };
+    if times.len() < 2 {
+        return Err(text.at_end(Fault::Ends("a second time")));
+    }
+    let unit = (0..places).fold(1.0, |unit, _| unit / 10.0);
+    let mean = (end - start) / (times.len() - 1) as f64;
+    let written = (mean / unit).round() * unit;
+    // Rounding of the times, and of the double they are read into.
+    let allowed = 0.5000001 * unit + 4.0 * f64::EPSILON * end.abs();
+    let off = |dt: f64| {
+        (0..times.len()).find(|&i| {
+            !((times[i] - (start + i as f64 * dt)).abs() <= 2.0 * allowed)
+        })
+    };
+    // Times without a rounding error, however few decimals they have.
+    let first = times[1] - start;
+    let exact = |i: usize| {
+        let off = times[i] - (start + i as f64 * first);
+        off.abs() <= 1e-9 * first
+    };
+    if (1..times.len()).all(exact) && first > 0.0 {
+        return Ok(if (written - first).abs() <= 1e-9 * first {
+            written
+        } else {
+            first
+        });
+    }
+    if !(mean > 0.0 && allowed < 0.25 * mean) {
+        let fault = Fault::Interval(format!("{mean}"));
+        return Err(text.on_line(lines_of[1], fault));
+    }
+    if off(written).is_none() {
+        return Ok(written);
+    }
+    let uneven = (1..times.len()).find(|&i| {
+        !((times[i] - times[i - 1] - first).abs() <= 4.0 * allowed)
+    });
+    match uneven.or_else(|| off(mean)) {
+        None => Ok(mean),
+        Some(i) => {
+            let fault = Fault::Step {
+                found_s: times[i],
+                expected_s: times[i - 1] + first,
+            };
+            Err(text.on_line(lines_of[i], fault))
+        }
+    }
+}
+
+/// The unit of acceleration that a header line names, if it names one.
+fn header(
+    text: &Text<'_>,
+    index: usize,
+    line: &str,
+) -> Result<Option<AccelerationUnit>, RecordError> {
+    let parts = split(line);
+    // Blanks separate words as well as columns.
+    let (time, value) = match parts.as_slice() {
+        [time, value] => (*time, *value),
+        _ => return Ok(None),
+    };
+    if let Some(name) = bracketed(time) {
+        let seconds = ["s", "sec", "secs", "second", "seconds"];
+        if !seconds.iter().any(|s| name.eq_ignore_ascii_case(s)) {
+            let fault = Fault::Interval(excerpt(time));
+            return Err(text.on_line(index, fault));
+        }
+    }
+    if let Some(name) = bracketed(value) {
+        let unit = AccelerationUnit::parse(name);
+        let fault = || text.on_line(index, Fault::Unit(excerpt(name)));
+        return unit.map(Some).ok_or_else(fault);
+    }
+    let named = [("_cm_s2", "cm/s2"), ("_m_s2", "m/s2"), ("_g", "g")];
+    let lower = value.trim_matches('"').to_ascii_lowercase();
+    let suffix = named.iter().find(|(suffix, _)| lower.ends_with(suffix));
+    Ok(suffix.and_then(|(_, unit)| AccelerationUnit::parse(unit)))
+}
+
+fn bracketed(name: &str) -> Option<&str> {
+    let open = name.find(['(', '['])?;
+    let close = name.rfind([')', ']'])?;
+    name.get(open + 1..close)
+}

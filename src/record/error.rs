@@ -1,0 +1,198 @@
+//! Why a file was refused: which file, where in it, what was found, what
+//! was expected.
+
+use std::fmt;
+
+use thiserror::Error;
+
+use super::AccelerogramError;
+use crate::units::AccelerationUnit;
+
+/// A record that was refused.
+///
+/// ```
+/// use rocking::record::{self, ReadOptions};
+/// let cut = b"PEER NGA STRONG MOTION DATABASE RECORD\n\
+///     Nowhere, 1/1/2000, Station, 0\n\
+///     ACCELERATION TIME SERIES IN UNITS OF G\n\
+///     NPTS=      4, DT=   .0100 SEC\n\
+///     \x20  .1000000E-02   .2000000E-02  -.3000000E-02\n";
+/// let error = record::read("cut.AT2", cut, &ReadOptions::default());
+/// assert_eq!(
+///     error.unwrap_err().to_string(),
+///     "cut.AT2:5: 3 samples: expected 4, the number that the file states"
+/// );
+/// ```
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{file}{place}: {fault}", place = Place(*line, *column))]
+pub struct RecordError {
+    pub(super) file: String,
+    pub(super) line: Option<usize>,
+    pub(super) column: Option<usize>,
+    pub(super) fault: Fault,
+}
+
+impl RecordError {
+    /// Name of the file, as it was given.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Line of the fault, counted from 1.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        self.line
+    }
+
+    /// Character of the line, counted from 1.
+    #[must_use]
+    pub fn column(&self) -> Option<usize> {
+        self.column
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn fault(&self) -> &Fault {
+        &self.fault
+    }
+}
+
+struct Place(Option<usize>, Option<usize>);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(line) = self.0 else { return Ok(()) };
+        write!(f, ":{line}")?;
+        self.1.map_or(Ok(()), |column| write!(f, ":{column}"))
+    }
+}
+
+/// What is wrong with a record.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The file could not be read.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// There is nothing in it.
+    #[error("empty file: expected a record")]
+    Empty,
+    /// A byte that no text has.
+    #[error("byte {byte:#04x} at offset {offset}: expected text")]
+    NotText {
+        /// The byte.
+        byte: u8,
+        /// Where it is, from 0.
+        offset: usize,
+    },
+    /// No reader knows the content.
+    #[error(
+        "begins with {found:?}: expected a record in one of the formats {expected}"
+    )]
+    UnknownFormat {
+        /// Beginning of the first line that is not blank.
+        found: String,
+        /// Formats that can be read.
+        expected: &'static str,
+    },
+    /// A header that says something else than it should.
+    #[error("{found:?}: expected {expected}")]
+    Header {
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// The file ends before something it must have.
+    #[error("the file ends: expected {0}")]
+    Ends(&'static str),
+    /// Velocity, displacement or a spectrum.
+    #[error("{0:?}: expected an acceleration history")]
+    Quantity(String),
+    /// A unit of acceleration that is not known.
+    #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
+    Unit(String),
+    /// The caller's unit and the file's differ.
+    #[error(
+        "unit {given} was given: expected {stated}, which the file states"
+    )]
+    UnitConflict {
+        /// Unit in the file.
+        stated: AccelerationUnit,
+        /// Unit of the caller.
+        given: AccelerationUnit,
+    },
+    /// Gravity must be positive and finite.
+    #[error("gravity {0} m/s2: expected a positive number")]
+    Gravity(f64),
+    /// Neither the file nor the caller states a sampling interval.
+    #[error(
+        "no sampling interval in the file: expected it to be given (in s)"
+    )]
+    IntervalMissing,
+    /// A sampling interval that is not positive and finite.
+    #[error("sampling interval {0:?}: expected a positive number of seconds")]
+    Interval(String),
+    /// The caller's sampling interval and the file's differ.
+    #[error(
+        "sampling interval {given_s} s was given: expected {stated_s} s, which the file states"
+    )]
+    IntervalConflict {
+        /// Interval in the file in s.
+        stated_s: f64,
+        /// Interval of the caller in s.
+        given_s: f64,
+    },
+    /// The number of samples is not the one that the file states.
+    #[error(
+        "{found} samples: expected {expected}, the number that the file states"
+    )]
+    Count {
+        /// Samples in the file.
+        found: usize,
+        /// Samples that the header promises.
+        expected: usize,
+    },
+    /// Something that is not the number expected there.
+    #[error("{found:?}: expected {expected}")]
+    Number {
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: String,
+    },
+    /// NaN, an infinity, or a number beyond the range of a double.
+    #[error("{0:?}: expected a finite number")]
+    NotFinite(String),
+    /// Times that do not advance by one step.
+    #[error(
+        "time {found_s} s: expected {expected_s} s, a constant step from the line before"
+    )]
+    Step {
+        /// Time found in s.
+        found_s: f64,
+        /// Time expected in s.
+        expected_s: f64,
+    },
+    /// The samples contradict the peak in the header.
+    #[error(
+        "largest absolute sample {found} {unit}: expected {expected} {unit}, the peak that the file states"
+    )]
+    Peak {
+        /// Largest absolute sample.
+        found: f64,
+        /// Peak in the header.
+        expected: f64,
+        /// Unit of both.
+        unit: AccelerationUnit,
+    },
+    /// The file holds several components where one was asked for.
+    #[error(
+        "{0} acceleration channels: expected one (name the channel, or read them all)"
+    )]
+    SeveralChannels(usize),
+    /// The samples make no accelerogram.
+    #[error(transparent)]
+    Samples(#[from] AccelerogramError),
+}

@@ -1,0 +1,118 @@
+//! Numbers as programs write them, with or without room between.
+
+/// A number found in a line: its bytes, and the form in which it is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Token {
+    /// First byte.
+    pub(super) start: usize,
+    /// Byte after the last.
+    pub(super) end: usize,
+    /// Its form.
+    pub(super) form: Form,
+}
+
+/// How a number is written: a format statement fixes both counts, so a
+/// number that lost a digit shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Form {
+    /// Digits after the decimal point; none without a point.
+    pub(super) decimals: Option<usize>,
+    /// Characters of the exponent, its letter and sign included.
+    pub(super) exponent: usize,
+}
+
+/// The number that begins at byte `start`, as long as it can be.
+///
+/// A three-digit exponent without its letter (`.1234567-100`) is what Fortran
+/// writes when the field has no room for both.
+pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
+    let byte = |i: usize| bytes.get(i).copied().unwrap_or(b' ');
+    let digits = |from: usize| {
+        (from..).take_while(|&i| byte(i).is_ascii_digit()).count()
+    };
+    let sign = |i: usize| usize::from(matches!(byte(i), b'+' | b'-'));
+    let mut end = start + sign(start);
+    let whole = digits(end);
+    end += whole;
+    let mut decimals = None;
+    if byte(end) == b'.' {
+        let count = digits(end + 1);
+        decimals = Some(count);
+        end += 1 + count;
+    }
+    if whole + decimals.unwrap_or(0) == 0 {
+        return None;
+    }
+    let mut exponent = 0;
+    if matches!(byte(end), b'e' | b'E' | b'd' | b'D') {
+        let from = end + 1 + sign(end + 1);
+        if digits(from) > 0 {
+            exponent = from + digits(from) - end;
+        }
+    } else if decimals.is_some()
+        && sign(end) == 1
+        && digits(end + 1) == 3
+        && byte(end + 4) != b'.'
+    {
+        exponent = 4;
+    }
+    end += exponent;
+    Some(Token { start, end, form: Form { decimals, exponent } })
+}
+
+/// All numbers of a line, glued ones too; `Err` gives the byte of whatever
+/// is neither a number nor a separator.
+pub(super) fn tokens(line: &[u8]) -> Result<Vec<Token>, usize> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < line.len() {
+        if matches!(line[at], b' ' | b'\t' | b',') {
+            at += 1;
+            continue;
+        }
+        let token = token_at(line, at).ok_or(at)?;
+        at = token.end;
+        found.push(token);
+    }
+    Ok(found)
+}
+
+/// What a text is as a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Reading {
+    /// A finite number.
+    Finite(f64, Form),
+    /// NaN, infinite, or too large for a double.
+    NotFinite,
+    /// Something else.
+    Other,
+}
+
+/// Reads a text that must be one number from end to end.
+pub(super) fn read(text: &str) -> Reading {
+    let bytes = text.as_bytes();
+    let Some(token) = token_at(bytes, 0).filter(|t| t.end == bytes.len())
+    else {
+        let word = text.trim_start_matches(['+', '-']).to_ascii_lowercase();
+        let named = ["nan", "inf", "infinity"].contains(&word.as_str());
+        return if named { Reading::NotFinite } else { Reading::Other };
+    };
+    let mantissa = &text[..token.end - token.form.exponent];
+    let exponent =
+        text[mantissa.len()..].trim_start_matches(['e', 'E', 'd', 'D']);
+    let parsed = if exponent.is_empty() {
+        mantissa.parse::<f64>()
+    } else {
+        format!("{mantissa}e{exponent}").parse::<f64>()
+    };
+    match parsed {
+        Ok(value) if value.is_finite() => Reading::Finite(value, token.form),
+        Ok(_) => Reading::NotFinite,
+        Err(_) => Reading::Other,
+    }
+}
+
+/// Whether a text is meant as a number, finite or not.
+pub(super) fn is_number(text: &str) -> bool {
+    !matches!(read(text), Reading::Other)
+}

@@ -1,0 +1,190 @@
+//! Suites of records: a folder of self-describing files, or an index.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::Path;
+
+mod error;
+mod index;
+mod pairing;
+mod survey;
+
+pub use error::SuiteError;
+pub use survey::{Survey, folder_files};
+
+use super::{Accelerogram, Format, ReadOptions, RecordError};
+use crate::units::AccelerationUnit;
+
+/// Relative difference allowed between an index's PGA or PGV and the
+/// record's.
+pub const PEAK_TOLERANCE: f64 = 1e-4;
+
+/// Who chose the component of each pair that a study uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StudyRule {
+    /// The index's column `study_component`.
+    Index,
+    /// The component whose file name sorts first in its pair.
+    FirstName,
+}
+
+impl fmt::Display for StudyRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Index => "the index's study_component",
+            Self::FirstName => {
+                "the component whose file name sorts first in its pair"
+            }
+        })
+    }
+}
+
+/// One record of a suite.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SuiteMember {
+    /// The component.
+    pub accelerogram: Accelerogram,
+    /// File, relative to the folder or index.
+    pub file: String,
+    /// Format of the file.
+    pub format: Format,
+    /// Unit in which the file is written.
+    pub unit: AccelerationUnit,
+    /// Name shared by the two components of a pair.
+    pub pair: Option<String>,
+    /// Whether the study uses this component of the pair.
+    pub study_component: bool,
+    /// Other columns of the index, by name (event, magnitude, ...).
+    pub attributes: BTreeMap<String, String>,
+}
+
+/// Records read together, in the index's order or by file name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Suite {
+    name: String,
+    members: Vec<SuiteMember>,
+    study_rule: StudyRule,
+    ignored: Vec<RecordError>,
+}
+
+/// How a suite is read.
+#[derive(Clone, Copy, Debug)]
+pub struct SuiteOptions {
+    /// What the caller knows about the records; an index's `dt_s` and
+    /// `units` come before it.
+    pub read: ReadOptions,
+    /// SHA-256 in hexadecimal of a file's bytes, for an index that states
+    /// sums.
+    pub sha256_hex: Option<fn(&[u8]) -> String>,
+}
+
+impl Suite {
+    /// Reads the suite at `path`: a folder of self-describing files, or an
+    /// index.
+    ///
+    /// An index is a CSV file with a column `file` (relative to the index).
+    /// Optional columns: `format`, `units`, `dt_s`, `npts`, `pga_g`,
+    /// `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1 or 0);
+    /// others are kept as attributes. In a folder, files of no known format
+    /// and histories of velocity or displacement are set aside
+    /// ([`Suite::ignored`]); any other fault refuses the suite. Pairs are
+    /// found by file name: what is left without the orientation at its end.
+    ///
+    /// # Errors
+    /// [`SuiteError`] naming the folder, index or record, and the line.
+    pub fn read(
+        path: &Path,
+        options: &SuiteOptions,
+    ) -> Result<Self, SuiteError> {
+        Survey::read(path, options)?.into_suite()
+    }
+
+    /// Reads a suite from the bytes of an index and a function that gives
+    /// the bytes of each file it lists.
+    ///
+    /// # Errors
+    /// As [`Suite::read`].
+    ///
+    /// ```
+    /// use rocking::record::{ReadOptions, Suite, SuiteOptions};
+    /// let index = b"file,units,dt_s,pair,event\n\
+    ///     a-000.txt,g,0.01,a,\"Nowhere, 1900\"\n\
+    ///     a-090.txt,g,0.01,a,\"Nowhere, 1900\"\n";
+    /// let options =
+    ///     SuiteOptions { read: ReadOptions::default(), sha256_hex: None };
+    /// let suite = Suite::from_index("index.csv", index, &options, |_| {
+    ///     Ok(b"0\n0.2\n-0.1\n".to_vec())
+    /// })?;
+    /// assert_eq!(suite.members().len(), 2);
+    /// let study: Vec<_> = suite.study_components().collect();
+    /// assert_eq!(study[0].file, "a-000.txt");
+    /// assert_eq!(study[0].attributes["event"], "Nowhere, 1900");
+    /// # Ok::<(), rocking::record::SuiteError>(())
+    /// ```
+    pub fn from_index(
+        path: &str,
+        bytes: &[u8],
+        options: &SuiteOptions,
+        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+    ) -> Result<Self, SuiteError> {
+        Survey::of_index(path, bytes, options, file_bytes)?.into_suite()
+    }
+
+    /// Name of the folder or index, without its ending.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// All records.
+    #[must_use]
+    pub fn members(&self) -> &[SuiteMember] {
+        &self.members
+    }
+
+    /// Who chose the study components.
+    #[must_use]
+    pub fn study_rule(&self) -> StudyRule {
+        self.study_rule
+    }
+
+    /// Files of a folder that were set aside, and why.
+    #[must_use]
+    pub fn ignored(&self) -> &[RecordError] {
+        &self.ignored
+    }
+
+    /// The component of each pair that the study uses; a record without a
+    /// partner is one.
+    pub fn study_components(&self) -> impl Iterator<Item = &SuiteMember> {
+        self.members.iter().filter(|m| m.study_component)
+    }
+
+    /// The components that the study does not use.
+    pub fn other_components(&self) -> impl Iterator<Item = &SuiteMember> {
+        self.members.iter().filter(|m| !m.study_component)
+    }
+
+    /// The pairs that have both components, the study's first.
+    #[must_use]
+    pub fn both(&self) -> Vec<(&SuiteMember, &SuiteMember)> {
+        self.study_components()
+            .filter_map(|study| {
+                let pair = study.pair.as_ref()?;
+                self.other_components()
+                    .find(|other| other.pair.as_ref() == Some(pair))
+                    .map(|other| (study, other))
+            })
+            .collect()
+    }
+}
+
+/// Whether the content is an index: its first line has a column `file`.
+#[must_use]
+pub fn is_index(bytes: &[u8]) -> bool {
+    index::is_index(bytes)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,121 @@
+//! Why a suite was refused.
+
+use thiserror::Error;
+
+use crate::record::RecordError;
+
+/// A suite that was refused.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SuiteError {
+    /// The folder or index could not be read.
+    #[error("{path}: cannot be read: {reason}")]
+    Unreadable {
+        /// Folder or index.
+        path: String,
+        /// What the system said.
+        reason: String,
+    },
+    /// A record was refused.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// There is no record in it.
+    #[error(
+        "{path}: no readable record in it: expected at least one (files: {files})"
+    )]
+    Empty {
+        /// Folder or index.
+        path: String,
+        /// Number of files or rows looked at.
+        files: usize,
+    },
+    /// An index without a column `file`, or a row that does not fit.
+    #[error("{path}:{line}: {found:?}: expected {expected}")]
+    Index {
+        /// The index.
+        path: String,
+        /// Line, counted from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: String,
+    },
+    /// A record that is not what its row in the index says.
+    #[error(
+        "{path}:{line}: {file} has {quantity} {found}: expected {expected}, which the index states"
+    )]
+    Mismatch {
+        /// The index.
+        path: String,
+        /// Line, counted from 1.
+        line: usize,
+        /// The record.
+        file: String,
+        /// Column of the index.
+        quantity: &'static str,
+        /// Value of the record.
+        found: String,
+        /// Value of the index.
+        expected: String,
+    },
+    /// An index with checksums, and nothing to compute them with.
+    #[error(
+        "{path}: the index has sha256 sums: expected a function that computes them"
+    )]
+    Unverifiable {
+        /// The index.
+        path: String,
+    },
+    /// Two records that results could not tell apart.
+    #[error(
+        "{path}: two records are named {name:?}: expected different names"
+    )]
+    SameName {
+        /// Folder or index.
+        path: String,
+        /// The name.
+        name: String,
+    },
+    /// A pair without exactly one study component, or of more than two.
+    #[error(
+        "{path}: pair {pair:?} has {components} components, {study} for the study: expected at most 2, and 1 for the study"
+    )]
+    Pair {
+        /// Folder or index.
+        path: String,
+        /// The pair.
+        pair: String,
+        /// Number of components.
+        components: usize,
+        /// How many of them are marked for the study.
+        study: usize,
+    },
+}
+
+impl SuiteError {
+    /// The file that was refused: a record, else the folder or index.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        match self {
+            Self::Record(error) => error.file(),
+            Self::Mismatch { file, .. } => file,
+            Self::Unreadable { path, .. }
+            | Self::Empty { path, .. }
+            | Self::Index { path, .. }
+            | Self::Unverifiable { path }
+            | Self::SameName { path, .. }
+            | Self::Pair { path, .. } => path,
+        }
+    }
+
+    /// Line of that file, counted from 1.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        match self {
+            Self::Record(error) => error.line(),
+            Self::Index { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! The index of a suite: a CSV file with a header, columns by name.
+
+use std::collections::BTreeMap;
+
+use super::{PEAK_TOLERANCE, SuiteError, SuiteMember, SuiteOptions};
+use crate::record::text::{self, excerpt};
+use crate::record::{ReadOptions, Record, read};
+use crate::units::AccelerationUnit;
+
+/// A parsed index: every row has every column.
+pub(super) struct Index {
+    columns: Vec<String>,
+    rows: Vec<Row>,
+}
+
+/// One row of an index.
+pub(super) struct Row {
+    path: String,
+    line: usize,
+    file: String,
+    cells: BTreeMap<String, String>,
+}
+
+/// Whether the first line has a column `file`.
+pub(super) fn is_index(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let end = bytes.iter().position(|b| *b == b'\n' || *b == b'\r');
+    let head = &bytes[..end.unwrap_or(bytes.len())];
+    std::str::from_utf8(head)
+        .ok()
+        .and_then(split)
+        .is_some_and(|cells| cells.iter().any(|cell| cell == "file"))
+}
+
+/// Cells of a line; `None` for a quote that does not close or stands in the
+/// middle of a cell. A doubled quote inside quotes is one quote.
+fn split(line: &str) -> Option<Vec<String>> {
+    let mut cells = Vec::new();
+    let mut rest = line;
+    loop {
+        let (cell, after) = match rest.strip_prefix('"') {
+            Some(quoted) => unquote(quoted)?,
+            None => {
+                let end = rest.find(',').unwrap_or(rest.len());
+                (rest[..end].trim().to_owned(), &rest[end..])
+            }
+        };
+        if cell.contains('"') && !rest.starts_with('"') {
+            return None;
+        }
+        cells.push(cell);
+        match after.strip_prefix(',') {
+            Some(more) => rest = more,
+            None if after.trim().is_empty() => return Some(cells),
+            None => return None,
+        }
+    }
+}
+
+fn unquote(quoted: &str) -> Option<(String, &str)> {
+    let mut cell = String::new();
+    let mut rest = quoted;
+    loop {
+        let end = rest.find('"')?;
+        cell.push_str(&rest[..end]);
+        rest = &rest[end + 1..];
+        match rest.strip_prefix('"') {
+            Some(more) => {
+                cell.push('"');
+                rest = more;
+            }
+            None => return Some((cell, rest)),
+        }
+    }
+}
+
+impl Index {
+    /// Parses an index.
+    pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Self, SuiteError> {
+        let content = text::decode(path, bytes)?;
+        let refuse = |line: usize, found: &str, expected: &str| {
+            let (path, found) = (path.to_owned(), excerpt(found));
+            let expected = expected.to_owned();
+            SuiteError::Index { path, line, found, expected }
+        };
+        let mut lines = content.lines().zip(1..);
+        let (head, _) = lines.next().unwrap_or(("", 1));
+        let columns = split(head)
+            .filter(|c| c.iter().any(|name| name == "file"))
+            .ok_or_else(|| {
+                refuse(
+                    1,
+                    head,
+                    "a folder, or an index: a CSV file with a column `file`",
+                )
+            })?;
+        let mut sorted = columns.clone();
+        sorted.sort_unstable();
+        if let Some(twice) = sorted.windows(2).find(|w| w[0] == w[1]) {
+            return Err(refuse(1, &twice[0], "each column once"));
+        }
+        let mut rows = Vec::new();
+        for (text, line) in lines.filter(|(l, _)| !l.trim().is_empty()) {
+            let cells = split(text).ok_or_else(|| {
+                refuse(line, text, "cells separated by commas, quotes closed")
+            })?;
+            if cells.len() != columns.len() {
+                let expected =
+                    format!("{} cells, as the first line", columns.len());
+                let found = format!("{} cells", cells.len());
+                return Err(refuse(line, &found, &expected));
+            }
+            let mut cells: BTreeMap<String, String> =
+                columns.iter().cloned().zip(cells).collect();
+            let file = cells.remove("file").unwrap_or_default();
+            if file.is_empty() {
+                return Err(refuse(line, &file, "the name of a file"));
+            }
+            rows.push(Row { path: path.to_owned(), line, file, cells });
+        }
+        Ok(Self { columns, rows })
+    }
+
+    /// Rows in the index's order.
+    pub(super) fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Whether there is a column `name`.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.columns.iter().any(|column| column == name)
+    }
+}
+
+impl Row {
+    /// The file, relative to the index.
+    pub(super) fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// A cell that is there and not empty.
+    fn cell(&self, name: &str) -> Option<&str> {
+        self.cells.get(name).map(String::as_str).filter(|c| !c.is_empty())
+    }
+
+    fn refuse(&self, found: &str, expected: &str) -> SuiteError {
+        SuiteError::Index {
+            path: self.path.clone(),
+            line: self.line,
+            found: excerpt(found),
+            expected: expected.to_owned(),
+        }
+    }
+
+    fn mismatch(
+        &self,
+        quantity: &'static str,
+        found: String,
+        expected: &str,
+    ) -> SuiteError {
+        SuiteError::Mismatch {
+            path: self.path.clone(),
+            line: self.line,
+            file: self.file.clone(),
+            quantity,
+            found,
+            expected: expected.to_owned(),
+        }
+    }
+
+    fn positive(&self, name: &'static str) -> Result<Option<f64>, SuiteError> {
+        let Some(cell) = self.cell(name) else { return Ok(None) };
+        match cell.parse::<f64>() {
+            Ok(x) if x > 0.0 && x.is_finite() => Ok(Some(x)),
+            _ => Err(self.refuse(cell, &format!("a positive {name}"))),
+        }
+    }
+
+    /// Reads the row's record from `content` and checks what the row says
+    /// about it.
+    pub(super) fn member(
+        &self,
+        content: &[u8],
+        options: &SuiteOptions,
+    ) -> Result<SuiteMember, SuiteError> {
+        self.check_sum(content, options)?;
+        let unit = match self.cell("units") {
+            None => options.read.unit,
+            Some(cell) => Some(
+                AccelerationUnit::parse(cell)
+                    .ok_or_else(|| self.refuse(cell, "g, m/s2 or cm/s2"))?,
+            ),
+        };
+        let dt_s = self.positive("dt_s")?.or(options.read.dt_s);
+        let read_options = ReadOptions { dt_s, unit, ..options.read };
+        let record = read(&self.file, content, &read_options)?;
+        self.check(&record, options.read.gravity_m_s2)?;
+        let study_component = match self.cell("study_component") {
+            None | Some("0" | "false") => false,
+            Some("1" | "true") => true,
+            Some(cell) => return Err(self.refuse(cell, "1 or 0")),
+        };
+        let used = [
+            "format",
+            "units",
+            "dt_s",
+            "npts",
+            "pga_g",
+            "pgv_m_s",
+            "sha256",
+            "pair",
+            "study_component",
+        ];
+        let attributes = self
+            .cells
+            .iter()
+            .filter(|(name, _)| !used.contains(&name.as_str()))
+            .map(|(name, cell)| (name.clone(), cell.clone()))
+            .collect();
+        Ok(SuiteMember {
+            accelerogram: record.accelerogram,
+            file: self.file.clone(),
+            format: record.format,
+            unit: record.unit,
+            pair: self.cell("pair").map(str::to_owned),
+            study_component,
+            attributes,
+        })
+    }
+
+    fn check_sum(
+        &self,
+        content: &[u8],
+        options: &SuiteOptions,
+    ) -> Result<(), SuiteError> {
+        let Some(expected) = self.cell("sha256") else { return Ok(()) };
+        let Some(sha256_hex) = options.sha256_hex else {
+            return Err(SuiteError::Unverifiable { path: self.path.clone() });
+        };
+        let found = sha256_hex(content);
+        if found.eq_ignore_ascii_case(expected) {
+            return Ok(());
+        }
+        Err(self.mismatch("sha256", found, expected))
+    }
+
+    fn check(
+        &self,
+        record: &Record,
+        gravity_m_s2: f64,
+    ) -> Result<(), SuiteError> {
+        let motion = &record.accelerogram;
+        if let Some(cell) = self.cell("format") {
+            let found = record.format.to_string();
+            if found != cell {
+                return Err(self.mismatch("format", found, cell));
+            }
+        }
+        if let Some(cell) = self.cell("npts") {
+            let found = motion.samples_g().len();
+            let expected: usize = cell
+                .parse()
+                .map_err(|_| self.refuse(cell, "a number of samples"))?;
+            if found != expected {
+                return Err(self.mismatch("npts", found.to_string(), cell));
+            }
+        }
+        let peaks = [
+            ("pga_g", motion.pga_g()),
+            ("pgv_m_s", motion.pgv_m_s(gravity_m_s2)),
+        ];
+        for (name, found) in peaks {
+            let Some(expected) = self.positive(name)? else { continue };
+            if !((found - expected).abs() <= PEAK_TOLERANCE * expected) {
+                let found = format!("{found:.6}");
+                return Err(self.mismatch(name, found, &expected.to_string()));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,169 @@
+//! Indexes, folders, pairs: what is read, and what must be refused.
+
+use super::pairing::pair_key;
+use super::*;
+
+const MOTION: &str = "0\n0.2\n-0.1\n";
+
+fn suite(index: &str) -> Result<Suite, SuiteError> {
+    let fake = |bytes: &[u8]| format!("{:04x}", bytes.len());
+    let options =
+        SuiteOptions { read: ReadOptions::default(), sha256_hex: Some(fake) };
+    Suite::from_index("i.csv", index.as_bytes(), &options, |_| {
+        Ok(MOTION.as_bytes().to_vec())
+    })
+}
+
+fn refusal(index: &str) -> String {
+    suite(index).expect_err("a refusal").to_string()
+}
+
+#[test]
+fn a_row_is_checked_against_its_record() {
+    // By hand: v(i) in g s is 0, 0.001, 0.0015; PGV is that times gravity.
+    let row = |cells: &str| {
+        format!(
+            "file,units,dt_s,npts,pga_g,pgv_m_s,format,sha256\na,g,{cells}\n"
+        )
+    };
+    assert!(suite(&row("0.01,3,0.2,0.014709975,column,000B")).is_ok());
+    assert!(suite(&row("0.01,,,,,")).is_ok());
+    let cases = [
+        ("0.01,4,,,,", "i.csv:2: a has npts 3: expected 4, which"),
+        ("0.01,x,,,,", "i.csv:2: \"x\": expected a number of samples"),
+        ("0.01,,0.2001,,,", "i.csv:2: a has pga_g 0.200000: expected 0.2001"),
+        ("0.01,,,0.0148,,", "i.csv:2: a has pgv_m_s 0.014710: expected 0.01"),
+        ("0.01,,nan,,,", "i.csv:2: \"nan\": expected a positive pga_g"),
+        ("-0.01,,,,,", "i.csv:2: \"-0.01\": expected a positive dt_s"),
+        (",,,,,", "a: no sampling interval in the file"),
+        ("0.01,,,,at2,", "i.csv:2: a has format column: expected at2"),
+        ("0.01,,,,,000c", "i.csv:2: a has sha256 000b: expected 000c"),
+        ("0.01,,,,", "i.csv:2: \"7 cells\": expected 8 cells"),
+    ];
+    for (cells, expected) in cases {
+        let found = refusal(&row(cells));
+        assert!(found.starts_with(expected), "{found}");
+    }
+    let unit = row("0.01,,,,,").replace("a,g", "a,ft/s2");
+    assert_eq!(
+        refusal(&unit),
+        "i.csv:2: \"ft/s2\": expected g, m/s2 or cm/s2"
+    );
+    let options =
+        SuiteOptions { read: ReadOptions::default(), sha256_hex: None };
+    let sums = row("0.01,,,,,000b");
+    let error = Suite::from_index("i.csv", sums.as_bytes(), &options, |_| {
+        Ok(MOTION.as_bytes().to_vec())
+    });
+    assert_eq!(
+        error.unwrap_err(),
+        SuiteError::Unverifiable { path: "i.csv".to_owned() }
+    );
+}
+
+#[test]
+fn an_index_that_is_none_is_refused() {
+    let cases = [
+        ("name,dt_s\na,0.01\n", "i.csv:1: \"name,dt_s\": expected a folder"),
+        ("file,x,x\n", "i.csv:1: \"x\": expected each column once"),
+        ("file,dt_s\n", "i.csv: no readable record in it"),
+        ("file,dt_s\n,0.01\n", "i.csv:2: \"\": expected the name of a file"),
+        ("file,dt_s\n\"a,0.01\n", "i.csv:2: \"\\\"a,0.01\": expected cells"),
+        ("file,dt_s\na\"b,0.01\n", "i.csv:2: \"a\\\"b,0.01\": expected cells"),
+        (
+            "file,dt_s\na,0.01\nb/a,0.01\n",
+            "i.csv: two records are named \"a\"",
+        ),
+    ];
+    for (index, expected) in cases {
+        let found = refusal(index);
+        assert!(found.starts_with(expected), "{found}");
+    }
+}
+
+#[test]
+fn study_components_come_from_the_index() {
+    let index = "file,dt_s,pair,study_component,event,mw\r\n\
+        a-1.txt,0.01,p,0,\"Nowhere, \"\"old\"\"\",7.1\r\n\
+        a-2.txt,0.01,p,1,X,7.1\r\n\
+        b.txt,0.01,,1,,6\r\n\r\n";
+    let found = suite(index).unwrap();
+    assert_eq!(found.name(), "i");
+    assert_eq!(found.study_rule(), StudyRule::Index);
+    let study: Vec<_> = found.study_components().map(|m| &m.file).collect();
+    assert_eq!(study, ["a-2.txt", "b.txt"]);
+    let other: Vec<_> = found.other_components().map(|m| &m.file).collect();
+    assert_eq!(other, ["a-1.txt"]);
+    let [(first, second)] = found.both()[..] else { panic!() };
+    assert_eq!((&*first.file, &*second.file), ("a-2.txt", "a-1.txt"));
+    assert_eq!(second.attributes["event"], "Nowhere, \"old\"");
+    assert_eq!(second.attributes["mw"], "7.1");
+    assert_eq!(second.attributes.len(), 2);
+    for (flags, study) in [("0,0", 0), ("1,1", 2)] {
+        let (one, two) = flags.split_once(',').unwrap();
+        let index = format!(
+            "file,dt_s,pair,study_component\na,0.01,p,{one}\nb,0.01,p,{two}\n"
+        );
+        let expected =
+            format!("pair \"p\" has 2 components, {study} for the study");
+        assert!(refusal(&index).contains(&expected));
+    }
+    let index = "file,dt_s,study_component\na,0.01,yes\n";
+    assert_eq!(refusal(index), "i.csv:2: \"yes\": expected 1 or 0");
+}
+
+#[test]
+fn without_a_mark_the_first_name_of_a_pair_is_the_study_component() {
+    let index = "file,dt_s,pair\nz-090,0.01,q\nz-000,0.01,q\nlone,0.01,\n";
+    let found = suite(index).unwrap();
+    assert_eq!(found.study_rule(), StudyRule::FirstName);
+    let study: Vec<_> = found.study_components().map(|m| &*m.file).collect();
+    assert_eq!(study, ["z-000", "lone"]);
+    // Without a column `pair`, by name; three of one name are no pair.
+    let index =
+        "file,dt_s\na_E,0.01\na_N,0.01\nb-1,0.01\nb-2,0.01\nb-3,0.01\n";
+    let found = suite(index).unwrap();
+    assert_eq!(found.both().len(), 1);
+    assert_eq!(found.members()[0].pair.as_deref(), Some("a"));
+    assert_eq!(found.study_components().count(), 4);
+}
+
+#[test]
+fn pairs_share_a_name_but_for_the_orientation() {
+    let cases = [
+        ("R_HEC000", Some("R_HEC")),
+        ("R_NIS090", Some("R_NIS")),
+        ("R_E", Some("R")),
+        ("R-N", Some("R")),
+        ("R_ABBAR--L", Some("R_ABBAR")),
+        ("R_16858_H1", Some("R_16858")),
+        ("R_65006EW", Some("R_65006")),
+        ("R_TAB-LN", Some("R_TAB")),
+        ("R_0", Some("R")),
+        ("R_H-CPE147", Some("R_H-CPE")),
+        ("R_UP", None),
+        ("R_999", None),
+        ("STATION", None),
+        ("NEW", None),
+        ("E", None),
+        ("\u{e9}\u{e9}", None),
+    ];
+    for (stem, key) in cases {
+        assert_eq!(pair_key(stem), key, "{stem}");
+    }
+}
+
+#[test]
+fn any_text_is_an_index_or_refused() {
+    let index =
+        "file,dt_s,pair,study_component,e\na,0.01,p,1,\"x, y\"\nb,1,p,0,\n";
+    for at in 0..index.len() {
+        for with in ["", ",", "\"", "\n", "0", "-", "\u{e9}"] {
+            let mut changed = index.to_owned();
+            changed.replace_range(at..=at, with);
+            if let Ok(found) = suite(&changed) {
+                assert!(found.members().len() <= 2);
+            }
+        }
+    }
+}

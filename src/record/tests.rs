@@ -1,0 +1,449 @@
+//! Header shapes, with invented numbers, and what must be refused.
+
+use super::*;
+
+fn options(dt_s: Option<f64>) -> ReadOptions {
+    ReadOptions { dt_s, ..ReadOptions::default() }
+}
+
+fn read_text(text: &str) -> Result<Record, RecordError> {
+    read("test", text.as_bytes(), &options(None))
+}
+
+fn refusal(text: &str) -> String {
+    read_text(text).expect_err("a refusal").to_string()
+}
+
+const SEVEN: &str = "   .1000000E-02  -.2000000E-02   .3000000E-02   \
+    .4000000E-02  -.5000000E-02\n   .6000000E-02   .7000000E-02\n";
+
+fn at2(counting: &str) -> String {
+    format!(
+        "PEER NGA STRONG MOTION DATABASE RECORD\n\
+         Nowhere, 1/1/1900, Station, 90\n\
+         ACCELERATION TIME SERIES IN UNITS OF G\n{counting}\n{SEVEN}"
+    )
+}
+
+#[test]
+fn every_generation_of_at2_gives_the_same_record() {
+    let counting = [
+        "NPTS=      7, DT=   .0100 SEC,   4 POLE @    30.00000 HZ,  -5 POLE @      .05000",
+        "NPTS=      7, DT=   .0100 SEC,                                             ",
+        "NPTS=      7, DT=   .0100 SEC                                              ",
+        "NPTS=      7, DT=  0.01000 SEC",
+        "NPTS=     7, DT= .01000 SEC",
+        "NPTS=7,DT=.01",
+        "NPTS=7,DT=.01SEC",
+        "npts=  7, dt= .0100 sec",
+        "Npts = 7\tDt = 1.0E-02 s\t",
+        "NPTS: 7 DT: 0.01",
+        "DT= .0100 SEC, NPTS= 7",
+        "    7    0.0100    NPTS, DT",
+        "7  .01  npts, dt",
+        "  7, .0100, NPTS, DT (SEC)",
+        "NPTS=   7, DT=   .0100 SEC, 0 POLE @ 40.0 HZ, -5 POLE @ .05 HZ, ACAUSAL",
+    ];
+    for line in counting {
+        let unix = at2(line);
+        for text in [unix.replace('\n', "\r\n"), unix.clone()] {
+            let record = read_text(&text).expect(line);
+            let motion = &record.accelerogram;
+            assert_eq!(record.format, Format::At2);
+            assert_eq!(motion.dt_s(), 0.01, "{line}");
+            assert_eq!(motion.samples_g().len(), 7);
+            assert_eq!(motion.samples_g()[1], -0.002);
+            assert_eq!(motion.pga_g(), 0.007);
+        }
+    }
+}
+
+const HEAD: &str = "PEER STRONG MOTION DATABASE RECORD. PROCESSING BY X.\n\
+    NOWHERE 01/01/00 0000, STATION, 0\n\
+    ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz\n";
+
+fn body(count: usize, lines: &str) -> String {
+    format!("{HEAD}NPTS= {count}, DT= .02000 SEC\n{lines}\n")
+}
+
+const GLUED: &str = "-0.12000000E+00-0.34000000E+00 0.56000000E-01\n\
+    \x200.10000000E+00-0.20000000E-02-0.30000000E-02\n\
+    \x200.70000000E-03";
+
+#[test]
+fn glued_numbers_read_by_field_width() {
+    let record = read_text(&body(7, GLUED)).unwrap();
+    assert_eq!(
+        record.accelerogram.samples_g(),
+        [-0.12, -0.34, 0.056, 0.1, -0.002, -0.003, 0.0007]
+    );
+    // Fortran drops the letter where the exponent needs three digits.
+    let tiny = GLUED.replace("0.70000000E-03", "0.70000000-103");
+    let record = read_text(&body(7, &tiny)).unwrap();
+    assert_eq!(record.accelerogram.samples_g()[6], 0.7e-103);
+    let free = "1.2E-01-3.4E-01\t5.6E-01,7.8E-01\n1.0E-01";
+    let record = read_text(&body(5, free)).unwrap();
+    assert_eq!(
+        record.accelerogram.samples_g(),
+        [0.12, -0.34, 0.56, 0.78, 0.1]
+    );
+}
+
+#[test]
+fn a_changed_number_is_refused_with_line_and_column() {
+    let cases = [
+        // A digit lost, the rest of the line out of step.
+        (
+            GLUED.replace("0.56000000E-01", "0.5600000E-01"),
+            "test:5:32: \"0.5600000E-01\": expected a number of 15 characters",
+        ),
+        // A digit lost, a blank put before.
+        (
+            GLUED.replace("-0.34000000E+00", " -0.3400000E+00"),
+            "test:5:17: \"-0.3400000E+00\": expected 8 decimals and an exponent of 4 characters, as the file's first number",
+        ),
+        // A digit blanked.
+        (
+            GLUED.replace("-0.30000000E-02", "-0.3000 000E-02"),
+            "test:6:31: \"-0.3000 000E-02\": expected a number of 15 characters",
+        ),
+        // A letter.
+        (
+            GLUED.replace("-0.30000000E-02", "-0.30000O00E-02"),
+            "test:6:31: \"-0.30000O00E-02\": expected a number of 15 characters",
+        ),
+        // A number too many.
+        (
+            GLUED.replace("-0.30000000E-02", "-0.30000000E-02 1"),
+            "test:6:46: \"1\": expected 3 numbers of 15 characters a line",
+        ),
+        // A number missing before the last line.
+        (
+            GLUED.replace("-0.30000000E-02", ""),
+            "test:6:31: \"\": expected a number of 15 characters",
+        ),
+        // The last number cut.
+        (
+            GLUED.replace("0.70000000E-03", "0.70000000E-0"),
+            "test:7:2: \"0.70000000E-0\": expected a number of 15 characters",
+        ),
+        (
+            GLUED.replace(" 0.70000000E-03", "            NaN"),
+            "test:7:13: \"NaN\": expected a finite number",
+        ),
+        (
+            GLUED.replace("0.70000000E-03", "0.70000000E999"),
+            "test:7:2: \"0.70000000E999\": expected a finite number",
+        ),
+    ];
+    for (lines, expected) in cases {
+        let found = refusal(&body(7, &lines));
+        assert_eq!(found, expected);
+    }
+}
+
+#[test]
+fn a_changed_count_is_refused() {
+    assert_eq!(
+        refusal(&body(8, GLUED)),
+        "test:7: 7 samples: expected 8, the number that the file states"
+    );
+    assert_eq!(
+        refusal(&body(6, GLUED)),
+        "test:7: 7 samples: expected 6, the number that the file states"
+    );
+    let dropped: Vec<&str> = GLUED.lines().skip(1).collect();
+    assert_eq!(
+        refusal(&body(7, &dropped.join("\n"))),
+        "test:6: 4 samples: expected 7, the number that the file states"
+    );
+}
+
+#[test]
+fn at2_headers_that_say_too_little_are_refused() {
+    let cases = [
+        ("NPTS= 7", "no sampling interval in the file"),
+        ("NPTS= 7, DT= -.01 SEC", "\"-.01 SEC\": expected a positive"),
+        ("NPTS= 7, DT= 0 SEC", "\"0 SEC\": expected a positive"),
+        ("NPTS= 7, DT= NaN SEC", "\"NaN SEC\": expected a positive"),
+        ("NPTS= 7, DT= 10 MSEC", "\"10 MSEC\": expected a positive"),
+        ("NPTS= 7, DT=", "\"\": expected a positive"),
+        ("NPTS= , DT= .01", "expected a line like `NPTS= 4096"),
+        ("NPTS= -7, DT= .01", "\"-7, DT= .01\": expected a number of"),
+        ("NPTS= 7.5, DT= .01", "\"7.5, DT= .01\": expected a number of"),
+        ("NPTS= 7x, DT= .01", "expected a number of samples"),
+        ("NPTS= 99999999999999999999999, DT= .01", "a number of samples"),
+    ];
+    for (line, expected) in cases {
+        let found = refusal(&at2(line));
+        assert!(found.contains(expected), "{line}: {found}");
+        assert!(found.starts_with("test"), "{found}");
+    }
+    let line = "NPTS= 7, DT= .01 SEC";
+    let unit = |unit| at2(line).replace("UNITS OF G", unit);
+    assert!(
+        refusal(&unit("UNITS OF FURLONG")).contains(
+            "test:3:38: unit \"FURLONG\": expected g, m/s2 or cm/s2"
+        )
+    );
+    let velocity = at2(line).replace("ACCELERATION", "VELOCITY");
+    assert!(refusal(&velocity).contains("expected an acceleration history"));
+    let gal = read_text(&unit("UNITS OF CM/SEC/SEC")).unwrap();
+    assert_eq!(gal.unit, AccelerationUnit::CentimetrePerSecondSquared);
+    assert_eq!(gal.accelerogram.pga_g(), 0.007 / 980.665);
+    let head = "PEER NGA STRONG MOTION DATABASE RECORD\nNowhere\n";
+    assert!(
+        refusal(head).contains("test:2: the file ends: expected a line like")
+    );
+}
+
+#[test]
+fn what_the_file_states_cannot_be_overruled() {
+    let text = at2("NPTS= 7, DT= .01 SEC");
+    let refused = |options: ReadOptions| {
+        read("test", text.as_bytes(), &options).unwrap_err().to_string()
+    };
+    assert_eq!(
+        refused(options(Some(0.02))),
+        "test: sampling interval 0.02 s was given: expected 0.01 s, which the file states"
+    );
+    assert!(read("test", text.as_bytes(), &options(Some(0.01))).is_ok());
+    for dt_s in [-0.01, 0.0, f64::NAN, f64::INFINITY] {
+        assert!(refused(options(Some(dt_s))).contains("a positive number of"));
+    }
+    let unit = Some(AccelerationUnit::MetrePerSecondSquared);
+    assert_eq!(
+        refused(ReadOptions { unit, ..options(None) }),
+        "test: unit m/s2 was given: expected g, which the file states"
+    );
+    for gravity_m_s2 in [0.0, -9.81, f64::NAN, f64::INFINITY] {
+        let options = ReadOptions { gravity_m_s2, ..options(None) };
+        assert!(refused(options).contains("gravity"));
+    }
+}
+
+#[test]
+fn one_column_needs_an_interval() {
+    let text = "# by hand\n0.00981\n-1.962E-2\r\n 3.0D-3 \n\n\n";
+    assert_eq!(
+        refusal(text),
+        "test: no sampling interval in the file: expected it to be given (in s)"
+    );
+    let given = ReadOptions {
+        unit: Some(AccelerationUnit::MetrePerSecondSquared),
+        gravity_m_s2: 9.81,
+        ..options(Some(0.005))
+    };
+    let record = read("a/b.c.txt", text.as_bytes(), &given).unwrap();
+    assert_eq!(record.format, Format::Column);
+    assert_eq!(record.accelerogram.name(), "b.c");
+    assert!((record.accelerogram.pga_g() - 0.002).abs() < 1e-18);
+    assert!(record.unit_stated);
+    let refused = |text: &str| {
+        read("test", text.as_bytes(), &options(Some(0.01)))
+            .unwrap_err()
+            .to_string()
+    };
+    assert_eq!(refused("0.1\n\n0.2\n"), "test:2: \"\": expected a number");
+    assert_eq!(
+        refused("0.1\n0.2 0.3\n"),
+        "test:2: \"0.2 0.3\": expected a number"
+    );
+    assert_eq!(
+        refused("0.1\nnan\n"),
+        "test:2: \"nan\": expected a finite number"
+    );
+    assert_eq!(
+        refused("-inf\n0\n"),
+        "test:1: \"-inf\": expected a finite number"
+    );
+    assert_eq!(refused("0.1\n"), "test: 1 samples: expected at least 2");
+    assert_eq!(refused("0.1\n0.2E\n"), "test:2: \"0.2E\": expected a number");
+    assert_eq!(refused("0.1\n0x1\n"), "test:2: \"0x1\": expected a number");
+}
+
+#[test]
+fn two_columns_state_their_interval() {
+    for separator in [",", ";", "\t", "  ", " , "] {
+        for head in ["", "time (s)#acceleration (g)\n", "# note\n", "t#a\n"] {
+            let rows = "0.000#0.1\n0.005#-0.2\n0.010#3e-1\n0.015#0\n";
+            let text = format!("{head}{rows}").replace('#', separator);
+            let text =
+                text.replacen(&format!("{separator} note"), "# note", 1);
+            let record = read_text(&text).expect(&text);
+            assert_eq!(record.format, Format::Csv);
+            assert_eq!(record.accelerogram.dt_s(), 0.005);
+            assert_eq!(record.accelerogram.samples_g(), [0.1, -0.2, 0.3, 0.0]);
+        }
+    }
+    // Times rounded to four decimals, a step of 1/410 s.
+    let rows = |times: &mut dyn Iterator<Item = f64>| -> String {
+        times.map(|t| format!("{t:.4},0.5\n")).collect()
+    };
+    let text = rows(&mut (0..411).map(|i| f64::from(i) / 410.0));
+    let dt = read_text(&text).unwrap().accelerogram.dt_s();
+    assert!((dt - 1.0 / 410.0).abs() < 1e-9, "{dt}");
+    // A dropped line, at every place.
+    for dropped in 1..40 {
+        let times = (0..41).filter(|i| *i != dropped);
+        let text = rows(&mut times.map(|i| f64::from(i) * 0.02));
+        assert!(refusal(&text).contains("a constant step"), "{dropped}");
+    }
+    let cases = [
+        ("0,1\n0,2\n", "test:2: sampling interval \"0\""),
+        ("0.1,1\n0.0,2\n", "test:2: sampling interval \"-0.1\""),
+        ("0.00,1\n0.00,1\n0.01,2\n", "test:2: sampling interval"),
+        ("0.0,1\n0.1,2\n0.2\n", "test:3: \"0.2\": expected two numbers"),
+        ("0.0,1\n0.1,2\n0.2,x\n", "test:3: \"x\": expected a number"),
+        ("0.0,1\n0.1,NaN\n", "test:2: \"NaN\": expected a finite"),
+        ("0.0,1\n0.1,\n", "test:2: \"\": expected a number"),
+        ("t (ms),a (g)\n0,1\n10,2\n", "test:1: sampling interval"),
+        ("t,a (furlong)\n0,1\n1,2\n", "test:1: unit \"furlong\""),
+        ("0.0,1\n", "test:1: the file ends: expected a second time"),
+    ];
+    for (text, expected) in cases {
+        let found = refusal(text);
+        assert!(found.starts_with(expected), "{found}");
+    }
+    let si = read_text("t (s),a [m/s^2]\n0,9.80665\n1,2\n").unwrap();
+    assert_eq!(si.accelerogram.pga_g(), 1.0);
+    let gal = read_text("t_s,a_cm_s2\n0,980.665\n1,2\n").unwrap();
+    assert_eq!(gal.accelerogram.pga_g(), 1.0);
+}
+
+const RESORCE: &str = "Event Date & Time             : 1900-01-01 00:00:00\n\
+    Station Code / Name           : 1 / Nowhere\n\
+    Time Increment (s)            : 0.005\n\
+    Number of Data                : 6\n\
+    PGA (m/s/s)                   : 1.9613300E+00\n\
+    Accelaration time series in m/s/s\n\
+    -1.2000000E-04-1.3000000E-04 1.4000000E-04-1.9613300E+00 1.6000000E-04\n\
+    \x20 1.7000000E-04\n";
+
+#[test]
+fn resorce_reads_glued_numbers() {
+    let text = RESORCE.replace("  1.7", " 1.7");
+    let record = read_text(&text).unwrap();
+    assert_eq!(record.format, Format::Resorce);
+    assert_eq!(record.accelerogram.dt_s(), 0.005);
+    assert_eq!(record.accelerogram.samples_g().len(), 6);
+    assert!((record.accelerogram.pga_g() - 0.2).abs() < 1e-15);
+    let cases = [
+        // One blank too many before the last number.
+        (RESORCE.to_owned(), "test:8:3: \"1.7000000E-0\": expected"),
+        (
+            text.replace("-1.3000000E-04", "-1.3000000E-4"),
+            "test:7:15: \"-1.3000000E-4\": expected a number of 14",
+        ),
+        (text.replace(": 6", ": 7"), "test:8: 6 samples: expected 7"),
+        (text.replace("-1.9613300E+00", "-1.9613300E-00"), ""),
+        (
+            text.replace("-1.9613300E+00", "-1.8613300E+00"),
+            "test:8: largest absolute sample 1.86133 m/s2: expected 1.96133",
+        ),
+        (text.replace("in m/s/s", "in mm"), "test:6: unit \"mm\": expected"),
+        (
+            text.replace("Accelaration", "Velocity"),
+            "test:6: \"Velocity time series in m/s/s\": expected an",
+        ),
+        (text.replace(": 0.005", ": -0.005"), "test:3: \"Time Increment (s)"),
+    ];
+    for (text, expected) in cases {
+        if expected.is_empty() {
+            assert!(read_text(&text).is_ok());
+            continue;
+        }
+        let found = refusal(&text);
+        assert!(found.starts_with(expected), "{found}");
+    }
+}
+
+#[test]
+fn what_is_no_record_is_refused() {
+    assert_eq!(refusal(""), "test: empty file: expected a record");
+    assert_eq!(refusal(" \r\n\t\n"), "test: empty file: expected a record");
+    assert_eq!(
+        refusal("PK\u{3}\u{4}"),
+        "test: byte 0x03 at offset 2: expected text"
+    );
+    assert!(refusal("Once upon a time\n").starts_with(
+        "test:1: begins with \"Once upon a time\": expected a record in"
+    ));
+    assert!(refusal("1 2 3\n4 5 6\n").contains("expected a record in"));
+    let latin1 = b"0.1\n\xe9\n";
+    let error = read("test", latin1, &options(Some(0.1))).unwrap_err();
+    assert_eq!(error.to_string(), "test:2: \"\u{e9}\": expected a number");
+    assert_eq!(error.line(), Some(2));
+    assert_eq!(error.column(), None);
+}
+
+/// Changed, cut and spliced files: an answer, never a panic, and never a
+/// record with another count than its header's.
+#[test]
+fn no_bytes_make_a_reader_panic() {
+    let resorce = RESORCE.replace("  1.7", " 1.7");
+    let seeds = [
+        at2("NPTS=      7, DT=   .0100 SEC"),
+        at2("7 .01 NPTS, DT"),
+        body(7, GLUED),
+        resorce,
+        "0.1\n0.2\n-0.3\n".to_owned(),
+        "t (s),a (g)\n0.00,0.1\n0.01,0.2\n0.02,1e-3\n".to_owned(),
+    ];
+    let alphabet = b"0123456789+-.eEdD,;:=\t\n\r #\"()NaPTSx\xff\x00\xc3\xa9";
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut draw = |below: usize| {
+        // Xorshift: any spread will do here.
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state % below.max(1) as u64) as usize
+    };
+    for round in 0..40_000 {
+        let mut bytes = seeds[round % seeds.len()].clone().into_bytes();
+        for _ in 0..=draw(4) {
+            let at = draw(bytes.len());
+            let with = alphabet[draw(alphabet.len())];
+            match draw(5) {
+                0 => bytes[at] = with,
+                1 => bytes.insert(at, with),
+                2 => {
+                    bytes.remove(at);
+                }
+                3 => bytes.truncate(at.max(1)),
+                _ => bytes.extend_from_within(at..),
+            }
+            if bytes.is_empty() {
+                bytes.push(b'0');
+            }
+        }
+        let dt_s = (round % 2 == 0).then_some(0.01);
+        for record in read_all("x", &bytes, &options(dt_s)).iter().flatten() {
+            let motion = &record.accelerogram;
+            assert!(motion.dt_s() > 0.0 && motion.pga_g().is_finite());
+        }
+    }
+}
+
+/// A single lost, doubled or changed character in the samples of a
+/// fixed-width file is either refused or changes one digit, sign or blank:
+/// the number of samples stays.
+#[test]
+fn one_changed_character_never_changes_the_count() {
+    let text = body(7, GLUED).into_bytes();
+    let start = text.len() - GLUED.len() - 1;
+    for at in start..text.len() {
+        let mut cut = text.clone();
+        let removed = cut.remove(at);
+        let read_cut = read("x", &cut, &options(None));
+        let blank = removed.is_ascii_whitespace();
+        assert!(read_cut.is_err() || blank, "byte {at} removed");
+        for with in b" 5-.EN\n" {
+            let mut changed = text.clone();
+            changed[at] = *with;
+            if let Ok(record) = read("x", &changed, &options(None)) {
+                assert_eq!(record.accelerogram.samples_g().len(), 7);
+            }
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Samples and what is computed from them.
+//!
+//! Quantiles by named type, the empirical distribution, boxplots, lognormal
+//! fits, tests of normality, paired comparison and the bootstrap. A sample is
+//! checked once, when it is made; what takes one relies on it.
+
+pub mod bootstrap;
+pub mod boxplot;
+pub mod lilliefors;
+pub mod lognormal;
+pub mod multiple;
+pub mod normal;
+pub mod normality;
+pub mod paired;
+pub mod quantile;
+pub mod sample;
+
+pub use boxplot::Boxplot;
+pub use lognormal::Lognormal;
+pub use quantile::QuantileType;
+pub use sample::{ExtendedSample, Sample, SampleError};

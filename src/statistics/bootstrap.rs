@@ -1,0 +1,151 @@
+//! The bootstrap: records drawn with replacement, one stream a replicate.
+
+use rand::Rng as _;
+use rayon::prelude::*;
+
+use super::{QuantileType, Sample};
+use crate::streams::Streams;
+
+/// A point estimate with its standard error and interval.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// The estimate from the sample itself.
+    pub point: f64,
+    /// Standard deviation of the replicates.
+    pub standard_error: f64,
+    /// Lower end of the percentile interval.
+    pub low: f64,
+    /// Upper end of the percentile interval.
+    pub high: f64,
+    /// Level of the interval.
+    pub level: f64,
+    /// Replicates that gave a finite value.
+    pub used: usize,
+    /// Replicates drawn.
+    pub replicates: usize,
+}
+
+/// Draws of n records out of n with replacement, the same for every
+/// statistic that uses them: blocks and levels stay paired.
+///
+/// Draw i comes from stream i of the family of that name and seed; a place is
+/// the high word of the product of a 64-bit number and n (bias below n/2^64).
+///
+/// ```
+/// use rocking::statistics::bootstrap::Bootstrap;
+/// let bootstrap = Bootstrap::new("doc", 0, 3, 100);
+/// let means: Vec<f64> = bootstrap.map(|draw| {
+///     draw.iter().map(|&i| i as f64).sum::<f64>() / 3.0
+/// });
+/// assert_eq!(means.len(), 100);
+/// assert_eq!(means, bootstrap.map(|draw| {
+///     draw.iter().map(|&i| i as f64).sum::<f64>() / 3.0
+/// }));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Bootstrap {
+    streams: Streams,
+    n: usize,
+    replicates: usize,
+}
+
+impl Bootstrap {
+    /// `replicates` draws out of n records.
+    #[must_use]
+    pub fn new(name: &str, seed: u64, n: usize, replicates: usize) -> Self {
+        Self { streams: Streams::new(name, seed), n, replicates }
+    }
+
+    /// Applies a function to the places of every draw, in parallel; results
+    /// in the order of the draws.
+    pub fn map<T: Send>(&self, f: impl Fn(&[usize]) -> T + Sync) -> Vec<T> {
+        (0..self.replicates as u64)
+            .into_par_iter()
+            .map(|index| f(&self.draw(index)))
+            .collect()
+    }
+
+    /// The places of one draw.
+    #[must_use]
+    pub fn draw(&self, index: u64) -> Vec<usize> {
+        let mut stream = self.streams.stream(index);
+        let n = self.n as u128;
+        let mut place =
+            || ((u128::from(stream.next_u64()) * n) >> 64) as usize;
+        (0..self.n).map(|_| place()).collect()
+    }
+}
+
+/// Estimate from replicates: percentile interval of type 7 at `level`.
+/// Replicates without a finite value are left out and counted; none if fewer
+/// than two are left, or the point is not finite.
+#[must_use]
+pub fn estimate(
+    point: f64,
+    replicates: &[f64],
+    level: f64,
+) -> Option<Estimate> {
+    let finite: Vec<f64> =
+        replicates.iter().copied().filter(|x| x.is_finite()).collect();
+    if finite.len() < 2 || !point.is_finite() {
+        return None;
+    }
+    let sample = Sample::try_new(&finite).ok()?;
+    let quantile_type = QuantileType::try_new(7).ok()?;
+    let at = |p| quantile_type.of(&sample, p).ok();
+    let spread = sample.sum_of_squares() / (finite.len() as f64 - 1.0);
+    Some(Estimate {
+        point,
+        standard_error: spread.sqrt(),
+        low: at(0.5 - 0.5 * level)?,
+        high: at(0.5 + 0.5 * level)?,
+        level,
+        used: finite.len(),
+        replicates: replicates.len(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn standard_error_of_a_mean_is_the_plug_in_one() {
+        let values: Vec<f64> = (0..40).map(f64::from).collect();
+        let bootstrap = Bootstrap::new("test", 0, 40, 20_000);
+        let means = bootstrap.map(|draw| {
+            draw.iter().fold(0.0, |sum, &i| sum + values[i]) / 40.0
+        });
+        let estimate = estimate(19.5, &means, 0.95).unwrap();
+        // sqrt((n^2 - 1)/12/n), within 4 standard errors of a deviation.
+        let expected = (1599.0_f64 / 12.0 / 40.0).sqrt();
+        let error = estimate.standard_error / expected - 1.0;
+        assert!(error.abs() < 4.0 / (2.0 * 20_000.0_f64).sqrt());
+        let half = 0.5 * (estimate.high - estimate.low);
+        assert!((half / (1.96 * expected) - 1.0).abs() < 0.03);
+    }
+
+    #[test]
+    fn every_place_is_drawn_equally_often() {
+        let bootstrap = Bootstrap::new("places", 0, 7, 10_000);
+        let mut counts = [0_u32; 7];
+        for draw in bootstrap.map(<[usize]>::to_vec) {
+            for place in draw {
+                counts[place] += 1;
+            }
+        }
+        // Binomial(70000, 1/7): standard deviation 92.6.
+        for count in counts {
+            assert!(count.abs_diff(10_000) < 5 * 93, "{counts:?}");
+        }
+    }
+
+    #[test]
+    fn replicates_without_a_value_are_counted() {
+        let replicates = [1.0, f64::NAN, 2.0, f64::INFINITY, 3.0];
+        let estimate = estimate(2.0, &replicates, 0.95).unwrap();
+        assert_eq!((estimate.used, estimate.replicates), (3, 5));
+        assert!(super::estimate(2.0, &[1.0, f64::NAN], 0.95).is_none());
+    }
+}

@@ -1,0 +1,93 @@
+use libm::{exp, pow};
+
+use super::*;
+use crate::statistics::normal;
+
+const R: &str = include_str!("../../../fixtures/oracles/paired.csv");
+
+/// The ratios of `fixtures/oracles/paired.R`.
+fn ratios(name: &str) -> Vec<f64> {
+    match name {
+        "a" => vec![
+            0.93, 1.08, 1.01, 0.98, 1.13, 0.99, 1.02, 1.035, 0.87, 1.11, 1.06,
+        ],
+        "b" => (1..=73)
+            .map(|i| pow((f64::from(i) - 0.5) / 73.0, 1.05))
+            .map(|p| exp(0.02 + 0.12 * normal::quantile(p)))
+            .collect(),
+        "c" => vec![1.3, 1.1, 1.7],
+        _ => panic!("{name}"),
+    }
+}
+
+#[test]
+fn procedures_agree_with_r() {
+    let mut count = 0;
+    for line in R.lines().skip(1) {
+        let f: Vec<&str> = line.split(',').collect();
+        let ratios = ratios(f[0]);
+        let tost = equivalence(&ratios, 0.05).unwrap();
+        let sign = sign_equivalence(&ratios, 0.05).unwrap();
+        let centre = hodges_lehmann(&ratios).unwrap();
+        let ours = match f[1] {
+            "geometric_mean" => tost.geometric_mean,
+            "low" => tost.low,
+            "high" => tost.high,
+            "p_lower" => tost.p_lower,
+            "p_upper" => tost.p_upper,
+            "sign_lower" => sign.p_lower,
+            "sign_upper" => sign.p_upper,
+            "sign" => SignTest::of(&ratios, 1.0).p_value,
+            "hl" => centre.ratio,
+            "hl_low" => centre.low,
+            "hl_high" => centre.high,
+            other => panic!("{other}"),
+        };
+        let theirs: f64 = f[2].parse().unwrap();
+        assert!((ours / theirs - 1.0).abs() < 1e-9, "{line}: {ours}");
+        count += 1;
+    }
+    assert_eq!(count, 33);
+}
+
+#[test]
+fn every_pair_is_counted_once() {
+    let inf = f64::INFINITY;
+    let a = [1.0, inf, 2.0, inf, 0.0, 0.0, 3.0, inf];
+    let b = [2.0, 1.0, inf, inf, 0.0, 1.0, 0.0, 2.0];
+    let pairs = Pairs::try_new(&a, &b).unwrap();
+    assert_eq!(pairs.ratios, [0.5]);
+    assert_eq!((pairs.only_a_infinite, pairs.only_b_infinite), (2, 1));
+    assert_eq!((pairs.both_infinite, pairs.both_zero), (1, 1));
+    assert_eq!((pairs.only_a_zero, pairs.only_b_zero), (1, 1));
+    assert_eq!(pairs.share(), 0.125);
+    // 2 against 1: 2 P(B(3) <= 1) = 1.
+    assert_eq!(pairs.mcnemar().p_value, 1.0);
+}
+
+#[test]
+fn mcnemar_is_the_exact_binomial() {
+    // 10 discordant, 1 against 9: 2 (1 + 10)/1024.
+    let inf = f64::INFINITY;
+    let mut a = vec![inf; 9];
+    let mut b = vec![1.0; 9];
+    a.push(1.0);
+    b.push(inf);
+    let p_value = Pairs::try_new(&a, &b).unwrap().mcnemar().p_value;
+    assert!((p_value - 22.0 / 1024.0).abs() < 1e-14);
+}
+
+#[test]
+fn bad_pairs_and_margins_are_refused() {
+    assert!(Pairs::try_new(&[1.0], &[]).is_err());
+    for value in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+        assert!(Pairs::try_new(&[1.0], &[value]).is_err());
+    }
+    for margin in [0.0, -0.1, f64::NAN] {
+        assert!(equivalence(&[1.0, 1.1], margin).is_err());
+        assert!(sign_equivalence(&[1.0, 1.1], margin).is_err());
+    }
+    assert_eq!(equivalence(&[1.0, 1.0], 0.1), Err(PairedError::Degenerate));
+    assert_eq!(equivalence(&[1.0], 0.1), Err(PairedError::TooFew(1)));
+    assert_eq!(hodges_lehmann(&[1.0]), Err(PairedError::TooFew(1)));
+}

@@ -1,0 +1,221 @@
+//! Readers and suites on files: real ones where they are, small ones of our
+//! own everywhere.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use rocking::record::{ReadOptions, Suite, SuiteOptions};
+use rocking::units::STANDARD_GRAVITY_M_S2;
+
+fn real(index: &str) -> Option<PathBuf> {
+    let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let path = root.join("../shared/records").join(index);
+    if path.exists() {
+        return Some(path);
+    }
+    println!("skipped: no real records at ../shared/records");
+    None
+}
+
+fn options() -> SuiteOptions {
+    SuiteOptions { read: ReadOptions::default(), sha256_hex: None }
+}
+
+#[test]
+fn real_suites_meet_their_index() {
+    // Reading a suite checks count, PGA and PGV of every file against the
+    // index, to 1e-4 relative.
+    for (index, pairs) in [("ordinary.csv", 86), ("pulse.csv", 44)] {
+        let Some(path) = real(index) else { return };
+        let suite = Suite::read(&path, &options()).unwrap();
+        assert_eq!(suite.members().len(), 2 * pairs);
+        assert_eq!(suite.study_components().count(), pairs);
+        assert_eq!(suite.other_components().count(), pairs);
+        assert_eq!(suite.both().len(), pairs);
+        for member in suite.members() {
+            let motion = &member.accelerogram;
+            assert!(motion.pga_g() > 0.14, "{}", member.file);
+            assert!(motion.pgv_m_s(STANDARD_GRAVITY_M_S2) > 0.0);
+            assert!(member.attributes.contains_key("event"));
+        }
+    }
+}
+
+const AT2: &str = "PEER NGA STRONG MOTION DATABASE RECORD\n\
+    Nowhere, 1/1/1900, Station, 0\n\
+    ACCELERATION TIME SERIES IN UNITS OF G\n\
+    NPTS=      4, DT=   .0100 SEC\n\
+    \x20  .1000000E+00   .2000000E+00  -.3000000E+00   .1000000E+00\n";
+
+/// A fresh folder with the given files.
+fn folder(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    for (file, bytes) in files {
+        std::fs::write(folder.join(file), bytes).unwrap();
+    }
+    folder
+}
+
+/// Exit status, standard output and standard error of `rocking records`.
+fn records(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .arg("records")
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let status = output.status.code().unwrap();
+    (status, text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn bad_input_gives_one_message_and_status_2() {
+    let cut = &AT2[..AT2.len() - 5];
+    let nan = AT2.replace("   .2000000E+00", "            NaN");
+    let negative = AT2.replace(" .0100", "-.0100");
+    let files: [(&str, &[u8]); 7] = [
+        ("cut.AT2", cut.as_bytes()),
+        ("empty.AT2", b""),
+        ("nan.AT2", nan.as_bytes()),
+        ("negative.AT2", negative.as_bytes()),
+        ("binary", b"\x7fELF\x02\x01\x01\x00"),
+        ("column.txt", b"0.1\n0.2\n"),
+        ("good.AT2", AT2.as_bytes()),
+    ];
+    let folder = folder("bad", &files);
+    let cases: [(&[&str], &str); 10] = [
+        (
+            &["cut.AT2"],
+            "rocking: cut.AT2:5:49: \".1000000\": expected 7 decimals and an exponent of 4 characters, as the file's first number\n",
+        ),
+        (
+            &["empty.AT2"],
+            "rocking: empty.AT2: empty file: expected a record\n",
+        ),
+        (
+            &["nan.AT2"],
+            "rocking: nan.AT2:5:28: \"NaN\": expected a finite number\n",
+        ),
+        (
+            &["negative.AT2"],
+            "rocking: negative.AT2:4: sampling interval \"-.0100 SEC\": expected a positive number of seconds\n",
+        ),
+        (
+            &["binary"],
+            "rocking: binary: byte 0x02 at offset 4: expected text\n",
+        ),
+        (
+            &["column.txt"],
+            "rocking: column.txt: no sampling interval in the file: expected it to be given (in s)\n",
+        ),
+        (
+            &["column.txt", "--dt", "-0.01"],
+            "rocking: column.txt: sampling interval \"-0.01\": expected a positive number of seconds\n",
+        ),
+        (
+            &["good.AT2", "--gravity", "-9.81"],
+            "rocking: gravity -9.81 m/s2: expected a positive number\n",
+        ),
+        (
+            &["good.AT2", "--dt", "0.02"],
+            "rocking: good.AT2: sampling interval 0.02 s was given: expected 0.01 s, which the file states\n",
+        ),
+        (
+            &["missing.AT2"],
+            "rocking: missing.AT2: cannot be read: No such file or directory (os error 2)\n",
+        ),
+    ];
+    for (arguments, expected) in cases {
+        let (status, out, error) = records(&folder, arguments);
+        assert_eq!((status, error.as_str()), (2, expected));
+        assert_eq!(out, "", "{arguments:?}");
+    }
+    for arguments in
+        [&["--unknown"][..], &["good.AT2", "--units", "ft/s2"], &[]]
+    {
+        let (status, out, error) = records(&folder, arguments);
+        assert_eq!((status, out.as_str()), (2, ""), "{arguments:?}");
+        assert!(error.starts_with("error:"), "{error}");
+    }
+    // All that can be read is listed before the refusals count.
+    let (status, out, error) = records(&folder, &["good.AT2", "cut.AT2"]);
+    assert_eq!(status, 2);
+    assert!(out.contains("good.AT2  at2"), "{out}");
+    assert_eq!(error.lines().count(), 1);
+}
+
+#[test]
+fn a_folder_without_records_is_refused() {
+    let files: [(&str, &[u8]); 2] =
+        [("README", b"About these records.\n"), (".hidden", b"0.1\n")];
+    let folder = folder("none", &files);
+    let (status, out, error) = records(&folder, &["."]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    assert_eq!(
+        error,
+        "rocking: .: no readable record in it: expected at least one (files: 1)\n"
+    );
+}
+
+#[test]
+fn a_folder_of_pairs_is_a_suite() {
+    let velocity = AT2.replace("ACCELERATION", "VELOCITY");
+    let files: [(&str, &[u8]); 5] = [
+        ("A_090.AT2", AT2.as_bytes()),
+        ("A_000.AT2", AT2.as_bytes()),
+        ("B_E.AT2", AT2.as_bytes()),
+        ("A_000.VT2", velocity.as_bytes()),
+        ("README", b"About these records.\n"),
+    ];
+    let folder = folder("suite", &files);
+    let suite = Suite::read(&folder, &options()).unwrap();
+    let study: Vec<_> =
+        suite.study_components().map(|m| m.file.as_str()).collect();
+    assert_eq!(study, ["A_000.AT2", "B_E.AT2"]);
+    assert_eq!(suite.both().len(), 1);
+    assert_eq!(suite.ignored().len(), 2);
+    assert_eq!(suite.name(), "suite");
+    let (status, out, error) = records(&folder, &["../suite"]);
+    assert_eq!((status, error.as_str()), (0, ""));
+    assert!(out.ends_with(
+        "suite suite: 3 records, 1 pairs, 2 study components by the component whose file name sorts first in its pair\n"
+    ));
+    let (status, out, _) = records(&folder, &["--json", "."]);
+    assert_eq!(status, 0);
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let first = &json["records"][0];
+    assert_eq!(first["file"], "A_000.AT2");
+    assert_eq!(first["npts"], 4);
+    assert_eq!(first["pga_g"], 0.3);
+    assert_eq!(first["duration_s"], 0.03);
+    assert_eq!(first["pair"], "A");
+    assert_eq!(first["study_component"], true);
+    // By hand: 0.0015, 0.001, 0 (in g s) times gravity.
+    let pgv = first["pgv_m_s"].as_f64().unwrap();
+    assert!((pgv - 0.0015 * STANDARD_GRAVITY_M_S2).abs() < 1e-15);
+    assert_eq!(json["ignored"].as_array().unwrap().len(), 2);
+    assert_eq!(json["refused"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn an_index_may_state_checksums() {
+    // By coreutils' sha256sum of the file below.
+    let sum =
+        "103671bc3a6a11aa4e586498034886e5e33d9e67f0cb7f0b0f1d8ae524e35166";
+    let right = format!("file,dt_s,sha256\na.txt,0.01,{sum}\n");
+    let wrong = right.replace("103671", "103672");
+    let files: [(&str, &[u8]); 3] = [
+        ("a.txt", b"0.1\n0.2\n"),
+        ("right.csv", right.as_bytes()),
+        ("wrong.csv", wrong.as_bytes()),
+    ];
+    let folder = folder("sums", &files);
+    let (status, _, error) = records(&folder, &["right.csv"]);
+    assert_eq!((status, error.as_str()), (0, ""));
+    let (status, _, error) = records(&folder, &["wrong.csv"]);
+    assert_eq!(status, 2);
+    assert!(error.contains("wrong.csv:2: a.txt has sha256 1036"), "{error}");
+}

@@ -1,0 +1,340 @@
+//! `rocking capacities`: IM given EDP from a response curve or an IDA file.
+
+pub mod ida;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
+use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking::statistics::{ExtendedSample, QuantileType};
+use serde_json::{Value, json};
+
+use super::{Failure, print};
+use crate::files::write_atomically;
+use crate::json;
+
+/// Intensities at which EDP levels are reached, from one curve or from all
+/// records of an IDA file.
+///
+/// A level is crossed where the curve passes it (at least the level counts
+/// as above); overturning crosses every level, and a record that never
+/// reached one is censored (inf). The count of crossings is odd.
+#[derive(ClapArgs)]
+#[command(group = ArgGroup::new("source").required(true)
+    .args(["curve", "ida"]))]
+pub struct Args {
+    /// One curve by its vertices IM:EDP, the first at EDP 0.
+    #[arg(long, value_name = "IM:EDP,..", allow_hyphen_values = true)]
+    curve: Option<Vertices>,
+    /// Intensity of first overturning of the curve.
+    #[arg(
+        long,
+        value_name = "IM",
+        conflicts_with = "ida",
+        allow_negative_numbers = true
+    )]
+    overturning: Option<f64>,
+    /// CSV of `rocking ida`.
+    #[arg(long, value_name = "FILE")]
+    ida: Option<PathBuf>,
+    /// Intensity measure, of --ida [default: pga].
+    #[arg(long, conflicts_with = "curve")]
+    im: Option<Measure>,
+    /// EDP levels, FIRST:LAST:STEP or separated by commas.
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        default_value = "0.005:1:0.005",
+        allow_hyphen_values = true
+    )]
+    levels: Levels,
+    /// Which single capacity is made of several crossings, for the quantiles
+    /// over the records of --ida [default: median].
+    #[arg(long, conflicts_with = "curve")]
+    point: Option<Point>,
+    /// EDP level of the sample written by --sample.
+    #[arg(
+        long,
+        value_name = "E",
+        requires = "sample",
+        conflicts_with = "curve",
+        allow_negative_numbers = true
+    )]
+    at: Option<f64>,
+    /// Write the records' capacities at --at, one a line, `inf` if censored.
+    #[arg(
+        long,
+        value_name = "OUT.txt",
+        requires = "at",
+        conflicts_with = "curve"
+    )]
+    sample: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Vertices of a curve given by hand.
+#[derive(Clone, Debug)]
+struct Vertices(Vec<(f64, f64)>);
+
+impl FromStr for Vertices {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let vertex = |pair: &str| {
+            let (im, edp) = pair.split_once(':')?;
+            Some((im.trim().parse().ok()?, edp.trim().parse().ok()?))
+        };
+        let vertices = text.split(',').map(|pair| {
+            vertex(pair).ok_or_else(|| {
+                format!("found `{pair}`: expected IM:EDP, such as 1.1:0.2")
+            })
+        });
+        Ok(Self(vertices.collect::<Result<_, _>>()?))
+    }
+}
+
+/// EDP levels.
+#[derive(Clone, Debug)]
+struct Levels(Vec<f64>);
+
+impl FromStr for Levels {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let number = |field: &str| {
+            let value = field.trim().parse().ok();
+            value.filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(
+                || format!("found `{field}`: expected a positive number"),
+            )
+        };
+        let parts: Vec<&str> = text.split(':').collect();
+        let [first, last, step] = parts.as_slice() else {
+            let levels = text.split(',').map(number);
+            return Ok(Self(levels.collect::<Result<_, _>>()?));
+        };
+        let (first, last, step) =
+            (number(first)?, number(last)?, number(step)?);
+        let count = ((last - first) / step + 1e-9).floor();
+        if !(last >= first && count < 1e6) {
+            return Err(format!(
+                "found `{text}`: expected FIRST:LAST:STEP with LAST >= FIRST"
+            ));
+        }
+        // A step of 1/d gives levels rounded once: 200 steps of 0.005 are 1.
+        let parts_of_one = (1.0 / step).round();
+        let exact = (parts_of_one * step - 1.0).abs() < 1e-12;
+        let offset = (first * parts_of_one).round();
+        let exact = exact && (offset / parts_of_one - first).abs() < 1e-12;
+        let level = |k: u32| {
+            if exact {
+                (offset + f64::from(k)) / parts_of_one
+            } else {
+                f64::mul_add(f64::from(k), step, first)
+            }
+        };
+        Ok(Self((0..=count as u32).map(level).collect()))
+    }
+}
+
+/// The intensity measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Measure {
+    /// PGA/(g tan alpha).
+    Pga,
+    /// p PGV/(g tan alpha).
+    Pgv,
+}
+
+/// Which single capacity is made of several crossings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Point {
+    /// The median crossing.
+    Median,
+    /// The first crossing.
+    First,
+    /// The last crossing.
+    Last,
+    /// The length of intensity below the level.
+    Monotone,
+}
+
+impl From<Point> for InversionRule {
+    fn from(point: Point) -> Self {
+        match point {
+            Point::Median => Self::Median,
+            Point::First => Self::First,
+            Point::Last => Self::Last,
+            Point::Monotone => Self::Monotone,
+        }
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a curve, a file or a level that is refused.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    match (&args.curve, &args.ida) {
+        (Some(vertices), _) => {
+            let curve = ResponseCurve::try_new(&vertices.0, args.overturning)?;
+            by_hand(args, &curve)
+        }
+        (None, Some(path)) => by_file(args, path),
+        (None, None) => Err(Failure::input("--curve or --ida is needed")),
+    }
+}
+
+fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
+    if args.json {
+        let out = json!({
+            "im_r": json::number(curve.onset_im()),
+            "levels": levels(curve, &args.levels.0)?,
+        });
+        return print(&format!("{out:#}\n"));
+    }
+    let mut text = format!(
+        "{:>8} {:>10} {:>10} {:>10} {:>10}  crossings\n",
+        "EDP", "median", "first", "last", "monotone"
+    );
+    for &level in &args.levels.0 {
+        let crossings = curve.crossings(level)?;
+        write!(text, "{level:>8}")?;
+        for rule in RULES {
+            write!(text, " {:>10.6}", crossings.capacity(rule).im())?;
+        }
+        text += " ";
+        for im in crossings.all() {
+            write!(text, " {im:.6}")?;
+        }
+        text += "\n";
+    }
+    print(&text)
+}
+
+const RULES: [InversionRule; 4] = [
+    InversionRule::Median,
+    InversionRule::First,
+    InversionRule::Last,
+    InversionRule::Monotone,
+];
+
+/// The crossings and capacities of a curve at every level, as JSON.
+fn levels(
+    curve: &ResponseCurve,
+    levels: &[f64],
+) -> Result<Vec<Value>, CapacityError> {
+    let row = |&level: &f64| {
+        let crossings = curve.crossings(level)?;
+        let mut row = json!({
+            "edp": json::number(level),
+            "crossings": json::numbers(crossings.all()),
+        });
+        for rule in RULES {
+            let im = crossings.capacity(rule).im();
+            row[rule.to_string()] = json::number(im);
+        }
+        Ok(row)
+    };
+    levels.iter().map(row).collect()
+}
+
+fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
+    let measure = args.im.unwrap_or(Measure::Pga);
+    let rule = InversionRule::from(args.point.unwrap_or(Point::Median));
+    let suite = ida::read(path, measure)?;
+    if let (Some(level), Some(out)) = (args.at, &args.sample) {
+        let mut text = format!("# IM at EDP {level}, {rule} crossing\n");
+        for (record, curve) in &suite.curves {
+            let im = curve.capacity(level, rule)?.im();
+            writeln!(text, "{im} # {record}")?;
+        }
+        write_atomically(out, text)?;
+    }
+    let mut rows = Vec::new();
+    for &level in &args.levels.0 {
+        rows.push((level, quantiles(&suite, level, rule)?));
+    }
+    if args.json {
+        return print(&format!("{:#}\n", json(args, &suite, rule, &rows)?));
+    }
+    let mut text = format!(
+        "{} records, IM_R {:.6}, {rule} crossing\n\
+         {:>8} {:>10} {:>10} {:>10} {:>9}\n",
+        suite.curves.len(),
+        suite.im_r,
+        "EDP",
+        "16 %",
+        "50 %",
+        "84 %",
+        "censored"
+    );
+    for (level, q) in rows {
+        let [low, median, high] = q.values;
+        writeln!(
+            text,
+            "{level:>8} {low:>10.5} {median:>10.5} {high:>10.5} {:>9}",
+            q.censored
+        )?;
+    }
+    print(&text)
+}
+
+/// Quantiles of the records' capacities at a level.
+struct Quantiles {
+    values: [f64; 3],
+    censored: usize,
+}
+
+fn quantiles(
+    suite: &ida::Suite,
+    level: f64,
+    rule: InversionRule,
+) -> Result<Quantiles, Failure> {
+    let mut ims = Vec::new();
+    for (_, curve) in &suite.curves {
+        ims.push(curve.capacity(level, rule)?.im());
+    }
+    let sample = ExtendedSample::try_new(&ims)?;
+    let at = |p| QuantileType::default().of_extended(&sample, p);
+    let values = [at(0.16)?, at(0.5)?, at(0.84)?];
+    Ok(Quantiles { values, censored: sample.censored() })
+}
+
+fn json(
+    args: &Args,
+    suite: &ida::Suite,
+    rule: InversionRule,
+    rows: &[(f64, Quantiles)],
+) -> Result<Value, Failure> {
+    let mut records = Vec::new();
+    for (record, curve) in &suite.curves {
+        records.push(json!({
+            "record": record,
+            "onset_im": json::number(curve.onset_im()),
+            "overturning_im": json::optional(curve.overturning_im()),
+            "levels": levels(curve, &args.levels.0)?,
+        }));
+    }
+    let summary = |(level, q): &(f64, Quantiles)| {
+        json!({
+            "edp": json::number(*level),
+            "im16": json::number(q.values[0]),
+            "im50": json::number(q.values[1]),
+            "im84": json::number(q.values[2]),
+            "censored": q.censored,
+        })
+    };
+    Ok(json!({
+        "im_r": json::number(suite.im_r),
+        "n": suite.curves.len(),
+        "point": rule.to_string(),
+        "quantile_type": 5,
+        "rows_after_overturning": suite.after_overturning,
+        "levels": rows.iter().map(summary).collect::<Vec<_>>(),
+        "records": records,
+    }))
+}

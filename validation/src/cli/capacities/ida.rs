@@ -1,0 +1,228 @@
+//! Reading the CSV of `rocking ida` back into response curves.
+
+use std::path::{Path, PathBuf};
+
+use rocking::capacity::{CapacityError, ResponseCurve};
+use thiserror::Error;
+
+use super::Measure;
+
+/// The columns, in order.
+pub const HEADER: [&str; 10] = [
+    "record",
+    "alpha_rad",
+    "p_rad_s",
+    "pga_g",
+    "pgv_m_s",
+    "im_pga",
+    "im_pgv",
+    "edp",
+    "outcome",
+    "margin",
+];
+
+/// Why an IDA file was refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum IdaFileError {
+    /// The file could not be read as CSV.
+    #[error("{}: {source}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said, with the line where there is one.
+        #[source]
+        source: csv::Error,
+    },
+    /// Not the columns of an IDA file.
+    #[error(
+        "{}:1: found columns `{found}`: expected `{}`",
+        path.display(), HEADER.join(",")
+    )]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// The first line.
+        found: String,
+    },
+    /// A field that is not what its column holds.
+    #[error(
+        "{}:{line}: found `{found}` in column {column}: expected {expected}",
+        path.display()
+    )]
+    Field {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: u64,
+        /// The column's name.
+        column: &'static str,
+        /// The field's text.
+        found: String,
+        /// What the column holds.
+        expected: &'static str,
+    },
+    /// Rows of one record stand together.
+    #[error(
+        "{}:{line}: record {record} comes again: expected its rows together",
+        path.display()
+    )]
+    Scattered {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: u64,
+        /// The record.
+        record: String,
+    },
+    /// The rows of a record make no curve.
+    #[error("{}: record {record}: {source}", path.display())]
+    Curve {
+        /// The file.
+        path: PathBuf,
+        /// The record.
+        record: String,
+        /// What is wrong with it.
+        #[source]
+        source: CapacityError,
+    },
+    /// No row at all.
+    #[error("{}: no analysis in the file", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// The response curves of a suite.
+#[derive(Clone, Debug)]
+pub struct Suite {
+    /// Records and their curves, in the order of the file.
+    pub curves: Vec<(String, ResponseCurve)>,
+    /// IM_R: 1 for PGA, the lowest onset for PGV.
+    pub im_r: f64,
+    /// Rows past their record's first overturning, not used.
+    pub after_overturning: usize,
+}
+
+/// One row.
+struct Row {
+    record: String,
+    line: u64,
+    im: f64,
+    edp: f64,
+    refined: bool,
+}
+
+/// Reads an IDA file against an intensity measure.
+///
+/// # Errors
+/// [`IdaFileError`] with file and line.
+pub fn read(path: &Path, measure: Measure) -> Result<Suite, IdaFileError> {
+    let rows = rows(path, measure)?;
+    let mut suite =
+        Suite { curves: Vec::new(), im_r: 1.0, after_overturning: 0 };
+    for group in rows.chunk_by(|a, b| a.record == b.record) {
+        let record = &group[0].record;
+        if suite.curves.iter().any(|(known, _)| known == record) {
+            return Err(IdaFileError::Scattered {
+                path: path.to_owned(),
+                line: group[0].line,
+                record: record.clone(),
+            });
+        }
+        let (curve, unused) = curve(group).map_err(|source| {
+            let (path, record) = (path.to_owned(), record.clone());
+            IdaFileError::Curve { path, record, source }
+        })?;
+        suite.after_overturning += unused;
+        suite.curves.push((record.clone(), curve));
+    }
+    let onsets = suite.curves.iter().map(|(_, curve)| curve.onset_im());
+    let least = onsets.fold(f64::INFINITY, f64::min);
+    if least == f64::INFINITY {
+        return Err(IdaFileError::Empty { path: path.to_owned() });
+    }
+    if measure == Measure::Pgv {
+        suite.im_r = least;
+    }
+    Ok(suite)
+}
+
+/// The curve of one record's rows, and the number of rows not used.
+///
+/// First overturning is the refined end of its bracket if there is one, else
+/// the first overturned row of the scan.
+fn curve(rows: &[Row]) -> Result<(ResponseCurve, usize), CapacityError> {
+    let end = rows.iter().position(|row| row.edp == f64::INFINITY);
+    let standing = &rows[..end.unwrap_or(rows.len())];
+    let vertices: Vec<(f64, f64)> =
+        standing.iter().map(|row| (row.im, row.edp)).collect();
+    let refined = rows.iter().find(|row| row.refined);
+    let overturned = refined.or(end.map(|i| &rows[i]));
+    let unused = end.map_or(0, |i| {
+        rows[i + 1..].iter().filter(|row| !row.refined).count()
+    });
+    let overturning = overturned.map(|row| row.im);
+    Ok((ResponseCurve::try_new(&vertices, overturning)?, unused))
+}
+
+fn rows(path: &Path, measure: Measure) -> Result<Vec<Row>, IdaFileError> {
+    let csv_error =
+        |source| IdaFileError::Csv { path: path.to_owned(), source };
+    let mut reader = csv::Reader::from_path(path).map_err(csv_error)?;
+    let header = reader.headers().map_err(csv_error)?;
+    if header.iter().ne(HEADER) {
+        return Err(IdaFileError::Header {
+            path: path.to_owned(),
+            found: header.iter().collect::<Vec<_>>().join(","),
+        });
+    }
+    let im_column = match measure {
+        Measure::Pga => 5,
+        Measure::Pgv => 6,
+    };
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let fields = record.map_err(csv_error)?;
+        let line = fields.position().map_or(0, csv::Position::line);
+        let refuse = |column: usize, expected| IdaFileError::Field {
+            path: path.to_owned(),
+            line,
+            column: HEADER[column],
+            found: fields[column].to_owned(),
+            expected,
+        };
+        let number = |column: usize, expected: &'static str| {
+            let value = fields[column].parse::<f64>().ok();
+            value.filter(|x| *x >= 0.0).ok_or_else(|| refuse(column, expected))
+        };
+        let outcomes = "no-uplift, rocked, overturned, overturned-refined \
+                        or unresolved";
+        let outcome = &fields[8];
+        let known = [
+            "no-uplift",
+            "rocked",
+            "overturned",
+            "overturned-refined",
+            "unresolved",
+        ];
+        if !known.contains(&outcome) {
+            return Err(refuse(8, outcomes));
+        }
+        let edp = number(7, "a number, not negative, or inf")?;
+        if outcome.starts_with("overturned") != edp.is_infinite()
+            && outcome != "unresolved"
+        {
+            return Err(refuse(7, "inf where overturned, and only there"));
+        }
+        rows.push(Row {
+            record: fields[0].to_owned(),
+            line,
+            im: number(im_column, "a positive number")?,
+            edp,
+            refined: outcome == "overturned-refined",
+        });
+    }
+    Ok(rows)
+}

@@ -1,0 +1,218 @@
+//! `rocking fragility`: lognormal fits of a sample and Eqs. 5 to 7.
+
+mod sample;
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
+use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
+use serde_json::{Map, Value, json};
+
+use super::{Failure, print};
+use crate::json;
+
+/// Lognormal fragilities of a sample, or Eqs. 5 to 7 alone.
+///
+/// With a shift IM_R, mu and beta are fitted to the sample above it (SSFL);
+/// eq5, eq6 and eq7 are what the unshifted statistics give instead: eq5 and
+/// eq7 from the same method's fit to the unshifted sample (USFL7), eq6 from
+/// the sample's 16 and 84 % quantiles.
+#[derive(ClapArgs)]
+#[command(group = ArgGroup::new("mode").required(true)
+    .args(["sample", "transform"]))]
+pub struct Args {
+    /// Sample file: one value a line, `inf` for a censored one, `#` comments.
+    #[arg(long, value_name = "FILE")]
+    sample: Option<PathBuf>,
+    /// Eqs. 5 to 7 from given numbers.
+    #[arg(long)]
+    transform: bool,
+    /// Shift IM_R, not negative; `min` takes the smallest value of the
+    /// sample and leaves it out of the fit.
+    #[arg(long, value_name = "X|min", allow_hyphen_values = true)]
+    shift: Option<Shift>,
+    /// How the lognormal distribution is fitted [default: mle].
+    #[arg(long, conflicts_with = "transform")]
+    method: Option<Method>,
+    /// Type of the quantiles, 1 to 9 [default: 5].
+    #[arg(long, value_name = "TYPE", conflicts_with = "transform")]
+    quantile_type: Option<u8>,
+    /// Constant c of Eq. 7 [default: 1].
+    #[arg(long, allow_negative_numbers = true)]
+    c: Option<f64>,
+    /// Bootstrap this many samples for intervals.
+    #[arg(long, value_name = "N", conflicts_with = "transform")]
+    bootstrap: Option<usize>,
+    /// Repetition of the bootstrap.
+    #[arg(long, value_name = "S", requires = "bootstrap")]
+    seed: Option<u64>,
+    /// Unshifted median IM50.
+    #[arg(
+        long,
+        value_name = "X",
+        conflicts_with = "sample",
+        allow_negative_numbers = true
+    )]
+    im50: Option<f64>,
+    /// Unshifted dispersion beta_o.
+    #[arg(
+        long,
+        value_name = "B",
+        conflicts_with = "sample",
+        allow_negative_numbers = true
+    )]
+    beta: Option<f64>,
+    /// Unshifted 16 % quantile IM16.
+    #[arg(
+        long,
+        value_name = "X",
+        requires = "im84",
+        conflicts_with = "sample",
+        allow_negative_numbers = true
+    )]
+    im16: Option<f64>,
+    /// Unshifted 84 % quantile IM84.
+    #[arg(
+        long,
+        value_name = "X",
+        requires = "im16",
+        conflicts_with = "sample",
+        allow_negative_numbers = true
+    )]
+    im84: Option<f64>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// A shift: a number, or the sample's smallest value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shift {
+    Given(f64),
+    Min,
+}
+
+impl FromStr for Shift {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text == "min" {
+            return Ok(Self::Min);
+        }
+        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
+        let shift = number.filter(|x| *x >= 0.0);
+        shift
+            .map(Self::Given)
+            .ok_or_else(|| "expected a number, not negative, or `min`".into())
+    }
+}
+
+/// How a lognormal distribution is fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// Maximum likelihood (divisor n).
+    Mle,
+    /// Mean and standard deviation of the logarithms (divisor n - 1).
+    Moment,
+    /// The same of the values up to the 95 % quantile.
+    Trimmed,
+    /// Median and half the logarithm of the ratio of the 84 and 16 %
+    /// quantiles.
+    Quantile,
+    /// Maximum likelihood, values above the 95 % quantile right-censored.
+    Censored,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for input that is refused.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    match &args.sample {
+        Some(path) => sample::run(args, path),
+        None => transform(args),
+    }
+}
+
+/// An equation's value under its key, or null, with the reason (and c_max
+/// where there is one) beside it.
+fn insert(
+    out: &mut Map<String, Value>,
+    key: &str,
+    value: Result<f64, FragilityError>,
+) {
+    match value {
+        Ok(value) => {
+            out.insert(key.to_owned(), json::number(value));
+        }
+        Err(error) => {
+            out.insert(key.to_owned(), Value::Null);
+            out.insert(format!("{key}_error"), error.to_string().into());
+        }
+    }
+}
+
+fn transform(args: &Args) -> Result<(), Failure> {
+    let Some(Shift::Given(shift)) = args.shift else {
+        return Err(Failure::input(
+            "--transform needs --shift X, a number not negative",
+        ));
+    };
+    let mut out = Map::new();
+    out.insert("shift".to_owned(), json::number(shift));
+    let given = [
+        ("im16", args.im16),
+        ("im50", args.im50),
+        ("im84", args.im84),
+        ("beta", args.beta),
+    ];
+    for (key, value) in given {
+        if let Some(value) = value {
+            out.insert(key.to_owned(), json::number(value));
+        }
+    }
+    if args.im50.is_none() && args.im16.is_none() {
+        return Err(Failure::input(
+            "--transform needs --im50 and --beta, or --im16 and --im84, or both",
+        ));
+    }
+    if args.c.is_some() && args.beta.is_none() {
+        return Err(Failure::input("--c is not used without --beta"));
+    }
+    if let Some(median) = args.im50 {
+        insert(&mut out, "eq5", eq5(median, shift));
+    }
+    if let (Some(im16), Some(im84)) = (args.im16, args.im84) {
+        insert(&mut out, "eq6", eq6(im16, im84, shift));
+    }
+    if let Some(beta) = args.beta {
+        let Some(median) = args.im50 else {
+            return Err(Failure::input("--beta needs --im50"));
+        };
+        let c = args.c.unwrap_or(1.0);
+        out.insert("c".to_owned(), json::number(c));
+        insert(&mut out, "eq7", eq7(median, beta, shift, c));
+        let limit = c_max(median, beta, shift).ok();
+        out.insert("c_max".to_owned(), json::optional(limit));
+    }
+    show(args, out)
+}
+
+fn show(args: &Args, out: Map<String, Value>) -> Result<(), Failure> {
+    if args.json {
+        return print(&format!("{:#}\n", json!(out)));
+    }
+    let line = |(key, value): (&String, &Value)| match value {
+        Value::Null => format!("{key:<24}undefined\n"),
+        Value::String(text) => format!("{key:<24}{text}\n"),
+        Value::Number(number) => {
+            let value = number.as_f64().filter(|_| number.is_f64());
+            let text = value
+                .map_or(number.to_string(), |value| format!("{value:.6}"));
+            format!("{key:<24}{text}\n")
+        }
+        other => format!("{key:<24}{other}\n"),
+    };
+    print(&out.iter().map(line).collect::<String>())
+}

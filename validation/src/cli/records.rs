@@ -1,0 +1,292 @@
+//! `rocking records`: what is in record files, and why one is refused.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use rocking::record::{
+    self, Fault, Format, ReadOptions, RecordError, Suite, SuiteMember, Survey,
+};
+use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
+use serde_json::{Value, json};
+
+use super::{Failure, print};
+use crate::inputs::suite_options;
+use crate::json::number;
+
+/// List record files: format, interval, length, PGA, PGV; say why one is
+/// refused.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Record files, folders of them, or index files (CSV with a column
+    /// `file`).
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    /// Sampling interval in s, for files that state none.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    dt: Option<f64>,
+    /// Unit of files that state none: g, m/s2 or cm/s2.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    units: Option<AccelerationUnit>,
+    /// Gravity in m/s2, for records in SI units and for PGV.
+    #[arg(
+        long,
+        value_name = "G",
+        default_value_t = STANDARD_GRAVITY_M_S2,
+        allow_negative_numbers = true
+    )]
+    gravity: f64,
+    /// JSON for machines.
+    #[arg(long)]
+    json: bool,
+}
+
+fn unit(text: &str) -> Result<AccelerationUnit, String> {
+    AccelerationUnit::parse(text)
+        .ok_or_else(|| "expected g, m/s2 or cm/s2".to_owned())
+}
+
+/// One record in the list.
+struct Listed {
+    file: String,
+    format: Format,
+    unit: AccelerationUnit,
+    motion: record::Accelerogram,
+    /// Pair and whether the study uses this component, in a suite.
+    place: Option<(Option<String>, bool)>,
+}
+
+impl Listed {
+    fn member(member: &SuiteMember, in_suite: bool) -> Self {
+        Self {
+            file: member.file.clone(),
+            format: member.format,
+            unit: member.unit,
+            motion: member.accelerogram.clone(),
+            place: in_suite
+                .then(|| (member.pair.clone(), member.study_component)),
+        }
+    }
+}
+
+/// One file that was refused.
+struct Refused {
+    file: String,
+    line: Option<usize>,
+    reason: String,
+}
+
+#[derive(Default)]
+struct Listing {
+    records: Vec<Listed>,
+    refused: Vec<Refused>,
+    ignored: Vec<Refused>,
+    suites: Vec<String>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] with status 2 when any file was refused, after all are
+/// listed.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let options = ReadOptions {
+        dt_s: args.dt,
+        unit: args.units,
+        gravity_m_s2: args.gravity,
+    };
+    let mut listing = Listing::default();
+    for path in &args.paths {
+        listing.add(path, options);
+    }
+    if args.json {
+        print(&listing.json(args.gravity))?;
+    } else {
+        print(&listing.table(args.gravity))?;
+    }
+    if listing.refused.is_empty() {
+        return Ok(());
+    }
+    let reasons: Vec<&str> =
+        listing.refused.iter().map(|r| r.reason.as_str()).collect();
+    Err(Failure::input(reasons.join("\nrocking: ")))
+}
+
+impl From<&RecordError> for Refused {
+    fn from(error: &RecordError) -> Self {
+        Self {
+            file: error.file().to_owned(),
+            line: error.line(),
+            reason: error.to_string(),
+        }
+    }
+}
+
+impl Listing {
+    fn add(&mut self, path: &Path, options: ReadOptions) {
+        if path.is_dir() {
+            return self.add_survey(path, options);
+        }
+        let file = path.display().to_string();
+        let bytes = match std::fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let fault = Fault::Unreadable(error.to_string());
+                let reason = format!("{file}: {fault}");
+                self.refused.push(Refused { file, line: None, reason });
+                return;
+            }
+        };
+        if record::is_index(&bytes) {
+            return self.add_survey(path, options);
+        }
+        match record::read_all(&file, &bytes, &options) {
+            Err(error) => self.refused.push(Refused::from(&error)),
+            Ok(records) => {
+                self.records.extend(records.into_iter().map(|record| Listed {
+                    file: match record.channel {
+                        Some(channel) => format!("{file}:{channel}"),
+                        None => file.clone(),
+                    },
+                    format: record.format,
+                    unit: record.unit,
+                    motion: record.accelerogram,
+                    place: None,
+                }))
+            }
+        }
+    }
+
+    fn add_survey(&mut self, path: &Path, options: ReadOptions) {
+        let refused = |error: &record::SuiteError| Refused {
+            file: error.file().to_owned(),
+            line: error.line(),
+            reason: error.to_string(),
+        };
+        let survey = match Survey::read(path, &suite_options(options)) {
+            Ok(survey) => survey,
+            Err(error) => return self.refused.push(refused(&error)),
+        };
+        if !survey.members().is_empty() {
+            self.ignored.extend(survey.ignored().iter().map(Refused::from));
+        }
+        if survey.members().iter().all(Result::is_ok) {
+            match survey.into_suite() {
+                Ok(suite) => self.add_suite(&suite),
+                Err(error) => self.refused.push(refused(&error)),
+            }
+            return;
+        }
+        for member in survey.members() {
+            match member {
+                Ok(member) => {
+                    self.records.push(Listed::member(member, false));
+                }
+                Err(error) => self.refused.push(refused(error)),
+            }
+        }
+    }
+
+    fn add_suite(&mut self, suite: &Suite) {
+        self.suites.push(format!(
+            "suite {}: {} records, {} pairs, {} study components by {}",
+            suite.name(),
+            suite.members().len(),
+            suite.both().len(),
+            suite.study_components().count(),
+            suite.study_rule(),
+        ));
+        let members = suite.members().iter();
+        self.records.extend(members.map(|m| Listed::member(m, true)));
+    }
+
+    fn json(&self, gravity_m_s2: f64) -> String {
+        let record = |listed: &Listed| {
+            let motion = &listed.motion;
+            let (pair, study) = match &listed.place {
+                Some((pair, study)) => (pair.as_deref(), Some(*study)),
+                None => (None, None),
+            };
+            json!({
+                "file": listed.file,
+                "format": listed.format.to_string(),
+                "units": listed.unit.to_string(),
+                "dt_s": number(motion.dt_s()),
+                "npts": motion.samples_g().len(),
+                "duration_s": number(motion.duration_s()),
+                "pga_g": number(motion.pga_g()),
+                "pgv_m_s": number(motion.pgv_m_s(gravity_m_s2)),
+                "pair": pair,
+                "study_component": study,
+            })
+        };
+        let refused = |list: &[Refused]| -> Vec<Value> {
+            let one = |refused: &Refused| {
+                json!({
+                    "file": refused.file,
+                    "line": refused.line,
+                    "reason": refused.reason,
+                })
+            };
+            list.iter().map(one).collect()
+        };
+        let all = json!({
+            "gravity_m_s2": number(gravity_m_s2),
+            "records": self.records.iter().map(record).collect::<Vec<_>>(),
+            "refused": refused(&self.refused),
+            "ignored": refused(&self.ignored),
+        });
+        format!("{all:#}\n")
+    }
+
+    fn table(&self, gravity_m_s2: f64) -> String {
+        let mut text = String::new();
+        let names = self.records.iter().map(|r| r.file.chars().count());
+        let width = names.max().unwrap_or(0).max(4);
+        if !self.records.is_empty() {
+            line(
+                &mut text,
+                format_args!(
+                    "{:width$}  {:8} {:>6} {:>10} {:>7} {:>11} {:>9} {:>10}",
+                    "file",
+                    "format",
+                    "units",
+                    "dt (s)",
+                    "n",
+                    "duration(s)",
+                    "PGA (g)",
+                    "PGV (m/s)",
+                ),
+            );
+        }
+        for listed in &self.records {
+            let motion = &listed.motion;
+            line(
+                &mut text,
+                format_args!(
+                    "{:width$}  {:8} {:>6} {:>10} {:>7} {:>11.3} {:>9.5} {:>10.5}",
+                    listed.file,
+                    listed.format.to_string(),
+                    listed.unit.to_string(),
+                    motion.dt_s(),
+                    motion.samples_g().len(),
+                    motion.duration_s(),
+                    motion.pga_g(),
+                    motion.pgv_m_s(gravity_m_s2),
+                ),
+            );
+        }
+        for ignored in &self.ignored {
+            line(&mut text, format_args!("set aside: {}", ignored.reason));
+        }
+        for suite in &self.suites {
+            line(&mut text, format_args!("{suite}"));
+        }
+        text
+    }
+}
+
+fn line(text: &mut String, arguments: std::fmt::Arguments<'_>) {
+    // Writing to a string cannot fail.
+    let _ = text.write_fmt(arguments);
+    text.push('\n');
+}

@@ -1,0 +1,250 @@
+//! Linear and logarithmic axes with round ticks.
+
+/// A labelled position on an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tick {
+    /// Where.
+    pub at: f64,
+    /// What is written there, in [`super::markup`]; may be empty.
+    pub label: String,
+}
+
+/// An axis: a range, ticks and a label.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    low: f64,
+    high: f64,
+    logarithmic: bool,
+    ticks: Vec<Tick>,
+    minor: Vec<f64>,
+    label: String,
+    grid: bool,
+}
+
+impl Axis {
+    /// A linear axis of exactly this range, with about `count` ticks. A
+    /// range without extent is widened.
+    #[must_use]
+    pub fn linear(low: f64, high: f64, count: usize) -> Self {
+        let (low, high) = proper(low, high);
+        let step = round_step((high - low) / count.max(1) as f64);
+        let first = (low / step - 1e-6).ceil();
+        let last = (high / step + 1e-6).floor();
+        let digits = decimals(step);
+        let ticks = (0..=(last - first).max(0.0) as usize)
+            .map(|i| {
+                let at = (first + i as f64) * step;
+                Tick { at, label: fixed(at, digits) }
+            })
+            .collect();
+        Self {
+            low,
+            high,
+            logarithmic: false,
+            ticks,
+            minor: Vec::new(),
+            label: String::new(),
+            grid: true,
+        }
+    }
+
+    /// A linear axis that ends at round numbers around the range.
+    #[must_use]
+    pub fn around(low: f64, high: f64, count: usize) -> Self {
+        let (low, high) = proper(low, high);
+        let step = round_step((high - low) / count.max(1) as f64);
+        let down = (low / step + 1e-6).floor() * step;
+        let up = (high / step - 1e-6).ceil() * step;
+        Self::linear(down, up, count)
+    }
+
+    /// A logarithmic axis of exactly this range; ends that are not positive
+    /// become 0.1 and 10.
+    #[must_use]
+    pub fn logarithmic(low: f64, high: f64) -> Self {
+        let usable = low > 0.0 && high > low && high.is_finite();
+        let (low, high) = if usable {
+            (low, high)
+        } else if low > 0.0 && low.is_finite() {
+            (low / 2.0, low * 2.0)
+        } else {
+            (0.1, 10.0)
+        };
+        let decades = libm::log10(high / low);
+        let mut axis = Self {
+            low,
+            high,
+            logarithmic: true,
+            ticks: Vec::new(),
+            minor: Vec::new(),
+            label: String::new(),
+            grid: true,
+        };
+        if decades < 0.6 {
+            axis.ticks = Self::linear(low, high, 5).ticks;
+            return axis;
+        }
+        let first = libm::log10(low).floor() as i32;
+        let last = libm::log10(high).ceil() as i32;
+        let plain = first >= -2 && last <= 3;
+        let every = (f64::from(last - first) / 7.0).ceil().max(1.0) as i32;
+        for decade in first..=last {
+            for digit in 1..10 {
+                let at = f64::from(digit) * power_of_ten(decade);
+                if at < low * (1.0 - 1e-9) || at > high * (1.0 + 1e-9) {
+                    continue;
+                }
+                let labelled = match digit {
+                    1 => decade.rem_euclid(every) == 0,
+                    2 | 5 => decades < 2.2,
+                    _ => false,
+                };
+                if !labelled {
+                    axis.minor.push(at);
+                    continue;
+                }
+                let label = if plain {
+                    fixed(at, usize::try_from(-decade).unwrap_or(0))
+                } else if digit == 1 {
+                    format!("10^{{{}}}", minus(&decade.to_string()))
+                } else {
+                    format!("{digit}·10^{{{}}}", minus(&decade.to_string()))
+                };
+                axis.ticks.push(Tick { at, label });
+            }
+        }
+        axis
+    }
+
+    /// An axis of names at 1, 2, 3 and so on.
+    #[must_use]
+    pub fn named(names: &[String]) -> Self {
+        let ticks = names
+            .iter()
+            .enumerate()
+            .map(|(i, name)| Tick { at: (i + 1) as f64, label: name.clone() })
+            .collect();
+        Self {
+            low: 0.4,
+            high: names.len().max(1) as f64 + 0.6,
+            logarithmic: false,
+            ticks,
+            minor: Vec::new(),
+            label: String::new(),
+            grid: false,
+        }
+    }
+
+    /// The same with a label, in [`super::markup`].
+    #[must_use]
+    pub fn label(self, label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..self }
+    }
+
+    /// The same without grid lines.
+    #[must_use]
+    pub fn without_grid(self) -> Self {
+        Self { grid: false, ..self }
+    }
+
+    /// The same with these ticks in place of its own.
+    #[must_use]
+    pub fn with_ticks(self, ticks: Vec<Tick>) -> Self {
+        Self { ticks, minor: Vec::new(), ..self }
+    }
+
+    /// Both ends.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        (self.low, self.high)
+    }
+
+    /// The labelled ticks.
+    #[must_use]
+    pub fn ticks(&self) -> &[Tick] {
+        &self.ticks
+    }
+
+    /// The unlabelled ticks.
+    #[must_use]
+    pub fn minor(&self) -> &[f64] {
+        &self.minor
+    }
+
+    /// The label.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        &self.label
+    }
+
+    /// Whether grid lines are wanted.
+    #[must_use]
+    pub fn has_grid(&self) -> bool {
+        self.grid
+    }
+
+    /// Where a value lies: 0 at the lower end, 1 at the upper; NaN for what
+    /// the axis cannot show.
+    #[must_use]
+    pub fn place(&self, x: f64) -> f64 {
+        if self.logarithmic {
+            if x.is_nan() || x <= 0.0 {
+                return f64::NAN;
+            }
+            libm::log(x / self.low) / libm::log(self.high / self.low)
+        } else {
+            (x - self.low) / (self.high - self.low)
+        }
+    }
+}
+
+/// A range with an extent.
+fn proper(low: f64, high: f64) -> (f64, f64) {
+    if high > low && low.is_finite() && high.is_finite() {
+        (low, high)
+    } else if low.is_finite() {
+        let half = if low == 0.0 { 0.5 } else { 0.1 * low.abs() };
+        (low - half, low + half)
+    } else {
+        (0.0, 1.0)
+    }
+}
+
+/// 1, 2 or 5 times a power of ten, near `rough`; 2.5 where it fits.
+fn round_step(rough: f64) -> f64 {
+    let base = power_of_ten(libm::log10(rough).floor() as i32);
+    let lead = rough / base;
+    let digit = if lead < 1.4 {
+        1.0
+    } else if lead < 3.2 {
+        2.0
+    } else if lead < 7.1 {
+        5.0
+    } else {
+        10.0
+    };
+    digit * base
+}
+
+fn power_of_ten(n: i32) -> f64 {
+    libm::pow(10.0, f64::from(n))
+}
+
+/// Decimals that a step needs.
+fn decimals(step: f64) -> usize {
+    let magnitude = libm::log10(step * (1.0 + 1e-9)).floor();
+    if magnitude < 0.0 { (-magnitude) as usize } else { 0 }
+}
+
+/// A number with a true minus sign, and without one before zero.
+fn fixed(x: f64, digits: usize) -> String {
+    let text = format!("{x:.digits$}");
+    if text.parse() == Ok(0.0) {
+        return format!("{:.digits$}", 0.0);
+    }
+    minus(&text)
+}
+
+fn minus(text: &str) -> String {
+    text.replace('-', "−")
+}

@@ -1,0 +1,120 @@
+//! One legend for all panels, above them.
+
+use super::colour::{Fill, Ink, Pen};
+use super::markup;
+use super::panel::Marker;
+use super::scene::{Horizontal, Scene, TextLine};
+use super::svg::TEXT_PX;
+
+const SAMPLE_PX: f64 = 26.0;
+const GAP_PX: f64 = 6.0;
+const BETWEEN_PX: f64 = 22.0;
+const ROW_PX: f64 = 18.0;
+
+/// What stands before a legend's words.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sample {
+    /// A line.
+    Line(Pen),
+    /// A mark.
+    Mark(Marker, Ink),
+    /// A mark on a line.
+    LineAndMark(Pen, Marker),
+    /// A filled box with its outline.
+    Box(Ink),
+    /// A filled band.
+    Band(Fill),
+}
+
+/// One entry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// The sample.
+    pub sample: Sample,
+    /// Its words, in [`markup`].
+    pub label: String,
+}
+
+impl Entry {
+    /// An entry.
+    #[must_use]
+    pub fn new(sample: Sample, label: impl Into<String>) -> Self {
+        Self { sample, label: label.into() }
+    }
+
+    fn width(&self) -> f64 {
+        SAMPLE_PX + GAP_PX + markup::width(&self.label, TEXT_PX)
+    }
+}
+
+/// Entries row by row, so that each row fits the width.
+fn rows(entries: &[Entry], width_px: f64) -> Vec<Vec<&Entry>> {
+    let mut rows: Vec<Vec<&Entry>> = Vec::new();
+    let mut used = 0.0;
+    for entry in entries {
+        let more = BETWEEN_PX + entry.width();
+        match rows.last_mut() {
+            Some(row) if used + more <= width_px => {
+                row.push(entry);
+                used += more;
+            }
+            _ => {
+                rows.push(vec![entry]);
+                used = entry.width();
+            }
+        }
+    }
+    rows
+}
+
+/// Room that the legend takes at this width.
+#[must_use]
+pub fn height(entries: &[Entry], width_px: f64) -> f64 {
+    let rows = rows(entries, width_px - 2.0 * BETWEEN_PX).len();
+    if rows == 0 { 0.0 } else { (rows as f64).mul_add(ROW_PX, 8.0) }
+}
+
+/// Draws the legend centred at the head of the scene.
+pub fn draw(scene: &mut Scene, entries: &[Entry]) {
+    let width = scene.extent().right;
+    for (i, row) in rows(entries, width - 2.0 * BETWEEN_PX).iter().enumerate()
+    {
+        let mut total = BETWEEN_PX * (row.len() - 1) as f64;
+        for entry in row {
+            total += entry.width();
+        }
+        let mut x = (width - total) / 2.0;
+        let y = (i as f64).mul_add(ROW_PX, 16.0);
+        for entry in row {
+            draw_sample(scene, entry.sample, x, y);
+            let at = (x + SAMPLE_PX + GAP_PX, y + 0.36 * TEXT_PX);
+            let text = entry.label.as_str();
+            scene.text(TextLine::new(text, at, Horizontal::Left));
+            x += entry.width() + BETWEEN_PX;
+        }
+    }
+}
+
+fn draw_sample(scene: &mut Scene, sample: Sample, x: f64, y: f64) {
+    let ends = [(x, y), (x + SAMPLE_PX, y)];
+    let middle = (x + SAMPLE_PX / 2.0, y);
+    let corners = [
+        (x + 5.0, y - 5.0),
+        (x + SAMPLE_PX - 5.0, y - 5.0),
+        (x + SAMPLE_PX - 5.0, y + 5.0),
+        (x + 5.0, y + 5.0),
+    ];
+    match sample {
+        Sample::Line(pen) => scene.line(&ends, pen),
+        Sample::Mark(marker, ink) => marker.draw(scene, middle, 3.2, ink),
+        Sample::LineAndMark(pen, marker) => {
+            scene.line(&ends, pen);
+            marker.draw(scene, middle, 3.0, pen.ink);
+        }
+        Sample::Box(ink) => {
+            scene.area(&corners, Fill::tint(ink, 28));
+            scene.outline(&corners, Pen::new(ink, 0.9));
+        }
+        Sample::Band(fill) => scene.area(&corners, fill),
+    }
+}

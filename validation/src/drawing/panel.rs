@@ -1,0 +1,382 @@
+//! One pair of axes and what is drawn on them.
+
+use super::axis::Axis;
+use super::colour::{Fill, Ink, Pen};
+use super::geometry::{Point, Rect, clip};
+use super::markup;
+use super::scene::{Horizontal, Scene, TextLine};
+use super::svg::TEXT_PX;
+
+const TICK_PX: f64 = 3.5;
+const MINOR_PX: f64 = 2.0;
+const TITLE_PX: f64 = 12.0;
+const HAIRLINE: Pen = Pen::new(Ink::Text, 0.7);
+const GRID: Pen = Pen::new(Ink::Grid, 0.6);
+
+/// A mark at a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Marker {
+    /// Filled circle.
+    Dot,
+    /// Open circle.
+    Ring,
+    /// Diagonal cross.
+    Cross,
+    /// Upright cross.
+    Plus,
+    /// Filled square.
+    Square,
+    /// Open square.
+    OpenSquare,
+    /// Filled triangle.
+    Triangle,
+    /// Filled diamond.
+    Diamond,
+    /// Filled triangle, point down.
+    Down,
+}
+
+impl Marker {
+    /// The mark that goes with a series, for readers without colour.
+    #[must_use]
+    pub fn of_series(series: usize) -> Self {
+        match series % 6 {
+            0 => Self::Dot,
+            1 => Self::Square,
+            2 => Self::Triangle,
+            3 => Self::Diamond,
+            4 => Self::Down,
+            _ => Self::Plus,
+        }
+    }
+
+    /// Draws the mark; `r` is its half width in px.
+    pub fn draw(self, scene: &mut Scene, at: Point, r: f64, ink: Ink) {
+        let (x, y) = at;
+        let pen = Pen::new(ink, 0.9);
+        let fill = Fill::solid(ink);
+        match self {
+            Self::Dot => scene.dot(at, r, ink),
+            Self::Ring => scene.ring(at, r, pen),
+            Self::Cross => {
+                let s = 0.8 * r;
+                scene.line(&[(x - s, y - s), (x + s, y + s)], pen);
+                scene.line(&[(x - s, y + s), (x + s, y - s)], pen);
+            }
+            Self::Plus => {
+                scene.line(&[(x - r, y), (x + r, y)], pen);
+                scene.line(&[(x, y - r), (x, y + r)], pen);
+            }
+            Self::Square | Self::OpenSquare => {
+                let s = 0.88 * r;
+                let square = Rect {
+                    left: x - s,
+                    right: x + s,
+                    top: y - s,
+                    bottom: y + s,
+                };
+                if self == Self::Square {
+                    scene.area(&square.corners(), fill);
+                } else {
+                    scene.area(&square.corners(), Fill::solid(Ink::Paper));
+                    scene.outline(&square.corners(), pen);
+                }
+            }
+            Self::Triangle | Self::Down => {
+                let up = if self == Self::Triangle { r } else { -r };
+                let base = 0.6_f64.mul_add(up, y);
+                scene.area(
+                    &[
+                        (x, (-1.15_f64).mul_add(up, y)),
+                        (x + r, base),
+                        (x - r, base),
+                    ],
+                    fill,
+                );
+            }
+            Self::Diamond => {
+                let s = 1.2 * r;
+                scene.area(
+                    &[(x, y - s), (x + s, y), (x, y + s), (x - s, y)],
+                    fill,
+                );
+            }
+        }
+    }
+}
+
+/// A panel being drawn: [`Panel::new`] draws the grid, [`Panel::finish`] the
+/// axes over the data.
+#[derive(Debug)]
+pub struct Panel<'s> {
+    scene: &'s mut Scene,
+    frame: Rect,
+    x: Axis,
+    y: Axis,
+    empty: bool,
+    reason: &'static str,
+}
+
+impl<'s> Panel<'s> {
+    /// Starts a panel with its grid lines.
+    #[must_use]
+    pub fn new(scene: &'s mut Scene, frame: Rect, x: Axis, y: Axis) -> Self {
+        let panel = Self {
+            scene,
+            frame,
+            x,
+            y,
+            empty: true,
+            reason: "no data in this range",
+        };
+        if panel.x.has_grid() {
+            for tick in panel.x.ticks() {
+                let x = panel.to_px((tick.at, 0.0)).0;
+                let ends = [(x, frame.top), (x, frame.bottom)];
+                panel.scene.line(&ends, GRID);
+            }
+        }
+        if panel.y.has_grid() {
+            for tick in panel.y.ticks() {
+                let y = panel.to_px((0.0, tick.at)).1;
+                let ends = [(frame.left, y), (frame.right, y)];
+                panel.scene.line(&ends, GRID);
+            }
+        }
+        panel
+    }
+
+    /// Says why there may be nothing to see.
+    #[must_use]
+    pub fn empty_because(self, reason: &'static str) -> Self {
+        Self { reason, ..self }
+    }
+
+    /// The plotting area.
+    #[must_use]
+    pub fn frame(&self) -> Rect {
+        self.frame
+    }
+
+    /// Both ends of the horizontal axis.
+    #[must_use]
+    pub fn horizontal_range(&self) -> Point {
+        self.x.range()
+    }
+
+    /// The scene, for shapes placed in px.
+    pub fn scene(&mut self) -> &mut Scene {
+        self.scene
+    }
+
+    /// Data to px.
+    #[must_use]
+    pub fn to_px(&self, (x, y): Point) -> Point {
+        (
+            self.x.place(x).mul_add(self.frame.width(), self.frame.left),
+            (-self.y.place(y)).mul_add(self.frame.height(), self.frame.bottom),
+        )
+    }
+
+    /// Notes that the panel shows something.
+    pub fn mark_used(&mut self) {
+        self.empty = false;
+    }
+
+    /// A polyline, cut at the frame and at values that are not finite.
+    pub fn line(&mut self, points: impl IntoIterator<Item = Point>, pen: Pen) {
+        let px: Vec<Point> =
+            points.into_iter().map(|p| self.to_px(p)).collect();
+        for part in clip(&px, self.frame) {
+            self.scene.line(&part, pen);
+            self.empty = false;
+        }
+    }
+
+    /// A reference line that does not count as data.
+    pub fn reference(&mut self, from: Point, to: Point, pen: Pen) {
+        let px = [self.to_px(from), self.to_px(to)];
+        for part in clip(&px, self.frame) {
+            self.scene.line(&part, pen);
+        }
+    }
+
+    /// A vertical reference line through the whole frame.
+    pub fn vertical(&mut self, x: f64, pen: Pen) {
+        let (low, high) = self.y.range();
+        self.reference((x, low), (x, high), pen);
+    }
+
+    /// A horizontal reference line through the whole frame.
+    pub fn horizontal(&mut self, y: f64, pen: Pen) {
+        let (low, high) = self.x.range();
+        self.reference((low, y), (high, y), pen);
+    }
+
+    /// Marks; those outside the frame are left out.
+    pub fn marks(
+        &mut self,
+        points: impl IntoIterator<Item = Point>,
+        marker: Marker,
+        radius_px: f64,
+        ink: Ink,
+    ) {
+        for point in points {
+            let at = self.to_px(point);
+            if self.frame.contains(at, 0.5) {
+                marker.draw(self.scene, at, radius_px, ink);
+                self.empty = false;
+            }
+        }
+    }
+
+    /// A filled rectangle between two points, cut at the frame.
+    pub fn bar(&mut self, a: Point, b: Point, fill: Fill) {
+        let (a, b) = (self.to_px(a), self.to_px(b));
+        let f = self.frame;
+        let bar = Rect {
+            left: a.0.min(b.0).clamp(f.left, f.right),
+            right: a.0.max(b.0).clamp(f.left, f.right),
+            top: a.1.min(b.1).clamp(f.top, f.bottom),
+            bottom: a.1.max(b.1).clamp(f.top, f.bottom),
+        };
+        if bar.width() > 0.0 && bar.height() > 0.0 {
+            self.scene.area(&bar.corners(), fill);
+            self.empty = false;
+        }
+    }
+
+    /// A filled band between two ordinates along x, where both are finite.
+    pub fn band(&mut self, rows: &[(f64, f64, f64)], fill: Fill) {
+        let f = self.frame;
+        let inside = |p: Point| {
+            (p.0.clamp(f.left, f.right), p.1.clamp(f.top, f.bottom))
+        };
+        let whole = |r: &&(f64, f64, f64)| {
+            r.0.is_finite() && r.1.is_finite() && r.2.is_finite()
+        };
+        let rows: Vec<_> = rows.iter().filter(whole).collect();
+        let below = rows.iter().map(|r| inside(self.to_px((r.0, r.1))));
+        let above = rows.iter().rev().map(|r| inside(self.to_px((r.0, r.2))));
+        let corners: Vec<Point> = below.chain(above).collect();
+        self.scene.area(&corners, fill);
+    }
+
+    /// A note inside the frame; `across` and `down` are shares of it.
+    pub fn note(
+        &mut self,
+        text: impl Into<String>,
+        (across, down): Point,
+        align: Horizontal,
+    ) {
+        let f = self.frame;
+        let at = (
+            across.mul_add(f.width(), f.left),
+            down.mul_add(f.height(), f.top),
+        );
+        let line = TextLine::new(text, at, align);
+        self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+    }
+
+    /// A note at a point of the data's coordinates, on its baseline.
+    pub fn words_at(
+        &mut self,
+        at: Point,
+        text: impl Into<String>,
+        align: Horizontal,
+    ) {
+        let line = TextLine::new(text, self.to_px(at), align);
+        self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+    }
+
+    /// Words outside the right-hand edge, at an ordinate.
+    pub fn right_of(&mut self, y: f64, text: impl Into<String>) {
+        let y = self.to_px((self.x.range().1, y)).1;
+        self.right_of_px(y, text);
+    }
+
+    /// Words outside the right-hand edge, at an ordinate in px.
+    pub fn right_of_px(&mut self, y: f64, text: impl Into<String>) {
+        let at = (self.frame.right + 5.0, y + 0.33 * TEXT_PX);
+        let line = TextLine::new(text, at, Horizontal::Left);
+        self.scene.text(line.size(TEXT_PX - 1.0));
+    }
+
+    /// An arrow head at the right-hand edge: there is more beyond.
+    pub fn right_beyond(&mut self, y: f64, ink: Ink) {
+        let (x, y) = self.to_px((self.x.range().1, y));
+        let head = [(x - 5.0, y - 3.0), (x, y), (x - 5.0, y + 3.0)];
+        self.scene.line(&head, Pen::new(ink, 0.9));
+    }
+
+    /// Draws the axes, the title, and words where there is nothing to see.
+    /// `subtitle` is plain text, cut to the panel's width.
+    pub fn finish(mut self, title: &str, subtitle: &str) {
+        let f = self.frame;
+        if self.empty {
+            let middle = ((f.left + f.right) / 2.0, (f.top + f.bottom) / 2.0);
+            let words = TextLine::new(self.reason, middle, Horizontal::Centre);
+            self.scene.text(words.ink(Ink::Muted));
+        }
+        self.axis_lines();
+        let middle = (f.left + f.right) / 2.0;
+        let title_y = if subtitle.is_empty() {
+            f.top - 9.0
+        } else {
+            let text = markup::escape(&markup::fit(
+                subtitle,
+                TEXT_PX - 1.0,
+                f.width() + 30.0,
+            ));
+            let line =
+                TextLine::new(text, (middle, f.top - 7.0), Horizontal::Centre);
+            self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
+            f.top - 20.0
+        };
+        self.scene.text(
+            TextLine::new(title, (middle, title_y), Horizontal::Centre)
+                .size(TITLE_PX),
+        );
+    }
+
+    fn axis_lines(&mut self) {
+        let f = self.frame;
+        let spine = [(f.left, f.top), (f.left, f.bottom), (f.right, f.bottom)];
+        self.scene.line(&spine, HAIRLINE);
+        for at in self.x.minor() {
+            let x = self.to_px((*at, 0.0)).0;
+            let ends = [(x, f.bottom), (x, f.bottom + MINOR_PX)];
+            self.scene.line(&ends, HAIRLINE);
+        }
+        for at in self.y.minor() {
+            let y = self.to_px((0.0, *at)).1;
+            let ends = [(f.left - MINOR_PX, y), (f.left, y)];
+            self.scene.line(&ends, HAIRLINE);
+        }
+        for tick in self.x.ticks() {
+            let x = self.to_px((tick.at, 0.0)).0;
+            let ends = [(x, f.bottom), (x, f.bottom + TICK_PX)];
+            self.scene.line(&ends, HAIRLINE);
+            let at = (x, f.bottom + TICK_PX + 0.95 * TEXT_PX);
+            let label = tick.label.as_str();
+            self.scene.text(TextLine::new(label, at, Horizontal::Centre));
+        }
+        let mut widest = 0.0_f64;
+        for tick in self.y.ticks() {
+            let y = self.to_px((0.0, tick.at)).1;
+            let ends = [(f.left - TICK_PX, y), (f.left, y)];
+            self.scene.line(&ends, HAIRLINE);
+            let at = (f.left - TICK_PX - 3.0, y + 0.36 * TEXT_PX);
+            widest = widest.max(markup::width(&tick.label, TEXT_PX));
+            let label = tick.label.as_str();
+            self.scene.text(TextLine::new(label, at, Horizontal::Right));
+        }
+        let below = ((f.left + f.right) / 2.0, f.bottom + 33.0);
+        let label = self.x.title();
+        self.scene.text(TextLine::new(label, below, Horizontal::Centre));
+        let room = TICK_PX + 3.0 + widest + 8.0;
+        let beside = (f.left - room.max(28.0), (f.top + f.bottom) / 2.0);
+        let label = TextLine::new(self.y.title(), beside, Horizontal::Centre);
+        self.scene.text(label.upwards());
+    }
+}

@@ -1,0 +1,389 @@
+//! A list of shapes in pixels, and its drawing by plotters.
+
+use std::convert::Infallible;
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::element::{Circle, PathElement, Polygon, Text};
+use plotters::prelude::{Cartesian2d, DrawingArea, IntoDrawingArea as _};
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{
+    Color as _, FontDesc, FontFamily, FontStyle, FontTransform,
+    IntoTextStyle as _, RGBColor, ShapeStyle,
+};
+use thiserror::Error;
+
+use super::colour::{Fill, Ink, Pen};
+use super::geometry::{Point, Rect, simplify};
+use super::markup;
+use super::svg::{PER_PX, Svg, TEXT_PX};
+
+/// Largest SVG, in bytes.
+pub const LIMIT_BYTES: usize = 150_000;
+/// How far a simplified line may be from the full one, in px: the first, and
+/// the next ones, with points on multiples of them, only where the SVG would
+/// be too large.
+pub const TOLERANCES_PX: [f64; 4] = [0.05, 0.1, 0.2, 0.5];
+
+/// A drawing that could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DrawError {
+    /// plotters refused.
+    #[error("drawing {name}: {source}")]
+    Plotters {
+        /// Name of the figure.
+        name: String,
+        /// What plotters said.
+        #[source]
+        source: DrawingAreaErrorKind<Infallible>,
+    },
+    /// The SVG is larger than a report can hold.
+    #[error("{name} has {bytes} bytes, the limit is {limit}")]
+    TooLarge {
+        /// Name of the figure.
+        name: String,
+        /// Its size.
+        bytes: usize,
+        /// The limit.
+        limit: usize,
+    },
+}
+
+/// Name and words of a drawing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Caption {
+    /// Unique on a page; letters, digits and hyphens.
+    pub name: String,
+    /// Plain text.
+    pub title: String,
+    /// Plain text.
+    pub description: String,
+}
+
+/// Horizontal alignment of a line of text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Horizontal {
+    /// Starts at the point.
+    Left,
+    /// Centred on the point.
+    Centre,
+    /// Ends at the point.
+    Right,
+}
+
+/// A line of marked-up text on a baseline.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextLine {
+    /// The text, in [`markup`].
+    pub markup: String,
+    /// A point of the baseline.
+    pub at: Point,
+    /// How it lies about that point.
+    pub align: Horizontal,
+    /// Size.
+    pub size_px: f64,
+    /// Ink.
+    pub ink: Ink,
+    /// Whether it runs upwards instead of to the right.
+    pub upwards: bool,
+}
+
+impl TextLine {
+    /// Text of the usual size and ink.
+    #[must_use]
+    pub fn new(
+        markup: impl Into<String>,
+        at: Point,
+        align: Horizontal,
+    ) -> Self {
+        Self {
+            markup: markup.into(),
+            at,
+            align,
+            size_px: TEXT_PX,
+            ink: Ink::Text,
+            upwards: false,
+        }
+    }
+
+    /// The same in another size.
+    #[must_use]
+    pub fn size(self, size_px: f64) -> Self {
+        Self { size_px, ..self }
+    }
+
+    /// The same in another ink.
+    #[must_use]
+    pub fn ink(self, ink: Ink) -> Self {
+        Self { ink, ..self }
+    }
+
+    /// The same running upwards.
+    #[must_use]
+    pub fn upwards(self) -> Self {
+        Self { upwards: true, ..self }
+    }
+
+    /// The rectangle it fills, by the table of widths.
+    #[must_use]
+    pub fn extent(&self) -> Rect {
+        let width = markup::width(&self.markup, self.size_px);
+        let before = match self.align {
+            Horizontal::Left => 0.0,
+            Horizontal::Centre => width / 2.0,
+            Horizontal::Right => width,
+        };
+        let (above, below) = (0.80 * self.size_px, 0.25 * self.size_px);
+        let (x, y) = self.at;
+        if self.upwards {
+            Rect {
+                left: x - above,
+                right: x + below,
+                top: y + before - width,
+                bottom: y + before,
+            }
+        } else {
+            Rect {
+                left: x - before,
+                right: x - before + width,
+                top: y - above,
+                bottom: y + below,
+            }
+        }
+    }
+}
+
+#[derive(Debug, Clone)]
+enum Shape {
+    Line(Vec<Point>, Pen),
+    Area(Vec<Point>, Fill),
+    Dot(Point, f64, Ink),
+    Ring(Point, f64, Pen),
+    Text(TextLine),
+}
+
+/// A drawing under way.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    caption: Caption,
+    size_px: (u32, u32),
+    shapes: Vec<Shape>,
+}
+
+impl Scene {
+    /// An empty drawing.
+    #[must_use]
+    pub fn new(caption: Caption, width_px: f64, height_px: f64) -> Self {
+        let whole = |x: f64| x.ceil().max(1.0) as u32;
+        let size_px = (whole(width_px), whole(height_px));
+        Self { caption, size_px, shapes: Vec::new() }
+    }
+
+    /// Everything there is room for.
+    #[must_use]
+    pub fn extent(&self) -> Rect {
+        let (width, height) = self.size_px;
+        Rect {
+            left: 0.0,
+            top: 0.0,
+            right: f64::from(width),
+            bottom: f64::from(height),
+        }
+    }
+
+    /// A polyline; nothing if a point is not finite.
+    pub fn line(&mut self, points: &[Point], pen: Pen) {
+        if points.len() > 1 && finite(points) {
+            self.shapes.push(Shape::Line(points.to_vec(), pen));
+        }
+    }
+
+    /// A closed outline.
+    pub fn outline(&mut self, corners: &[Point], pen: Pen) {
+        if let Some(first) = corners.first()
+            && finite(corners)
+        {
+            let mut points = corners.to_vec();
+            points.push(*first);
+            self.shapes.push(Shape::Line(points, pen));
+        }
+    }
+
+    /// A filled polygon.
+    pub fn area(&mut self, corners: &[Point], fill: Fill) {
+        if corners.len() > 2 && finite(corners) {
+            self.shapes.push(Shape::Area(corners.to_vec(), fill));
+        }
+    }
+
+    /// A filled circle.
+    pub fn dot(&mut self, at: Point, radius_px: f64, ink: Ink) {
+        if finite(&[at]) {
+            self.shapes.push(Shape::Dot(at, radius_px, ink));
+        }
+    }
+
+    /// An open circle.
+    pub fn ring(&mut self, at: Point, radius_px: f64, pen: Pen) {
+        if finite(&[at]) {
+            self.shapes.push(Shape::Ring(at, radius_px, pen));
+        }
+    }
+
+    /// A line of text.
+    pub fn text(&mut self, text: TextLine) {
+        if finite(&[text.at]) && !text.markup.is_empty() {
+            self.shapes.push(Shape::Text(text));
+        }
+    }
+
+    /// All lines of text, for tests of the layout.
+    pub fn texts(&self) -> impl Iterator<Item = &TextLine> {
+        self.shapes.iter().filter_map(|s| match s {
+            Shape::Text(text) => Some(text),
+            _ => None,
+        })
+    }
+
+    /// The SVG.
+    ///
+    /// # Errors
+    /// [`DrawError`] when plotters refuses, or the SVG is larger than
+    /// [`LIMIT_BYTES`].
+    pub fn svg(&self) -> Result<String, DrawError> {
+        let mut bytes = 0;
+        for tolerance_px in TOLERANCES_PX {
+            let out = self.with_tolerance(tolerance_px)?;
+            bytes = out.len();
+            if bytes <= LIMIT_BYTES {
+                return Ok(out);
+            }
+        }
+        Err(DrawError::TooLarge {
+            name: self.caption.name.clone(),
+            bytes,
+            limit: LIMIT_BYTES,
+        })
+    }
+
+    fn with_tolerance(&self, tolerance_px: f64) -> Result<String, DrawError> {
+        let mut out = String::new();
+        let Caption { name, title, description } = &self.caption;
+        let area = Svg::new(&mut out, self.size_px, name, title, description)
+            .into_drawing_area();
+        self.draw(&area, tolerance_px).map_err(|source| {
+            DrawError::Plotters { name: name.clone(), source }
+        })?;
+        drop(area);
+        Ok(out)
+    }
+
+    fn draw(
+        &self,
+        screen: &DrawingArea<Svg<'_>, Shift>,
+        tolerance_px: f64,
+    ) -> Result<(), DrawingAreaErrorKind<Infallible>> {
+        let (width, height) = self.size_px;
+        let steps = |px: u32| 0..(px as i32 * PER_PX);
+        let area = screen.apply_coord_spec(Cartesian2d::<
+            RangedCoordf64,
+            RangedCoordf64,
+        >::new(
+            0.0..f64::from(width),
+            0.0..f64::from(height),
+            (steps(width), steps(height)),
+        ));
+        let radius = |px: f64| (px * f64::from(PER_PX)).round() as u32;
+        for shape in &self.shapes {
+            match shape {
+                Shape::Line(points, pen) => {
+                    let style = line_style(*pen);
+                    let points = simplify(points, tolerance_px);
+                    let points = snap(points, tolerance_px);
+                    area.draw(&PathElement::new(points, style))?;
+                }
+                Shape::Area(corners, fill) => {
+                    let style = fill_style(*fill);
+                    area.draw(&Polygon::new(corners.clone(), style))?;
+                }
+                Shape::Dot(at, px, ink) => {
+                    let style = fill_style(Fill::solid(*ink));
+                    area.draw(&Circle::new(*at, radius(*px), style))?;
+                }
+                Shape::Ring(at, px, pen) => {
+                    let style = line_style(*pen);
+                    area.draw(&Circle::new(*at, radius(*px), style))?;
+                }
+                Shape::Text(text) => {
+                    let style = text_style(text, screen);
+                    area.draw(&Text::new(
+                        text.markup.as_str(),
+                        text.at,
+                        style,
+                    ))?;
+                }
+            }
+        }
+        area.present()
+    }
+}
+
+/// Coarse lines on round coordinates, which take fewer characters.
+fn snap(points: Vec<Point>, tolerance_px: f64) -> Vec<Point> {
+    if tolerance_px <= TOLERANCES_PX[0] {
+        return points;
+    }
+    let round = |x: f64| (x / tolerance_px).round() * tolerance_px;
+    points.into_iter().map(|(x, y)| (round(x), round(y))).collect()
+}
+
+fn finite(points: &[Point]) -> bool {
+    points.iter().all(|(x, y)| x.is_finite() && y.is_finite())
+}
+
+fn code([r, g, b]: [u8; 3]) -> RGBColor {
+    RGBColor(r, g, b)
+}
+
+fn line_style(pen: Pen) -> ShapeStyle {
+    ShapeStyle {
+        color: code(pen.code()).into(),
+        filled: false,
+        stroke_width: pen.hundredths(),
+    }
+}
+
+fn fill_style(fill: Fill) -> ShapeStyle {
+    ShapeStyle {
+        color: code(fill.code()).into(),
+        filled: true,
+        stroke_width: 0,
+    }
+}
+
+fn text_style<'a>(
+    text: &TextLine,
+    screen: &DrawingArea<Svg<'_>, Shift>,
+) -> plotters::style::TextStyle<'a> {
+    let turn = if text.upwards {
+        FontTransform::Rotate270
+    } else {
+        FontTransform::None
+    };
+    let font =
+        FontDesc::new(FontFamily::SansSerif, text.size_px, FontStyle::Normal)
+            .transform(turn);
+    let across = match text.align {
+        Horizontal::Left => HPos::Left,
+        Horizontal::Centre => HPos::Center,
+        Horizontal::Right => HPos::Right,
+    };
+    let ink = code(Fill::solid(text.ink).code());
+    plotters::style::TextStyle {
+        color: ink.to_backend_color(),
+        ..font.into_text_style(screen)
+    }
+    .pos(Pos::new(across, VPos::Bottom))
+}

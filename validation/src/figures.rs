@@ -1,0 +1,38 @@
+//! The report's figures: each a pure function from a typed data struct to an
+//! SVG, with the CSV of the same numbers.
+//!
+//! Nothing here integrates or fits: the structs of [`data`] arrive filled.
+
+mod accepted;
+mod boxplots;
+mod capacities;
+mod chart;
+mod common;
+pub mod data;
+mod fates;
+mod fragilities;
+mod histories;
+mod ida;
+mod quantiles;
+mod sketch;
+mod tests_along;
+
+use crate::drawing::DrawError;
+
+/// What every figure's data can do.
+pub trait Figure {
+    /// The words that go with it.
+    fn heading(&self) -> &data::Heading;
+
+    /// The drawing.
+    ///
+    /// # Errors
+    /// [`DrawError`] when the SVG grows too large.
+    fn svg(&self) -> Result<String, DrawError>;
+
+    /// The numbers, one header line, long format.
+    fn csv(&self) -> String;
+}
+
+#[cfg(test)]
+mod tests;

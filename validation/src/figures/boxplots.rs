@@ -1,0 +1,157 @@
+//! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
+
+use super::Figure;
+use super::common::{self, Slendernesses};
+use super::data::{BoxPanel, Boxplots, Heading, NotchedBox, StripeKind};
+use crate::drawing::axis::Tick;
+use crate::drawing::{
+    Axis, DrawError, Fill, Grid, Ink, Marker, Panel, Pen, Point, Scene,
+};
+
+impl Figure for Boxplots {
+    fn heading(&self) -> &Heading {
+        &self.heading
+    }
+
+    fn svg(&self) -> Result<String, DrawError> {
+        scene(self).svg()
+    }
+
+    fn csv(&self) -> String {
+        self.csv()
+    }
+}
+
+/// Half height of a box in units of the distance between stripes.
+const HALF: f64 = 0.30;
+/// Half height at the notch.
+const WAIST: f64 = 0.15;
+/// Ratios beyond are cut, with an arrow head at the edge.
+const WIDEST: (f64, f64) = (0.0, 3.0);
+
+pub(super) fn scene(figure: &Boxplots) -> Scene {
+    let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
+    let most = figure.panels.iter().map(|p| p.stripes.len()).max();
+    let height = 16.0 * most.unwrap_or(0).clamp(7, 20) as f64;
+    let columns = figure.columns;
+    let grid = Grid::new(figure.panels.len(), columns);
+    let scale = 3.0 / grid.columns.max(3) as f64;
+    let grid = Grid { right: 42.0, ..grid };
+    let grid = grid.plot((262.0 * scale).max(180.0), height);
+    let legend = if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
+    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    let (low, high) = ratio_range(figure);
+    let level = match figure.stripes {
+        StripeKind::Intensity(kind) => kind.label(),
+        StripeKind::Demand => common::DEMAND,
+    };
+    for (i, shown) in figure.panels.iter().enumerate() {
+        let ticks = shown
+            .stripes
+            .iter()
+            .enumerate()
+            .map(|(k, s)| Tick {
+                at: (k + 1) as f64,
+                label: common::short(s.level),
+            })
+            .collect();
+        let names = vec![String::new(); shown.stripes.len()];
+        let y = Axis::named(&names).with_ticks(ticks).label(level);
+        let x = Axis::linear(low, high, 5).label(figure.ratio_label.as_str());
+        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
+            .empty_because("too few usable ratios");
+        panel.vertical(1.0, Pen::new(Ink::Muted, 0.8));
+        let ink = Ink::Series(inks.series(shown.alpha_rad));
+        draw_stripes(&mut panel, shown, ink, (low, high));
+        let title = format!(
+            "{}, {}",
+            common::frequency(shown.p_rad_s),
+            common::slenderness(shown.alpha_rad)
+        );
+        panel.finish(&common::panel_title(i, &title), &shown.note);
+    }
+    scene
+}
+
+/// The same range for all panels: what the whiskers need, and most of the
+/// outliers.
+fn ratio_range(figure: &Boxplots) -> (f64, f64) {
+    let boxes = figure
+        .panels
+        .iter()
+        .flat_map(|p| &p.stripes)
+        .filter_map(|s| s.summary.as_ref());
+    let ends = boxes.flat_map(|b| {
+        let notch = [b.notch_low, b.notch_high];
+        let whiskers = [b.whisker_low, b.whisker_high];
+        notch.into_iter().chain(whiskers).chain(b.outliers.iter().copied())
+    });
+    let (low, high) = common::span(ends, false).unwrap_or((0.5, 1.5));
+    let low = (5.0 * low.min(0.9)).floor() / 5.0;
+    let high = (5.0 * high.max(1.1)).ceil() / 5.0;
+    (low.max(WIDEST.0), high.min(WIDEST.1))
+}
+
+fn draw_stripes(
+    panel: &mut Panel<'_>,
+    shown: &BoxPanel,
+    ink: Ink,
+    range: (f64, f64),
+) {
+    for (k, stripe) in shown.stripes.iter().enumerate() {
+        let y = (k + 1) as f64;
+        let percent = (100.0 * stripe.usable_share()).round();
+        panel.right_of(y, format!("{percent} %"));
+        if let Some(summary) = &stripe.summary {
+            draw_box(panel, summary, y, ink, range);
+        }
+    }
+}
+
+fn draw_box(
+    panel: &mut Panel<'_>,
+    b: &NotchedBox,
+    y: f64,
+    ink: Ink,
+    (low, high): (f64, f64),
+) {
+    let pen = Pen::new(ink, 0.9);
+    let corners: Vec<Point> = [
+        (b.q1, HALF),
+        (b.notch_low, HALF),
+        (b.median, WAIST),
+        (b.notch_high, HALF),
+        (b.q3, HALF),
+        (b.q3, -HALF),
+        (b.notch_high, -HALF),
+        (b.median, -WAIST),
+        (b.notch_low, -HALF),
+        (b.q1, -HALF),
+    ]
+    .into_iter()
+    .map(|(x, up)| panel.to_px((x.clamp(low, high), y + up)))
+    .collect();
+    if corners.iter().any(|c| !c.0.is_finite()) {
+        return;
+    }
+    panel.mark_used();
+    panel.line([(b.whisker_low, y), (b.q1, y)], pen);
+    panel.line([(b.q3, y), (b.whisker_high, y)], pen);
+    for end in [b.whisker_low, b.whisker_high] {
+        let cap = HALF / 2.0;
+        panel.line([(end, y - cap), (end, y + cap)], pen);
+    }
+    panel.scene().area(&corners, Fill::tint(ink, 24));
+    panel.scene().outline(&corners, pen);
+    let waist = [(b.median, y - WAIST), (b.median, y + WAIST)];
+    panel.line(waist, Pen::new(ink, 1.6));
+    for x in &b.outliers {
+        if *x >= low && *x <= high {
+            panel.marks([(*x, y)], Marker::Cross, 3.0, ink);
+        }
+    }
+    let beyond = b.outliers.iter().filter(|x| **x > high).count();
+    if beyond > 0 {
+        panel.right_beyond(y, ink);
+    }
+}

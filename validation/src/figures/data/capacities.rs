@@ -1,0 +1,64 @@
+//! Figure 11.
+
+use serde::Serialize;
+
+use super::{Heading, Intensity, Table, number};
+
+/// Capacity curves, intensity given demand, as inverted and shifted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Capacities {
+    /// The words.
+    pub heading: Heading,
+    /// Slenderness of the block.
+    pub alpha_rad: f64,
+    /// Frequency parameter p.
+    pub p_rad_s: f64,
+    /// One panel an intensity measure: (a) PGA, (b) PGV.
+    pub panels: Vec<CapacityPanel>,
+}
+
+/// One intensity measure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CapacityPanel {
+    /// Kind of the intensity.
+    pub intensity: Intensity,
+    /// The shift IM_R.
+    pub shift: f64,
+    /// A curve a record.
+    pub curves: Vec<CapacityCurve>,
+}
+
+/// One record's capacities; the shifted curve is drawn from `im - shift`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CapacityCurve {
+    /// Record.
+    pub record: String,
+    /// Demand levels, rising, 0 to 1.
+    pub edp: Vec<f64>,
+    /// Intensity that reaches each level (unshifted).
+    pub im: Vec<f64>,
+}
+
+impl Capacities {
+    /// `panel,im_kind,shift,record,edp,im`.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut table =
+            Table::new(&["panel", "im_kind", "shift", "record", "edp", "im"]);
+        for (i, panel) in self.panels.iter().enumerate() {
+            for curve in &panel.curves {
+                for (edp, im) in curve.edp.iter().zip(&curve.im) {
+                    table.row([
+                        super::letter(i),
+                        panel.intensity.name().into(),
+                        number(panel.shift),
+                        curve.record.clone(),
+                        number(*edp),
+                        number(*im),
+                    ]);
+                }
+            }
+        }
+        table.finish()
+    }
+}

@@ -1,0 +1,111 @@
+//! Lines and marks over two axes: speed against error, convergence,
+//! overturning spectra, power of tests, arms and options compared.
+
+use serde::Serialize;
+
+use super::{Heading, Table, number};
+
+/// A figure of one or more panels with a shared legend.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Chart {
+    /// The words.
+    pub heading: Heading,
+    /// Panels row by row.
+    pub panels: Vec<ChartPanel>,
+    /// Panels in a row.
+    pub columns: usize,
+}
+
+/// One pair of axes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ChartPanel {
+    /// Title in markup, or nothing.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// What is drawn, in this order.
+    pub series: Vec<Series>,
+}
+
+/// One axis.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Axis {
+    /// Label with unit, in markup.
+    pub label: String,
+    /// Linear or logarithmic.
+    pub scale: Scale,
+    /// Both ends; none: from the data.
+    pub range: Option<(f64, f64)>,
+    /// Names of the ticks at 1, 2, 3 and so on; empty: numbers.
+    pub categories: Vec<String>,
+}
+
+/// Scale of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Scale {
+    /// Linear.
+    Linear,
+    /// Logarithmic; values that are not positive are gaps.
+    Logarithmic,
+}
+
+/// One legend entry's data.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Series {
+    /// Legend in markup; the same label has the same colour in every panel,
+    /// an empty one is drawn in grey and has no legend.
+    pub label: String,
+    /// How it is drawn.
+    pub mark: Mark,
+    /// Abscissas.
+    pub x: Vec<f64>,
+    /// Ordinates.
+    pub y: Vec<f64>,
+    /// Intervals of the ordinates (error bars, or a band with
+    /// [`Mark::Line`]); empty: none.
+    pub interval: Vec<(f64, f64)>,
+}
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum Mark {
+    /// A line.
+    Line,
+    /// A dashed line, such as a reference slope or a limit.
+    Dashed,
+    /// Marks alone.
+    Points,
+    /// Marks joined by a line.
+    LineAndPoints,
+}
+
+impl Chart {
+    /// `panel,series,x,y,y_low,y_high`.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut table =
+            Table::new(&["panel", "series", "x", "y", "y_low", "y_high"]);
+        for (i, panel) in self.panels.iter().enumerate() {
+            for series in &panel.series {
+                for (k, (x, y)) in series.x.iter().zip(&series.y).enumerate() {
+                    let (low, high) = series
+                        .interval
+                        .get(k)
+                        .copied()
+                        .unwrap_or((f64::NAN, f64::NAN));
+                    table.row([
+                        super::letter(i),
+                        super::plain(&series.label),
+                        number(*x),
+                        number(*y),
+                        number(low),
+                        number(high),
+                    ]);
+                }
+            }
+        }
+        table.finish()
+    }
+}

@@ -1,0 +1,75 @@
+//! Figures 2 and 3: response histories.
+
+use super::Figure;
+use super::common::{self, Slendernesses};
+use super::data::{Heading, Histories, HistoryPanel};
+use crate::drawing::{Axis, DrawError, Grid, Ink, Marker, Panel, Pen, Scene};
+
+impl Figure for Histories {
+    fn heading(&self) -> &Heading {
+        &self.heading
+    }
+
+    fn svg(&self) -> Result<String, DrawError> {
+        scene(self).svg()
+    }
+
+    fn csv(&self) -> String {
+        self.csv()
+    }
+}
+
+pub(super) fn scene(figure: &Histories) -> Scene {
+    let curves = || figure.panels.iter().flat_map(|p| &p.curves);
+    let inks = Slendernesses::new(curves().map(|c| c.alpha_rad));
+    let grid = Grid::new(figure.panels.len(), figure.columns);
+    let mut legend = inks.lines();
+    if curves().any(|c| c.overturned) {
+        legend.push(common::overturned_entry());
+    }
+    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    for (i, shown) in figure.panels.iter().enumerate() {
+        let (low, high) = ratios(shown);
+        let x = Axis::linear(0.0, end(shown), 5).label("*t* (s)");
+        let y = Axis::around(low, high, 5).label("*θ* / *α*");
+        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
+        panel.horizontal(0.0, Pen::new(Ink::Muted, 0.6));
+        for curve in &shown.curves {
+            let series = inks.series(curve.alpha_rad);
+            let points = curve.time_s.iter().zip(&curve.ratio);
+            let points = points.map(|(t, y)| (*t, *y));
+            panel.line(points.clone(), Pen::of_series(series));
+            if curve.overturned
+                && let Some((t, y)) = points.clone().next_back()
+            {
+                let at = [(t, y.clamp(low, high))];
+                panel.marks(at, Marker::Cross, 4.5, Ink::Series(series));
+            }
+        }
+        let title = format!(
+            "{}, {} = {}",
+            common::frequency(shown.p_rad_s),
+            shown.intensity.label(),
+            common::short(shown.im)
+        );
+        panel.finish(&common::panel_title(i, &title), &shown.record);
+    }
+    scene
+}
+
+fn end(shown: &HistoryPanel) -> f64 {
+    if shown.until_s > 0.0 && shown.until_s.is_finite() {
+        return shown.until_s;
+    }
+    let times = shown.curves.iter().flat_map(|c| &c.time_s);
+    common::span(times.copied(), true).map_or(1.0, |(_, high)| high)
+}
+
+/// The panel's range: what the histories reach, and never less than a tenth
+/// either way. An overturning block leaves at 1.
+fn ratios(shown: &HistoryPanel) -> (f64, f64) {
+    let values = shown.curves.iter().flat_map(|c| &c.ratio);
+    let (low, high) =
+        common::span(values.copied(), false).unwrap_or((-1.0, 1.0));
+    (low.clamp(-1.05, -0.1), high.clamp(0.1, 1.05))
+}

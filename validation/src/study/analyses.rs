@@ -1,0 +1,466 @@
+//! All analyses of a study, in a fixed order for any number of threads.
+
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+use rocking::block::Block;
+use rocking::capacity::ResponseCurve;
+
+use super::choice::{by_rank, common_level};
+use super::grid::{
+    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
+    blocks, position,
+};
+use super::histories::{distance, mean_log_ratio};
+use super::runs::{Prepared, Setup};
+use super::stripes::on_stripe;
+use super::suites::{Motion, StudySuite};
+use super::{StudyError, capacities};
+use crate::figures::data::Arm;
+
+/// Interval at which histories are compared and drawn, in s.
+pub const HISTORY_INTERVAL_S: f64 = 0.01;
+
+/// What a study knows of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Name.
+    pub name: String,
+    /// Peak ground acceleration, in g.
+    pub pga_g: f64,
+    /// PGV/PGA over gravity, in s.
+    pub velocity_ratio_s: f64,
+    /// PGA of the geometric mean of the pair over this component's.
+    pub mean_over_study: Option<f64>,
+}
+
+/// All curves of one arm, by block, then by record.
+#[derive(Clone, Debug)]
+pub struct ArmCurves {
+    /// The arm.
+    pub arm: Arm,
+    /// Curves by block (15), then by record.
+    pub curves: Vec<Vec<ResponseCurve>>,
+}
+
+/// Histories of the chosen records, and how far all records' histories and
+/// curves are from the reference slenderness, for one frequency parameter.
+#[derive(Clone, Debug)]
+pub struct SingleRecords {
+    /// Level of the histories.
+    pub im: f64,
+    /// Theta/alpha of the chosen records, by record, then by slenderness,
+    /// and whether the block overturned.
+    pub histories: Vec<Vec<(Vec<f64>, bool)>>,
+    /// By record, then by slenderness other than the reference.
+    pub apart: Vec<Vec<Apart>>,
+}
+
+/// A block against the reference slenderness under one record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apart {
+    /// Normalized L2 distance of the histories; NaN where one overturned.
+    pub distance: f64,
+    /// Ratio of the peaks; NaN where one overturned.
+    pub peak_ratio: f64,
+    /// Mean |ln| of the ratio of intensities at equal demand; NaN where
+    /// there is none.
+    pub mean_ln_im: f64,
+}
+
+/// Demands on the stripes for one arm's first overturnings.
+#[derive(Clone, Debug)]
+pub struct StripeDemands {
+    /// The arm.
+    pub arm: Arm,
+    /// By block (15), then by stripe, then by record.
+    pub demands: Vec<Vec<Vec<f64>>>,
+    /// By frequency, then by stripe, then by record: slenderness adjusted.
+    pub adjusted: Vec<Vec<Vec<f64>>>,
+    /// Records that stand at a stripe at or above their first overturning,
+    /// by block, then by stripe.
+    pub stand_again: Vec<Vec<usize>>,
+    /// Records that overturned at or below, by block, then by stripe.
+    pub overturned: Vec<Vec<usize>>,
+}
+
+/// Results of one suite.
+#[derive(Clone, Debug)]
+pub struct SuiteResults {
+    /// `ordinary` or `pulse-type`.
+    pub kind: &'static str,
+    /// Where the records come from, in words.
+    pub source: String,
+    /// Who chose the study component, in words.
+    pub component_rule: String,
+    /// Hash of the input.
+    pub sha256: String,
+    /// The records.
+    pub records: Vec<Facts>,
+    /// Positions of the records that the single-record figures show.
+    pub chosen: [usize; 3],
+    /// Curves by arm.
+    pub arms: Vec<ArmCurves>,
+    /// By frequency parameter.
+    pub single: Vec<SingleRecords>,
+    /// By arm; ordinary suite only.
+    pub stripes: Vec<StripeDemands>,
+    /// Slenderness-adjusted curves by arm, frequency, record; ordinary
+    /// suite only.
+    pub adjusted: Vec<(Arm, Vec<Vec<ResponseCurve>>)>,
+}
+
+impl SuiteResults {
+    /// Curves of an arm by block, then by record; none if it was not run.
+    #[must_use]
+    pub fn curves(&self, arm: Arm) -> Option<&[Vec<ResponseCurve>]> {
+        let found = self.arms.iter().find(|a| a.arm == arm)?;
+        Some(&found.curves)
+    }
+
+    /// Number of records that uplift the block without scaling.
+    #[must_use]
+    pub fn uplift_unscaled(&self, block: &Block) -> usize {
+        let threshold = libm::tan(block.slenderness_rad());
+        self.records.iter().filter(|r| r.pga_g > threshold).count()
+    }
+}
+
+/// What a study runs.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// What holds for every analysis.
+    pub setup: Setup,
+    /// Arms in the order A, B, C.
+    pub arms: Vec<Arm>,
+}
+
+impl Plan {
+    /// Arms from which figures are drawn: A and C, where they are run.
+    #[must_use]
+    pub fn drawn(&self) -> Vec<Arm> {
+        let drawn = |arm: &&Arm| **arm != Arm::B;
+        self.arms.iter().filter(drawn).copied().collect()
+    }
+
+    /// The arm whose grid the single-record figures use: C, else the first.
+    #[must_use]
+    pub fn common(&self) -> Arm {
+        if self.arms.contains(&Arm::C) {
+            Arm::C
+        } else {
+            self.arms.first().copied().unwrap_or(Arm::A)
+        }
+    }
+
+    /// Runs everything for one suite; `stages_3_and_4` adds stripes and
+    /// slenderness adjustment.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub fn run(
+        &self,
+        suite: &StudySuite,
+        stages_3_and_4: bool,
+        progress: &ProgressBar,
+    ) -> Result<SuiteResults, StudyError> {
+        let blocks = blocks()?;
+        let records: Vec<Prepared> =
+            suite.motions.iter().map(|m| Prepared::new(&m.study)).collect();
+        let facts: Vec<Facts> = suite.motions.iter().map(facts).collect();
+        progress.inc_length((blocks.len() * records.len()) as u64);
+        let arms = self.curves(&blocks, &records, progress)?;
+        let ratios: Vec<f64> =
+            facts.iter().map(|f| f.velocity_ratio_s).collect();
+        let chosen = by_rank(&ratios);
+        let mut results = SuiteResults {
+            kind: suite.kind,
+            source: suite.source.clone(),
+            component_rule: suite.component_rule.clone(),
+            sha256: suite.sha256(),
+            records: facts,
+            chosen,
+            arms,
+            single: Vec::new(),
+            stripes: Vec::new(),
+            adjusted: Vec::new(),
+        };
+        for frequency in 0..FREQUENCIES_RAD_S.len() {
+            let single =
+                self.single(frequency, &blocks, &records, &results)?;
+            results.single.push(single);
+        }
+        if stages_3_and_4 {
+            results.adjusted = self.adjusted(&blocks, &records, progress)?;
+            results.stripes = self.stripes(&blocks, &records, &results)?;
+        }
+        Ok(results)
+    }
+
+    fn curves(
+        &self,
+        blocks: &[Block],
+        records: &[Prepared],
+        progress: &ProgressBar,
+    ) -> Result<Vec<ArmCurves>, StudyError> {
+        let n = records.len();
+        // One task a chain; results come back in the order of the tasks.
+        let chains: Vec<Vec<ResponseCurve>> = (0..blocks.len() * n)
+            .into_par_iter()
+            .map(|task| {
+                let (block, record) = (blocks[task / n], &records[task % n]);
+                let chain = self.setup.chain(block, record, &self.arms);
+                progress.inc(1);
+                chain
+            })
+            .collect::<Result<_, _>>()?;
+        let of = |i: usize| {
+            chains
+                .chunks(n)
+                .map(|block| block.iter().map(|c| c[i].clone()).collect())
+                .collect()
+        };
+        let arms = self.arms.iter().enumerate();
+        Ok(arms
+            .map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) })
+            .collect())
+    }
+
+    fn single(
+        &self,
+        frequency: usize,
+        blocks: &[Block],
+        records: &[Prepared],
+        results: &SuiteResults,
+    ) -> Result<SingleRecords, StudyError> {
+        let Some(curves) = results.curves(self.common()) else {
+            return Err(StudyError::NoArm);
+        };
+        let of = |slenderness, record: usize| -> &ResponseCurve {
+            &curves[position(frequency, slenderness)][record]
+        };
+        let last = |curve: &ResponseCurve| match curve.overturning_im() {
+            Some(_) => curve.last_im(),
+            None => f64::INFINITY,
+        };
+        let slendernesses = 0..SLENDERNESSES_RAD.len();
+        let standing: Vec<Vec<f64>> = results
+            .chosen
+            .iter()
+            .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
+            .collect();
+        let im = common_level(&standing);
+        let all: Vec<(Vec<(Vec<f64>, bool)>, Vec<Apart>)> = (0..records.len())
+            .into_par_iter()
+            .map(|record| {
+                let histories: Vec<(Vec<f64>, f64)> = slendernesses
+                    .clone()
+                    .map(|s| {
+                        self.setup.history(
+                            blocks[position(frequency, s)],
+                            &records[record],
+                            im,
+                            HISTORY_INTERVAL_S,
+                        )
+                    })
+                    .collect::<Result<_, _>>()?;
+                let apart = slendernesses
+                    .clone()
+                    .filter(|s| *s != REFERENCE)
+                    .map(|s| {
+                        let (a, b) = (&histories[s], &histories[REFERENCE]);
+                        let curves = (of(s, record), of(REFERENCE, record));
+                        apart(a, b, curves)
+                    })
+                    .collect::<Result<_, _>>()?;
+                let kept = if results.chosen.contains(&record) {
+                    histories
+                        .into_iter()
+                        .map(|(h, peak)| (h, peak.is_infinite()))
+                        .collect()
+                } else {
+                    Vec::new()
+                };
+                Ok((kept, apart))
+            })
+            .collect::<Result<_, StudyError>>()?;
+        let histories =
+            results.chosen.iter().map(|r| all[*r].0.clone()).collect();
+        let apart = all.into_iter().map(|(_, apart)| apart).collect();
+        Ok(SingleRecords { im, histories, apart })
+    }
+
+    fn adjusted(
+        &self,
+        blocks: &[Block],
+        records: &[Prepared],
+        progress: &ProgressBar,
+    ) -> Result<Vec<(Arm, Vec<Vec<ResponseCurve>>)>, StudyError> {
+        let drawn = self.drawn();
+        let frequencies = 0..FREQUENCIES_RAD_S.len();
+        let tasks = drawn.len() * frequencies.len() * records.len();
+        progress.inc_length(tasks as u64);
+        drawn
+            .into_iter()
+            .map(|arm| {
+                let by_frequency = frequencies
+                    .clone()
+                    .map(|frequency| {
+                        let block = blocks[position(frequency, REFERENCE)];
+                        records
+                            .par_iter()
+                            .map(|r| {
+                                progress.inc(1);
+                                self.setup.chain_adjusted(block, r, arm)
+                            })
+                            .collect::<Result<Vec<_>, _>>()
+                    })
+                    .collect::<Result<_, _>>()?;
+                Ok((arm, by_frequency))
+            })
+            .collect()
+    }
+
+    /// One run a block, stripe and record; what an arm's scan makes of it
+    /// is a matter of its first overturning.
+    fn stripes(
+        &self,
+        blocks: &[Block],
+        records: &[Prepared],
+        results: &SuiteResults,
+    ) -> Result<Vec<StripeDemands>, StudyError> {
+        let used = self.used_stripes(results);
+        let runs: Vec<Vec<Vec<f64>>> = blocks
+            .iter()
+            .map(|block| {
+                on_levels(&used, records, |im, record| {
+                    self.setup.demand(*block, record, im)
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let adjusted_runs: Vec<Vec<Vec<f64>>> = FREQUENCIES_RAD_S
+            .iter()
+            .map(|p| {
+                on_levels(&used, records, |im, record| {
+                    Ok(self.setup.demand_adjusted(*p, record, im)?.0)
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let mut out = Vec::new();
+        for (arm, adjusted) in &results.adjusted {
+            let Some(curves) = results.curves(*arm) else { continue };
+            let apply = |runs: &[Vec<f64>], curves: &[ResponseCurve]| {
+                used.iter()
+                    .zip(runs)
+                    .map(|(im, row)| {
+                        row.iter()
+                            .zip(curves)
+                            .map(|(run, curve)| {
+                                on_stripe(*im, curve.overturning_im(), *run)
+                            })
+                            .collect::<Vec<f64>>()
+                    })
+                    .collect::<Vec<_>>()
+            };
+            let demands: Vec<Vec<Vec<f64>>> =
+                runs.iter().zip(curves).map(|(r, c)| apply(r, c)).collect();
+            let adjusted = adjusted_runs
+                .iter()
+                .zip(adjusted)
+                .map(|(r, c)| apply(r, c))
+                .collect();
+            // Overturned by the rule, yet finite by its own run.
+            let count = |which: fn(f64, f64) -> bool| {
+                demands
+                    .iter()
+                    .zip(&runs)
+                    .map(|(demands, runs)| {
+                        demands
+                            .iter()
+                            .zip(runs)
+                            .map(|(d, r)| {
+                                d.iter()
+                                    .zip(r)
+                                    .filter(|(d, r)| which(**d, **r))
+                                    .count()
+                            })
+                            .collect()
+                    })
+                    .collect()
+            };
+            out.push(StripeDemands {
+                arm: *arm,
+                stand_again: count(|d, r| d.is_infinite() && r.is_finite()),
+                overturned: count(|d, _| d.is_infinite()),
+                demands,
+                adjusted,
+            });
+        }
+        Ok(out)
+    }
+
+    /// Stripes at which at least ten records stand in the reference block
+    /// of some frequency parameter, in any arm drawn.
+    fn used_stripes(&self, results: &SuiteResults) -> Vec<f64> {
+        let stands = |im: f64| {
+            self.drawn().iter().any(|arm| {
+                let curves = results.curves(*arm).unwrap_or_default();
+                (0..FREQUENCIES_RAD_S.len()).any(|frequency| {
+                    let block = curves.get(position(frequency, REFERENCE));
+                    let standing = block.map_or(0, |records| {
+                        records
+                            .iter()
+                            .filter(|c| {
+                                c.overturning_im().is_none_or(|o| im < o)
+                            })
+                            .count()
+                    });
+                    standing >= LEAST_USABLE
+                })
+            })
+        };
+        STRIPES.iter().copied().filter(|im| stands(*im)).collect()
+    }
+}
+
+fn on_levels(
+    levels: &[f64],
+    records: &[Prepared],
+    run: impl Fn(f64, &Prepared) -> Result<f64, StudyError> + Sync,
+) -> Result<Vec<Vec<f64>>, StudyError> {
+    levels
+        .iter()
+        .map(|im| records.par_iter().map(|r| run(*im, r)).collect())
+        .collect()
+}
+
+fn apart(
+    compared: &(Vec<f64>, f64),
+    reference: &(Vec<f64>, f64),
+    curves: (&ResponseCurve, &ResponseCurve),
+) -> Result<Apart, StudyError> {
+    let stand = compared.1.is_finite() && reference.1.is_finite();
+    let when_standing = |x: f64| if stand { x } else { f64::NAN };
+    // Demands 0.1, 0.2, ... 1.0.
+    let levels: Vec<f64> = (1..=10).map(|k| f64::from(k) / 10.0).collect();
+    let a = capacities::at(curves.0, &levels)?;
+    let b = capacities::at(curves.1, &levels)?;
+    Ok(Apart {
+        distance: when_standing(distance(&compared.0, &reference.0)),
+        peak_ratio: when_standing(compared.1 / reference.1),
+        mean_ln_im: mean_log_ratio(&a, &b),
+    })
+}
+
+fn facts(motion: &Motion) -> Facts {
+    let study = &motion.study;
+    let pga_g = study.pga_g();
+    Facts {
+        name: study.name().to_owned(),
+        pga_g,
+        velocity_ratio_s: study.pgv_g_s() / pga_g,
+        mean_over_study: motion
+            .other
+            .as_ref()
+            .map(|other| (other.pga_g() / pga_g).sqrt()),
+    }
+}

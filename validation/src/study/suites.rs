@@ -1,0 +1,111 @@
+//! The two suites of a study: embedded, or read from files.
+
+use std::path::Path;
+
+use rocking::record::{Accelerogram, ReadOptions, Suite, SuiteOptions};
+use sha2::{Digest as _, Sha256};
+
+use super::StudyError;
+use crate::synthesis::{self, Pair};
+
+/// The component a study uses, and the other of its pair.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// The component applied.
+    pub study: Accelerogram,
+    /// The other component, if the suite has it.
+    pub other: Option<Accelerogram>,
+}
+
+/// A suite as the study uses it.
+#[derive(Clone, Debug)]
+pub struct StudySuite {
+    /// `ordinary` or `pulse-type`.
+    pub kind: &'static str,
+    /// Where the records come from, in words.
+    pub source: String,
+    /// Who chose the study component, in words.
+    pub component_rule: String,
+    /// The motions, in the suite's order.
+    pub motions: Vec<Motion>,
+}
+
+impl StudySuite {
+    /// The embedded suites, ordinary and pulse-type.
+    ///
+    /// # Errors
+    /// None in practice: the samples are finite by construction.
+    pub fn embedded() -> Result<[Self; 2], StudyError> {
+        let of = |kind, seed: &str, pairs: Vec<Pair>| Self {
+            kind,
+            source: format!("embedded synthetic suite, streams {seed}"),
+            component_rule: "the first component of each pair".into(),
+            motions: pairs
+                .into_iter()
+                .map(|Pair { components: [study, other], .. }| Motion {
+                    study,
+                    other: Some(other),
+                })
+                .collect(),
+        };
+        Ok([
+            of("ordinary", synthesis::ORDINARY_SEED, synthesis::ordinary()?),
+            of("pulse-type", synthesis::PULSE_SEED, synthesis::pulse()?),
+        ])
+    }
+
+    /// The suite in a folder or an index.
+    ///
+    /// # Errors
+    /// [`StudyError`] naming the file that was refused, and why.
+    pub fn read(kind: &'static str, path: &Path) -> Result<Self, StudyError> {
+        let options = SuiteOptions {
+            read: ReadOptions::default(),
+            sha256_hex: Some(sha256_hex),
+        };
+        let suite = Suite::read(path, &options)?;
+        let motions = suite
+            .study_components()
+            .map(|study| Motion {
+                study: study.accelerogram.clone(),
+                other: study.pair.as_ref().and_then(|pair| {
+                    suite
+                        .other_components()
+                        .find(|other| other.pair.as_ref() == Some(pair))
+                        .map(|other| other.accelerogram.clone())
+                }),
+            })
+            .collect();
+        Ok(Self {
+            kind,
+            source: format!("suite {}", suite.name()),
+            component_rule: suite.study_rule().to_string(),
+            motions,
+        })
+    }
+
+    /// SHA-256 over names, sampling intervals and samples of the study
+    /// components, so that results can be told apart by their input.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        let mut hash = Sha256::new();
+        for Motion { study, .. } in &self.motions {
+            hash.update(study.name().as_bytes());
+            hash.update([0]);
+            hash.update(study.dt_s().to_le_bytes());
+            for a in study.samples_g() {
+                hash.update(a.to_le_bytes());
+            }
+        }
+        hex(&hash.finalize())
+    }
+}
+
+/// SHA-256 of bytes, in hexadecimal.
+fn sha256_hex(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| format!("{b:02x}")).collect()
+}

@@ -134,6 +134,12 @@ pub static WRONG_MODELS: &[WrongModel] = &[
         "plain-bisection",
         "one bisection over the whole range of amplitudes",
     ),
+    method(
+        "energy-of-the-other-equation",
+        "energy of Eq. 2 along Eq. 1, or of Eq. 1 along Eq. 2",
+    ),
+    method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
+    method("impact-at-step-end", "naive impacts by the sign at step ends"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
 ];
 

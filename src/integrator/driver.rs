@@ -874,7 +874,7 @@ fn last_term<N: Real, const LEN: usize>(c: &[N; LEN], tau: N) -> N {
         left /= 2;
     }
     power = power * even;
-    if LEN % 2 == 0 {
+    if LEN.is_multiple_of(2) {
         power = power * tau;
     }
     N::ratio(1, 4) * c[LEN - 1].abs() * power

@@ -104,7 +104,6 @@ pub const METHODS: &[(&str, Run)] = &[
     ("invariance", invariance::invariance),
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
-    ("order-of-convergence", solution::order),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

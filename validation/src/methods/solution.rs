@@ -1,12 +1,12 @@
-//! The numerical error itself: energy in flight, order of convergence.
+//! The numerical error itself: energy in flight.
 
 use rocking::integrator::Observe;
 use serde::Deserialize;
 
-use super::closed_forms::{equation, extend};
+use super::closed_forms::equation;
 use super::{Answer, Context, MethodError};
-use crate::scene::{Criterion, Engine as _, Equation, Forcing, Scene, Trace};
-use crate::{engine, naive};
+use crate::engine;
+use crate::scene::{Criterion, Equation, Forcing, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -114,85 +114,4 @@ fn level(equation: Equation, alpha: f64, u: f64, w: f64) -> f64 {
         Equation::Linearized => u * (alpha - 0.5 * u),
     };
     0.5 * w * w + potential
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct OrderInput {
-    /// Block: alpha (rad), p (rad/s), eta.
-    block: [f64; 3],
-    dt_s: f64,
-    acceleration_m_s2: Vec<f64>,
-    /// Intervals that one interval of the record is divided into.
-    divisions: Vec<usize>,
-    /// Division of the reference run.
-    reference: usize,
-}
-
-/// Observed order of convergence in the step: the same broken line with
-/// more samples. Errors must fall from step to step.
-pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
-    let input: OrderInput = context.input()?;
-    let run = |division: usize| -> Result<[f64; 3], MethodError> {
-        let [alpha, p, eta] = input.block;
-        let mut fine = Vec::new();
-        for pair in input.acceleration_m_s2.windows(2) {
-            let rise = (pair[1] - pair[0]) / division as f64;
-            fine.extend((0..division).map(|k| pair[0] + rise * k as f64));
-        }
-        fine.extend(input.acceleration_m_s2.last());
-        let scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: eta,
-            gravity_m_s2: 9.81,
-            equation: Equation::Nonlinear,
-            criterion: Criterion::Alpha,
-            forcing: Forcing::Samples {
-                dt_s: input.dt_s / division as f64,
-                acceleration_m_s2: fine,
-            },
-            until_s: None,
-        };
-        let trace = if context.wrong == Some("impact-at-step-end") {
-            let rules = naive::Rules {
-                events: naive::Events::StepEnds,
-                ..naive::Rules::default()
-            };
-            naive::Naive(rules).respond(&scene)?
-        } else {
-            context.engine.respond(&scene)?
-        };
-        Ok(measures(&trace))
-    };
-    let truth = run(input.reference)?;
-    let mut errors = Vec::new();
-    for &division in &input.divisions {
-        let found = run(division)?;
-        let error = |k: usize| (found[k] - truth[k]).abs() / truth[k].abs();
-        errors.push([error(0), error(1), error(2)]);
-    }
-    let mut answer = Answer::default();
-    for (k, name) in
-        ["order-of-peak", "order-of-time", "order-of-speed"].iter().enumerate()
-    {
-        for (pair, steps) in errors.windows(2).zip(input.divisions.windows(2))
-        {
-            let ratio = steps[1] as f64 / steps[0] as f64;
-            let order = libm::log(pair[0][k] / pair[1][k]) / libm::log(ratio);
-            extend(&mut answer, name, [order], []);
-        }
-        answer.expected.remove(*name);
-    }
-    Ok(answer)
-}
-
-/// Peak, and time and speed of the first impact.
-fn measures(trace: &Trace) -> [f64; 3] {
-    let first = trace.impacts.first();
-    [
-        trace.peak_ratio,
-        first.map_or(f64::NAN, |i| i.time_s),
-        first.map_or(f64::NAN, |i| i.speed_rad_s),
-    ]
 }

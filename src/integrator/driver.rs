@@ -19,8 +19,8 @@ use crate::number::Real;
 const TAIL_SPEED: f64 = 1e-10;
 
 /// Truncation allowed per unit of time, in roundoffs of the slenderness
-/// angle: well below what rounding does anyway.
-const TRUNCATION_SHARE: f64 = 0.03;
+/// angle: what rounding does anyway.
+const TRUNCATION_SHARE: f64 = 0.5;
 
 /// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
 /// error estimate says what it leaves.

@@ -19,7 +19,6 @@ pub mod records;
 pub mod respond;
 pub mod samples;
 pub mod scene;
-pub mod samples;
 pub mod study;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.

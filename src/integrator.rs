@@ -265,6 +265,11 @@ pub fn respond_with(
     observe: &Observe,
     isa: Isa,
 ) -> Result<Response, SceneError> {
+    check(scene, observe)?;
+    run(scene, observe, None, isa)
+}
+
+fn check(scene: &Scene<'_>, observe: &Observe) -> Result<(), SceneError> {
     if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
         return Err(SceneError::InitialRatio(scene.initial_ratio));
     }
@@ -283,6 +288,43 @@ pub fn respond_with(
     {
         return Err(SceneError::Amplitude(record.amplitude()));
     }
+    Ok(())
+}
+
+/// Order of the Taylor polynomial under a record, for convergence and speed
+/// studies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Order 4.
+    Four,
+    /// Order 6.
+    Six,
+    /// Order 8.
+    Eight,
+    /// Order 10.
+    Ten,
+}
+
+/// [`respond`] with Eq. 1 under a record stepped at a fixed order, one step
+/// a sample whatever it leaves; other scenes run as they always do.
+///
+/// # Errors
+/// As [`respond`].
+pub fn respond_at_order(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    order: Order,
+) -> Result<Response, SceneError> {
+    check(scene, observe)?;
+    run(scene, observe, Some(order), Isa::best())
+}
+
+fn run(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    order: Option<Order>,
+    isa: Isa,
+) -> Result<Response, SceneError> {
     let own;
     let index = match scene.excitation {
         Excitation::Record(record) => Some(match record.index() {
@@ -294,7 +336,7 @@ pub fn respond_with(
         }),
         Excitation::Pulse(_) | Excitation::Free => None,
     };
-    Ok(isa.run(Run { scene, observe, index }))
+    Ok(isa.scalar().run(Run { scene, observe, index, order }))
 }
 
 /// One run, compiled for each instruction-set level.
@@ -302,15 +344,20 @@ struct Run<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     index: Option<&'a RestIndex>,
+    order: Option<Order>,
 }
 
 /// Coefficients of the polynomial for Eq. 1 under a record: order 8, for
 /// steps to [`SHORT_STEP`].
 const SHORT: usize = 9;
-/// The same for longer steps: order 10.
-const LONG: usize = 11;
 /// Longest step (in 1/p) at which order 8 leaves less than rounding.
-const SHORT_STEP: f64 = 0.04;
+const SHORT_STEP: f64 = 0.02;
+/// Coefficients for steps to [`LONG_STEP`]: order 10.
+const LONG: usize = 11;
+/// Longest step (in 1/p) at which order 10 leaves less than rounding.
+const LONG_STEP: f64 = 0.06;
+/// A step of 0.02 is one although p dt comes out above it.
+const GUARD: f64 = 1.0 + 1e-9;
 /// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
 /// of any step that a shorter series leaves too much of: order 13.
 pub(crate) const SMOOTH: usize = 14;
@@ -328,16 +375,19 @@ impl Dispatched for Run<'_> {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
+                if let (Some(order), Model::Nonlinear) = (self.order, model) {
+                    return self.at_order(order, dynamics, &forcing);
+                }
                 match model {
-                    Model::Nonlinear if step <= SHORT_STEP => {
+                    Model::Nonlinear if step <= SHORT_STEP * GUARD => {
                         Driver::<_, _, SHORT, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }
-                    Model::Nonlinear => {
+                    Model::Nonlinear if step <= LONG_STEP * GUARD => {
                         Driver::<_, _, LONG, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }
-                    Model::Linearized => {
+                    Model::Nonlinear | Model::Linearized => {
                         Driver::<_, _, SMOOTH, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }
@@ -352,6 +402,32 @@ impl Dispatched for Run<'_> {
                 Driver::<_, _, SMOOTH, 1>::new(dynamics, &Silence::nothing())
                     .run(self.scene, self.observe)
             }
+        }
+    }
+}
+
+impl Run<'_> {
+    #[inline(always)]
+    fn at_order(
+        &self,
+        order: Order,
+        dynamics: Dynamics<f64>,
+        forcing: &RecordForcing<'_, f64>,
+    ) -> Response {
+        let (scene, observe) = (self.scene, self.observe);
+        match order {
+            Order::Four => Driver::<_, _, 5, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
+            Order::Six => Driver::<_, _, 7, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
+            Order::Eight => Driver::<_, _, SHORT, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
+            Order::Ten => Driver::<_, _, LONG, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
         }
     }
 }

@@ -104,10 +104,12 @@ impl Study {
             let csv = figure.drawing.csv();
             files.insert(format!("{name}.csv"), csv.into_bytes());
         }
-        files.insert("table-01.csv".into(), table_1()?.into_bytes());
+        let table = table_1()?;
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
-        let page = page::html(&self.results, &self.figures, &self.claims)?;
+        let page =
+            page::html(&self.results, &self.figures, &self.claims, &table)?;
+        files.insert("table-01.csv".into(), table.into_bytes());
         files.insert("index.html".into(), page.into_bytes());
         Ok(files)
     }

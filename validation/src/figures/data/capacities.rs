@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
+use super::table::point;
 use super::{Heading, Intensity, Table, number};
+use crate::drawing::geometry::kept;
+use crate::drawing::scene::TOLERANCES_PX;
 
 /// Capacity curves, intensity given demand, as inverted and shifted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,6 +43,20 @@ pub struct CapacityCurve {
 }
 
 impl Capacities {
+    /// The same with only the points that a drawing keeps: none that is
+    /// left out lies farther than a twentieth of a pixel from the line. Of
+    /// a curve's levels without a capacity the first one stays.
+    #[must_use]
+    pub fn thinned(mut self) -> Self {
+        for panel in &mut self.panels {
+            let largest = panel.curves.iter().flat_map(|c| &c.im);
+            let largest = largest.copied().filter(|im| im.is_finite());
+            let top = largest.fold(0.0, f64::max);
+            panel.curves.iter_mut().for_each(|c| c.thin(top));
+        }
+        self
+    }
+
     /// `panel,im_kind,shift,record,edp,im`.
     #[must_use]
     pub fn csv(&self) -> String {
@@ -54,11 +71,29 @@ impl Capacities {
                         number(panel.shift),
                         curve.record.clone(),
                         number(*edp),
-                        number(*im),
+                        point(*im),
                     ]);
                 }
             }
         }
         table.finish()
+    }
+}
+
+impl CapacityCurve {
+    /// Keeps what a drawing some 440 px square needs.
+    fn thin(&mut self, top: f64) {
+        const PX: f64 = 440.0;
+        let points = self.edp.iter().zip(&self.im);
+        let points: Vec<_> = points
+            .take_while(|(_, im)| im.is_finite())
+            .map(|(edp, im)| (PX * edp, PX * im / top))
+            .collect();
+        let mut keep = kept(&points, TOLERANCES_PX[0]);
+        keep.push(true);
+        for values in [&mut self.edp, &mut self.im] {
+            let mut keep = keep.iter();
+            values.retain(|_| keep.next() == Some(&true));
+        }
     }
 }

@@ -2,9 +2,14 @@
 
 use serde::Serialize;
 
+use super::table::point;
 use super::{Heading, Intensity, Table, number};
 use crate::drawing::geometry::kept;
 use crate::drawing::scene::TOLERANCES_PX;
+
+/// Size of a panel for [`Histories::thinned`].
+const WIDTH_PX: f64 = 288.0;
+const HALF_PX: f64 = 111.0;
 
 /// Response histories at equal dimensionless intensity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,14 +54,23 @@ pub struct History {
 
 impl Histories {
     /// The same with only the points that a drawing keeps: none that is
-    /// left out lies farther than a twentieth of a pixel from the line.
+    /// left out lies farther than a tenth of a pixel from the line.
     #[must_use]
     pub fn thinned(mut self) -> Self {
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            values.filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
         for panel in &mut self.panels {
-            let ends = panel.curves.iter().filter_map(|c| c.time_s.last());
-            let until_s = ends.copied().fold(panel.until_s, f64::max);
-            if until_s > 0.0 && until_s.is_finite() {
-                panel.curves.iter_mut().for_each(|c| c.thin(until_s));
+            let curves = || panel.curves.iter();
+            let until_s =
+                largest(&mut curves().flat_map(|c| c.time_s.iter().copied()));
+            let peak = largest(
+                &mut curves().flat_map(|c| c.ratio.iter().map(|y| y.abs())),
+            );
+            if until_s > 0.0 && peak > 0.0 {
+                for curve in &mut panel.curves {
+                    curve.thin(WIDTH_PX / until_s, HALF_PX / peak);
+                }
             }
         }
         self
@@ -85,8 +99,8 @@ impl Histories {
                         panel.intensity.name().into(),
                         number(panel.im),
                         number(curve.alpha_rad),
-                        number(*t),
-                        number(*y),
+                        point(*t),
+                        point(*y),
                     ]);
                 }
             }
@@ -96,17 +110,15 @@ impl Histories {
 }
 
 impl History {
-    /// Keeps what a drawing of this length, some 300 px square for a ratio
-    /// of one, needs.
-    fn thin(&mut self, until_s: f64) {
-        const PX: f64 = 300.0;
+    /// Keeps what a drawing of this many px a second and px a unit needs.
+    fn thin(&mut self, px_per_s: f64, px_per_unit: f64) {
         let points = self.time_s.iter().zip(&self.ratio);
-        let points = points.map(|(t, y)| (PX * t / until_s, PX * y));
-        let points: Vec<_> = points.collect();
+        let points: Vec<_> =
+            points.map(|(t, y)| (px_per_s * t, px_per_unit * y)).collect();
         if points.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
             return;
         }
-        let keep = kept(&points, TOLERANCES_PX[0]);
+        let keep = kept(&points, TOLERANCES_PX[1]);
         for values in [&mut self.time_s, &mut self.ratio] {
             let mut keep = keep.iter();
             values.retain(|_| keep.next() == Some(&true));

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::table::point;
 use super::{Heading, Intensity, Table, number};
 
 /// Single-record IDA curves.
@@ -65,7 +66,7 @@ impl IdaCurves {
                         self.intensity.name().into(),
                         number(curve.alpha_rad),
                         number(im),
-                        number(edp),
+                        point(edp),
                     ]);
                 };
                 for (im, edp) in curve.im.iter().zip(&curve.edp) {

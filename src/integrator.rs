@@ -307,10 +307,14 @@ struct Run<'a> {
 /// Coefficients of the polynomial for Eq. 1 under a record: order 8, for
 /// steps to [`SHORT_STEP`].
 const SHORT: usize = 9;
-/// The same for longer steps: order 10.
-const LONG: usize = 11;
 /// Longest step (in 1/p) at which order 8 leaves less than rounding.
-const SHORT_STEP: f64 = 0.04;
+const SHORT_STEP: f64 = 0.02;
+/// Coefficients for steps to [`LONG_STEP`]: order 10.
+const LONG: usize = 11;
+/// Longest step (in 1/p) at which order 10 leaves less than rounding.
+const LONG_STEP: f64 = 0.06;
+/// A step of 0.02 is one although p dt comes out above it.
+const GUARD: f64 = 1.0 + 1e-9;
 /// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
 /// of any step that a shorter series leaves too much of: order 13.
 pub(crate) const SMOOTH: usize = 14;
@@ -329,15 +333,15 @@ impl Dispatched for Run<'_> {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
                 match model {
-                    Model::Nonlinear if step <= SHORT_STEP => {
+                    Model::Nonlinear if step <= SHORT_STEP * GUARD => {
                         Driver::<_, _, SHORT, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }
-                    Model::Nonlinear => {
+                    Model::Nonlinear if step <= LONG_STEP * GUARD => {
                         Driver::<_, _, LONG, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }
-                    Model::Linearized => {
+                    Model::Nonlinear | Model::Linearized => {
                         Driver::<_, _, SMOOTH, 2>::new(dynamics, &forcing)
                             .run(self.scene, self.observe)
                     }

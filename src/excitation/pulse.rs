@@ -228,6 +228,31 @@ impl Pulse {
         Self::try_new(kind)
     }
 
+    /// The same pulse scaled to a peak ground acceleration over g; where the
+    /// amplitude is the peak, to the last bit.
+    ///
+    /// # Errors
+    /// [`PulseError::Amplitude`] if the amplitude is not finite, as for a
+    /// pulse of amplitude zero.
+    pub fn with_pga(&self, pga_g: f64) -> Result<Self, PulseError> {
+        let own = self.pga_g();
+        let mut kind = self.kind;
+        match &mut kind {
+            PulseKind::OneSine { amplitude_g: a, .. }
+            | PulseKind::HalfSine { amplitude_g: a, .. }
+            | PulseKind::OneCosine { amplitude_g: a, .. }
+            | PulseKind::Rectangle { amplitude_g: a, .. }
+            | PulseKind::Triangle { amplitude_g: a, .. }
+            | PulseKind::RickerSymmetric { amplitude_g: a, .. }
+                if own > 0.0 =>
+            {
+                *a = pga_g.copysign(*a);
+                Self::try_new(kind)
+            }
+            _ => self.scaled(pga_g / own),
+        }
+    }
+
     /// Duration in s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {

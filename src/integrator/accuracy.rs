@@ -44,9 +44,10 @@ impl Accuracy {
         self.uu = a * a * uu + 2.0 * a * b * uw + b * b * ww;
         self.uw = a * c * uu + (a * d + b * c) * uw + b * d * ww;
         self.ww = c * c * uu + 2.0 * c * d * uw + d * d * ww;
-        let times = |v: [f64; 2]| [a * v[0] + b * v[1], c * v[0] + d * v[1]];
-        self.eta = times(self.eta);
-        self.initial = self.initial.map(times);
+        let times = |[u, w]: [f64; 2]| [a * u + b * w, c * u + d * w];
+        let [first, second] = self.initial;
+        [self.eta, self.initial[0], self.initial[1]] =
+            [self.eta, first, second].map(times);
     }
 
     /// A step of length `tau` with curvature `j` = d u''/d u, adding the

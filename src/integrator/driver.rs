@@ -19,8 +19,8 @@ use crate::number::Real;
 const TAIL_SPEED: f64 = 1e-10;
 
 /// Truncation allowed per unit of time, in roundoffs of the slenderness
-/// angle: well below what rounding does anyway.
-const TRUNCATION_SHARE: f64 = 0.03;
+/// angle: what rounding does anyway.
+const TRUNCATION_SHARE: f64 = 0.5;
 
 /// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
 /// error estimate says what it leaves.
@@ -874,7 +874,7 @@ fn last_term<N: Real, const LEN: usize>(c: &[N; LEN], tau: N) -> N {
         left /= 2;
     }
     power = power * even;
-    if LEN % 2 == 0 {
+    if LEN.is_multiple_of(2) {
         power = power * tau;
     }
     N::ratio(1, 4) * c[LEN - 1].abs() * power

@@ -105,8 +105,8 @@ fn search(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
     let mut left = [0.0; MOST];
     let mut right = [0.0; MOST];
     right[..=n].copy_from_slice(b);
-    for k in 0..=n {
-        left[k] = right[0];
+    for (k, first) in left.iter_mut().enumerate().take(n + 1) {
+        *first = right[0];
         for j in 0..n - k {
             right[j] = 0.5 * (right[j] + right[j + 1]);
         }

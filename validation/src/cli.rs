@@ -10,12 +10,17 @@ use clap::{Parser, Subcommand};
 pub mod boxplot;
 pub mod capacities;
 pub mod compare;
+pub mod excitation;
 pub mod fragility;
+pub mod ida;
 pub mod lilliefors;
 pub mod quantile;
 pub mod records;
 pub mod samples;
 pub mod study;
+pub mod respond;
+pub mod samples;
+pub mod scene;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
@@ -27,6 +32,8 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Respond(Box<respond::Args>),
+    Ida(Box<ida::Args>),
     Records(records::Args),
     Boxplot(boxplot::Args),
     Capacities(capacities::Args),
@@ -94,11 +101,41 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// Runs `work` on `threads` threads, or on as many as the machine has.
+///
+/// # Errors
+/// [`Failure`] for zero threads, or threads that cannot be started.
+pub fn with_threads<T: Send>(
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Failure> {
+    if threads == Some(0) {
+        return Err(Failure::input("--threads 0: expected at least 1"));
+    }
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .build()?;
+    Ok(pool.install(work))
+}
+
+/// A progress bar of `length` steps, shown on a terminal only.
+#[must_use]
+pub fn progress(length: u64) -> indicatif::ProgressBar {
+    use std::io::IsTerminal as _;
+    if io::stderr().is_terminal() {
+        indicatif::ProgressBar::new(length)
+    } else {
+        indicatif::ProgressBar::hidden()
+    }
+}
+
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
+        Command::Respond(args) => respond::run(&args),
+        Command::Ida(args) => ida::run(&args),
         Command::Records(args) => records::run(&args),
         Command::Boxplot(args) => boxplot::run(&args),
         Command::Capacities(args) => capacities::run(&args),

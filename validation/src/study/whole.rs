@@ -188,6 +188,8 @@ fn suite(suite: &SuiteResults) -> Value {
         "component_rule": suite.component_rule,
         "records": suite.records.len(),
         "sha256": suite.sha256,
+        "analyses": suite.work.analyses,
+        "unresolved": suite.work.unresolved,
         "shown_alone": chosen,
     })
 }

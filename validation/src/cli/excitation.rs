@@ -1,0 +1,328 @@
+//! Flags that say what moves the ground.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use rocking::excitation::{NormalisedRecord, Pulse, PulseKind};
+use rocking::record::{Accelerogram, ReadOptions, read_file};
+use rocking::units::AccelerationUnit;
+
+use super::Failure;
+
+/// The excitation: a record, a pulse, or none.
+#[derive(clap::Args, Clone, Debug)]
+pub struct ExcitationArgs {
+    /// A record file.
+    #[arg(
+        long,
+        value_name = "FILE",
+        required_unless_present_any = ["pulse", "free"],
+        conflicts_with_all = ["pulse", "free"]
+    )]
+    record: Option<PathBuf>,
+    /// Sampling interval in s, for a record file that states none.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "record",
+        allow_negative_numbers = true
+    )]
+    dt: Option<f64>,
+    /// Unit of a record file that states none: g, m/s2 or cm/s2.
+    #[arg(long, value_name = "UNIT", value_parser = unit, requires = "record")]
+    units: Option<AccelerationUnit>,
+    /// An analytic pulse from t = 0.
+    #[arg(long, value_enum, value_name = "KIND", conflicts_with = "free")]
+    pulse: Option<PulseName>,
+    /// Peak acceleration in m/s2 (all pulses but mavroeidis-papageorgiou).
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    amplitude_m_s2: Option<f64>,
+    /// Circular frequency in rad/s (one-sine, half-sine, one-cosine).
+    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    omega_rad_s: Option<f64>,
+    /// Duration in s (rectangle, triangle).
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    duration_s: Option<f64>,
+    /// Period in s (Ricker pulses).
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    period_s: Option<f64>,
+    /// Length in periods (Ricker pulses) [default: 4].
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    cycles: Option<f64>,
+    /// Velocity amplitude in m/s (mavroeidis-papageorgiou).
+    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    velocity_m_s: Option<f64>,
+    /// Prevailing frequency in Hz (mavroeidis-papageorgiou).
+    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    frequency_hz: Option<f64>,
+    /// Oscillatory character gamma (mavroeidis-papageorgiou).
+    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    gamma: Option<f64>,
+    /// Phase in rad (mavroeidis-papageorgiou).
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    phase_rad: Option<f64>,
+    /// No ground motion: released at rest from an initial rotation.
+    #[arg(long, requires = "initial_ratio")]
+    free: bool,
+    /// Initial rotation over alpha, in (0, 1).
+    #[arg(
+        long,
+        value_name = "X",
+        requires = "free",
+        allow_negative_numbers = true
+    )]
+    initial_ratio: Option<f64>,
+    /// Factor on every acceleration.
+    #[arg(
+        long,
+        value_name = "F",
+        conflicts_with_all = ["pga", "im", "free"],
+        allow_negative_numbers = true
+    )]
+    scale: Option<f64>,
+    /// Scale to this peak ground acceleration in g.
+    #[arg(
+        long,
+        value_name = "G",
+        conflicts_with_all = ["im", "free"],
+        allow_negative_numbers = true
+    )]
+    pga: Option<f64>,
+    /// Scale to this dimensionless intensity.
+    #[arg(
+        long,
+        value_name = "X",
+        conflicts_with = "free",
+        allow_negative_numbers = true
+    )]
+    im: Option<f64>,
+    /// Which intensity: PGA/(g tan alpha) or p PGV/(g tan alpha); g alpha
+    /// for Eq. 2 [default: pga].
+    #[arg(long, value_enum, requires = "im")]
+    im_kind: Option<ImKind>,
+}
+
+fn unit(text: &str) -> Result<AccelerationUnit, String> {
+    AccelerationUnit::parse(text)
+        .ok_or_else(|| "expected g, m/s2 or cm/s2".to_owned())
+}
+
+/// Which intensity measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ImKind {
+    /// PGA/(g tan alpha).
+    Pga,
+    /// p PGV/(g tan alpha).
+    Pgv,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PulseName {
+    OneSine,
+    HalfSine,
+    OneCosine,
+    Rectangle,
+    Triangle,
+    RickerSymmetric,
+    RickerAntisymmetric,
+    MavroeidisPapageorgiou,
+}
+
+/// The excitation, owned.
+#[derive(Clone, Debug)]
+pub enum Ground {
+    /// A record as given, and a factor on it.
+    Factor(Accelerogram, f64),
+    /// A record scaled to a peak (g).
+    Peak(NormalisedRecord, f64),
+    /// A pulse.
+    Pulse(Pulse),
+    /// Free motion from an initial ratio.
+    Free(f64),
+}
+
+impl ExcitationArgs {
+    /// Reads and scales the excitation for a block of uplift threshold
+    /// `threshold` (over g) and frequency parameter `p`.
+    ///
+    /// # Errors
+    /// [`Failure`] for a file that is refused, a flag that the chosen
+    /// excitation does not use, or a parameter out of range.
+    pub fn ground(
+        &self,
+        gravity_m_s2: f64,
+        threshold: f64,
+        p: f64,
+    ) -> Result<Ground, Failure> {
+        self.refuse_unused()?;
+        for (flag, value) in [("--pga", self.pga), ("--im", self.im)] {
+            if let Some(value) = value
+                && !(value > 0.0 && value.is_finite())
+            {
+                return Err(Failure::input(format!(
+                    "{flag} {value}: expected a positive number"
+                )));
+            }
+        }
+        if let Some(scale) = self.scale
+            && !scale.is_finite()
+        {
+            return Err(Failure::input(format!(
+                "--scale {scale}: expected a finite number"
+            )));
+        }
+        if self.free {
+            let ratio = self.initial_ratio.unwrap_or(0.0);
+            if !(ratio > 0.0 && ratio < 1.0) {
+                return Err(Failure::input(format!(
+                    "--initial-ratio {ratio}: expected a number in (0, 1)"
+                )));
+            }
+            return Ok(Ground::Free(ratio));
+        }
+        if let Some(path) = &self.record {
+            let options =
+                ReadOptions { dt_s: self.dt, unit: self.units, gravity_m_s2 };
+            let record = read_file(path, &options)?.accelerogram;
+            let unit = NormalisedRecord::new(&record);
+            let target =
+                self.target_pga_g(threshold, p, unit.velocity_ratio_s());
+            return match target {
+                None => Ok(Ground::Factor(record, self.scale.unwrap_or(1.0))),
+                Some(_) if !(unit.pga_g() > 0.0) => {
+                    Err(Failure::input(format!(
+                        "{}: all samples are zero and cannot be scaled",
+                        path.display()
+                    )))
+                }
+                Some(pga_g) => Ok(Ground::Peak(unit, pga_g)),
+            };
+        }
+        let pulse = Pulse::try_new(self.pulse_kind(gravity_m_s2)?)?;
+        let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
+        let pulse = match self.target_pga_g(threshold, p, ratio_s) {
+            None => pulse.scaled(self.scale.unwrap_or(1.0))?,
+            Some(pga_g) => pulse.with_pga(pga_g)?,
+        };
+        Ok(Ground::Pulse(pulse))
+    }
+
+    /// Peak ground acceleration asked for, g.
+    fn target_pga_g(
+        &self,
+        threshold: f64,
+        p: f64,
+        velocity_ratio_s: f64,
+    ) -> Option<f64> {
+        let by_im = self.im.map(|im| match self.im_kind {
+            Some(ImKind::Pgv) => im * threshold / (p * velocity_ratio_s),
+            Some(ImKind::Pga) | None => im * threshold,
+        });
+        self.pga.or(by_im)
+    }
+
+    /// Refuses a pulse's flag that the chosen pulse, or a record, has no use
+    /// for.
+    fn refuse_unused(&self) -> Result<(), Failure> {
+        use PulseName as P;
+        let sines = [P::OneSine, P::HalfSine, P::OneCosine];
+        let shapes = [P::Rectangle, P::Triangle];
+        let rickers = [P::RickerSymmetric, P::RickerAntisymmetric];
+        let mavroeidis = [P::MavroeidisPapageorgiou];
+        let amplitudes = [&sines[..], &shapes[..], &rickers[..]].concat();
+        let used: [(&str, bool, &[P]); 9] = [
+            ("--amplitude-m-s2", self.amplitude_m_s2.is_some(), &amplitudes),
+            ("--omega-rad-s", self.omega_rad_s.is_some(), &sines),
+            ("--duration-s", self.duration_s.is_some(), &shapes),
+            ("--period-s", self.period_s.is_some(), &rickers),
+            ("--cycles", self.cycles.is_some(), &rickers),
+            ("--velocity-m-s", self.velocity_m_s.is_some(), &mavroeidis),
+            ("--frequency-hz", self.frequency_hz.is_some(), &mavroeidis),
+            ("--gamma", self.gamma.is_some(), &mavroeidis),
+            ("--phase-rad", self.phase_rad.is_some(), &mavroeidis),
+        ];
+        for (flag, given, pulses) in used {
+            let fits = self.pulse.is_some_and(|kind| pulses.contains(&kind));
+            if given && !fits {
+                let chosen = match self.pulse {
+                    Some(kind) => format!("--pulse {}", kind.name()),
+                    None if self.free => "--free".to_owned(),
+                    None => "--record".to_owned(),
+                };
+                return Err(Failure::input(format!(
+                    "{flag} is not used with {chosen}"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    fn pulse_kind(&self, gravity_m_s2: f64) -> Result<PulseKind, Failure> {
+        let Some(name) = self.pulse else {
+            return Err(Failure::input(
+                "expected --record, --pulse or --free",
+            ));
+        };
+        let need = |flag: &str, value: Option<f64>| {
+            value.ok_or_else(|| {
+                Failure::input(format!("--pulse {} needs {flag}", name.name()))
+            })
+        };
+        let amplitude_g = || {
+            need("--amplitude-m-s2", self.amplitude_m_s2)
+                .map(|a| a / gravity_m_s2)
+        };
+        let omega_rad_s = || need("--omega-rad-s", self.omega_rad_s);
+        let duration_s = || need("--duration-s", self.duration_s);
+        let period_s = || need("--period-s", self.period_s);
+        let cycles = self.cycles.unwrap_or(4.0);
+        Ok(match name {
+            PulseName::OneSine => PulseKind::OneSine {
+                amplitude_g: amplitude_g()?,
+                omega_rad_s: omega_rad_s()?,
+            },
+            PulseName::HalfSine => PulseKind::HalfSine {
+                amplitude_g: amplitude_g()?,
+                omega_rad_s: omega_rad_s()?,
+            },
+            PulseName::OneCosine => PulseKind::OneCosine {
+                amplitude_g: amplitude_g()?,
+                omega_rad_s: omega_rad_s()?,
+            },
+            PulseName::Rectangle => PulseKind::Rectangle {
+                amplitude_g: amplitude_g()?,
+                duration_s: duration_s()?,
+            },
+            PulseName::Triangle => PulseKind::Triangle {
+                amplitude_g: amplitude_g()?,
+                duration_s: duration_s()?,
+            },
+            PulseName::RickerSymmetric => PulseKind::RickerSymmetric {
+                amplitude_g: amplitude_g()?,
+                period_s: period_s()?,
+                cycles,
+            },
+            PulseName::RickerAntisymmetric => PulseKind::RickerAntisymmetric {
+                amplitude_g: amplitude_g()?,
+                period_s: period_s()?,
+                cycles,
+            },
+            PulseName::MavroeidisPapageorgiou => {
+                PulseKind::MavroeidisPapageorgiou {
+                    velocity_g_s: need("--velocity-m-s", self.velocity_m_s)?
+                        / gravity_m_s2,
+                    frequency_hz: need("--frequency-hz", self.frequency_hz)?,
+                    gamma: need("--gamma", self.gamma)?,
+                    phase_rad: need("--phase-rad", self.phase_rad)?,
+                }
+            }
+        })
+    }
+}
+
+impl PulseName {
+    fn name(self) -> String {
+        self.to_possible_value()
+            .map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+}

@@ -1,0 +1,304 @@
+//! `rocking respond`: one block, one excitation.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use rocking::excitation::{Excitation, ScaledRecord};
+use rocking::integrator::{
+    Observe, Outcome, Response, Scene, Side, respond, uplift_threshold,
+};
+use serde_json::{Map, Value, json};
+
+use super::excitation::{ExcitationArgs, Ground};
+use super::scene::{BlockArgs, ModelArgs};
+use super::{Failure, print};
+use crate::files::write_atomically;
+use crate::json::{number, optional};
+
+/// Integrate one block under one excitation.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(flatten)]
+    block: BlockArgs,
+    #[command(flatten)]
+    model: ModelArgs,
+    #[command(flatten)]
+    excitation: ExcitationArgs,
+    /// Stop observing at this time in s.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    until: Option<f64>,
+    /// Write the history theta(t) as CSV.
+    #[arg(long, value_name = "FILE.csv")]
+    history: Option<PathBuf>,
+    /// JSON for machines.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Interval of a history where the excitation has none of its own, s.
+const HISTORY_INTERVAL_S: f64 = 0.005;
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for bad input.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let gravity_m_s2 = args.model.gravity_m_s2()?;
+    let block = args.block.block(gravity_m_s2)?;
+    let restitution = args.model.restitution(&block)?;
+    let threshold = uplift_threshold(&block, args.model.model());
+    let p = block.frequency_rad_s();
+    let ground = args.excitation.ground(gravity_m_s2, threshold, p)?;
+    let (excitation, initial_ratio) = match &ground {
+        Ground::Factor(record, factor) => {
+            let scaled = ScaledRecord::by_factor(record, *factor);
+            (Excitation::Record(scaled), 0.0)
+        }
+        Ground::Peak(unit, pga_g) => {
+            let scaled = ScaledRecord::to_pga(unit, *pga_g);
+            (Excitation::Record(scaled), 0.0)
+        }
+        Ground::Pulse(pulse) => (Excitation::Pulse(pulse), 0.0),
+        Ground::Free(ratio) => (Excitation::Free, *ratio),
+    };
+    let scene = Scene {
+        block,
+        restitution,
+        model: args.model.model(),
+        overturning: args.model.overturning(),
+        excitation,
+        initial_ratio,
+    };
+    let interval_s = match &ground {
+        Ground::Factor(record, _) => record.dt_s(),
+        Ground::Peak(unit, _) => unit.dt_s(),
+        Ground::Pulse(_) | Ground::Free(_) => HISTORY_INTERVAL_S,
+    };
+    let observe = Observe {
+        events: true,
+        accuracy: true,
+        history_interval_s: args.history.is_some().then_some(interval_s),
+        until_s: args.until,
+    };
+    let response = respond(&scene, &observe)?;
+    if let Some(path) = &args.history {
+        write_atomically(path, history_csv(&scene, &response))?;
+    }
+    let pga_g = match &ground {
+        Ground::Factor(record, factor) => record.pga_g() * factor.abs(),
+        Ground::Peak(_, pga_g) => *pga_g,
+        Ground::Pulse(pulse) => pulse.pga_g(),
+        Ground::Free(_) => 0.0,
+    };
+    let setting = Setting { args, scene: &scene, gravity_m_s2, pga_g };
+    if args.json {
+        let text = serde_json::to_string_pretty(&setting.json(&response))?;
+        print(&format!("{text}\n"))
+    } else {
+        print(&setting.table(&response))
+    }
+}
+
+fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
+    let alpha = scene.block.slenderness_rad();
+    let mut text =
+        String::from("time_s,rotation_rad,velocity_rad_s,rotation_ratio\n");
+    for point in &response.history {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{},{},{},{}",
+            point.time_s,
+            point.rotation_rad,
+            point.velocity_rad_s,
+            point.rotation_rad / alpha
+        );
+    }
+    text
+}
+
+/// Name of an outcome, `unresolved` where double precision cannot tell.
+#[must_use]
+pub fn outcome_name(outcome: &Outcome, resolved: bool) -> &'static str {
+    match outcome {
+        _ if !resolved => "unresolved",
+        Outcome::NoUplift => "no-uplift",
+        Outcome::Rocked { .. } => "rocked",
+        Outcome::Overturned { .. } => "overturned",
+    }
+}
+
+fn side_name(side: Side) -> &'static str {
+    match side {
+        Side::Positive => "positive",
+        Side::Negative => "negative",
+    }
+}
+
+/// What the answer is printed with.
+struct Setting<'a> {
+    args: &'a Args,
+    scene: &'a Scene<'a>,
+    gravity_m_s2: f64,
+    pga_g: f64,
+}
+
+impl Setting<'_> {
+    fn json(&self, response: &Response) -> Value {
+        let overturning = match response.outcome {
+            Outcome::Overturned { time_s, side } => Some((time_s, side)),
+            Outcome::NoUplift | Outcome::Rocked { .. } => None,
+        };
+        let impacts: Vec<Value> = response
+            .impacts
+            .iter()
+            .map(|impact| {
+                json!({
+                    "time_s": number(impact.time_s),
+                    "speed_before_rad_s": number(impact.speed_before_rad_s),
+                })
+            })
+            .collect();
+        let work = response.work;
+        let block = self.scene.block;
+        json!({
+            "outcome":
+                outcome_name(&response.outcome, response.is_resolved()),
+            "counts_as": outcome_name(&response.outcome, true),
+            "peak_ratio": number(response.outcome.edp()),
+            "peak_time_s": optional(match overturning {
+                Some(_) => None,
+                None => response.peak_time_s,
+            }),
+            "uplift_time_s": optional(response.uplift_time_s),
+            "overturning_time_s": optional(overturning.map(|o| o.0)),
+            "overturning_side": overturning.map(|o| side_name(o.1)),
+            "rest_time_s": optional(response.rest_time_s),
+            "impacts": impacts,
+            "fate_margin": number(response.fate_margin),
+            "fate_error": optional(response.fate_error),
+            "error_estimate": optional(response.error_estimate),
+            "condition_number": optional(response.condition_number),
+            "reasons": self.reasons(response),
+            "work": {
+                "steps": work.steps,
+                "impacts": work.impacts,
+                "turning_points": work.turning_points,
+                "uplifts": work.uplifts,
+                "rest_scans": work.rest_scans,
+            },
+            "scene": {
+                "alpha_rad": number(block.slenderness_rad()),
+                "p_rad_s": number(block.frequency_rad_s()),
+                "eta": number(self.scene.restitution.velocity_ratio()),
+                "model": self.args.model.model_name(),
+                "overturn": self.args.model.overturning_name(),
+                "gravity_m_s2": number(self.gravity_m_s2),
+                "pga_g": number(self.pga_g),
+                "im_pga": number(self.im_pga()),
+            },
+        })
+    }
+
+    fn im_pga(&self) -> f64 {
+        self.pga_g / uplift_threshold(&self.scene.block, self.scene.model)
+    }
+
+    /// Why a value is missing.
+    fn reasons(&self, response: &Response) -> Map<String, Value> {
+        let mut reasons = Map::new();
+        let mut because = |key: &str, text: &str| {
+            reasons.insert(key.to_owned(), Value::from(text));
+        };
+        let overturned = response.outcome.is_overturned();
+        if response.outcome == Outcome::NoUplift {
+            for key in ["peak_time_s", "uplift_time_s", "rest_time_s"] {
+                because(key, "the block did not move");
+            }
+        } else if response.uplift_time_s.is_none() {
+            because("uplift_time_s", "the block was released, not lifted");
+        }
+        if overturned {
+            because("peak_time_s", "the block overturned");
+            because("rest_time_s", "the block overturned");
+        } else {
+            because("overturning_time_s", "the block stands");
+            because("overturning_side", "the block stands");
+            if response.rest_time_s.is_none()
+                && response.outcome != Outcome::NoUplift
+            {
+                let never = self.scene.restitution.velocity_ratio() >= 1.0;
+                because(
+                    "rest_time_s",
+                    if never {
+                        "without loss at impact the block never comes to rest"
+                    } else {
+                        "observation ended before rest"
+                    },
+                );
+            }
+        }
+        reasons
+    }
+
+    fn table(&self, response: &Response) -> String {
+        let mut text = String::new();
+        let mut row = |name: &str, value: String| {
+            let _ = writeln!(text, "{name:<24}{value}");
+        };
+        let time = |t: Option<f64>| {
+            t.map_or_else(|| "-".to_owned(), |t| format!("{t:.6} s"))
+        };
+        let block = self.scene.block;
+        row(
+            "block",
+            format!(
+                "alpha = {} rad, p = {} rad/s, eta = {}",
+                block.slenderness_rad(),
+                block.frequency_rad_s(),
+                self.scene.restitution.velocity_ratio()
+            ),
+        );
+        row(
+            "model",
+            format!(
+                "{}, overturned at {}, g = {} m/s2",
+                self.args.model.model_name(),
+                self.args.model.overturning_name(),
+                self.gravity_m_s2
+            ),
+        );
+        row(
+            "PGA",
+            format!("{:.6} g, intensity {:.6}", self.pga_g, self.im_pga()),
+        );
+        let resolved = response.is_resolved();
+        row("outcome", outcome_name(&response.outcome, resolved).to_owned());
+        if !resolved {
+            row("counts as", outcome_name(&response.outcome, true).to_owned());
+        }
+        match response.outcome {
+            Outcome::Overturned { time_s, side } => row(
+                "overturning",
+                format!("{time_s:.6} s, {} side", side_name(side)),
+            ),
+            Outcome::Rocked { peak_ratio } => row(
+                "peak |theta|/alpha",
+                format!("{peak_ratio:.9} at {}", time(response.peak_time_s)),
+            ),
+            Outcome::NoUplift => {}
+        }
+        row("uplift", time(response.uplift_time_s));
+        row("rest", time(response.rest_time_s));
+        row("impacts", response.work.impacts.to_string());
+        row("fate margin", format!("{:.3e}", response.fate_margin));
+        if let Some(error) = response.error_estimate {
+            row("error estimate", format!("{error:.1e}"));
+        }
+        if let Some(condition) = response.condition_number {
+            row("condition number", format!("{condition:.1e}"));
+        }
+        row("steps", response.work.steps.to_string());
+        text
+    }
+}

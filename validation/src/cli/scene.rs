@@ -1,0 +1,209 @@
+//! Flags that say what block, what restitution, what model: shared by the
+//! commands that integrate.
+
+use clap::ValueEnum;
+use rocking::block::{Block, Restitution};
+use rocking::integrator::{Model, Overturning};
+use rocking::units::STANDARD_GRAVITY_M_S2;
+
+use super::Failure;
+
+/// The block, by its parameters or by its size.
+#[derive(clap::Args, Clone, Debug)]
+pub struct BlockArgs {
+    /// Slenderness angle alpha in rad.
+    #[arg(
+        long,
+        value_name = "A",
+        requires = "p",
+        required_unless_present = "width_m",
+        conflicts_with_all = ["width_m", "height_m"],
+        allow_negative_numbers = true
+    )]
+    alpha: Option<f64>,
+    /// Frequency parameter p in rad/s.
+    #[arg(
+        long,
+        value_name = "P",
+        requires = "alpha",
+        conflicts_with_all = ["width_m", "height_m"],
+        allow_negative_numbers = true
+    )]
+    p: Option<f64>,
+    /// Base width 2b in m.
+    #[arg(
+        long,
+        value_name = "2B",
+        requires = "height_m",
+        allow_negative_numbers = true
+    )]
+    width_m: Option<f64>,
+    /// Height 2h in m.
+    #[arg(
+        long,
+        value_name = "2H",
+        requires = "width_m",
+        allow_negative_numbers = true
+    )]
+    height_m: Option<f64>,
+}
+
+impl BlockArgs {
+    /// The block under gravity g (m/s2).
+    ///
+    /// # Errors
+    /// [`Failure`] for parameters that are no block's.
+    pub fn block(&self, gravity_m_s2: f64) -> Result<Block, Failure> {
+        match (self.alpha, self.p, self.width_m, self.height_m) {
+            (Some(alpha), Some(p), None, None) => {
+                Ok(Block::try_new(alpha, p)?)
+            }
+            (None, None, Some(width_m), Some(height_m)) => {
+                Ok(Block::from_dimensions(width_m, height_m, gravity_m_s2)?)
+            }
+            _ => Err(Failure::input(
+                "expected --alpha and --p, or --width-m and --height-m",
+            )),
+        }
+    }
+}
+
+/// The model, shared by all commands that integrate.
+#[derive(clap::Args, Clone, Debug)]
+pub struct ModelArgs {
+    /// Coefficient of restitution (ratio of angular velocities), or
+    /// `housner` for 1 - 1.5 sin^2(alpha).
+    #[arg(
+        long,
+        value_name = "E|housner",
+        default_value = "0.92",
+        allow_negative_numbers = true
+    )]
+    eta: Eta,
+    /// Equation of motion: Eq. 1 or Eq. 2.
+    #[arg(long, value_enum, default_value_t = ModelName::Nonlinear)]
+    model: ModelName,
+    /// When the block counts as overturned.
+    #[arg(long, value_enum, default_value_t = Criterion::Alpha)]
+    overturn: Criterion,
+    /// Gravity in m/s2, where sizes or SI records meet it.
+    #[arg(
+        long,
+        value_name = "G",
+        default_value_t = STANDARD_GRAVITY_M_S2,
+        allow_negative_numbers = true
+    )]
+    gravity: f64,
+}
+
+/// Restitution as it is written on the command line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Eta {
+    /// A constant.
+    Constant(f64),
+    /// Housner's, from the slenderness.
+    Housner,
+}
+
+impl std::str::FromStr for Eta {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "housner" {
+            return Ok(Self::Housner);
+        }
+        text.parse()
+            .map(Self::Constant)
+            .map_err(|_| "expected a number in (0, 1], or housner".to_owned())
+    }
+}
+
+impl Eta {
+    /// The coefficient of a block.
+    ///
+    /// # Errors
+    /// [`Failure`] for a coefficient outside (0, 1].
+    pub fn restitution(self, block: &Block) -> Result<Restitution, Failure> {
+        Ok(match self {
+            Self::Constant(eta) => Restitution::constant(eta)?,
+            Self::Housner => Restitution::housner(block)?,
+        })
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ModelName {
+    /// Eq. 1.
+    Nonlinear,
+    /// Eq. 2.
+    Linearized,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Criterion {
+    /// |theta| reaches alpha.
+    Alpha,
+    /// |theta| exceeds pi/2.
+    HalfPi,
+}
+
+impl ModelArgs {
+    /// Gravity in m/s2.
+    ///
+    /// # Errors
+    /// [`Failure`] unless it is positive and finite.
+    pub fn gravity_m_s2(&self) -> Result<f64, Failure> {
+        if self.gravity > 0.0 && self.gravity.is_finite() {
+            Ok(self.gravity)
+        } else {
+            Err(Failure::input(format!(
+                "--gravity {}: expected a positive number",
+                self.gravity
+            )))
+        }
+    }
+
+    /// Restitution of a block.
+    ///
+    /// # Errors
+    /// [`Failure`] for a coefficient outside (0, 1].
+    pub fn restitution(&self, block: &Block) -> Result<Restitution, Failure> {
+        self.eta.restitution(block)
+    }
+
+    /// Equation of motion.
+    #[must_use]
+    pub fn model(&self) -> Model {
+        match self.model {
+            ModelName::Nonlinear => Model::Nonlinear,
+            ModelName::Linearized => Model::Linearized,
+        }
+    }
+
+    /// Overturning criterion.
+    #[must_use]
+    pub fn overturning(&self) -> Overturning {
+        match self.overturn {
+            Criterion::Alpha => Overturning::Alpha,
+            Criterion::HalfPi => Overturning::HalfPi,
+        }
+    }
+
+    /// The criterion's name on the command line.
+    #[must_use]
+    pub fn overturning_name(&self) -> &'static str {
+        match self.overturn {
+            Criterion::Alpha => "alpha",
+            Criterion::HalfPi => "half-pi",
+        }
+    }
+
+    /// The model's name on the command line.
+    #[must_use]
+    pub fn model_name(&self) -> &'static str {
+        match self.model {
+            ModelName::Nonlinear => "nonlinear",
+            ModelName::Linearized => "linearized",
+        }
+    }
+}

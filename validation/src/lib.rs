@@ -10,6 +10,7 @@ pub mod figures;
 pub mod files;
 pub mod inputs;
 pub mod json;
+pub mod report;
 pub mod methods;
 pub mod naive;
 pub mod scene;

@@ -16,11 +16,10 @@ pub mod ida;
 pub mod lilliefors;
 pub mod quantile;
 pub mod records;
-pub mod samples;
-pub mod study;
 pub mod respond;
 pub mod samples;
 pub mod scene;
+pub mod study;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]

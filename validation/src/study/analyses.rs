@@ -242,12 +242,13 @@ impl Plan {
         let of = |i: usize| {
             chains
                 .chunks(n)
-                .map(|block| block.iter().map(|c| c.curves[i].clone()).collect())
+                .map(|block| {
+                    block.iter().map(|c| c.curves[i].clone()).collect()
+                })
                 .collect()
         };
         let arms = self.arms.iter().enumerate();
-        let arms =
-            arms.map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) });
+        let arms = arms.map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) });
         let work = Work {
             analyses: chains.iter().map(|c| c.analyses).sum(),
             unresolved: chains.iter().map(|c| c.unresolved).sum(),

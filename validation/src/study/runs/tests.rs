@@ -45,9 +45,8 @@ fn arms_differ_by_grid_and_refinement_alone() {
 fn one_arm_alone_gives_the_same_curve() {
     let (setup, lobe) = (setup(), lobe());
     let block = Block::try_new(0.1, 3.0).expect("block");
-    let all = setup
-        .chain(block, &lobe, &[Arm::A, Arm::B, Arm::C])
-        .expect("chain");
+    let all =
+        setup.chain(block, &lobe, &[Arm::A, Arm::B, Arm::C]).expect("chain");
     for (arm, curve) in [Arm::A, Arm::B, Arm::C].into_iter().zip(all.curves) {
         let alone = setup.chain(block, &lobe, &[arm]).expect("chain");
         assert_eq!(alone.curves, [curve]);

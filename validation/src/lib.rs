@@ -13,6 +13,7 @@ pub mod json;
 pub mod methods;
 pub mod naive;
 pub mod oracles;
+pub mod report;
 pub mod scene;
 pub mod study;
 pub mod synthesis;

@@ -336,7 +336,8 @@ fn run(
         }),
         Excitation::Pulse(_) | Excitation::Free => None,
     };
-    Ok(isa.scalar().run(Run { scene, observe, index, order }))
+    let isa = isa.scalar();
+    Ok(isa.run(Run { scene, observe, index, order, isa }))
 }
 
 /// One run, compiled for each instruction-set level.
@@ -345,6 +346,7 @@ struct Run<'a> {
     observe: &'a Observe,
     index: Option<&'a RestIndex>,
     order: Option<Order>,
+    isa: Isa,
 }
 
 /// Coefficients of the polynomial for Eq. 1 under a record: order 8, for
@@ -376,31 +378,43 @@ impl Dispatched for Run<'_> {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
                 if let (Some(order), Model::Nonlinear) = (self.order, model) {
-                    return self.at_order(order, dynamics, &forcing);
+                    return self.at_order(order, dynamics, forcing);
                 }
                 match model {
                     Model::Nonlinear if step <= SHORT_STEP * GUARD => {
-                        Driver::<_, _, SHORT, 2>::new(dynamics, &forcing)
-                            .run(self.scene, self.observe)
+                        Driver::<_, _, SHORT, 2>::new(
+                            dynamics, forcing, self.isa,
+                        )
+                        .run(self.scene, self.observe)
                     }
                     Model::Nonlinear if step <= LONG_STEP * GUARD => {
-                        Driver::<_, _, LONG, 2>::new(dynamics, &forcing)
-                            .run(self.scene, self.observe)
+                        Driver::<_, _, LONG, 2>::new(
+                            dynamics, forcing, self.isa,
+                        )
+                        .run(self.scene, self.observe)
                     }
                     Model::Nonlinear | Model::Linearized => {
-                        Driver::<_, _, SMOOTH, 2>::new(dynamics, &forcing)
-                            .run(self.scene, self.observe)
+                        Driver::<_, _, SMOOTH, 2>::new(
+                            dynamics, forcing, self.isa,
+                        )
+                        .run(self.scene, self.observe)
                     }
                 }
             }
             (Excitation::Pulse(pulse), _) => {
                 let forcing = PulseForcing::new(pulse, p);
-                Driver::<_, _, SMOOTH, SMOOTH>::new(dynamics, &forcing)
-                    .run(self.scene, self.observe)
+                Driver::<_, _, SMOOTH, SMOOTH>::new(
+                    dynamics, forcing, self.isa,
+                )
+                .run(self.scene, self.observe)
             }
             (Excitation::Record(_) | Excitation::Free, _) => {
-                Driver::<_, _, SMOOTH, 1>::new(dynamics, &Silence::nothing())
-                    .run(self.scene, self.observe)
+                Driver::<_, _, SMOOTH, 1>::new(
+                    dynamics,
+                    Silence::nothing(),
+                    self.isa,
+                )
+                .run(self.scene, self.observe)
             }
         }
     }
@@ -412,22 +426,30 @@ impl Run<'_> {
         &self,
         order: Order,
         dynamics: Dynamics<f64>,
-        forcing: &RecordForcing<'_, f64>,
+        forcing: RecordForcing<'_, f64>,
     ) -> Response {
         let (scene, observe) = (self.scene, self.observe);
         match order {
-            Order::Four => Driver::<_, _, 5, 2>::new(dynamics, forcing)
-                .at_fixed_order()
-                .run(scene, observe),
-            Order::Six => Driver::<_, _, 7, 2>::new(dynamics, forcing)
-                .at_fixed_order()
-                .run(scene, observe),
-            Order::Eight => Driver::<_, _, SHORT, 2>::new(dynamics, forcing)
-                .at_fixed_order()
-                .run(scene, observe),
-            Order::Ten => Driver::<_, _, LONG, 2>::new(dynamics, forcing)
-                .at_fixed_order()
-                .run(scene, observe),
+            Order::Four => {
+                Driver::<_, _, 5, 2>::new(dynamics, forcing, self.isa)
+                    .at_fixed_order()
+                    .run(scene, observe)
+            }
+            Order::Six => {
+                Driver::<_, _, 7, 2>::new(dynamics, forcing, self.isa)
+                    .at_fixed_order()
+                    .run(scene, observe)
+            }
+            Order::Eight => {
+                Driver::<_, _, SHORT, 2>::new(dynamics, forcing, self.isa)
+                    .at_fixed_order()
+                    .run(scene, observe)
+            }
+            Order::Ten => {
+                Driver::<_, _, LONG, 2>::new(dynamics, forcing, self.isa)
+                    .at_fixed_order()
+                    .run(scene, observe)
+            }
         }
     }
 }

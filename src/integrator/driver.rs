@@ -12,6 +12,7 @@ use crate::integrator::{
     Work,
 };
 use crate::number::Real;
+use crate::number::dispatch::{Isa, Work as Dispatched};
 
 /// Post-impact speed over alpha p below which an observer of events lets the
 /// geometric tail of the impacts stand for the rest of them: the tail's own
@@ -47,9 +48,10 @@ pub(crate) struct Record<N> {
     pub accuracy: Option<Accuracy>,
 }
 
-pub(crate) struct Driver<'f, N, G, const LEN: usize, const F: usize> {
+pub(crate) struct Driver<N, G, const LEN: usize, const F: usize> {
     dynamics: Dynamics<N>,
-    forcing: &'f G,
+    forcing: G,
+    isa: Isa,
     record: Record<N>,
     events: bool,
     interval_s: Option<f64>,
@@ -59,7 +61,7 @@ pub(crate) struct Driver<'f, N, G, const LEN: usize, const F: usize> {
 }
 
 /// How a flight through the excitation ended.
-enum Flight<N> {
+pub(crate) enum Flight<N> {
     /// At rest from this place on; the time (s) is when the last of the
     /// impacts has accumulated.
     Rest(Place<N>, N),
@@ -72,13 +74,22 @@ enum Flight<N> {
 }
 
 /// Motion about to enter a step.
-struct Step<N> {
-    place: Place<N>,
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step<N> {
+    pub place: Place<N>,
     /// Number of the step within its piece.
-    index: usize,
-    motion: Motion<N>,
+    pub index: usize,
+    pub motion: Motion<N>,
     /// The forcing is exactly at the uplift threshold.
-    at_threshold: bool,
+    pub at_threshold: bool,
+}
+
+/// Where a run stands between steps.
+pub(crate) enum Stage<N> {
+    /// In flight, about to enter a step.
+    Flying(Step<N>),
+    /// Nothing is left to step.
+    Landed(Flight<N>),
 }
 
 /// How a step was left.
@@ -98,13 +109,13 @@ enum Event<N> {
     Overturning(N),
 }
 
-impl<'f, N, G, const SIZE: usize, const F: usize> Driver<'f, N, G, SIZE, F>
+impl<N, G, const SIZE: usize, const F: usize> Driver<N, G, SIZE, F>
 where
     N: Real,
     G: Forcing<N, F>,
 {
     #[inline(always)]
-    pub fn new(dynamics: Dynamics<N>, forcing: &'f G) -> Self {
+    pub fn new(dynamics: Dynamics<N>, forcing: G, isa: Isa) -> Self {
         let record = Record {
             peak: N::zero(),
             peak_time_s: None,
@@ -118,6 +129,7 @@ where
         Self {
             dynamics,
             forcing,
+            isa,
             record,
             events: false,
             interval_s: None,
@@ -137,28 +149,38 @@ where
     /// Runs the scene to its end.
     #[inline(always)]
     pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response {
+        let mut stage = self.begin(scene, observe);
+        loop {
+            match stage {
+                Stage::Flying(step) => stage = self.fly(step),
+                Stage::Landed(flight) => return self.conclude(flight),
+            }
+        }
+    }
+
+    /// Goes to the first step in flight.
+    #[inline(always)]
+    pub fn begin(&mut self, scene: &Scene<'_>, observe: &Observe) -> Stage<N> {
         self.observe(observe);
         let start = Place { piece: 0, offset: N::zero() };
-        if scene.initial_ratio > 0.0 {
-            let u = self.dynamics.alpha * N::from_f64(scene.initial_ratio);
-            let motion = Motion { side: Side::Positive, u, w: N::zero() };
-            self.record.peak = u;
-            self.record.peak_time_s = Some(N::zero());
-            if let Some(accuracy) = &mut self.record.accuracy {
-                accuracy.start();
-                let alpha = self.dynamics.alpha.to_f64();
-                accuracy.peak(u.to_f64(), alpha);
-            }
-            let flight = self.fly(Step {
-                place: start,
-                index: 0,
-                motion,
-                at_threshold: false,
-            });
-            return self.conclude(flight);
+        if !(scene.initial_ratio > 0.0) {
+            return self.uplift(start, N::zero());
         }
-        let flight = self.rest(start, N::zero());
-        self.conclude(flight)
+        let u = self.dynamics.alpha * N::from_f64(scene.initial_ratio);
+        let motion = Motion { side: Side::Positive, u, w: N::zero() };
+        self.record.peak = u;
+        self.record.peak_time_s = Some(N::zero());
+        if let Some(accuracy) = &mut self.record.accuracy {
+            accuracy.start();
+            let alpha = self.dynamics.alpha.to_f64();
+            accuracy.peak(u.to_f64(), alpha);
+        }
+        Stage::Flying(Step {
+            place: start,
+            index: 0,
+            motion,
+            at_threshold: false,
+        })
     }
 
     fn observe(&mut self, observe: &Observe) {
@@ -168,87 +190,91 @@ where
         self.record.accuracy = observe.accuracy.then(Accuracy::default);
     }
 
-    /// Alternates rest and flight from a place at rest on.
+    /// From a place at rest to the next uplift, if there is one.
     #[inline(always)]
-    fn rest(&mut self, from: Place<N>, since_s: N) -> Flight<N> {
-        let (mut from, mut since_s) = (from, since_s);
+    fn uplift(&mut self, from: Place<N>, since_s: N) -> Stage<N> {
+        let (found, scans) =
+            self.forcing.exceedance(from, self.dynamics.threshold);
+        self.record.work.rest_scans += scans;
+        let Some(found) = found else {
+            return Stage::Landed(Flight::Rest(from, since_s));
+        };
+        let time_s = self.time_s(found.place);
+        if self.until_s.is_some_and(|until| !(time_s < until)) {
+            return Stage::Landed(Flight::Stopped);
+        }
+        self.sample_rest(time_s);
+        self.record.work.uplifts += 1;
+        self.record.uplift_time_s.get_or_insert(time_s);
+        if let Some(accuracy) = &mut self.record.accuracy {
+            accuracy.start();
+        }
+        let side =
+            if found.positive { Side::Negative } else { Side::Positive };
+        let motion = Motion { side, u: N::zero(), w: N::zero() };
+        Stage::Flying(Step {
+            place: found.place,
+            index: self.step_index(found.place),
+            motion,
+            at_threshold: found.crossing,
+        })
+    }
+
+    /// Flies from a step until the next uplift from rest, or the end.
+    #[inline(always)]
+    fn fly(&mut self, mut step: Step<N>) -> Stage<N> {
         loop {
-            let (found, scans) =
-                self.forcing.exceedance(from, self.dynamics.threshold);
-            self.record.work.rest_scans += scans;
-            let Some(found) = found else {
-                return Flight::Rest(from, since_s);
-            };
-            let time_s = self.time_s(found.place);
-            if self.until_s.is_some_and(|until| !(time_s < until)) {
-                return Flight::Stopped;
-            }
-            self.sample_rest(time_s);
-            self.record.work.uplifts += 1;
-            self.record.uplift_time_s.get_or_insert(time_s);
-            if let Some(accuracy) = &mut self.record.accuracy {
-                accuracy.start();
-            }
-            let side =
-                if found.positive { Side::Negative } else { Side::Positive };
-            let motion = Motion { side, u: N::zero(), w: N::zero() };
-            let flight = self.fly(Step {
-                place: found.place,
-                index: self.step_index(found.place),
-                motion,
-                at_threshold: found.crossing,
-            });
-            match flight {
-                Flight::Rest(place, time_s) => {
-                    (from, since_s) = (place, time_s)
+            match self.next(&mut step) {
+                None => {}
+                Some(Flight::Rest(place, time_s)) => {
+                    return self.uplift(place, time_s);
                 }
-                other => return other,
+                Some(flight) => return Stage::Landed(flight),
             }
         }
     }
 
-    /// Flies from a step until rest, overturning or the end.
+    /// One step, or the part of it up to an impact.
     #[inline(always)]
-    fn fly(&mut self, mut step: Step<N>) -> Flight<N> {
-        let pieces = self.forcing.pieces();
-        while step.place.piece < pieces {
-            let piece = step.place.piece;
-            let total = self.forcing.length(piece);
-            let steps = self.forcing.steps();
-            let mut boundary = if step.index + 1 >= steps {
-                total
-            } else {
-                total * N::ratio(step.index as i32 + 1, steps as i32)
-            };
-            let mut stopping = false;
-            if let Some(until) = self.until_s {
-                let left =
-                    (until - self.forcing.start_s(piece)) * self.dynamics.p;
-                if !(left > boundary) {
-                    boundary = left;
-                    stopping = true;
-                }
-            }
-            let length = boundary - step.place.offset;
-            if length > N::zero() {
-                match self.advance(&mut step, length) {
-                    Advance::Reached => {}
-                    Advance::Bounced => continue,
-                    Advance::Ended(flight) => return flight,
-                }
-            }
-            if stopping {
-                self.stop(step.motion);
-                return Flight::Stopped;
-            }
-            step.index += 1;
-            step.place.offset = boundary;
-            if step.index >= steps {
-                step.index = 0;
-                step.place = Place { piece: piece + 1, offset: N::zero() };
+    fn next(&mut self, step: &mut Step<N>) -> Option<Flight<N>> {
+        let piece = step.place.piece;
+        if piece >= self.forcing.pieces() {
+            return Some(Flight::End(step.motion));
+        }
+        let total = self.forcing.length(piece);
+        let steps = self.forcing.steps();
+        let mut boundary = if step.index + 1 >= steps {
+            total
+        } else {
+            total * N::ratio(step.index as i32 + 1, steps as i32)
+        };
+        let mut stopping = false;
+        if let Some(until) = self.until_s {
+            let left = (until - self.forcing.start_s(piece)) * self.dynamics.p;
+            if !(left > boundary) {
+                boundary = left;
+                stopping = true;
             }
         }
-        Flight::End(step.motion)
+        let length = boundary - step.place.offset;
+        if length > N::zero() {
+            match self.advance(step, length) {
+                Advance::Reached => {}
+                Advance::Bounced => return None,
+                Advance::Ended(flight) => return Some(flight),
+            }
+        }
+        if stopping {
+            self.stop(step.motion);
+            return Some(Flight::Stopped);
+        }
+        step.index += 1;
+        step.place.offset = boundary;
+        if step.index >= steps {
+            step.index = 0;
+            step.place = Place { piece: piece + 1, offset: N::zero() };
+        }
+        None
     }
 
     /// One step: to its end, or to the first event in it.
@@ -264,6 +290,11 @@ where
     /// then a shorter step.
     #[inline(never)]
     fn advance_hard(&mut self, step: &mut Step<N>, length: N) -> Advance<N> {
+        self.isa.run(Hard { driver: self, step, length })
+    }
+
+    #[inline(always)]
+    fn lengthened(&mut self, step: &mut Step<N>, length: N) -> Advance<N> {
         let mut part = length;
         for halving in 0..=HALVINGS {
             let last = halving == HALVINGS;
@@ -395,14 +426,17 @@ where
         if clear_of_base && clear_of_limit {
             return Event::None;
         }
-        let impact =
-            if clear_of_base { None } else { first_descent(c, length) };
+        let impact = if clear_of_base {
+            None
+        } else {
+            first_descent(c, length, self.isa)
+        };
         let overturning = if clear_of_limit {
             None
         } else {
             let mut gap = c.map(|x| -x);
             gap[0] = self.dynamics.limit - c[0];
-            first_descent(&gap, length)
+            first_descent(&gap, length, self.isa)
         };
         match (impact, overturning) {
             (None, None) => Event::None,
@@ -437,10 +471,22 @@ where
         if v[0].abs() > variation * tau {
             return;
         }
-        self.locate_turning_points(c, v, tau, place);
+        self.raise_by_turning(c, v, tau, place);
     }
 
     #[inline(never)]
+    fn raise_by_turning<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        v: &[N; LEN],
+        tau: N,
+        place: Place<N>,
+    ) {
+        let isa = self.isa;
+        isa.run(Turning { driver: self, c, v, tau, place });
+    }
+
+    #[inline(always)]
     fn locate_turning_points<const LEN: usize>(
         &mut self,
         c: &[N; LEN],
@@ -459,7 +505,7 @@ where
             if !rising {
                 v = v.map(|x| -x);
             }
-            let Some(turn) = first_descent(&v, left) else {
+            let Some(turn) = first_descent(&v, left, self.isa) else {
                 return;
             };
             if !(turn < left) {
@@ -605,6 +651,11 @@ where
     /// infinite if the block never turns.
     #[inline(never)]
     fn margin_beyond(&self, from: Place<N>, motion: Motion<N>) -> f64 {
+        self.isa.run(Beyond { driver: self, from, motion })
+    }
+
+    #[inline(always)]
+    fn turning_beyond(&self, from: Place<N>, motion: Motion<N>) -> f64 {
         if self.dynamics.overturning == Overturning::HalfPi {
             return f64::INFINITY;
         }
@@ -616,7 +667,7 @@ where
             let (a, b) = self.dynamics.drive(&f);
             let (c, v): ([N; SMOOTH], [N; SMOOTH]) =
                 self.expand(u, w, (&a, &b));
-            if let Some(tau) = first_descent(&v, left) {
+            if let Some(tau) = first_descent(&v, left, self.isa) {
                 return self.beyond(value(&c, tau));
             }
             (u, w) = (value(&c, left), value(&v, left));
@@ -746,7 +797,7 @@ where
     }
 
     /// From the end of a flight to the answer.
-    fn conclude(mut self, flight: Flight<N>) -> Response {
+    pub fn conclude(&mut self, flight: Flight<N>) -> Response {
         let alpha = self.dynamics.alpha;
         let mut margin = None;
         let mut overturned = None;
@@ -794,7 +845,8 @@ where
     #[inline(never)]
     fn trace(&mut self, motion: Motion<N>, end_s: N) {
         let silence = Silence::endless(end_s, self.dynamics.p);
-        let mut free = Driver::<N, _, SMOOTH, 1>::new(self.dynamics, &silence);
+        let mut free =
+            Driver::<N, _, SMOOTH, 1>::new(self.dynamics, silence, self.isa);
         free.events = true;
         free.interval_s = self.interval_s;
         free.until_s = self.until_s.or_else(|| {
@@ -809,7 +861,7 @@ where
             motion,
             at_threshold: false,
         });
-        if let Flight::Rest(_, time_s) = flight {
+        if let Stage::Landed(Flight::Rest(_, time_s)) = flight {
             let end = free.until_s.unwrap_or(time_s);
             free.sample_rest(end);
         }
@@ -817,12 +869,12 @@ where
     }
 
     fn answer(
-        self,
+        &mut self,
         overturned: Option<(N, Side)>,
         margin: Option<f64>,
     ) -> Response {
         let alpha = self.dynamics.alpha;
-        let record = self.record;
+        let record = &mut self.record;
         let moved = record.uplift_time_s.is_some()
             || record.peak > N::zero()
             || record.work.impacts > 0;
@@ -850,14 +902,74 @@ where
             peak_time_s: record.peak_time_s.map(Real::to_f64),
             uplift_time_s: record.uplift_time_s.map(Real::to_f64),
             rest_time_s: record.rest_time_s.map(Real::to_f64),
-            impacts: record.impacts,
+            impacts: std::mem::take(&mut record.impacts),
             fate_margin,
             error_estimate: accuracy.map(|a| a.peak_error()),
             fate_error: accuracy.map(|a| a.fate_error()),
             condition_number: accuracy.map(|a| a.peak_condition()),
             work: record.work,
-            history: record.history,
+            history: std::mem::take(&mut record.history),
         }
+    }
+}
+
+/// A hard step, compiled for each instruction-set level.
+struct Hard<'d, N, G, const SIZE: usize, const F: usize> {
+    driver: &'d mut Driver<N, G, SIZE, F>,
+    step: &'d mut Step<N>,
+    length: N,
+}
+
+impl<N: Real, G: Forcing<N, F>, const SIZE: usize, const F: usize> Dispatched
+    for Hard<'_, N, G, SIZE, F>
+{
+    type Output = Advance<N>;
+
+    #[inline(always)]
+    fn run(self) -> Advance<N> {
+        self.driver.lengthened(self.step, self.length)
+    }
+}
+
+/// The margin of an overturning, compiled for each instruction-set level.
+struct Beyond<'d, N, G, const SIZE: usize, const F: usize> {
+    driver: &'d Driver<N, G, SIZE, F>,
+    from: Place<N>,
+    motion: Motion<N>,
+}
+
+impl<N: Real, G: Forcing<N, F>, const SIZE: usize, const F: usize> Dispatched
+    for Beyond<'_, N, G, SIZE, F>
+{
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        self.driver.turning_beyond(self.from, self.motion)
+    }
+}
+
+/// Turning points of a step, compiled for each instruction-set level.
+struct Turning<'d, N, G, const LEN: usize, const SIZE: usize, const F: usize> {
+    driver: &'d mut Driver<N, G, SIZE, F>,
+    c: &'d [N; LEN],
+    v: &'d [N; LEN],
+    tau: N,
+    place: Place<N>,
+}
+
+impl<N, G, const LEN: usize, const SIZE: usize, const F: usize> Dispatched
+    for Turning<'_, N, G, LEN, SIZE, F>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { driver, c, v, tau, place } = self;
+        driver.locate_turning_points(c, v, tau, place);
     }
 }
 

@@ -4,6 +4,7 @@ use crate::excitation::{Pulse, RestIndex, ScaledRecord, Shape};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
+use crate::number::dispatch::Isa;
 
 /// Longest step in units of 1/p for which the Taylor orders in use leave
 /// nothing above rounding.
@@ -58,6 +59,7 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
 }
 
 /// A record: one piece an interval between samples.
+#[derive(Clone, Copy)]
 pub(crate) struct RecordForcing<'a, N> {
     record: ScaledRecord<'a>,
     index: &'a RestIndex,
@@ -278,7 +280,9 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                     *x = if positive { -*x } else { *x };
                 }
                 gap[0] = gap[0] + threshold;
-                let Some(tau) = first_descent(&gap, left) else { continue };
+                let Some(tau) = first_descent(&gap, left, Isa::best()) else {
+                    continue;
+                };
                 // A touch is no exceedance.
                 let beyond = tau + left * N::from_f64(1e-6);
                 if tau < left && !(value(&gap, beyond) < N::zero()) {

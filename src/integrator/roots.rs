@@ -7,6 +7,7 @@
 
 use crate::integrator::taylor::{slope, value};
 use crate::number::Real;
+use crate::number::dispatch::{Isa, Work};
 
 /// Depth at which a pair of roots that halving could not tell apart counts
 /// as contact without crossing.
@@ -22,7 +23,11 @@ const MOST: usize = 40;
 /// event (a simple zero after an impact, a triple one after an uplift). A
 /// polynomial that is not positive just after 0 has its root at 0.
 #[inline(always)]
-pub(crate) fn first_descent<N: Real>(c: &[N], length: N) -> Option<N> {
+pub(crate) fn first_descent<N: Real>(
+    c: &[N],
+    length: N,
+    isa: Isa,
+) -> Option<N> {
     let start = c.iter().position(|x| *x != N::zero())?;
     let c = &c[start..];
     if !(c[0] > N::zero()) {
@@ -31,7 +36,7 @@ pub(crate) fn first_descent<N: Real>(c: &[N], length: N) -> Option<N> {
     if surely_positive(c, length) {
         return None;
     }
-    isolate(c, length)
+    isolate(c, length, isa)
 }
 
 /// True where |c_1| L + |c_2| L^2 + ... cannot outweigh the terms that keep
@@ -50,8 +55,28 @@ fn surely_positive<N: Real>(c: &[N], length: N) -> bool {
     low - rest * length * length > N::zero()
 }
 
+/// Isolates the first root and refines it, with the level's instructions.
 #[inline(never)]
-fn isolate<N: Real>(c: &[N], length: N) -> Option<N> {
+fn isolate<N: Real>(c: &[N], length: N, isa: Isa) -> Option<N> {
+    isa.run(Isolation { c, length })
+}
+
+struct Isolation<'c, N> {
+    c: &'c [N],
+    length: N,
+}
+
+impl<N: Real> Work for Isolation<'_, N> {
+    type Output = Option<N>;
+
+    #[inline(always)]
+    fn run(self) -> Option<N> {
+        isolated(self.c, self.length)
+    }
+}
+
+#[inline(always)]
+fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
     let n = c.len() - 1;
     // Bernstein coefficients on [0, length]:
     // b_j = sum_{k<=j} C(j,k)/C(n,k) c_k length^k.
@@ -121,6 +146,7 @@ fn search(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
 
 /// The root in [low, high] by Newton's iteration inside a bracket whose left
 /// end is positive.
+#[inline(always)]
 fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
     let half = N::ratio(1, 2);
     if value(c, high) > N::zero() {
@@ -155,7 +181,11 @@ fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
 
 #[cfg(test)]
 mod tests {
-    use super::first_descent;
+    use crate::number::dispatch::Isa;
+
+    fn first_descent(c: &[f64], length: f64) -> Option<f64> {
+        super::first_descent(c, length, Isa::best())
+    }
 
     /// Coefficients of the product of (r - tau) for the roots given.
     fn with_roots(roots: &[f64]) -> Vec<f64> {

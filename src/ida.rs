@@ -5,15 +5,17 @@
 //! PGA/(g tan alpha) (g alpha for Eq. 2); p PGV/(g tan alpha) is that times
 //! p PGV/PGA.
 
-use rayon::prelude::*;
+mod batch;
+
 use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::{
-    Model, Observe, Outcome, Overturning, Scene, SceneError, respond,
-    uplift_threshold,
+    Model, Observe, Outcome, Overturning, Response, Scene, SceneError,
+    respond, uplift_threshold,
 };
+use crate::number::dispatch::Isa;
 
 /// Intensities at which a curve is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -244,55 +246,106 @@ pub fn curve(
     record: &NormalisedRecord,
     analysis: &Analysis,
 ) -> Result<IdaCurve, IdaError> {
-    check(record, analysis)?;
-    let mut chain = Chain { record, analysis, analyses: 0 };
-    let threshold = uplift_threshold(&analysis.block, analysis.model);
-    let mut points = Vec::new();
-    let mut overturning = None;
-    let mut standing_im = 1.0;
-    let mut level = chain.first_level(threshold);
-    loop {
-        let im = chain.level_im(level, threshold);
-        if im > analysis.highest_im {
-            break;
+    let mut climb = Climb::start(record, analysis)?;
+    while let Some(level) = climb.next_level()? {
+        let response = respond(&level.scene, &Observe::default())?;
+        climb.settle(&level, &response)?;
+    }
+    climb.finish()
+}
+
+/// An analysis about to be made.
+#[derive(Clone, Copy)]
+struct Level<'a> {
+    im: f64,
+    /// PGA applied, multiples of gravity.
+    pga_g: f64,
+    scene: Scene<'a>,
+}
+
+/// A curve in the making: rising levels up to the first overturning.
+struct Climb<'a> {
+    chain: Chain<'a>,
+    threshold: f64,
+    level: u64,
+    points: Vec<IdaPoint>,
+}
+
+impl<'a> Climb<'a> {
+    fn start(
+        record: &'a NormalisedRecord,
+        analysis: &'a Analysis,
+    ) -> Result<Self, IdaError> {
+        check(record, analysis)?;
+        let chain = Chain { record, analysis, analyses: 0 };
+        let threshold = uplift_threshold(&analysis.block, analysis.model);
+        let level = chain.first_level(threshold);
+        Ok(Self { chain, threshold, level, points: Vec::new() })
+    }
+
+    /// The next level; none above the first overturning or the highest.
+    fn next_level(&self) -> Result<Option<Level<'a>>, IdaError> {
+        let im = self.chain.level_im(self.level, self.threshold);
+        let overturned = |point: &IdaPoint| point.outcome.is_overturned();
+        if self.points.last().is_some_and(overturned)
+            || im > self.chain.analysis.highest_im
+        {
+            return Ok(None);
         }
-        let point = chain.at_level(level, threshold)?;
-        points.push(point);
-        if point.outcome.is_overturned() {
-            let refined = chain.bisect(standing_im, point)?;
+        let pga_g = self.chain.level_pga_g(self.level, self.threshold);
+        self.chain.level(im, pga_g).map(Some)
+    }
+
+    /// Takes the response of that level.
+    fn settle(
+        &mut self,
+        level: &Level<'_>,
+        response: &Response,
+    ) -> Result<(), IdaError> {
+        self.points.push(self.chain.settle(level, response)?);
+        self.level += 1;
+        Ok(())
+    }
+
+    /// Bisects the first overturning and looks above it, as asked.
+    fn finish(self) -> Result<IdaCurve, IdaError> {
+        let Self { mut chain, threshold, mut level, points } = self;
+        let (record, analysis) = (chain.record, chain.analysis);
+        let mut overturning = None;
+        if let Some((point, below)) = points.split_last()
+            && point.outcome.is_overturned()
+        {
+            let standing_im = below.last().map_or(1.0, |point| point.im);
+            let refined = chain.bisect(standing_im, *point)?;
             overturning = Some(FirstOverturning {
                 scanned_im: point.im,
                 refined: refined.map(|(_, upper)| upper),
                 standing_im: refined.map_or(standing_im, |(low, _)| low),
             });
-            break;
         }
-        standing_im = point.im;
-        level += 1;
-    }
-    let mut above = Vec::new();
-    if let (Some(first), Some(reach)) = (overturning, analysis.resurrections) {
-        let end = match reach {
-            Resurrections::Multiple(times) => times * first.scanned_im,
-            Resurrections::To(im) => im,
-        };
-        loop {
-            level += 1;
-            if chain.level_im(level, threshold) > end {
-                break;
+        let mut above = Vec::new();
+        if let (Some(first), Some(reach)) =
+            (overturning, analysis.resurrections)
+        {
+            let end = match reach {
+                Resurrections::Multiple(times) => times * first.scanned_im,
+                Resurrections::To(im) => im,
+            };
+            while chain.level_im(level, threshold) <= end {
+                above.push(chain.at_level(level, threshold)?);
+                level += 1;
             }
-            above.push(chain.at_level(level, threshold)?);
         }
+        Ok(IdaCurve {
+            record: record.name().to_owned(),
+            record_pga_g: record.pga_g(),
+            velocity_ratio_s: record.velocity_ratio_s(),
+            points,
+            overturning,
+            above,
+            analyses: chain.analyses,
+        })
     }
-    Ok(IdaCurve {
-        record: record.name().to_owned(),
-        record_pga_g: record.pga_g(),
-        velocity_ratio_s: record.velocity_ratio_s(),
-        points,
-        overturning,
-        above,
-        analyses: chain.analyses,
-    })
 }
 
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
@@ -306,24 +359,21 @@ pub fn curves(
     analyses: &[Analysis],
     done: impl Fn() + Sync,
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    // Small blocks of p, alpha first would leave the long chains for the
-    // end; rayon steals single chains, so order matters little here.
-    let chains: Vec<(usize, usize)> = (0..analyses.len())
-        .flat_map(|a| (0..records.len()).map(move |r| (a, r)))
-        .collect();
-    let flat: Vec<Result<IdaCurve, IdaError>> = chains
-        .par_iter()
-        .with_max_len(1)
-        .map(|&(a, r)| {
-            let result = curve(&records[r], &analyses[a]);
-            done();
-            result
-        })
-        .collect();
-    let mut flat = flat.into_iter();
-    (0..analyses.len())
-        .map(|_| flat.by_ref().take(records.len()).collect())
-        .collect()
+    curves_with(records, analyses, Isa::best(), done)
+}
+
+/// [`curves`] at a given instruction-set level, which changes the speed
+/// alone.
+///
+/// # Errors
+/// As [`curves`].
+pub fn curves_with(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    isa: Isa,
+    done: impl Fn() + Sync,
+) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    batch::curves(records, analyses, isa, &done)
 }
 
 /// Engineering demand parameter at one intensity, whatever happens below it:
@@ -388,7 +438,7 @@ struct Chain<'a> {
 /// Margins below this are worth an error estimate.
 const NEAR: f64 = 1e-6;
 
-impl Chain<'_> {
+impl<'a> Chain<'a> {
     /// PGA of a level in multiples of gravity.
     fn level_pga_g(&self, level: u64, threshold: f64) -> f64 {
         let k = level as f64;
@@ -446,6 +496,14 @@ impl Chain<'_> {
     /// One analysis at an intensity, which is `pga_g` for the block of the
     /// grid.
     fn at_im(&mut self, im: f64, pga_g: f64) -> Result<IdaPoint, IdaError> {
+        let level = self.level(im, pga_g)?;
+        let response = respond(&level.scene, &Observe::default())?;
+        self.settle(&level, &response)
+    }
+
+    /// The analysis at an intensity, which is `pga_g` for the block of the
+    /// grid.
+    fn level(&self, im: f64, pga_g: f64) -> Result<Level<'a>, IdaError> {
         let analysis = self.analysis;
         let (block, amplitude) = match analysis.method {
             Method::RecordScaling => (analysis.block, pga_g),
@@ -476,16 +534,25 @@ impl Chain<'_> {
             excitation: Excitation::Record(record),
             initial_ratio: 0.0,
         };
+        Ok(Level { im, pga_g: amplitude, scene })
+    }
+
+    /// The point that the response of a level makes.
+    fn settle(
+        &mut self,
+        level: &Level<'_>,
+        response: &Response,
+    ) -> Result<IdaPoint, IdaError> {
+        let Level { im, pga_g, scene } = level;
         self.analyses += 1;
-        let response = respond(&scene, &Observe::default())?;
         let resolved = response.fate_margin > NEAR || {
             let careful = Observe { accuracy: true, ..Observe::default() };
-            respond(&scene, &careful)?.is_resolved()
+            respond(scene, &careful)?.is_resolved()
         };
         Ok(IdaPoint {
-            im,
-            pga_g: amplitude,
-            slenderness_rad: block.slenderness_rad(),
+            im: *im,
+            pga_g: *pga_g,
+            slenderness_rad: scene.block.slenderness_rad(),
             outcome: response.outcome,
             fate_margin: response.fate_margin,
             resolved,

@@ -12,6 +12,7 @@ mod coast;
 mod driver;
 mod dynamics;
 mod forcing;
+pub(crate) mod pool;
 mod roots;
 mod taylor;
 
@@ -269,7 +270,10 @@ pub fn respond_with(
     run(scene, observe, None, isa)
 }
 
-fn check(scene: &Scene<'_>, observe: &Observe) -> Result<(), SceneError> {
+pub(crate) fn check(
+    scene: &Scene<'_>,
+    observe: &Observe,
+) -> Result<(), SceneError> {
     if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
         return Err(SceneError::InitialRatio(scene.initial_ratio));
     }

@@ -84,6 +84,14 @@ pub(crate) struct Step<N> {
     pub at_threshold: bool,
 }
 
+impl<N: Real> Step<N> {
+    /// True at the start of a sample that is one step.
+    #[inline(always)]
+    pub fn is_whole(&self) -> bool {
+        self.index == 0 && self.place.offset == N::zero() && !self.at_threshold
+    }
+}
+
 /// Where a run stands between steps.
 pub(crate) enum Stage<N> {
     /// In flight, about to enter a step.
@@ -152,8 +160,8 @@ where
         let mut stage = self.begin(scene, observe);
         loop {
             match stage {
-                Stage::Flying(step) => stage = self.fly(step),
-                Stage::Landed(flight) => return self.conclude(flight),
+                Stage::Flying(step) => stage = self.proceed(step),
+                Stage::Landed(flight) => return self.conclude(&flight),
             }
         }
     }
@@ -181,6 +189,37 @@ where
             motion,
             at_threshold: false,
         })
+    }
+
+    #[inline(always)]
+    pub fn dynamics(&self) -> &Dynamics<N> {
+        &self.dynamics
+    }
+
+    #[inline(always)]
+    pub fn forcing(&self) -> &G {
+        &self.forcing
+    }
+
+    /// Largest rotation so far at a turning point.
+    #[inline(always)]
+    pub fn peak(&self) -> N {
+        self.record.peak
+    }
+
+    /// Last coefficient of the velocity that leaves as much as is allowed
+    /// over a step of `length`.
+    #[inline(always)]
+    pub fn last_allowed(&self, length: N) -> N {
+        let mut unit = [N::zero(); SIZE];
+        unit[SIZE - 1] = N::one();
+        self.tolerance * length / last_term(&unit, length)
+    }
+
+    /// Counts steps taken elsewhere.
+    #[inline(always)]
+    pub fn count_steps(&mut self, steps: usize) {
+        self.record.work.steps += steps as u64;
     }
 
     fn observe(&mut self, observe: &Observe) {
@@ -220,17 +259,13 @@ where
         })
     }
 
-    /// Flies from a step until the next uplift from rest, or the end.
+    /// One step, or a part of it, and the rest that may follow.
     #[inline(always)]
-    fn fly(&mut self, mut step: Step<N>) -> Stage<N> {
-        loop {
-            match self.next(&mut step) {
-                None => {}
-                Some(Flight::Rest(place, time_s)) => {
-                    return self.uplift(place, time_s);
-                }
-                Some(flight) => return Stage::Landed(flight),
-            }
+    pub fn proceed(&mut self, mut step: Step<N>) -> Stage<N> {
+        match self.next(&mut step) {
+            None => Stage::Flying(step),
+            Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
+            Some(flight) => Stage::Landed(flight),
         }
     }
 
@@ -797,11 +832,11 @@ where
     }
 
     /// From the end of a flight to the answer.
-    pub fn conclude(&mut self, flight: Flight<N>) -> Response {
+    pub fn conclude(&mut self, flight: &Flight<N>) -> Response {
         let alpha = self.dynamics.alpha;
         let mut margin = None;
         let mut overturned = None;
-        match flight {
+        match *flight {
             Flight::Rest(_, time_s) => {
                 if self.record.work.uplifts > 0 || self.record.work.impacts > 0
                 {
@@ -855,13 +890,16 @@ where
             (!(self.dynamics.eta < N::one())).then_some(end_s + horizon)
         });
         free.record.history = std::mem::take(&mut self.record.history);
-        let flight = free.fly(Step {
+        let mut stage = Stage::Flying(Step {
             place: Place { piece: 0, offset: N::zero() },
             index: 0,
             motion,
             at_threshold: false,
         });
-        if let Stage::Landed(Flight::Rest(_, time_s)) = flight {
+        while let Stage::Flying(step) = stage {
+            stage = free.proceed(step);
+        }
+        if let Stage::Landed(Flight::Rest(_, time_s)) = stage {
             let end = free.until_s.unwrap_or(time_s);
             free.sample_rest(end);
         }

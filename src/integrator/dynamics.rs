@@ -15,7 +15,7 @@
 //! precision, which the variable alpha - |theta| would lose.
 
 use crate::block::{Block, Restitution};
-use crate::number::Real;
+use crate::number::{Number, Real};
 
 /// Equation of motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +63,32 @@ pub fn uplift_threshold(block: &Block, model: Model) -> f64 {
     }
 }
 
+/// Series of A and B from the series of f, with the uplift threshold and
+/// sine and cosine of alpha.
+#[inline(always)]
+pub(crate) fn drive<N: Number, const F: usize>(
+    model: Model,
+    (threshold, sine, cosine): (N, N, N),
+    f: &[N; F],
+) -> ([N; F], [N; F]) {
+    let (mut a, mut b) = ([N::zero(); F], *f);
+    match model {
+        Model::Nonlinear => {
+            for k in 1..F {
+                a[k] = -(f[k] * sine);
+                b[k] = f[k] * cosine;
+            }
+            a[0] = cosine - f[0] * sine;
+            b[0] = (threshold + f[0]) * cosine;
+        }
+        Model::Linearized => {
+            a[0] = N::one();
+            b[0] = threshold + f[0];
+        }
+    }
+    (a, b)
+}
+
 impl<N: Real> Dynamics<N> {
     pub fn new(
         block: &Block,
@@ -95,21 +121,21 @@ impl<N: Real> Dynamics<N> {
     /// Series of A and B from the series of f.
     #[inline(always)]
     pub fn drive<const F: usize>(&self, f: &[N; F]) -> ([N; F], [N; F]) {
+        drive(self.model, (self.threshold, self.sine, self.cosine), f)
+    }
+
+    /// Sine and cosine of alpha.
+    #[inline(always)]
+    pub fn sine_cosine(&self) -> (N, N) {
+        (self.sine, self.cosine)
+    }
+
+    /// Bound on |A| under forcings up to `f` >= 0.
+    #[inline(always)]
+    pub fn strength(&self, f: N) -> N {
         match self.model {
-            Model::Nonlinear => {
-                let mut a = f.map(|x| -(x * self.sine));
-                a[0] = self.cosine - f[0] * self.sine;
-                let mut b = f.map(|x| x * self.cosine);
-                b[0] = (self.threshold + f[0]) * self.cosine;
-                (a, b)
-            }
-            Model::Linearized => {
-                let mut a = [N::zero(); F];
-                a[0] = N::one();
-                let mut b = *f;
-                b[0] = self.threshold + f[0];
-                (a, b)
-            }
+            Model::Nonlinear => self.cosine.abs() + f * self.sine.abs(),
+            Model::Linearized => N::one(),
         }
     }
 

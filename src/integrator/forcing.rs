@@ -58,6 +58,11 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     ) -> (Option<Exceedance<N>>, u64);
 }
 
+/// Steps in which a sample of `length` (in 1/p) is integrated.
+pub(crate) fn steps_of(length: f64) -> usize {
+    libm::ceil(length / LONGEST_STEP).max(1.0) as usize
+}
+
 /// A record: one piece an interval between samples.
 #[derive(Clone, Copy)]
 pub(crate) struct RecordForcing<'a, N> {
@@ -75,19 +80,36 @@ impl<'a, N: Real> RecordForcing<'a, N> {
         frequency_rad_s: f64,
     ) -> Self {
         let length = N::from_f64(record.dt_s()) * N::from_f64(frequency_rad_s);
-        let steps = libm::ceil(length.to_f64() / LONGEST_STEP).max(1.0);
         Self {
             record,
             index,
             length,
             inverse: N::one() / length,
-            steps: steps as usize,
+            steps: steps_of(length.to_f64()),
         }
     }
 
     /// Length of a step in units of 1/p.
     pub fn step(&self) -> f64 {
         self.length.to_f64() / self.steps as f64
+    }
+
+    /// Samples before scaling.
+    #[inline(always)]
+    pub fn samples(&self) -> &'a [f64] {
+        self.record.samples()
+    }
+
+    /// Factor on every sample.
+    #[inline(always)]
+    pub fn amplitude(&self) -> f64 {
+        self.record.amplitude()
+    }
+
+    /// One over the length of a piece.
+    #[inline(always)]
+    pub fn inverse(&self) -> N {
+        self.inverse
     }
 
     #[inline(always)]

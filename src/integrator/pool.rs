@@ -1,0 +1,377 @@
+//! Chains of analyses under records, several at a time.
+//!
+//! A lane holds a chain, whose scenes follow one another, so that nothing is
+//! computed above the scene that ends it. Whole samples in free flight are
+//! stepped in all lanes at once; a lane in which something may happen within
+//! the sample takes that one step alone, by the scalar driver. Operations
+//! and their order are the same either way, and so are the bits.
+
+use crate::excitation::Excitation;
+use crate::integrator::driver::{Driver, Stage};
+use crate::integrator::dynamics::{Dynamics, Model, drive};
+use crate::integrator::forcing::{RecordForcing, steps_of};
+use crate::integrator::taylor::{expand, value};
+use crate::integrator::{
+    GUARD, LONG, LONG_STEP, Observe, Response, SHORT, SHORT_STEP, SMOOTH,
+    Scene,
+};
+use crate::number::Number;
+use crate::number::dispatch::{Isa, Work};
+use crate::number::lanes::Lanes;
+
+/// Lanes stepped at once.
+const WIDTH: usize = 8;
+
+/// Rotation to which the short sine and cosine are used.
+const SMALL: f64 = 0.785;
+
+/// Share by which the screens of the lanes are on the safe side: what they
+/// pass, the scalar screens or its root finder pass too.
+const SAFETY: f64 = 1.001;
+
+/// Analyses under a record that follow one another.
+pub(crate) trait Chain<'a> {
+    /// The next scene; none at the end of the chain.
+    fn next(&mut self) -> Option<Scene<'a>>;
+
+    /// Takes the response of the scene given last.
+    fn settle(&mut self, response: &Response);
+}
+
+/// What the scenes of a pool have in common: the length of the series.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Class {
+    /// Eq. 1, steps to [`SHORT_STEP`].
+    Short,
+    /// Eq. 1, steps to [`LONG_STEP`].
+    Long,
+    /// Eq. 1, longer steps.
+    Smooth,
+    /// Eq. 2.
+    Linearized,
+}
+
+impl Class {
+    /// The class of scenes of a model under records at a step of `length`
+    /// (in 1/p); none where a sample takes more than one step.
+    pub fn of(model: Model, length: f64) -> Option<Self> {
+        match model {
+            _ if steps_of(length) > 1 => None,
+            Model::Linearized => Some(Self::Linearized),
+            Model::Nonlinear if length <= SHORT_STEP * GUARD => {
+                Some(Self::Short)
+            }
+            Model::Nonlinear if length <= LONG_STEP * GUARD => {
+                Some(Self::Long)
+            }
+            Model::Nonlinear => Some(Self::Smooth),
+        }
+    }
+}
+
+/// Runs chains of one class to their ends: `take` gives the next one,
+/// `done` receives it when it has ended.
+pub(crate) fn run<'a, C: Chain<'a>>(
+    class: Class,
+    isa: Isa,
+    take: impl FnMut() -> Option<C>,
+    done: impl FnMut(C),
+) {
+    let model = match class {
+        Class::Linearized => Model::Linearized,
+        Class::Short | Class::Long | Class::Smooth => Model::Nonlinear,
+    };
+    match class {
+        Class::Short => {
+            isa.run(Pool::<_, _, SHORT> { model, isa, take, done });
+        }
+        Class::Long => {
+            isa.run(Pool::<_, _, LONG> { model, isa, take, done });
+        }
+        Class::Smooth | Class::Linearized => {
+            isa.run(Pool::<_, _, SMOOTH> { model, isa, take, done });
+        }
+    }
+}
+
+/// Chains and how they are run, compiled for each instruction-set level.
+struct Pool<T, D, const LEN: usize> {
+    model: Model,
+    isa: Isa,
+    take: T,
+    done: D,
+}
+
+impl<'a, C, T, D, const LEN: usize> Work for Pool<T, D, LEN>
+where
+    C: Chain<'a>,
+    T: FnMut() -> Option<C>,
+    D: FnMut(C),
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(mut self) {
+        let mut lanes = States::idle();
+        let mut slots: [Option<Slot<'a, C, LEN>>; WIDTH] =
+            std::array::from_fn(|_| None);
+        let mut clear = [false; WIDTH];
+        loop {
+            let mut busy = false;
+            for lane in 0..WIDTH {
+                if clear[lane] {
+                    busy = true;
+                    continue;
+                }
+                let slot = &mut slots[lane];
+                lanes.release(lane, slot);
+                if self.prepare(slot) {
+                    lanes.load(lane, slot);
+                    busy = true;
+                }
+            }
+            if !busy {
+                return;
+            }
+            clear = lanes.fly::<LEN>(self.model);
+        }
+    }
+}
+
+impl<'a, C, T, D, const LEN: usize> Pool<T, D, LEN>
+where
+    C: Chain<'a>,
+    T: FnMut() -> Option<C>,
+    D: FnMut(C),
+{
+    /// Takes the step that a lane could not, and what follows, up to the
+    /// next whole sample in flight; false when no chain is left.
+    #[inline(always)]
+    fn prepare(&mut self, slot: &mut Option<Slot<'a, C, LEN>>) -> bool {
+        let mut stuck = true;
+        loop {
+            let Some(Slot { chain, driver, stage }) = slot else {
+                let Some(chain) = (self.take)() else { return false };
+                *slot = self.begin(chain);
+                continue;
+            };
+            match stage {
+                Stage::Flying(step) if !stuck && step.is_whole() => {
+                    return true;
+                }
+                Stage::Flying(step) => {
+                    *stage = driver.proceed(*step);
+                    stuck = false;
+                }
+                Stage::Landed(flight) => {
+                    let response = driver.conclude(flight);
+                    chain.settle(&response);
+                    *slot =
+                        slot.take().and_then(|slot| self.begin(slot.chain));
+                }
+            }
+        }
+    }
+
+    /// Starts the next scene of a chain, or ends the chain.
+    fn begin(&mut self, mut chain: C) -> Option<Slot<'a, C, LEN>> {
+        let found = chain.next().and_then(|scene| match scene.excitation {
+            Excitation::Record(record) => {
+                record.index().map(|index| (scene, record, index))
+            }
+            Excitation::Pulse(_) | Excitation::Free => None,
+        });
+        let Some((scene, record, index)) = found else {
+            (self.done)(chain);
+            return None;
+        };
+        let Scene { block, restitution, model, overturning, .. } = scene;
+        let dynamics = Dynamics::new(&block, restitution, model, overturning);
+        let forcing =
+            RecordForcing::new(record, index, block.frequency_rad_s());
+        let mut driver = Driver::new(dynamics, forcing, self.isa);
+        let stage = driver.begin(&scene, &Observe::default());
+        Some(Slot { chain, driver, stage })
+    }
+}
+
+/// A chain in its lane.
+struct Slot<'a, C, const LEN: usize> {
+    chain: C,
+    driver: Driver<f64, RecordForcing<'a, f64>, LEN, 2>,
+    stage: Stage<f64>,
+}
+
+/// Motion and constants of the runs in the lanes; the samples of an idle
+/// lane are empty, which lets nothing pass.
+struct States<'a> {
+    u: Lanes<WIDTH>,
+    w: Lanes<WIDTH>,
+    /// Forcing at the start of the sample, on the side of the rotation.
+    here: Lanes<WIDTH>,
+    /// Amplitude with the sign of the side.
+    amplitude: Lanes<WIDTH>,
+    length: Lanes<WIDTH>,
+    inverse: Lanes<WIDTH>,
+    threshold: Lanes<WIDTH>,
+    sine: Lanes<WIDTH>,
+    cosine: Lanes<WIDTH>,
+    screens: Screens,
+    samples: [&'a [f64]; WIDTH],
+    /// Sample at the end of the step.
+    next: [usize; WIDTH],
+}
+
+/// What a step is held against.
+struct Screens {
+    /// Largest last coefficient of the velocity that leaves little enough.
+    last: Lanes<WIDTH>,
+    /// Rotation that nothing may reach.
+    ceiling: Lanes<WIDTH>,
+    /// Largest rotation at a turning point so far.
+    peak: Lanes<WIDTH>,
+    /// Bound on |A S| below the ceiling.
+    pull: Lanes<WIDTH>,
+    /// Half the square of the length.
+    half_square: Lanes<WIDTH>,
+}
+
+impl<'a> States<'a> {
+    fn idle() -> Self {
+        let zero = Lanes::splat(0.0);
+        Self {
+            u: zero,
+            w: zero,
+            here: zero,
+            amplitude: zero,
+            length: zero,
+            inverse: zero,
+            threshold: zero,
+            sine: zero,
+            cosine: zero,
+            screens: Screens {
+                last: zero,
+                ceiling: zero,
+                peak: zero,
+                pull: zero,
+                half_square: zero,
+            },
+            samples: [&[]; WIDTH],
+            next: [0; WIDTH],
+        }
+    }
+
+    /// Gives a lane's motion back to its slot and leaves the lane idle.
+    #[inline(always)]
+    fn release<C, const LEN: usize>(
+        &mut self,
+        lane: usize,
+        slot: &mut Option<Slot<'a, C, LEN>>,
+    ) {
+        self.samples[lane] = &[];
+        let Some(Slot { driver, stage: Stage::Flying(step), .. }) = slot
+        else {
+            return;
+        };
+        let piece = self.next[lane] - 1;
+        driver.count_steps(piece - step.place.piece);
+        step.place.piece = piece;
+        (step.motion.u, step.motion.w) = (self.u[lane], self.w[lane]);
+    }
+
+    /// Takes a slot in flight, at the start of a sample, into a lane.
+    #[inline(always)]
+    fn load<C, const LEN: usize>(
+        &mut self,
+        lane: usize,
+        slot: &Option<Slot<'a, C, LEN>>,
+    ) {
+        let Some(Slot { driver, stage: Stage::Flying(step), .. }) = slot
+        else {
+            return;
+        };
+        let dynamics = driver.dynamics();
+        let forcing = driver.forcing();
+        let h = forcing.step();
+        let amplitude = forcing.amplitude() * step.motion.side.sign();
+        let samples = forcing.samples();
+        let piece = step.place.piece;
+        (self.u[lane], self.w[lane]) = (step.motion.u, step.motion.w);
+        self.here[lane] = samples[piece] * amplitude;
+        self.amplitude[lane] = amplitude;
+        self.length[lane] = h;
+        self.inverse[lane] = forcing.inverse();
+        self.threshold[lane] = dynamics.threshold;
+        (self.sine[lane], self.cosine[lane]) = dynamics.sine_cosine();
+        self.samples[lane] = samples;
+        self.next[lane] = piece + 1;
+        let ceiling = dynamics.limit.min(SMALL);
+        let strength = dynamics.strength(amplitude.abs());
+        let screens = &mut self.screens;
+        screens.last[lane] = driver.last_allowed(h) / SAFETY;
+        screens.ceiling[lane] = ceiling;
+        screens.peak[lane] = driver.peak();
+        screens.pull[lane] = strength * ceiling;
+        screens.half_square[lane] = 0.5 * SAFETY * h * h;
+    }
+
+    /// Steps all lanes, sample by sample, while every one is clear of
+    /// events; tells which were in the last step, which the others did not
+    /// take.
+    #[inline(always)]
+    fn fly<const LEN: usize>(&mut self, model: Model) -> [bool; WIDTH] {
+        loop {
+            let clear = self.step::<LEN>(model);
+            if clear.contains(&false) {
+                return clear;
+            }
+        }
+    }
+
+    /// One sample in every lane that is clear of events.
+    #[inline(always)]
+    fn step<const LEN: usize>(&mut self, model: Model) -> [bool; WIDTH] {
+        let mut ahead = Lanes::splat(f64::NAN);
+        for lane in 0..WIDTH {
+            if let Some(sample) = self.samples[lane].get(self.next[lane]) {
+                ahead[lane] = *sample;
+            }
+        }
+        let (here, ahead) = (self.here, ahead * self.amplitude);
+        let series = [here, (ahead - here) * self.inverse];
+        let constants = (self.threshold, self.sine, self.cosine);
+        let (a, b) = drive(model, constants, &series);
+        let small = |x: Lanes<WIDTH>| x.sin_cos_small();
+        let (c, v): ([_; LEN], [_; LEN]) =
+            expand(model, self.u, self.w, (&a, &b), small);
+        let h = self.length;
+        let (u, w) = (value(&c, h), value(&v, h));
+        // |u''| is below this as long as u is below the ceiling.
+        let bend = b[0].abs() + b[1].abs().mul_add(h, self.screens.pull);
+        let spread = bend * self.screens.half_square;
+        let linear = self.w * h;
+        let turn = bend * h;
+        let screens = &self.screens;
+        let mut clear = [false; WIDTH];
+        for lane in 0..WIDTH {
+            let (start, rise) = (self.u[lane], linear[lane]);
+            let low = if rise < 0.0 { start + rise } else { start };
+            let high = if rise < 0.0 { start } else { start + rise };
+            let high = high + spread[lane];
+            clear[lane] = (low > spread[lane])
+                & (high < screens.ceiling[lane])
+                & ((high < screens.peak[lane])
+                    | (self.w[lane].abs() > SAFETY * turn[lane]))
+                & (v[LEN - 1][lane].abs() < screens.last[lane]);
+        }
+        for lane in 0..WIDTH {
+            if clear[lane] {
+                self.u[lane] = u[lane];
+                self.w[lane] = w[lane];
+                self.here[lane] = ahead[lane];
+                self.next[lane] += 1;
+            }
+        }
+        clear
+    }
+}

@@ -415,11 +415,14 @@ where
         w: N,
         drive: (&[N; F], &[N; F]),
     ) -> ([N; LEN], [N; LEN]) {
-        // Beyond pi/4 the short polynomials lose digits.
-        let wide = u > N::ratio(785, 1000);
-        expand(self.dynamics.model, u, w, drive, |x: N| {
-            if wide { x.sin_cos() } else { x.sin_cos_small() }
-        })
+        let model = self.dynamics.model;
+        let sine_cosine = match model {
+            // Beyond pi/4 the short polynomials lose digits.
+            Model::Nonlinear if u > N::ratio(785, 1000) => u.sin_cos(),
+            Model::Nonlinear => u.sin_cos_small(),
+            Model::Linearized => (u, N::one()),
+        };
+        expand(model, u, w, drive, sine_cosine)
     }
 
     /// Series of s a/g about a place.

@@ -341,7 +341,10 @@ impl<'a> States<'a> {
         let series = [here, (ahead - here) * self.inverse];
         let constants = (self.threshold, self.sine, self.cosine);
         let (a, b) = drive(model, constants, &series);
-        let small = |x: Lanes<WIDTH>| x.sin_cos_small();
+        let small = match model {
+            Model::Nonlinear => self.u.sin_cos_small(),
+            Model::Linearized => (self.u, Number::one()),
+        };
         let (c, v): ([_; LEN], [_; LEN]) =
             expand(model, self.u, self.w, (&a, &b), small);
         let h = self.length;

@@ -97,9 +97,8 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
         }
     }
     let b = &mut b[..=n];
-    search(b, 0.0, 1.0, DEPTH).and_then(|(low, high)| {
-        refine(c, length * N::from_f64(low), length * N::from_f64(high))
-    })
+    let (low, high) = search(b, 0.0, 1.0, DEPTH)?;
+    refine(c, length * N::from_f64(low), length * N::from_f64(high))
 }
 
 /// Leftmost isolating interval in units of the whole, positive at its left

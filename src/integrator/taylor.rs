@@ -7,17 +7,17 @@ use crate::number::Number;
 /// each (order `LEN - 1` in both), for u'' = A S(u) - B C(u) with series `a`, `b` of A, B.
 ///
 /// The series of S = sin u and C = cos u follow from S' = u' C and
-/// C' = -u' S; for Eq. 2 S = u and C = 1.
+/// C' = -u' S, from `sine_cosine` of the start; for Eq. 2 S = u and C = 1.
 #[inline(always)]
 pub(crate) fn expand<N: Number, const LEN: usize, const F: usize>(
     model: Model,
     u: N,
     w: N,
     (a, b): (&[N; F], &[N; F]),
-    sin_cos: impl Fn(N) -> (N, N),
+    sine_cosine: (N, N),
 ) -> ([N; LEN], [N; LEN]) {
     match model {
-        Model::Nonlinear => nonlinear(u, w, (a, b), sin_cos),
+        Model::Nonlinear => nonlinear(u, w, (a, b), sine_cosine),
         Model::Linearized => linearized(u, w, b),
     }
 }
@@ -27,7 +27,7 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     u: N,
     w: N,
     (a, b): (&[N; F], &[N; F]),
-    sin_cos: impl Fn(N) -> (N, N),
+    sine_cosine: (N, N),
 ) -> ([N; LEN], [N; LEN]) {
     let mut c = [N::zero(); LEN];
     let mut velocity = [N::zero(); LEN];
@@ -36,7 +36,7 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     c[0] = u;
     c[1] = w;
     velocity[0] = w;
-    (sine[0], cosine[0]) = sin_cos(u);
+    (sine[0], cosine[0]) = sine_cosine;
     for k in 0..LEN - 1 {
         if k > 0 {
             let mut s = velocity[0] * cosine[k - 1];

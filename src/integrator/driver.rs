@@ -84,13 +84,8 @@ pub(crate) struct Step<N> {
     pub at_threshold: bool,
 }
 
-impl<N: Real> Step<N> {
-    /// True at the start of a sample that is one step.
-    #[inline(always)]
-    pub fn is_whole(&self) -> bool {
-        self.index == 0 && self.place.offset == N::zero() && !self.at_threshold
-    }
-}
+/// Coefficients of a step's rotation and velocity.
+type Series<'c, N, const LEN: usize> = (&'c [N; LEN], &'c [N; LEN]);
 
 /// Where a run stands between steps.
 pub(crate) enum Stage<N> {
@@ -160,7 +155,7 @@ where
         let mut stage = self.begin(scene, observe);
         loop {
             match stage {
-                Stage::Flying(step) => stage = self.proceed(step),
+                Stage::Flying(step) => stage = self.proceed(step, None),
                 Stage::Landed(flight) => return self.conclude(&flight),
             }
         }
@@ -261,8 +256,12 @@ where
 
     /// One step, or a part of it, and the rest that may follow.
     #[inline(always)]
-    pub fn proceed(&mut self, mut step: Step<N>) -> Stage<N> {
-        match self.next(&mut step) {
+    pub fn proceed(
+        &mut self,
+        mut step: Step<N>,
+        known: Option<Series<'_, N, SIZE>>,
+    ) -> Stage<N> {
+        match self.next(&mut step, known) {
             None => Stage::Flying(step),
             Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
             Some(flight) => Stage::Landed(flight),
@@ -271,7 +270,11 @@ where
 
     /// One step, or the part of it up to an impact.
     #[inline(always)]
-    fn next(&mut self, step: &mut Step<N>) -> Option<Flight<N>> {
+    fn next(
+        &mut self,
+        step: &mut Step<N>,
+        known: Option<Series<'_, N, SIZE>>,
+    ) -> Option<Flight<N>> {
         let piece = step.place.piece;
         if piece >= self.forcing.pieces() {
             return Some(Flight::End(step.motion));
@@ -293,7 +296,7 @@ where
         }
         let length = boundary - step.place.offset;
         if length > N::zero() {
-            match self.advance(step, length) {
+            match self.advance(step, length, known) {
                 Advance::Reached => {}
                 Advance::Bounced => return None,
                 Advance::Ended(flight) => return Some(flight),
@@ -314,8 +317,17 @@ where
 
     /// One step: to its end, or to the first event in it.
     #[inline(always)]
-    fn advance(&mut self, step: &mut Step<N>, length: N) -> Advance<N> {
-        if let Some(done) = self.attempt::<SIZE>(step, length) {
+    fn advance(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+        known: Option<Series<'_, N, SIZE>>,
+    ) -> Advance<N> {
+        let done = match known {
+            Some(series) => self.take(step, length, series),
+            None => self.attempt::<SIZE>(step, length),
+        };
+        if let Some(done) = done {
             return done;
         }
         self.advance_hard(step, length)
@@ -363,22 +375,36 @@ where
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let (a, b) = self.dynamics.drive(&oriented);
         let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, (&a, &b));
+        self.take(step, length, (&c, &v))
+    }
+
+    /// A step by a series already expanded, unless it leaves too much.
+    #[inline(always)]
+    fn take<const LEN: usize>(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+        (c, v): Series<'_, N, LEN>,
+    ) -> Option<Advance<N>> {
+        let side = step.motion.side;
         self.record.work.steps += 1;
-        if last_term(&v, length) > self.tolerance * length {
+        if last_term(v, length) > self.tolerance * length {
             return None;
         }
-        let event = self.first_event(&c, length);
+        let event = self.first_event(c, length);
         let tau = match event {
             Event::None => length,
             Event::Impact(tau) | Event::Overturning(tau) => tau,
         };
-        self.turning_points(&c, &v, tau, step.place);
+        self.turning_points(c, v, tau, step.place);
         if self.interval_s.is_some() {
-            self.sample_step(&c, &v, tau, step.place, side);
+            self.sample_step(c, v, tau, step.place, side);
         }
-        let (end_u, end_w) = (value(&c, tau), value(&v, tau));
+        let (end_u, end_w) = (value(c, tau), value(v, tau));
         if self.record.accuracy.is_some() {
-            self.track(&c, &v, (a[0], b[0]), tau, (end_u, end_w));
+            let f = self.oriented(step.place, side, step.at_threshold);
+            let (a, b) = self.dynamics.drive(&f);
+            self.track(c, v, (a[0], b[0]), tau, (end_u, end_w));
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
@@ -398,7 +424,7 @@ where
                 }))
             }
             Event::Impact(_) => {
-                let before = slope(&v, tau);
+                let before = slope(v, tau);
                 Some(
                     self.impact(step, -end_w, before)
                         .map_or(Advance::Bounced, Advance::Ended),
@@ -900,7 +926,7 @@ where
             at_threshold: false,
         });
         while let Stage::Flying(step) = stage {
-            stage = free.proceed(step);
+            stage = free.proceed(step, None);
         }
         if let Stage::Landed(Flight::Rest(_, time_s)) = stage {
             let end = free.until_s.unwrap_or(time_s);

@@ -115,17 +115,21 @@ where
         let mut lanes = States::idle();
         let mut slots: [Option<Slot<'a, C, LEN>>; WIDTH] =
             std::array::from_fn(|_| None);
-        let mut clear = [false; WIDTH];
+        let mut step = Stepped {
+            clear: [false; WIDTH],
+            c: [Lanes::splat(0.0); LEN],
+            v: [Lanes::splat(0.0); LEN],
+        };
         loop {
             let mut busy = false;
             for lane in 0..WIDTH {
-                if clear[lane] {
+                if step.clear[lane] {
                     busy = true;
                     continue;
                 }
                 let slot = &mut slots[lane];
                 lanes.release(lane, slot);
-                if self.prepare(slot) {
+                if self.prepare(slot, &step.lane(lane)) {
                     lanes.load(lane, slot);
                     busy = true;
                 }
@@ -133,8 +137,28 @@ where
             if !busy {
                 return;
             }
-            clear = lanes.fly::<LEN>(self.model);
+            step = lanes.fly::<LEN>(self.model);
         }
+    }
+}
+
+/// A step of all lanes.
+struct Stepped<const LEN: usize> {
+    /// Lanes that took it.
+    clear: [bool; WIDTH],
+    c: [Lanes<WIDTH>; LEN],
+    v: [Lanes<WIDTH>; LEN],
+}
+
+impl<const LEN: usize> Stepped<LEN> {
+    /// Coefficients in a lane.
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> ([f64; LEN], [f64; LEN]) {
+        let (mut c, mut v) = ([0.0; LEN], [0.0; LEN]);
+        for k in 0..LEN {
+            (c[k], v[k]) = (self.c[k][lane], self.v[k][lane]);
+        }
+        (c, v)
     }
 }
 
@@ -144,23 +168,34 @@ where
     T: FnMut() -> Option<C>,
     D: FnMut(C),
 {
-    /// Takes the step that a lane could not, and what follows, up to the
-    /// next whole sample in flight; false when no chain is left.
+    /// Takes the step that a lane could not, expanded as `(c, v)`, and what
+    /// follows, up to the next step for a lane; false when no chain is left.
     #[inline(always)]
-    fn prepare(&mut self, slot: &mut Option<Slot<'a, C, LEN>>) -> bool {
+    fn prepare(
+        &mut self,
+        slot: &mut Option<Slot<'a, C, LEN>>,
+        (c, v): &([f64; LEN], [f64; LEN]),
+    ) -> bool {
         let mut stuck = true;
         loop {
             let Some(Slot { chain, driver, stage }) = slot else {
                 let Some(chain) = (self.take)() else { return false };
                 *slot = self.begin(chain);
+                stuck = false;
                 continue;
             };
             match stage {
-                Stage::Flying(step) if !stuck && step.is_whole() => {
+                Stage::Flying(step)
+                    if !stuck
+                        && !step.at_threshold
+                        && step.place.offset < driver.forcing().step() =>
+                {
                     return true;
                 }
                 Stage::Flying(step) => {
-                    *stage = driver.proceed(*step);
+                    let known = stuck && step.motion.u <= SMALL;
+                    let known = known.then_some((c, v));
+                    *stage = driver.proceed(*step, known);
                     stuck = false;
                 }
                 Stage::Landed(flight) => {
@@ -209,9 +244,14 @@ struct States<'a> {
     w: Lanes<WIDTH>,
     /// Forcing at the start of the sample, on the side of the rotation.
     here: Lanes<WIDTH>,
+    /// Start of the step within the sample.
+    offset: Lanes<WIDTH>,
+    /// Length of the step.
+    length: Lanes<WIDTH>,
     /// Amplitude with the sign of the side.
     amplitude: Lanes<WIDTH>,
-    length: Lanes<WIDTH>,
+    /// Length of the sample, and one over it.
+    whole: Lanes<WIDTH>,
     inverse: Lanes<WIDTH>,
     threshold: Lanes<WIDTH>,
     sine: Lanes<WIDTH>,
@@ -232,8 +272,6 @@ struct Screens {
     peak: Lanes<WIDTH>,
     /// Bound on |A S| below the ceiling.
     pull: Lanes<WIDTH>,
-    /// Half the square of the length.
-    half_square: Lanes<WIDTH>,
 }
 
 impl<'a> States<'a> {
@@ -243,8 +281,10 @@ impl<'a> States<'a> {
             u: zero,
             w: zero,
             here: zero,
-            amplitude: zero,
+            offset: zero,
             length: zero,
+            amplitude: zero,
+            whole: zero,
             inverse: zero,
             threshold: zero,
             sine: zero,
@@ -254,7 +294,6 @@ impl<'a> States<'a> {
                 ceiling: zero,
                 peak: zero,
                 pull: zero,
-                half_square: zero,
             },
             samples: [&[]; WIDTH],
             next: [0; WIDTH],
@@ -276,6 +315,7 @@ impl<'a> States<'a> {
         let piece = self.next[lane] - 1;
         driver.count_steps(piece - step.place.piece);
         step.place.piece = piece;
+        step.place.offset = self.offset[lane];
         (step.motion.u, step.motion.w) = (self.u[lane], self.w[lane]);
     }
 
@@ -299,7 +339,9 @@ impl<'a> States<'a> {
         (self.u[lane], self.w[lane]) = (step.motion.u, step.motion.w);
         self.here[lane] = samples[piece] * amplitude;
         self.amplitude[lane] = amplitude;
-        self.length[lane] = h;
+        self.offset[lane] = step.place.offset;
+        self.length[lane] = h - step.place.offset;
+        self.whole[lane] = h;
         self.inverse[lane] = forcing.inverse();
         self.threshold[lane] = dynamics.threshold;
         (self.sine[lane], self.cosine[lane]) = dynamics.sine_cosine();
@@ -312,33 +354,34 @@ impl<'a> States<'a> {
         screens.ceiling[lane] = ceiling;
         screens.peak[lane] = driver.peak();
         screens.pull[lane] = strength * ceiling;
-        screens.half_square[lane] = 0.5 * SAFETY * h * h;
     }
 
     /// Steps all lanes, sample by sample, while every one is clear of
     /// events; tells which were in the last step, which the others did not
     /// take.
     #[inline(always)]
-    fn fly<const LEN: usize>(&mut self, model: Model) -> [bool; WIDTH] {
+    fn fly<const LEN: usize>(&mut self, model: Model) -> Stepped<LEN> {
         loop {
-            let clear = self.step::<LEN>(model);
-            if clear.contains(&false) {
-                return clear;
+            let step = self.step(model);
+            if step.clear.contains(&false) {
+                return step;
             }
         }
     }
 
-    /// One sample in every lane that is clear of events.
+    /// One step, to the end of the sample, in every lane that is clear of
+    /// events.
     #[inline(always)]
-    fn step<const LEN: usize>(&mut self, model: Model) -> [bool; WIDTH] {
+    fn step<const LEN: usize>(&mut self, model: Model) -> Stepped<LEN> {
         let mut ahead = Lanes::splat(f64::NAN);
         for lane in 0..WIDTH {
             if let Some(sample) = self.samples[lane].get(self.next[lane]) {
                 ahead[lane] = *sample;
             }
         }
-        let (here, ahead) = (self.here, ahead * self.amplitude);
-        let series = [here, (ahead - here) * self.inverse];
+        let ahead = ahead * self.amplitude;
+        let rate = (ahead - self.here) * self.inverse;
+        let series = [rate.mul_add(self.offset, self.here), rate];
         let constants = (self.threshold, self.sine, self.cosine);
         let (a, b) = drive(model, constants, &series);
         let small = match model {
@@ -351,17 +394,17 @@ impl<'a> States<'a> {
         let (u, w) = (value(&c, h), value(&v, h));
         // |u''| is below this as long as u is below the ceiling.
         let bend = b[0].abs() + b[1].abs().mul_add(h, self.screens.pull);
-        let spread = bend * self.screens.half_square;
-        let linear = self.w * h;
         let turn = bend * h;
+        let spread = turn * h * Lanes::splat(0.5 * SAFETY);
+        let linear = self.u + self.w * h;
+        let (low, high) = (linear - spread, linear + spread);
         let screens = &self.screens;
         let mut clear = [false; WIDTH];
         for lane in 0..WIDTH {
-            let (start, rise) = (self.u[lane], linear[lane]);
-            let low = if rise < 0.0 { start + rise } else { start };
-            let high = if rise < 0.0 { start } else { start + rise };
-            let high = high + spread[lane];
-            clear[lane] = (low > spread[lane])
+            let start = self.u[lane];
+            let high = if start > high[lane] { start } else { high[lane] };
+            clear[lane] = (start >= 0.0)
+                & (low[lane] > 0.0)
                 & (high < screens.ceiling[lane])
                 & ((high < screens.peak[lane])
                     | (self.w[lane].abs() > SAFETY * turn[lane]))
@@ -372,9 +415,11 @@ impl<'a> States<'a> {
                 self.u[lane] = u[lane];
                 self.w[lane] = w[lane];
                 self.here[lane] = ahead[lane];
+                self.offset[lane] = 0.0;
+                self.length[lane] = self.whole[lane];
                 self.next[lane] += 1;
             }
         }
-        clear
+        Stepped { clear, c, v }
     }
 }

@@ -77,6 +77,9 @@ impl<N: Real> Work for Isolation<'_, N> {
 
 #[inline(always)]
 fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
+    if let Some(below) = ends_below(c, length) {
+        return if below { refine(c, N::zero(), length) } else { None };
+    }
     let n = c.len() - 1;
     // Bernstein coefficients on [0, length]:
     // b_j = sum_{k<=j} C(j,k)/C(n,k) c_k length^k.
@@ -99,6 +102,31 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
     let b = &mut b[..=n];
     let (low, high) = search(b, 0.0, 1.0, DEPTH)?;
     refine(c, length * N::from_f64(low), length * N::from_f64(high))
+}
+
+/// Whether a polynomial that surely falls all the way ends below zero;
+/// nothing where it may not fall, or ends too near to zero to tell.
+///
+/// Its Bernstein coefficients fall too, so that isolation would find the
+/// whole interval or nothing.
+#[inline(always)]
+fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
+    if c.len() < 2 {
+        return None;
+    }
+    let mut rest = N::zero();
+    for k in (2..c.len()).rev() {
+        rest = rest.mul_add(length, c[k].abs() * N::ratio(k as i32, 1));
+    }
+    if !(c[1] < rest * length * N::ratio(-101, 100)) {
+        return None;
+    }
+    let end = value(c, length);
+    let size = c[0].abs() + c[1].abs() * length;
+    if !(end.abs() > size * N::from_f64(1e-11)) {
+        return None;
+    }
+    Some(end < N::zero())
 }
 
 /// Leftmost isolating interval in units of the whole, positive at its left

@@ -202,19 +202,19 @@ where
         self.record.peak
     }
 
-    /// Last coefficient of the velocity that leaves as much as is allowed
-    /// over a step of `length`.
+    /// Truncation allowed per unit of p-time.
     #[inline(always)]
-    pub fn last_allowed(&self, length: N) -> N {
-        let mut unit = [N::zero(); SIZE];
-        unit[SIZE - 1] = N::one();
-        self.tolerance * length / last_term(&unit, length)
+    pub fn tolerance(&self) -> N {
+        self.tolerance
     }
 
-    /// Counts steps taken elsewhere.
+    /// Last of `LEN` coefficients of the velocity that leaves as much as is
+    /// allowed over a step of `length`.
     #[inline(always)]
-    pub fn count_steps(&mut self, steps: usize) {
-        self.record.work.steps += steps as u64;
+    pub fn last_allowed<const LEN: usize>(&self, length: N) -> N {
+        let mut unit = [N::zero(); LEN];
+        unit[LEN - 1] = N::one();
+        self.tolerance * length / last_term(&unit, length)
     }
 
     fn observe(&mut self, observe: &Observe) {
@@ -1044,7 +1044,7 @@ where
 /// coefficient of the velocity is at most about a quarter of its last one
 /// (1/`LEN` for the motion alone; the rest allows for strong forcing).
 #[inline(always)]
-fn last_term<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
+pub(crate) fn last_term<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
     let mut power = N::ratio(1, 4) * v[LEN - 1].abs();
     let mut base = tau;
     let mut left = LEN;

@@ -130,15 +130,6 @@ impl<N: Real> Dynamics<N> {
         (self.sine, self.cosine)
     }
 
-    /// Bound on |A| under forcings up to `f` >= 0.
-    #[inline(always)]
-    pub fn strength(&self, f: N) -> N {
-        match self.model {
-            Model::Nonlinear => self.cosine.abs() + f * self.sine.abs(),
-            Model::Linearized => N::one(),
-        }
-    }
-
     /// Downward acceleration at the base under forcing f: B at u = 0.
     pub fn restoring(&self, f: N) -> N {
         match self.model {

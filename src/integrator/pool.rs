@@ -7,7 +7,7 @@
 //! and their order are the same either way, and so are the bits.
 
 use crate::excitation::Excitation;
-use crate::integrator::driver::{Driver, Stage};
+use crate::integrator::driver::{Driver, Stage, last_term};
 use crate::integrator::dynamics::{Dynamics, Model, drive};
 use crate::integrator::forcing::{RecordForcing, steps_of};
 use crate::integrator::taylor::{expand, value};
@@ -266,12 +266,14 @@ struct States<'a> {
 struct Screens {
     /// Largest last coefficient of the velocity that leaves little enough.
     last: Lanes<WIDTH>,
+    /// Truncation allowed per unit of p-time.
+    tolerance: Lanes<WIDTH>,
+    /// Largest last coefficient of the longest series.
+    smooth_last: Lanes<WIDTH>,
     /// Rotation that nothing may reach.
     ceiling: Lanes<WIDTH>,
     /// Largest rotation at a turning point so far.
     peak: Lanes<WIDTH>,
-    /// Bound on |A S| below the ceiling.
-    pull: Lanes<WIDTH>,
 }
 
 impl<'a> States<'a> {
@@ -291,9 +293,10 @@ impl<'a> States<'a> {
             cosine: zero,
             screens: Screens {
                 last: zero,
+                tolerance: zero,
+                smooth_last: zero,
                 ceiling: zero,
                 peak: zero,
-                pull: zero,
             },
             samples: [&[]; WIDTH],
             next: [0; WIDTH],
@@ -308,12 +311,10 @@ impl<'a> States<'a> {
         slot: &mut Option<Slot<'a, C, LEN>>,
     ) {
         self.samples[lane] = &[];
-        let Some(Slot { driver, stage: Stage::Flying(step), .. }) = slot
-        else {
+        let Some(Slot { stage: Stage::Flying(step), .. }) = slot else {
             return;
         };
         let piece = self.next[lane] - 1;
-        driver.count_steps(piece - step.place.piece);
         step.place.piece = piece;
         step.place.offset = self.offset[lane];
         (step.motion.u, step.motion.w) = (self.u[lane], self.w[lane]);
@@ -348,12 +349,12 @@ impl<'a> States<'a> {
         self.samples[lane] = samples;
         self.next[lane] = piece + 1;
         let ceiling = dynamics.limit.min(SMALL);
-        let strength = dynamics.strength(amplitude.abs());
         let screens = &mut self.screens;
-        screens.last[lane] = driver.last_allowed(h) / SAFETY;
+        screens.last[lane] = driver.last_allowed::<LEN>(h) / SAFETY;
+        screens.tolerance[lane] = driver.tolerance();
+        screens.smooth_last[lane] = driver.last_allowed::<SMOOTH>(h) / SAFETY;
         screens.ceiling[lane] = ceiling;
         screens.peak[lane] = driver.peak();
-        screens.pull[lane] = strength * ceiling;
     }
 
     /// Steps all lanes, sample by sample, while every one is clear of
@@ -391,24 +392,36 @@ impl<'a> States<'a> {
         let (c, v): ([_; LEN], [_; LEN]) =
             expand(model, self.u, self.w, (&a, &b), small);
         let h = self.length;
-        let (u, w) = (value(&c, h), value(&v, h));
-        // |u''| is below this as long as u is below the ceiling.
-        let bend = b[0].abs() + b[1].abs().mul_add(h, self.screens.pull);
-        let turn = bend * h;
-        let spread = turn * h * Lanes::splat(0.5 * SAFETY);
-        let linear = self.u + self.w * h;
-        let (low, high) = (linear - spread, linear + spread);
-        let screens = &self.screens;
+        let free = self.free_of_events((&a, &b));
         let mut clear = [false; WIDTH];
+        let mut hard = [false; WIDTH];
         for lane in 0..WIDTH {
-            let start = self.u[lane];
-            let high = if start > high[lane] { start } else { high[lane] };
-            clear[lane] = (start >= 0.0)
-                & (low[lane] > 0.0)
-                & (high < screens.ceiling[lane])
-                & ((high < screens.peak[lane])
-                    | (self.w[lane].abs() > SAFETY * turn[lane]))
-                & (v[LEN - 1][lane].abs() < screens.last[lane]);
+            let enough = v[LEN - 1][lane].abs() < self.screens.last[lane];
+            clear[lane] = free[lane] & enough;
+            hard[lane] = free[lane] & !enough;
+        }
+        let (mut u, mut w) = (value(&c, h), value(&v, h));
+        if LEN < SMOOTH && hard.contains(&true) {
+            // The driver takes the longest series next, where this one
+            // surely leaves too much.
+            let (long_c, long_v): ([_; SMOOTH], [_; SMOOTH]) =
+                expand(model, self.u, self.w, (&a, &b), small);
+            let (long_u, long_w) = (value(&long_c, h), value(&long_v, h));
+            for lane in 0..WIDTH {
+                if !hard[lane] {
+                    continue;
+                }
+                let allowed = self.screens.tolerance[lane] * h[lane];
+                let mut last = [0.0; LEN];
+                last[LEN - 1] = v[LEN - 1][lane];
+                let too_much = last_term(&last, h[lane]) > allowed;
+                let enough = long_v[SMOOTH - 1][lane].abs()
+                    < self.screens.smooth_last[lane];
+                if too_much && enough {
+                    clear[lane] = true;
+                    (u[lane], w[lane]) = (long_u[lane], long_w[lane]);
+                }
+            }
         }
         for lane in 0..WIDTH {
             if clear[lane] {
@@ -421,5 +434,34 @@ impl<'a> States<'a> {
             }
         }
         Stepped { clear, c, v }
+    }
+
+    /// Lanes in which the step meets no base, no limit, and no turning point
+    /// above the peak: with |u''| below a bound M, u(tau) lies within
+    /// M tau^2/2 of u_0 + w_0 tau, and the velocity within M tau of w_0.
+    #[inline(always)]
+    fn free_of_events(
+        &self,
+        (a, b): (&[Lanes<WIDTH>; 2], &[Lanes<WIDTH>; 2]),
+    ) -> [bool; WIDTH] {
+        let (h, screens) = (self.length, &self.screens);
+        // |A| sin u + |B| below the ceiling.
+        let pull = a[1].abs().mul_add(h, a[0].abs()) * screens.ceiling;
+        let bend = b[0].abs() + b[1].abs().mul_add(h, pull);
+        let turn = bend * h * Lanes::splat(SAFETY);
+        let spread = turn * h * Lanes::splat(0.5);
+        let linear = self.u + self.w * h;
+        let (low, high) = (linear - spread, linear + spread);
+        let mut free = [false; WIDTH];
+        for lane in 0..WIDTH {
+            let start = self.u[lane];
+            let high = if start > high[lane] { start } else { high[lane] };
+            free[lane] = (start >= 0.0)
+                & (low[lane] > 0.0)
+                & (high < screens.ceiling[lane])
+                & ((high < screens.peak[lane])
+                    | (self.w[lane].abs() > turn[lane]));
+        }
+        free
     }
 }

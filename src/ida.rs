@@ -6,6 +6,8 @@
 //! p PGV/PGA.
 
 mod batch;
+#[cfg(test)]
+mod tests;
 
 use thiserror::Error;
 

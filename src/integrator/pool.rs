@@ -122,12 +122,11 @@ where
         };
         loop {
             let mut busy = false;
-            for lane in 0..WIDTH {
+            for (lane, slot) in slots.iter_mut().enumerate() {
                 if step.clear[lane] {
                     busy = true;
                     continue;
                 }
-                let slot = &mut slots[lane];
                 lanes.release(lane, slot);
                 if self.prepare(slot, &step.lane(lane)) {
                     lanes.load(lane, slot);

@@ -1,6 +1,5 @@
 //! Several numbers at once, operation by operation as one.
 
-use std::array;
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 use crate::number::{Number, sin_cos_polynomials};
@@ -54,7 +53,7 @@ macro_rules! lane_by_lane {
             fn $method(self, other: Self) -> Self {
                 let mut out = self.0;
                 for (x, y) in out.iter_mut().zip(other.0) {
-                    *x = *x $symbol y;
+                    *x $symbol y;
                 }
                 Self(out)
             }
@@ -63,10 +62,10 @@ macro_rules! lane_by_lane {
 }
 
 lane_by_lane! {
-    Add add +;
-    Sub sub -;
-    Mul mul *;
-    Div div /;
+    Add add +=;
+    Sub sub -=;
+    Mul mul *=;
+    Div div /=;
 }
 
 impl<const W: usize> Neg for Lanes<W> {
@@ -105,11 +104,5 @@ impl<const W: usize> Number for Lanes<W> {
     #[inline(always)]
     fn sin_cos_small(self) -> (Self, Self) {
         sin_cos_polynomials(self)
-    }
-}
-
-impl<const W: usize> Default for Lanes<W> {
-    fn default() -> Self {
-        Self(array::from_fn(|_| 0.0))
     }
 }

@@ -265,6 +265,11 @@ pub fn respond_with(
     observe: &Observe,
     isa: Isa,
 ) -> Result<Response, SceneError> {
+    check(scene, observe)?;
+    run(scene, observe, None, isa)
+}
+
+fn check(scene: &Scene<'_>, observe: &Observe) -> Result<(), SceneError> {
     if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
         return Err(SceneError::InitialRatio(scene.initial_ratio));
     }
@@ -283,6 +288,43 @@ pub fn respond_with(
     {
         return Err(SceneError::Amplitude(record.amplitude()));
     }
+    Ok(())
+}
+
+/// Order of the Taylor polynomial under a record, for convergence and speed
+/// studies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// Order 4.
+    Four,
+    /// Order 6.
+    Six,
+    /// Order 8.
+    Eight,
+    /// Order 10.
+    Ten,
+}
+
+/// [`respond`] with Eq. 1 under a record stepped at a fixed order, one step
+/// a sample whatever it leaves; other scenes run as they always do.
+///
+/// # Errors
+/// As [`respond`].
+pub fn respond_at_order(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    order: Order,
+) -> Result<Response, SceneError> {
+    check(scene, observe)?;
+    run(scene, observe, Some(order), Isa::best())
+}
+
+fn run(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    order: Option<Order>,
+    isa: Isa,
+) -> Result<Response, SceneError> {
     let own;
     let index = match scene.excitation {
         Excitation::Record(record) => Some(match record.index() {
@@ -294,7 +336,7 @@ pub fn respond_with(
         }),
         Excitation::Pulse(_) | Excitation::Free => None,
     };
-    Ok(isa.run(Run { scene, observe, index }))
+    Ok(isa.scalar().run(Run { scene, observe, index, order }))
 }
 
 /// One run, compiled for each instruction-set level.
@@ -302,6 +344,7 @@ struct Run<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     index: Option<&'a RestIndex>,
+    order: Option<Order>,
 }
 
 /// Coefficients of the polynomial for Eq. 1 under a record: order 8, for
@@ -332,6 +375,9 @@ impl Dispatched for Run<'_> {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
+                if let (Some(order), Model::Nonlinear) = (self.order, model) {
+                    return self.at_order(order, dynamics, &forcing);
+                }
                 match model {
                     Model::Nonlinear if step <= SHORT_STEP * GUARD => {
                         Driver::<_, _, SHORT, 2>::new(dynamics, &forcing)
@@ -356,6 +402,32 @@ impl Dispatched for Run<'_> {
                 Driver::<_, _, SMOOTH, 1>::new(dynamics, &Silence::nothing())
                     .run(self.scene, self.observe)
             }
+        }
+    }
+}
+
+impl Run<'_> {
+    #[inline(always)]
+    fn at_order(
+        &self,
+        order: Order,
+        dynamics: Dynamics<f64>,
+        forcing: &RecordForcing<'_, f64>,
+    ) -> Response {
+        let (scene, observe) = (self.scene, self.observe);
+        match order {
+            Order::Four => Driver::<_, _, 5, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
+            Order::Six => Driver::<_, _, 7, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
+            Order::Eight => Driver::<_, _, SHORT, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
+            Order::Ten => Driver::<_, _, LONG, 2>::new(dynamics, forcing)
+                .at_fixed_order()
+                .run(scene, observe),
         }
     }
 }

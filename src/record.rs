@@ -11,16 +11,23 @@ use std::path::Path;
 mod accelerogram;
 mod at2;
 mod column;
+mod cosmos;
 mod csv;
 mod error;
+mod esm;
 mod fields;
+mod keys;
+mod knet;
 mod number;
+mod quality;
 mod resorce;
+mod smc;
 mod suite;
 mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
+pub use quality::{Remark, duplicates, remarks, remarks_together};
 pub use suite::{
     PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
     Survey, folder_files, is_index,
@@ -41,10 +48,19 @@ pub enum Format {
     Csv,
     /// RESORCE, 5E14.7.
     Resorce,
+    /// COSMOS V1 and V2, and CSMIP V2.
+    Cosmos,
+    /// ESM, ITACA and AFAD ASCII.
+    Esm,
+    /// K-NET and KiK-net ASCII.
+    Knet,
+    /// USGS SMC.
+    Smc,
 }
 
 /// Formats by name, for messages.
-const FORMATS: &str = "at2, resorce, csv (time, acceleration), column";
+const FORMATS: &str =
+    "at2, cosmos, esm, knet, resorce, smc, csv (time, acceleration), column";
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -53,6 +69,10 @@ impl fmt::Display for Format {
             Self::Column => "column",
             Self::Csv => "csv",
             Self::Resorce => "resorce",
+            Self::Cosmos => "cosmos",
+            Self::Esm => "esm",
+            Self::Knet => "knet",
+            Self::Smc => "smc",
         })
     }
 }
@@ -154,22 +174,40 @@ pub fn read_all(
     }
     let content = text::decode(file, bytes)?;
     let text = Text::new(file, &content)?;
-    let (format, channels) = if resorce::recognises(&text) {
-        (Format::Resorce, vec![resorce::read(&text)?])
-    } else if at2::recognises(&text) {
-        (Format::At2, vec![at2::read(&text)?])
-    } else if column::recognises(&text) {
-        (Format::Column, vec![column::read(&text)?])
-    } else if csv::recognises(&text) {
-        (Format::Csv, vec![csv::read(&text)?])
-    } else {
-        return Err(unknown(&text));
-    };
+    let (format, channels) = read_channels(&text)?;
     let several = channels.len() > 1;
     channels
         .into_iter()
         .map(|channel| complete(&text, format, channel, several, options))
         .collect()
+}
+
+/// The reader is chosen by content; formats that name themselves come first.
+fn read_channels(
+    text: &Text<'_>,
+) -> Result<(Format, Vec<Channel>), RecordError> {
+    let one = |format, channel: Result<Channel, RecordError>| {
+        channel.map(|channel| (format, vec![channel]))
+    };
+    if smc::recognises(text) {
+        one(Format::Smc, smc::read(text))
+    } else if knet::recognises(text) {
+        one(Format::Knet, knet::read(text))
+    } else if esm::recognises(text) {
+        one(Format::Esm, esm::read(text))
+    } else if resorce::recognises(text) {
+        one(Format::Resorce, resorce::read(text))
+    } else if at2::recognises(text) {
+        one(Format::At2, at2::read(text))
+    } else if cosmos::recognises(text) {
+        cosmos::read(text).map(|channels| (Format::Cosmos, channels))
+    } else if column::recognises(text) {
+        one(Format::Column, column::read(text))
+    } else if csv::recognises(text) {
+        one(Format::Csv, csv::read(text))
+    } else {
+        Err(unknown(text))
+    }
 }
 
 /// Reads the one component of the file at `path`.
@@ -206,13 +244,19 @@ fn name_of(path: &Path) -> String {
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-/// File name without folders and without what follows the last dot.
+/// File name without folders and without what follows the last dot, unless
+/// that is the component (K-NET's `.EW`).
 fn stem(file: &str) -> &str {
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
     match name.rsplit_once('.') {
-        Some((stem, _)) if !stem.is_empty() => stem,
+        Some((stem, end)) if !stem.is_empty() && !is_component(end) => stem,
         _ => name,
     }
+}
+
+fn is_component(end: &str) -> bool {
+    let letters = end.trim_end_matches(['1', '2']);
+    matches!(letters, "EW" | "NS" | "UD")
 }
 
 /// Settles interval and unit between file and caller, and converts.
@@ -246,7 +290,7 @@ fn complete(
     let samples = channel.samples.iter().map(|a| a / per_gravity).collect();
     let mut name = stem(text.file()).to_owned();
     if let Some(label) = channel.label.as_ref().filter(|_| several) {
-        name = format!("{name}:{label}");
+        name = format!("{name}:{}", label.replace(' ', "_"));
     }
     let accelerogram = Accelerogram::try_new(name, dt_s, samples)
         .map_err(|error| fail(error.into()))?;

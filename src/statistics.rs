@@ -4,6 +4,7 @@
 //! fits, tests of normality, paired comparison and the bootstrap. A sample is
 //! checked once, when it is made; what takes one relies on it.
 
+pub mod acceptance;
 pub mod bootstrap;
 pub mod boxplot;
 pub mod lilliefors;
@@ -13,6 +14,7 @@ pub mod normal;
 pub mod normality;
 pub mod paired;
 pub mod quantile;
+pub mod rivals;
 pub mod sample;
 
 pub use boxplot::Boxplot;

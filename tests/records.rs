@@ -1,11 +1,13 @@
 //! Readers and suites on files: real ones where they are, small ones of our
 //! own everywhere.
 
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use rocking::record::{ReadOptions, Suite, SuiteOptions};
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_validation::inputs;
 
 fn real(index: &str) -> Option<PathBuf> {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
@@ -117,7 +119,7 @@ fn bad_input_gives_one_message_and_status_2() {
         ),
         (
             &["good.AT2", "--gravity", "-9.81"],
-            "rocking: gravity -9.81 m/s2: expected a positive number\n",
+            "rocking: good.AT2: gravity -9.81 m/s2: expected a positive number\n",
         ),
         (
             &["good.AT2", "--dt", "0.02"],
@@ -218,4 +220,49 @@ fn an_index_may_state_checksums() {
     let (status, _, error) = records(&folder, &["wrong.csv"]);
     assert_eq!(status, 2);
     assert!(error.contains("wrong.csv:2: a.txt has sha256 1036"), "{error}");
+}
+
+#[test]
+fn a_zip_is_read_as_the_folder_in_it() {
+    let results = "-- Summary of Metadata of Selected Records --\n\
+        Record Sequence Number, Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename\n\
+        9001, A_000.AT2, A_090.AT2\n";
+    let files = [
+        ("in/A_000.AT2", AT2),
+        ("in/A_090.AT2", AT2),
+        ("in/A_UP.AT2", AT2),
+        ("in/_SearchResults.csv", results),
+        ("__MACOSX/in/._A_000.AT2", "\u{0}"),
+    ];
+    let folder = folder("zip", &[]);
+    let pack = |name: &str, files: &[(&str, &str)]| {
+        let file = std::fs::File::create(folder.join(name)).unwrap();
+        let mut zip = zip::ZipWriter::new(file);
+        for (file, text) in files {
+            zip.start_file(*file, zip::write::SimpleFileOptions::default())
+                .unwrap();
+            zip.write_all(text.as_bytes()).unwrap();
+        }
+        zip.finish().unwrap();
+    };
+    pack("peer.zip", &files);
+    pack("flat.zip", &files[..3]);
+    let read = |name| {
+        let path = folder.join(name);
+        inputs::read_suite(&path, ReadOptions::default()).unwrap()
+    };
+    let suite = read("peer.zip");
+    assert_eq!(suite.members().len(), 2);
+    assert_eq!(suite.members()[0].pair.as_deref(), Some("RSN9001"));
+    assert_eq!(suite.name(), "peer");
+    let suite = read("flat.zip");
+    assert_eq!((suite.both().len(), suite.ignored().len()), (1, 1));
+    let whole = std::fs::read(folder.join("peer.zip")).unwrap();
+    let half = &whole[..whole.len() / 2];
+    std::fs::write(folder.join("half.zip"), half).unwrap();
+    let (status, out, error) = records(&folder, &["half.zip"]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    assert!(error.starts_with("rocking: half.zip: cannot be read:"));
+    let (status, _, error) = records(&folder, &["peer.zip", "--json"]);
+    assert_eq!((status, error.as_str()), (0, ""));
 }

@@ -386,10 +386,13 @@ fn transit<N: Real>(
 /// difference of ln(y + w).
 fn linear_stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     let dy = y1 - y2;
-    if !(dy > N::zero()) {
+    // w^2 - y^2 is constant; at a turning point the velocity is the better
+    // known of the two.
+    let dw = if w2 == N::zero() { w1 } else { dy * (y1 + y2) / (w1 + w2) };
+    if !(dw > N::zero()) {
         return N::zero();
     }
-    let dw = dy * (y1 + y2) / (w1 + w2);
+    let dy = if w2 == N::zero() { w1 * w1 / (y1 + y2) } else { dy };
     ((dy + dw) / (y2 + w2)).ln_1p()
 }
 
@@ -405,8 +408,13 @@ fn stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     let (s1, c1) = (half * y1).sin_cos();
     let (s2, c2) = (half * y2).sin_cos();
     let (r1, r2) = (half * w1, half * w2);
-    let width =
-        (half * (y1 - y2)).sin_cos().0 * (half * (y1 + y2)).sin_cos().0;
+    // sin^2(y1/2) - sin^2(y2/2); where one end is the turning point, from the
+    // velocity, which is the better known there.
+    let width = if w2 == N::zero() {
+        r1 * r1
+    } else {
+        (half * (y1 - y2)).sin_cos().0 * (half * (y1 + y2)).sin_cos().0
+    };
     if !(width > N::zero()) {
         return N::zero();
     }

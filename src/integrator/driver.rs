@@ -127,6 +127,13 @@ where
         }
     }
 
+    /// Keeps the order whatever a step leaves.
+    #[inline(always)]
+    pub fn at_fixed_order(mut self) -> Self {
+        self.tolerance = N::one() / N::zero();
+        self
+    }
+
     /// Runs the scene to its end.
     #[inline(always)]
     pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response {
@@ -291,7 +298,7 @@ where
         let (a, b) = self.dynamics.drive(&oriented);
         let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, (&a, &b));
         self.record.work.steps += 1;
-        if last_term(&c, length) > self.tolerance * length {
+        if last_term(&v, length) > self.tolerance * length {
             return None;
         }
         let event = self.first_event(&c, length);
@@ -303,9 +310,9 @@ where
         if self.interval_s.is_some() {
             self.sample_step(&c, &v, tau, step.place, side);
         }
-        let (end_u, end_w) = (value(&c, tau), value(&v[..LEN - 1], tau));
+        let (end_u, end_w) = (value(&c, tau), value(&v, tau));
         if self.record.accuracy.is_some() {
-            self.track(&c, (a[0], b[0]), tau, end_u, end_w);
+            self.track(&c, &v, (a[0], b[0]), tau, (end_u, end_w));
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
@@ -325,7 +332,7 @@ where
                 }))
             }
             Event::Impact(_) => {
-                let before = slope(&v[..LEN - 1], tau);
+                let before = slope(&v, tau);
                 Some(
                     self.impact(step, -end_w, before)
                         .map_or(Advance::Bounced, Advance::Ended),
@@ -424,7 +431,7 @@ where
             return;
         }
         let mut variation = N::zero();
-        for k in (1..LEN - 1).rev() {
+        for k in (1..LEN).rev() {
             variation = variation.mul_add(tau, v[k].abs());
         }
         if v[0].abs() > variation * tau {
@@ -446,13 +453,13 @@ where
         // At most LEN turning points lie in a step.
         for _ in 0..LEN {
             let left = tau - at;
-            let first = v[..LEN - 1].iter().find(|x| **x != N::zero());
+            let first = v.iter().find(|x| **x != N::zero());
             let Some(first) = first else { return };
             let rising = *first > N::zero();
             if !rising {
                 v = v.map(|x| -x);
             }
-            let Some(turn) = first_descent(&v[..LEN - 1], left) else {
+            let Some(turn) = first_descent(&v, left) else {
                 return;
             };
             if !(turn < left) {
@@ -609,10 +616,10 @@ where
             let (a, b) = self.dynamics.drive(&f);
             let (c, v): ([N; SMOOTH], [N; SMOOTH]) =
                 self.expand(u, w, (&a, &b));
-            if let Some(tau) = first_descent(&v[..SMOOTH - 1], left) {
+            if let Some(tau) = first_descent(&v, left) {
                 return self.beyond(value(&c, tau));
             }
-            (u, w) = (value(&c, left), value(&v[..SMOOTH - 1], left));
+            (u, w) = (value(&c, left), value(&v, left));
             if !(u < N::right_angle()) {
                 return f64::INFINITY;
             }
@@ -631,16 +638,16 @@ where
     fn track<const LEN: usize>(
         &mut self,
         c: &[N; LEN],
+        v: &[N; LEN],
         drive: (N, N),
         tau: N,
-        u: N,
-        w: N,
+        (u, w): (N, N),
     ) {
         let model = self.dynamics.model;
         let Some(accuracy) = &mut self.record.accuracy else { return };
         let (a, b) = (drive.0.to_f64(), drive.1.to_f64());
         let u0 = c[0].to_f64();
-        let last = last_term(c, tau).to_f64();
+        let last = last_term(v, tau).to_f64();
         let tau = tau.to_f64();
         let (j, force) = match model {
             Model::Nonlinear => {
@@ -652,10 +659,9 @@ where
         // The forcing itself carries a roundoff: the threshold's size.
         let size = force + self.dynamics.threshold.to_f64();
         let unit = N::ROUNDOFF;
-        let error_u = unit * u.to_f64().abs().max(u0) + last;
+        let error_u = unit * u.to_f64().abs().max(u0) + last * tau;
         let speed = w.to_f64().abs().max(c[1].to_f64().abs());
-        let slip = if tau > 0.0 { last / tau } else { 0.0 };
-        let error_w = unit * (speed + size * tau) + slip;
+        let error_w = unit * (speed + size * tau) + last;
         accuracy.step(j, tau, [error_u, error_w]);
     }
 
@@ -734,8 +740,7 @@ where
             self.record.history.push(HistoryPoint {
                 time_s,
                 rotation_rad: side.sign() * value(c, at).to_f64(),
-                velocity_rad_s: side.sign()
-                    * (value(&v[..LEN - 1], at) * p).to_f64(),
+                velocity_rad_s: side.sign() * (value(v, at) * p).to_f64(),
             });
         }
     }
@@ -856,28 +861,22 @@ where
     }
 }
 
-/// Estimate of what a series leaves over a step: the next coefficient is at
-/// most about a quarter of the last (1/(LEN) for the motion alone; the rest
-/// allows for strong forcing).
+/// Estimate of the velocity error that a series leaves over a step: the next
+/// coefficient of the velocity is at most about a quarter of its last one
+/// (1/`LEN` for the motion alone; the rest allows for strong forcing).
 #[inline(always)]
-fn last_term<N: Real, const LEN: usize>(c: &[N; LEN], tau: N) -> N {
-    let mut power = tau;
-    let square = tau * tau;
-    let mut left = (LEN - 1) / 2;
-    let mut base = square;
-    let mut even = N::one();
+fn last_term<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
+    let mut power = N::ratio(1, 4) * v[LEN - 1].abs();
+    let mut base = tau;
+    let mut left = LEN;
     while left > 0 {
         if left % 2 == 1 {
-            even = even * base;
+            power = power * base;
         }
         base = base * base;
         left /= 2;
     }
-    power = power * even;
-    if LEN.is_multiple_of(2) {
-        power = power * tau;
-    }
-    N::ratio(1, 4) * c[LEN - 1].abs() * power
+    power
 }
 
 /// Moves the origin of the polynomial `c` to `by`.

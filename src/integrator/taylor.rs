@@ -4,7 +4,7 @@ use crate::integrator::dynamics::Model;
 use crate::number::Number;
 
 /// Coefficients of u(tau) and of u'(tau) about the step's start, `LEN` of
-/// them (order `LEN - 1`; the velocity's last is zero), for u'' = A S(u) - B C(u) with series `a`, `b` of A, B.
+/// each (order `LEN - 1` in both), for u'' = A S(u) - B C(u) with series `a`, `b` of A, B.
 ///
 /// The series of S = sin u and C = cos u follow from S' = u' C and
 /// C' = -u' S; for Eq. 2 S = u and C = 1.
@@ -37,7 +37,7 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     c[1] = w;
     velocity[0] = w;
     (sine[0], cosine[0]) = sin_cos(u);
-    for k in 0..LEN - 2 {
+    for k in 0..LEN - 1 {
         if k > 0 {
             let mut s = velocity[0] * cosine[k - 1];
             let mut t = velocity[0] * sine[k - 1];
@@ -56,7 +56,9 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
             force = (-b[j]).mul_add(cosine[k - j], force);
         }
         velocity[k + 1] = force * N::ratio(1, k as i32 + 1);
-        c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
+        if k + 2 < LEN {
+            c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
+        }
     }
     (c, velocity)
 }
@@ -72,10 +74,12 @@ fn linearized<N: Number, const LEN: usize, const F: usize>(
     c[0] = u;
     c[1] = w;
     velocity[0] = w;
-    for k in 0..LEN - 2 {
+    for k in 0..LEN - 1 {
         let force = if k < F { c[k] - b[k] } else { c[k] };
         velocity[k + 1] = force * N::ratio(1, k as i32 + 1);
-        c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
+        if k + 2 < LEN {
+            c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
+        }
     }
     (c, velocity)
 }

@@ -81,6 +81,16 @@ impl Isa {
         }
     }
 
+    /// The level at which one number at a time is as fast as at this one.
+    #[must_use]
+    pub fn scalar(self) -> Isa {
+        match self.0 {
+            Level::Baseline => self,
+            #[cfg(target_arch = "x86_64")]
+            Level::Avx2 | Level::Avx512 => Isa(Level::Avx2),
+        }
+    }
+
     /// Runs `work` with this level's instructions.
     #[inline]
     pub fn run<W: Work>(self, work: W) -> W::Output {

@@ -127,9 +127,7 @@ fn counts(
 
 /// The count at the beginning of a text, ended by a separator.
 fn read_count(rest: &str) -> Option<usize> {
-    let end = rest
-        .find(|c: char| matches!(c, ' ' | '\t' | ',' | ';'))
-        .unwrap_or(rest.len());
+    let end = rest.find([' ', '\t', ',', ';']).unwrap_or(rest.len());
     let digits = &rest[..end];
     let plain = digits.bytes().all(|b| b.is_ascii_digit());
     digits.parse().ok().filter(|_| plain)

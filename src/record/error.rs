@@ -33,6 +33,12 @@ pub struct RecordError {
 }
 
 impl RecordError {
+    /// The error of a file whose bytes could not be had.
+    #[must_use]
+    pub fn unreadable(file: &str, reason: String) -> Self {
+        Fault::Unreadable(reason).whole(file)
+    }
+
     /// Name of the file, as it was given.
     #[must_use]
     pub fn file(&self) -> &str {
@@ -110,6 +116,9 @@ pub enum Fault {
     /// Velocity, displacement or a spectrum.
     #[error("{0:?}: expected an acceleration history")]
     Quantity(String),
+    /// A vertical component where horizontal ones are wanted.
+    #[error("{0:?} is a vertical component: expected a horizontal one")]
+    Vertical(String),
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),

@@ -86,7 +86,8 @@ impl Suite {
     /// An index is a CSV file with a column `file` (relative to the index).
     /// Optional columns: `format`, `units`, `dt_s`, `npts`, `pga_g`,
     /// `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1 or 0);
-    /// others are kept as attributes. In a folder, files of no known format
+    /// others are kept as attributes. PEER's `_SearchResults.csv` is an index
+    /// too, and that of the folder it lies in. In another folder, files of no known format
     /// and histories of velocity or displacement are set aside
     /// ([`Suite::ignored`]); any other fault refuses the suite. Pairs are
     /// found by file name: what is left without the orientation at its end.

@@ -2,6 +2,8 @@
 
 use super::*;
 
+mod networks;
+
 fn options(dt_s: Option<f64>) -> ReadOptions {
     ReadOptions { dt_s, ..ReadOptions::default() }
 }
@@ -388,6 +390,11 @@ fn no_bytes_make_a_reader_panic() {
         body(7, GLUED),
         resorce,
         "0.1\n0.2\n-0.3\n".to_owned(),
+        networks::cosmos(),
+        networks::CSMIP.to_owned(),
+        networks::KNET.to_owned(),
+        networks::ESM.to_owned(),
+        networks::smc(),
         "t (s),a (g)\n0.00,0.1\n0.01,0.2\n0.02,1e-3\n".to_owned(),
     ];
     let alphabet = b"0123456789+-.eEdD,;:=\t\n\r #\"()NaPTSx\xff\x00\xc3\xa9";

@@ -96,16 +96,27 @@ impl<'a> Text<'a> {
         self.on_line(self.lines.len() - 1, fault)
     }
 
-    /// The file's number of samples against the number it states.
+    /// The number of samples found in the file against the stated one.
     pub(super) fn check_count(
         &self,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), RecordError> {
+        self.check_count_at(self.lines.len() - 1, found, expected)
+    }
+
+    /// The number of samples found up to the line of index `index` against
+    /// the stated one.
+    pub(super) fn check_count_at(
+        &self,
+        index: usize,
         found: usize,
         expected: usize,
     ) -> Result<(), RecordError> {
         if found == expected {
             return Ok(());
         }
-        Err(self.at_end(Fault::Count { found, expected }))
+        Err(self.on_line(index, Fault::Count { found, expected }))
     }
 }
 

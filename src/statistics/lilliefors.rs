@@ -6,11 +6,16 @@
 //! [`NullDistribution`] and p-values between them; published tables and
 //! other packages' are not used.
 
+mod assess;
+pub(crate) mod fast;
+mod shift;
 mod simulation;
 mod table;
 
 use thiserror::Error;
 
+pub use assess::{Assessment, Inapplicable, Null, Scale};
+pub use shift::ShiftedNull;
 pub use simulation::{CriticalValue, NullDistribution};
 pub use table::Table;
 
@@ -44,6 +49,23 @@ pub enum LillieforsError {
     /// Replicates of a simulation.
     #[error("{0} replicates: expected 100 to 100000000")]
     Replicates(u64),
+    /// The joint model needs pairs of an onset and a capacity above it.
+    #[error(
+        "pair {number}: onset {onset}, capacity {capacity}: expected finite numbers, 0 < onset < capacity"
+    )]
+    Pair {
+        /// Place of the pair, from 1.
+        number: usize,
+        /// The record's onset of rocking.
+        onset: f64,
+        /// The record's capacity.
+        capacity: f64,
+    },
+    /// The model's shift exceeds its capacities too often.
+    #[error(
+        "{0} draws in a row with a capacity below the shift: the joint model does not hold"
+    )]
+    Redraws(u64),
     /// The statistic is a distance.
     #[error("statistic {0}: expected a number above 0")]
     Statistic(f64),

@@ -2,11 +2,15 @@
 
 mod censored;
 mod fit;
+mod profile;
 
 use libm::{exp, log};
 use thiserror::Error;
 
-pub use fit::{FitError, FitMethod, LognormalFit, fit, shifted_finite};
+pub use fit::{
+    FitError, FitMethod, LognormalFit, fit, fit_intervals, shifted_finite,
+};
+pub use profile::{ShiftProfile, profile_shift};
 
 use super::{ExtendedSample, normal};
 

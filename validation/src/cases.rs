@@ -287,6 +287,7 @@ pub struct Case {
 pub const FAMILIES: &[(&str, &str)] = &[
     ("free-rocking", include_str!("../cases/free-rocking.toml")),
     ("hard-cases", include_str!("../cases/hard-cases.toml")),
+    ("invariants", include_str!("../cases/invariants.toml")),
     (
         "overturning-spectrum",
         include_str!("../cases/overturning-spectrum.toml"),
@@ -294,8 +295,13 @@ pub const FAMILIES: &[(&str, &str)] = &[
     ("pulse-trajectories", include_str!("../cases/pulse-trajectories.toml")),
     ("rectangular-pulse", include_str!("../cases/rectangular-pulse.toml")),
     ("sampled-records", include_str!("../cases/sampled-records.toml")),
+    ("similarity-defect", include_str!("../cases/similarity-defect.toml")),
     (
         "sine-pulse-similarity",
         include_str!("../cases/sine-pulse-similarity.toml"),
+    ),
+    (
+        "solution-verification",
+        include_str!("../cases/solution-verification.toml"),
     ),
 ];

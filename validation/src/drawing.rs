@@ -23,3 +23,6 @@ pub use grid::Grid;
 pub use legend::{Entry, Sample};
 pub use panel::{Marker, Panel};
 pub use scene::{Caption, DrawError, Horizontal, Scene, TextLine};
+
+#[cfg(test)]
+mod tests;

@@ -17,22 +17,30 @@ mod quantiles;
 mod sketch;
 mod tests_along;
 
-use crate::drawing::DrawError;
+use crate::drawing::{DrawError, Scene};
 
 /// What every figure's data can do.
 pub trait Figure {
     /// The words that go with it.
     fn heading(&self) -> &data::Heading;
 
+    /// The shapes, before they are written.
+    fn scene(&self) -> Scene;
+
+    /// The numbers, one header line, long format.
+    fn csv(&self) -> String;
+
     /// The drawing.
     ///
     /// # Errors
     /// [`DrawError`] when the SVG grows too large.
-    fn svg(&self) -> Result<String, DrawError>;
-
-    /// The numbers, one header line, long format.
-    fn csv(&self) -> String;
+    fn svg(&self) -> Result<String, DrawError> {
+        self.scene().svg()
+    }
 }
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+pub(crate) use tests::demonstration;

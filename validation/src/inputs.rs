@@ -1,10 +1,18 @@
-//! Suites from files, checksums included.
+//! Suites from files and zips, checksums included.
 
 use std::fmt::Write as _;
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
-use rocking::record::{ReadOptions, Suite, SuiteError, SuiteOptions};
+use rocking::record::{
+    ReadOptions, RecordError, Suite, SuiteError, SuiteOptions, Survey,
+};
 use sha2::{Digest, Sha256};
+use zip::ZipArchive;
+
+/// Unpacked bytes of one file beyond which an archive is refused.
+const LARGEST_FILE: u64 = 256 << 20;
 
 /// SHA-256 of `bytes` in hexadecimal.
 ///
@@ -28,7 +36,7 @@ pub fn suite_options(read: ReadOptions) -> SuiteOptions {
     SuiteOptions { read, sha256_hex: Some(sha256_hex) }
 }
 
-/// Reads the suite at `path`, a folder or an index, checksums included.
+/// Reads the suite at `path`: a folder, an index, or a zip of either.
 ///
 /// # Errors
 /// As [`Suite::read`].
@@ -36,5 +44,81 @@ pub fn read_suite(
     path: &Path,
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
-    Suite::read(path, &suite_options(read))
+    survey(path, read)?.into_suite()
+}
+
+/// Reads every record of the folder, index or zip at `path`, checksums
+/// included.
+///
+/// # Errors
+/// As [`Survey::read`]; [`SuiteError::Unreadable`] for a damaged zip.
+pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
+    let options = suite_options(read);
+    if path.is_dir() || !is_zip(path) {
+        return Survey::read(path, &options);
+    }
+    let shown = path.display().to_string();
+    let unreadable = |reason: String| SuiteError::Unreadable {
+        path: shown.clone(),
+        reason,
+    };
+    let file = File::open(path).map_err(|e| unreadable(e.to_string()))?;
+    let mut archive =
+        ZipArchive::new(file).map_err(|e| unreadable(e.to_string()))?;
+    let mut names = Vec::new();
+    for name in archive.file_names() {
+        names.push(name.map_err(|e| unreadable(e.to_string()))?.into_owned());
+    }
+    let (base, names) = contents(names);
+    Survey::of_files(&shown, &names, &options, |name| {
+        unpacked(&mut archive, &format!("{base}{name}")).map_err(|reason| {
+            RecordError::unreadable(&format!("{shown}/{name}"), reason)
+        })
+    })
+}
+
+/// The folder of an archive that PEER's search results lie in, if any, and
+/// the files in it, by name; hidden files and folders are left out.
+fn contents(names: Vec<String>) -> (String, Vec<String>) {
+    let base = names
+        .iter()
+        .find_map(|name| name.strip_suffix("_SearchResults.csv"))
+        .unwrap_or("")
+        .to_owned();
+    let hidden = |name: &str| {
+        name.split('/').any(|part| part.starts_with('.') || part == "__MACOSX")
+    };
+    let mut inside: Vec<String> = names
+        .iter()
+        .filter_map(|name| name.strip_prefix(base.as_str()))
+        .filter(|name| !name.ends_with('/') && !hidden(name))
+        .map(str::to_owned)
+        .collect();
+    inside.sort();
+    (base, inside)
+}
+
+/// Whether the file at `path` begins as a zip does.
+#[must_use]
+pub fn is_zip(path: &Path) -> bool {
+    let mut start = [0; 4];
+    File::open(path)
+        .and_then(|mut file| file.read_exact(&mut start))
+        .is_ok_and(|()| start == *b"PK\x03\x04")
+}
+
+/// One file of an archive, if it is no larger than records are.
+fn unpacked(
+    archive: &mut ZipArchive<File>,
+    name: &str,
+) -> Result<Vec<u8>, String> {
+    let file = archive.by_name(name).map_err(|e| e.to_string())?;
+    let mut bytes = Vec::new();
+    let limit = LARGEST_FILE + 1;
+    let read = file.take(limit).read_to_end(&mut bytes);
+    read.map_err(|e| e.to_string())?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(format!("more than {LARGEST_FILE} bytes when unpacked"));
+    }
+    Ok(bytes)
 }

@@ -12,6 +12,8 @@ pub mod inputs;
 pub mod json;
 pub mod methods;
 pub mod naive;
+pub mod oracles;
+pub mod report;
 pub mod scene;
 pub mod study;
 pub mod synthesis;

@@ -1,7 +1,10 @@
 //! Registry of what a case can ask to be computed, and of wrong models.
 
+mod closed_forms;
+mod invariance;
 mod references;
 mod response;
+mod solution;
 mod spectrum;
 mod wrong;
 
@@ -93,6 +96,14 @@ pub const METHODS: &[(&str, Run)] = &[
     ("free-rocking", response::free_rocking),
     ("rectangular-pulse", response::rectangular_pulse),
     ("overturning-edges", spectrum::edges),
+    ("free-rocking-grid", closed_forms::free),
+    ("linear-pulse-grid", closed_forms::pulses),
+    ("critical-amplitudes", closed_forms::critical),
+    ("fold", closed_forms::fold),
+    ("critical-durations", closed_forms::durations),
+    ("invariance", invariance::invariance),
+    ("similarity-defect", invariance::defect),
+    ("energy-in-flight", solution::energy),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

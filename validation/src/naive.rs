@@ -158,9 +158,20 @@ impl Run<'_> {
         self.scene.forcing.at(self.piece, t)
     }
 
+    /// End of the run. Steps that do not stop at impacts keep the chatter
+    /// going for ever.
+    fn until(&self) -> f64 {
+        let until = self.scene.until_s.unwrap_or(f64::INFINITY);
+        if self.rules.events == Events::Located {
+            return until;
+        }
+        let after = 30.0 / self.scene.frequency_rad_s;
+        until.min(self.scene.forcing.end_s() + after)
+    }
+
     fn piece_end(&self) -> f64 {
         let end = self.pieces_s.get(self.piece + 1).copied();
-        let until = self.scene.until_s.unwrap_or(f64::INFINITY);
+        let until = self.until();
         end.unwrap_or(f64::INFINITY).min(until)
     }
 
@@ -184,7 +195,7 @@ impl Run<'_> {
             self.record_peak(z);
             self.trace.first_side = rotation_rad.signum();
         }
-        let until = self.scene.until_s.unwrap_or(f64::INFINITY);
+        let until = self.until();
         while self.t < until {
             let in_tail = self.piece + 1 >= self.pieces_s.len();
             if in_tail && (hop.is_none() || !self.rules.after_end) {

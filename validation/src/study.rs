@@ -4,19 +4,34 @@
 pub mod analyses;
 pub mod capacities;
 pub mod choice;
+pub mod claims;
+pub mod distributions;
+pub mod figures;
 pub mod findings;
 pub mod grid;
 pub mod histories;
+pub mod normality;
 pub mod output;
+pub mod page;
 pub mod runs;
+pub mod sensitivities;
 pub mod stripes;
 pub mod suites;
+pub mod whole;
+
+pub use whole::Study;
 
 use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
 use rocking::integrator::SceneError;
 use rocking::record::{AccelerogramError, SuiteError};
+use rocking::statistics::SampleError;
+use rocking::statistics::boxplot::BoxplotError;
+use rocking::statistics::paired::PairedError;
+use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
+
+use crate::drawing::DrawError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -37,6 +52,21 @@ pub enum StudyError {
     /// A curve that cannot be inverted.
     #[error(transparent)]
     Capacity(#[from] CapacityError),
+    /// A sample without values, or with one that is not a number.
+    #[error(transparent)]
+    Sample(#[from] SampleError),
+    /// A quantile that does not exist.
+    #[error(transparent)]
+    Quantile(#[from] QuantileError),
+    /// A box that reaches infinity.
+    #[error(transparent)]
+    Boxplot(#[from] BoxplotError),
+    /// Pairs that cannot be compared.
+    #[error(transparent)]
+    Paired(#[from] PairedError),
+    /// A drawing that grew too large.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,

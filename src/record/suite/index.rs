@@ -21,15 +21,27 @@ pub(super) struct Row {
     cells: BTreeMap<String, String>,
 }
 
-/// Whether the first line has a column `file`.
+/// Column of PEER's search results that names the first component.
+const PEER_FIRST: &str = "Horizontal-1 Acc. Filename";
+const PEER_SECOND: &str = "Horizontal-2 Acc. Filename";
+const PEER_NUMBER: &str = "Record Sequence Number";
+
+/// Whether the first line has a column `file`, or any line is the head of
+/// PEER's list of records.
 pub(super) fn is_index(bytes: &[u8]) -> bool {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let end = bytes.iter().position(|b| *b == b'\n' || *b == b'\r');
-    let head = &bytes[..end.unwrap_or(bytes.len())];
-    std::str::from_utf8(head)
-        .ok()
+    let mut lines = bytes.split(|b| *b == b'\n' || *b == b'\r');
+    let first = lines.next().and_then(|line| std::str::from_utf8(line).ok());
+    let plain = first
         .and_then(split)
-        .is_some_and(|cells| cells.iter().any(|cell| cell == "file"))
+        .is_some_and(|cells| cells.iter().any(|cell| cell == "file"));
+    let peer = |line: &[u8]| {
+        let names = |name: &str| {
+            line.windows(name.len()).any(|part| part == name.as_bytes())
+        };
+        names(PEER_FIRST) && names(PEER_NUMBER)
+    };
+    plain || lines.any(peer)
 }
 
 /// Cells of a line; `None` for a quote that does not close or stands in the
@@ -38,18 +50,19 @@ fn split(line: &str) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     let mut rest = line;
     loop {
-        let (cell, after) = match rest.strip_prefix('"') {
+        let quoted = rest.trim_start().strip_prefix('"');
+        let (cell, after) = match quoted {
             Some(quoted) => unquote(quoted)?,
             None => {
                 let end = rest.find(',').unwrap_or(rest.len());
                 (rest[..end].trim().to_owned(), &rest[end..])
             }
         };
-        if cell.contains('"') && !rest.starts_with('"') {
+        if cell.contains('"') && quoted.is_none() {
             return None;
         }
         cells.push(cell);
-        match after.strip_prefix(',') {
+        match after.trim_start().strip_prefix(',') {
             Some(more) => rest = more,
             None if after.trim().is_empty() => return Some(cells),
             None => return None,
@@ -75,50 +88,34 @@ fn unquote(quoted: &str) -> Option<(String, &str)> {
 }
 
 impl Index {
-    /// Parses an index.
+    /// Parses an index, or PEER's search results.
     pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Self, SuiteError> {
         let content = text::decode(path, bytes)?;
-        let refuse = |line: usize, found: &str, expected: &str| {
-            let (path, found) = (path.to_owned(), excerpt(found));
-            let expected = expected.to_owned();
-            SuiteError::Index { path, line, found, expected }
-        };
-        let mut lines = content.lines().zip(1..);
-        let (head, _) = lines.next().unwrap_or(("", 1));
-        let columns = split(head)
-            .filter(|c| c.iter().any(|name| name == "file"))
-            .ok_or_else(|| {
-                refuse(
-                    1,
-                    head,
-                    "a folder, or an index: a CSV file with a column `file`",
-                )
-            })?;
-        let mut sorted = columns.clone();
-        sorted.sort_unstable();
-        if let Some(twice) = sorted.windows(2).find(|w| w[0] == w[1]) {
-            return Err(refuse(1, &twice[0], "each column once"));
-        }
+        let lines: Vec<&str> = content.lines().collect();
+        let peer = lines.iter().position(|line| {
+            line.contains(PEER_FIRST) && line.contains(PEER_NUMBER)
+        });
+        let head = peer.unwrap_or(0);
+        let mut table = Table { path, columns: Vec::new(), lines: &lines };
+        table.columns = table.head(head)?;
         let mut rows = Vec::new();
-        for (text, line) in lines.filter(|(l, _)| !l.trim().is_empty()) {
-            let cells = split(text).ok_or_else(|| {
-                refuse(line, text, "cells separated by commas, quotes closed")
-            })?;
-            if cells.len() != columns.len() {
-                let expected =
-                    format!("{} cells, as the first line", columns.len());
-                let found = format!("{} cells", cells.len());
-                return Err(refuse(line, &found, &expected));
+        for line in head + 1..lines.len() {
+            let blank = lines[line].trim_matches([',', ' ', '\t']).is_empty();
+            if blank && peer.is_some() {
+                break;
             }
-            let mut cells: BTreeMap<String, String> =
-                columns.iter().cloned().zip(cells).collect();
-            let file = cells.remove("file").unwrap_or_default();
-            if file.is_empty() {
-                return Err(refuse(line, &file, "the name of a file"));
+            if !blank {
+                let cells = table.cells(line)?;
+                match peer {
+                    None => rows.push(table.row(line, cells)?),
+                    Some(_) => rows.extend(table.peer_rows(line, &cells)?),
+                }
             }
-            rows.push(Row { path: path.to_owned(), line, file, cells });
         }
-        Ok(Self { columns, rows })
+        if peer.is_some() {
+            table.columns.push("pair".to_owned());
+        }
+        Ok(Self { columns: table.columns, rows })
     }
 
     /// Rows in the index's order.
@@ -129,6 +126,100 @@ impl Index {
     /// Whether there is a column `name`.
     pub(super) fn has(&self, name: &str) -> bool {
         self.columns.iter().any(|column| column == name)
+    }
+}
+
+/// Lines under a head of column names.
+struct Table<'a> {
+    path: &'a str,
+    columns: Vec<String>,
+    lines: &'a [&'a str],
+}
+
+impl Table<'_> {
+    fn refuse(&self, line: usize, found: &str, expected: &str) -> SuiteError {
+        SuiteError::Index {
+            path: self.path.to_owned(),
+            line: line + 1,
+            found: excerpt(found),
+            expected: expected.to_owned(),
+        }
+    }
+
+    fn head(&self, line: usize) -> Result<Vec<String>, SuiteError> {
+        let text = self.lines.get(line).copied().unwrap_or("");
+        let known = ["file", PEER_FIRST];
+        let columns = split(text)
+            .filter(|c| c.iter().any(|name| known.contains(&name.as_str())))
+            .ok_or_else(|| {
+                let expected =
+                    "a folder, or an index: a CSV file with a column `file`";
+                self.refuse(line, text, expected)
+            })?;
+        let mut sorted: Vec<&String> =
+            columns.iter().filter(|name| !name.is_empty()).collect();
+        sorted.sort_unstable();
+        match sorted.windows(2).find(|w| w[0] == w[1]) {
+            Some(twice) => {
+                Err(self.refuse(line, twice[0], "each column once"))
+            }
+            None => Ok(columns),
+        }
+    }
+
+    fn cells(
+        &self,
+        line: usize,
+    ) -> Result<BTreeMap<String, String>, SuiteError> {
+        let text = self.lines[line];
+        let mut cells = split(text).ok_or_else(|| {
+            let expected = "cells separated by commas, quotes closed";
+            self.refuse(line, text, expected)
+        })?;
+        // Some programs end a line with separators.
+        while cells.len() > self.columns.len()
+            && cells.last().is_some_and(String::is_empty)
+        {
+            cells.pop();
+        }
+        if cells.len() != self.columns.len() {
+            let expected =
+                format!("{} cells, as the head", self.columns.len());
+            let found = format!("{} cells", cells.len());
+            return Err(self.refuse(line, &found, &expected));
+        }
+        Ok(self.columns.iter().cloned().zip(cells).collect())
+    }
+
+    fn row(
+        &self,
+        line: usize,
+        mut cells: BTreeMap<String, String>,
+    ) -> Result<Row, SuiteError> {
+        let file = cells.remove("file").unwrap_or_default();
+        if file.is_empty() {
+            return Err(self.refuse(line, &file, "the name of a file"));
+        }
+        Ok(Row { path: self.path.to_owned(), line: line + 1, file, cells })
+    }
+
+    /// The two horizontal components of a row of PEER's search results.
+    fn peer_rows(
+        &self,
+        line: usize,
+        cells: &BTreeMap<String, String>,
+    ) -> Result<Vec<Row>, SuiteError> {
+        let cell = |name| cells.get(name).map_or("", String::as_str);
+        let files = [cell(PEER_FIRST), cell(PEER_SECOND)];
+        let there = |file: &&str| !file.trim_matches(['-', ' ']).is_empty();
+        let pair = format!("RSN{}", cell(PEER_NUMBER));
+        let row = |file: &str| {
+            let mut cells = cells.clone();
+            cells.insert("file".to_owned(), file.to_owned());
+            cells.insert("pair".to_owned(), pair.clone());
+            self.row(line, cells)
+        };
+        files.into_iter().filter(there).map(row).collect()
     }
 }
 

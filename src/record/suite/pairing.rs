@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
-use crate::record::stem;
+use crate::record::text;
 
 /// Orientations that end a file name, horizontal ones.
 const NAMED: [&str; 16] = [
@@ -11,19 +11,65 @@ const NAMED: [&str; 16] = [
     "W", "L", "T",
 ];
 
-/// A file's stem without the orientation at its end.
+/// Names of vertical components.
+const VERTICAL: [&str; 11] =
+    ["UP", "DWN", "DN", "DOWN", "UD", "U-D", "UD1", "UD2", "V", "VER", "Z"];
+
+const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
+
+/// A record's name without its orientation.
 ///
 /// After a separator any of the names or one to three digits is one
 /// (`A_E`, `A-90`, `A--L`); without a separator three digits or two letters
-/// after a digit (`HEC090`, `65006EW`).
-pub(super) fn pair_key(stem: &str) -> Option<&str> {
-    let separators = ['-', '_', '.'];
-    let key = match stem.rsplit_once(separators) {
+/// after a digit (`HEC090`, `65006EW`). KiK-net's `.EW2` keeps its digit, an
+/// instrument code (`HNE`) between dots its first two letters, and channels
+/// of one file share the file's name.
+pub(super) fn pair_key(name: &str) -> Option<String> {
+    if let Some((file, _)) = name.split_once(':') {
+        return Some(file.to_owned());
+    }
+    if let Some(code) = name.split('.').find(|part| is_code(part)) {
+        return Some(name.replacen(code, &code[..2], 1));
+    }
+    let end = name.rsplit('.').next().unwrap_or("");
+    if let Some(depth) = end.strip_prefix("EW").or(end.strip_prefix("NS"))
+        && matches!(depth, "1" | "2")
+    {
+        return Some(format!("{}{depth}", &name[..name.len() - 3]));
+    }
+    let key = match name.rsplit_once(SEPARATORS) {
         Some((key, end)) if is_orientation(end) => key,
-        _ => glued(stem)?,
+        _ => glued(name)?,
     };
-    let key = key.trim_end_matches(separators);
-    (!key.is_empty()).then_some(key)
+    let key = key.trim_end_matches(SEPARATORS);
+    (!key.is_empty()).then(|| key.to_owned())
+}
+
+/// A code of band, instrument and component, as FDSN networks write it.
+fn is_code(part: &str) -> bool {
+    matches!(
+        part.as_bytes(),
+        [
+            b'B' | b'E' | b'H' | b'S',
+            b'G' | b'L' | b'N',
+            b'E' | b'N' | b'Z' | b'1' | b'2' | b'3'
+        ]
+    )
+}
+
+/// Whether a channel's label, or else the end of a record's name, says that
+/// the component is vertical.
+pub(super) fn is_vertical(label: Option<&str>, name: &str) -> bool {
+    let named = |word: &str| {
+        VERTICAL.iter().any(|v| word.eq_ignore_ascii_case(v))
+            || (is_code(word) && word.ends_with('Z'))
+    };
+    let label = label.unwrap_or("");
+    let end = name.rsplit(['-', '_', '.']).next().unwrap_or("");
+    label.split([' ', ',', ':']).any(named)
+        || text::contains(label, "vert")
+        || (end.len() < name.len() && named(end))
+        || name.split('.').any(|part| is_code(part) && named(part))
 }
 
 fn is_orientation(end: &str) -> bool {
@@ -51,7 +97,7 @@ fn glued(stem: &str) -> Option<&str> {
 /// Gives the two records that share a name but for its orientation that
 /// name as their pair; any other number of records stays unpaired.
 pub(super) fn pair_by_name(members: &mut [SuiteMember]) {
-    let key = |m: &SuiteMember| pair_key(stem(&m.file)).map(str::to_owned);
+    let key = |m: &SuiteMember| pair_key(m.accelerogram.name());
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
     for name in members.iter().filter_map(key) {
         *counts.entry(name).or_default() += 1;
@@ -61,22 +107,24 @@ pub(super) fn pair_by_name(members: &mut [SuiteMember]) {
     }
 }
 
-/// Marks, in each pair, the component whose file name sorts first; a record
+/// Marks, in each pair, the component whose name sorts first; a record
 /// without a partner is marked too.
 pub(super) fn mark_first(members: &mut [SuiteMember]) {
     let mut first: BTreeMap<String, String> = BTreeMap::new();
     for member in members.iter() {
         let Some(pair) = &member.pair else { continue };
-        let file = first.entry(pair.clone()).or_insert(member.file.clone());
-        if member.file < *file {
-            file.clone_from(&member.file);
+        let name = member.accelerogram.name();
+        let least = first.entry(pair.clone()).or_insert(name.to_owned());
+        if name < least.as_str() {
+            name.clone_into(least);
         }
     }
     for member in members {
+        let name = member.accelerogram.name();
         member.study_component = member
             .pair
             .as_ref()
-            .is_none_or(|pair| first.get(pair) == Some(&member.file));
+            .is_none_or(|pair| first.get(pair).is_some_and(|f| f == name));
     }
 }
 

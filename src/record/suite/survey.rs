@@ -5,7 +5,12 @@ use std::path::{Path, PathBuf};
 
 use super::{StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions};
 use super::{index, pairing};
-use crate::record::{Fault, RecordError, bytes_of, name_of, read, stem};
+use crate::record::{
+    Fault, Record, RecordError, bytes_of, name_of, read_all, stem,
+};
+
+/// The index in a folder or archive as PEER's site delivers it.
+const PEER_RESULTS: &str = "_SearchResults.csv";
 
 /// What a folder or index holds, refused records included.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,14 +31,64 @@ impl Survey {
         path: &Path,
         options: &SuiteOptions,
     ) -> Result<Self, SuiteError> {
+        let shown = path.display().to_string();
         if path.is_dir() {
-            return Self::of_folder(path, options);
+            let names: Vec<String> =
+                folder_files(path)?.iter().map(|file| name_of(file)).collect();
+            return Self::of_files(&shown, &names, options, |name| {
+                bytes_of(&path.join(name))
+            });
         }
         let bytes = bytes_of(path)?;
-        let shown = path.display().to_string();
         let base = path.parent().unwrap_or(Path::new(""));
         Self::of_index(&shown, &bytes, options, |file| {
             bytes_of(&base.join(file))
+        })
+    }
+
+    /// Reads every record among the files of a folder or archive, given by
+    /// its path, the files' names and a function that gives the bytes of
+    /// each. If one of them is PEER's `_SearchResults.csv`, that is the
+    /// index.
+    ///
+    /// # Errors
+    /// [`SuiteError`] where an index cannot be read.
+    pub fn of_files(
+        path: &str,
+        names: &[String],
+        options: &SuiteOptions,
+        mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+    ) -> Result<Self, SuiteError> {
+        if let Some(results) = names.iter().find(|n| *n == PEER_RESULTS) {
+            let bytes = file_bytes(results)?;
+            let shown = format!("{path}/{results}");
+            return Self::of_index(&shown, &bytes, options, file_bytes);
+        }
+        let mut members = Vec::new();
+        let mut ignored = Vec::new();
+        for name in names {
+            let shown = format!("{path}/{name}");
+            let records = file_bytes(name)
+                .and_then(|bytes| read_all(&shown, &bytes, &options.read));
+            match records {
+                Ok(records) => {
+                    for record in records {
+                        match horizontal(&shown, name, record) {
+                            Ok(member) => members.push(Ok(member)),
+                            Err(error) => ignored.push(error),
+                        }
+                    }
+                }
+                Err(error) if is_no_record(&error) => ignored.push(error),
+                Err(error) => members.push(Err(error.into())),
+            }
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            members,
+            ignored,
+            study_rule: StudyRule::FirstName,
+            paired: false,
         })
     }
 
@@ -61,41 +116,8 @@ impl Survey {
         })
     }
 
-    fn of_folder(
-        path: &Path,
-        options: &SuiteOptions,
-    ) -> Result<Self, SuiteError> {
-        let mut members = Vec::new();
-        let mut ignored = Vec::new();
-        for file in folder_files(path)? {
-            let bytes = bytes_of(&file)?;
-            let shown = file.display().to_string();
-            match read(&shown, &bytes, &options.read) {
-                Ok(record) => members.push(Ok(SuiteMember {
-                    accelerogram: record.accelerogram,
-                    file: name_of(&file),
-                    format: record.format,
-                    unit: record.unit,
-                    pair: None,
-                    study_component: false,
-                    attributes: BTreeMap::new(),
-                })),
-                Err(error) if is_no_record(&error) => ignored.push(error),
-                Err(error) => members.push(Err(error.into())),
-            }
-        }
-        Ok(Self {
-            path: path.display().to_string(),
-            members,
-            ignored,
-            study_rule: StudyRule::FirstName,
-            paired: false,
-        })
-    }
-
     /// Every record that was looked for, in the index's order or by file
     /// name; pairs found by name are known to the suite only.
-    #[must_use]
     pub fn members(&self) -> &[Result<SuiteMember, SuiteError>] {
         &self.members
     }
@@ -126,9 +148,37 @@ impl Survey {
             pairing::mark_first(&mut members);
         }
         pairing::check_pairs(&path, &members)?;
-        let name = stem(path.trim_end_matches('/')).to_owned();
+        let name = suite_name(&path);
         Ok(Suite { name, members, study_rule, ignored })
     }
+}
+
+/// Name of a suite by its folder or index.
+fn suite_name(path: &str) -> String {
+    let folder = path.strip_suffix(PEER_RESULTS).filter(|f| !f.is_empty());
+    stem(folder.unwrap_or(path).trim_end_matches('/')).to_owned()
+}
+
+/// A record of a folder as a member of the suite, unless it is vertical.
+fn horizontal(
+    shown: &str,
+    file: &str,
+    record: Record,
+) -> Result<SuiteMember, RecordError> {
+    let label = record.channel.as_deref();
+    if pairing::is_vertical(label, record.accelerogram.name()) {
+        let name = record.accelerogram.name().to_owned();
+        return Err(Fault::Vertical(name).whole(shown));
+    }
+    Ok(SuiteMember {
+        accelerogram: record.accelerogram,
+        file: file.to_owned(),
+        format: record.format,
+        unit: record.unit,
+        pair: None,
+        study_component: false,
+        attributes: BTreeMap::new(),
+    })
 }
 
 /// Whether a file is no acceleration record at all, against one with a

@@ -1,6 +1,6 @@
 //! Indexes, folders, pairs: what is read, and what must be refused.
 
-use super::pairing::pair_key;
+use super::pairing::{is_vertical, pair_key};
 use super::*;
 
 const MOTION: &str = "0\n0.2\n-0.1\n";
@@ -38,7 +38,7 @@ fn a_row_is_checked_against_its_record() {
         (",,,,,", "a: no sampling interval in the file"),
         ("0.01,,,,at2,", "i.csv:2: a has format column: expected at2"),
         ("0.01,,,,,000c", "i.csv:2: a has sha256 000b: expected 000c"),
-        ("0.01,,,,", "i.csv:2: \"7 cells\": expected 8 cells"),
+        ("0.01,,,,", "i.csv:2: \"7 cells\": expected 8 cells, as the head"),
     ];
     for (cells, expected) in cases {
         let found = refusal(&row(cells));
@@ -141,6 +141,11 @@ fn pairs_share_a_name_but_for_the_orientation() {
         ("R_TAB-LN", Some("R_TAB")),
         ("R_0", Some("R")),
         ("R_H-CPE147", Some("R_H-CPE")),
+        ("IV.AQU..HNE.D.1900.ACC", Some("IV.AQU..HN.D.1900.ACC")),
+        ("IV.AQU..HNN.D.1900.ACC", Some("IV.AQU..HN.D.1900.ACC")),
+        ("MYG0041103111446.EW", Some("MYG0041103111446")),
+        ("MYGH041103111446.NS2", Some("MYGH041103111446.2")),
+        ("CE1:3_360_deg", Some("CE1")),
         ("R_UP", None),
         ("R_999", None),
         ("STATION", None),
@@ -149,7 +154,24 @@ fn pairs_share_a_name_but_for_the_orientation() {
         ("\u{e9}\u{e9}", None),
     ];
     for (stem, key) in cases {
-        assert_eq!(pair_key(stem), key, "{stem}");
+        assert_eq!(pair_key(stem).as_deref(), key, "{stem}");
+    }
+    let verticals = [
+        (None, "A_UP"),
+        (None, "A-DWN"),
+        (None, "A.UD2"),
+        (None, "IV.AQU..HNZ.D.1"),
+        (Some("2 Up"), "A:2_Up"),
+        (Some("U-D"), "A"),
+        (Some("HNZ"), "A"),
+    ];
+    for (label, name) in verticals {
+        assert!(is_vertical(label, name), "{name}");
+    }
+    for (label, name) in
+        [(None, "UP"), (None, "A_000"), (Some("1 90 deg"), "A:1_90_deg")]
+    {
+        assert!(!is_vertical(label, name), "{name}");
     }
 }
 
@@ -166,4 +188,45 @@ fn any_text_is_an_index_or_refused() {
             }
         }
     }
+}
+
+#[test]
+fn peers_search_results_are_an_index() {
+    let results = "PEER Ground Motion Database\n\
+        Search Criteria,\n\n\
+        -- Summary of Metadata of Selected Records --\n\
+        Result ID, Spectral Ordinate, Record Sequence Number, Tp-Pulse(s), Earthquake Name, Magnitude, Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename, Vertical Acc. Filename\n\
+        1, SRSS, 9001, -, \"Nowhere, 1900\", 7.1, RSN9001_NO_A000.AT2, RSN9001_NO_A090.AT2, RSN9001_NO_UP.AT2\n\
+        2, SRSS, 9002, 1.5, \"Nowhere\", 6.1, RSN9002_NO_B1.AT2, -----, -----\n\
+        , , , , , , , , \n\
+        -- Scaled Spectra used in Search & Scaling --\n\
+        Period (sec), Target\n0.01, 0.5\n";
+    assert!(is_index(results.as_bytes()));
+    assert!(!is_index(b"t,a\n0,1\n"));
+    let motion = "PEER NGA STRONG MOTION DATABASE RECORD\nX\n\
+        ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 2, DT= .01 SEC\n\
+        \x20  .1000000E-02   .2000000E-02\n";
+    let options =
+        SuiteOptions { read: ReadOptions::default(), sha256_hex: None };
+    let read = |text: &str| {
+        Suite::from_index("s.csv", text.as_bytes(), &options, |_| {
+            Ok(motion.as_bytes().to_vec())
+        })
+    };
+    let suite = read(results).unwrap();
+    let files: Vec<_> = suite.members().iter().map(|m| &*m.file).collect();
+    assert_eq!(
+        files,
+        ["RSN9001_NO_A000.AT2", "RSN9001_NO_A090.AT2", "RSN9002_NO_B1.AT2"]
+    );
+    assert_eq!(suite.both().len(), 1);
+    assert_eq!(suite.members()[1].pair.as_deref(), Some("RSN9001"));
+    let attributes = &suite.members()[1].attributes;
+    assert_eq!(attributes["Earthquake Name"], "Nowhere, 1900");
+    assert_eq!(attributes["Magnitude"], "7.1");
+    let short = results.replace(", -----, -----", ", -----");
+    assert_eq!(
+        read(&short).unwrap_err().to_string(),
+        "s.csv:7: \"8 cells\": expected 9 cells, as the head"
+    );
 }

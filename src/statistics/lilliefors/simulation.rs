@@ -1,14 +1,13 @@
 //! The null distribution of D by simulation.
 
-use std::sync::LazyLock;
-
 use rand_distr::{Distribution as _, StandardNormal};
 use rayon::prelude::*;
 use statrs::distribution::{Beta, ContinuousCDF as _};
 
+use super::fast::Scratch;
 use super::{LillieforsError, PValue};
 use crate::statistics::normal;
-use crate::streams::Streams;
+use crate::streams::{Stream, Streams};
 
 /// Replicates that share one scratch space.
 const CHUNK: u64 = 4096;
@@ -16,10 +15,7 @@ const CHUNK: u64 = 4096;
 /// Simulated statistics D of normal samples of one size, ascending.
 ///
 /// Replicate i draws from stream i of the family "lilliefors, n", so the
-/// result does not depend on threads. D is computed without sorting: the
-/// values F_i fall into n bins of width 1/n, and D+ is attained at the last
-/// value of a bin, D- at the first (Gonzalez, Sahni and Franta, ACM TOMS 3
-/// (1977) 60). Phi comes from a table of cubics that is within 2e-11 of it.
+/// result does not depend on threads. D is within 2e-11 of the statistic.
 ///
 /// ```
 /// use rocking::statistics::lilliefors::NullDistribution;
@@ -61,27 +57,55 @@ impl NullDistribution {
         replicates: u64,
         seed: u64,
     ) -> Result<Self, LillieforsError> {
+        let streams = Streams::new(&format!("lilliefors, {n}"), seed);
+        let draw = |stream: &mut Stream, values: &mut [f64]| {
+            for value in values {
+                *value = StandardNormal.sample(stream);
+            }
+            0
+        };
+        Ok(Self::of_draws(n, replicates, &streams, draw)?.0)
+    }
+
+    /// The distribution of D over samples of n values that `draw` fills in
+    /// from a stream, and the sum of what it returns.
+    pub(super) fn of_draws(
+        n: usize,
+        replicates: u64,
+        streams: &Streams,
+        draw: impl Fn(&mut Stream, &mut [f64]) -> u64 + Sync,
+    ) -> Result<(Self, u64), LillieforsError> {
         if n < 4 {
             return Err(LillieforsError::TooFew(n));
         }
         if !(100..=100_000_000).contains(&replicates) {
             return Err(LillieforsError::Replicates(replicates));
         }
-        let streams = Streams::new(&format!("lilliefors, {n}"), seed);
-        let chunks: Vec<Vec<f64>> = (0..replicates.div_ceil(CHUNK))
+        let chunks: Vec<(Vec<f64>, u64)> = (0..replicates.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
                 let mut scratch = Scratch::new(n);
                 let first = chunk * CHUNK;
-                (first..(first + CHUNK).min(replicates))
-                    .map(|index| scratch.replicate(&streams, index))
-                    .collect()
+                let mut counted = 0;
+                let statistics = (first..(first + CHUNK).min(replicates))
+                    .map(|index| {
+                        let mut stream = streams.stream(index);
+                        let count = draw(&mut stream, &mut scratch.values);
+                        counted = u64::saturating_add(counted, count);
+                        scratch.statistic()
+                    })
+                    .collect();
+                (statistics, counted)
             })
             .collect();
-        let mut sorted = chunks.concat();
-        drop(chunks);
+        let mut sorted = Vec::with_capacity(replicates as usize);
+        let mut counted = 0;
+        for (statistics, count) in chunks {
+            sorted.extend(statistics);
+            counted = u64::saturating_add(counted, count);
+        }
         sorted.par_sort_unstable_by(f64::total_cmp);
-        Ok(Self { n, sorted })
+        Ok((Self { n, sorted }, counted))
     }
 
     /// Size of the samples.
@@ -150,122 +174,9 @@ fn clopper_pearson(successes: usize, trials: usize, level: f64) -> (f64, f64) {
     (low, high)
 }
 
-/// Working space of one replicate.
-struct Scratch {
-    values: Vec<f64>,
-    bins: Vec<Bin>,
-}
-
-#[derive(Clone, Copy)]
-struct Bin {
-    count: u32,
-    first: f64,
-    last: f64,
-}
-
-const EMPTY: Bin = Bin { count: 0, first: 2.0, last: -1.0 };
-
-impl Scratch {
-    fn new(n: usize) -> Self {
-        Self { values: vec![0.0; n], bins: vec![EMPTY; n] }
-    }
-
-    fn replicate(&mut self, streams: &Streams, index: u64) -> f64 {
-        let mut stream = streams.stream(index);
-        for value in &mut self.values {
-            *value = StandardNormal.sample(&mut stream);
-        }
-        self.statistic()
-    }
-
-    /// D of the values, in any order.
-    fn statistic(&mut self) -> f64 {
-        let count = self.values.len() as f64;
-        let mean = self.values.iter().fold(0.0, |s, x| s + x) / count;
-        let squares =
-            self.values.iter().fold(0.0, |s, x| s + (x - mean) * (x - mean));
-        let scale = 1.0 / (squares / (count - 1.0)).sqrt();
-        self.bins.fill(EMPTY);
-        let last_bin = self.bins.len() - 1;
-        let table = &*PHI;
-        for x in &self.values {
-            let f = table.at((x - mean) * scale);
-            let bin = &mut self.bins[((f * count) as usize).min(last_bin)];
-            bin.count += 1;
-            bin.first = bin.first.min(f);
-            bin.last = bin.last.max(f);
-        }
-        let (mut d, mut below) = (0.0, 0);
-        for bin in &self.bins {
-            if bin.count > 0 {
-                d = f64::max(d, bin.first - f64::from(below) / count);
-                below += bin.count;
-                d = f64::max(d, f64::from(below) / count - bin.last);
-            }
-        }
-        d
-    }
-}
-
-/// Phi by cubics between knots 1/128 apart: error at most
-/// h^4 max|phi'''|/384 = 1.4e-11.
-struct PhiTable {
-    knots: Vec<[f64; 2]>,
-}
-
-const STEPS_PER_UNIT: f64 = 128.0;
-/// Beyond, Phi is 0 or 1 to 6e-16.
-const END: f64 = 8.0;
-
-static PHI: LazyLock<PhiTable> = LazyLock::new(|| {
-    let steps = (2.0 * END * STEPS_PER_UNIT) as u32;
-    let knot = |k| {
-        let z = f64::from(k) / STEPS_PER_UNIT - END;
-        [normal::cdf(z), normal::pdf(z) / STEPS_PER_UNIT]
-    };
-    PhiTable { knots: (0..=steps + 1).map(knot).collect() }
-});
-
-impl PhiTable {
-    fn at(&self, z: f64) -> f64 {
-        let position = (z.clamp(-END, END) + END) * STEPS_PER_UNIT;
-        let cell = position as usize;
-        let t = position - cell as f64;
-        let [f0, d0] = self.knots[cell];
-        let [f1, d1] = self.knots[cell + 1];
-        let rise = f1 - f0;
-        let (a, b) = (d0 - rise, rise - d1);
-        f0 + t * (rise + (1.0 - t) * (a * (1.0 - t) + b * t))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::{Sample, lilliefors::Statistic};
-
-    #[test]
-    fn cubics_are_close_to_phi() {
-        for k in -90_000..=90_000 {
-            let z = f64::from(k) * 1e-4;
-            let error = (PHI.at(z) - normal::cdf(z)).abs();
-            assert!(error < 2e-11, "{z}: {error:e}");
-        }
-    }
-
-    #[test]
-    fn statistic_without_sorting_is_the_sorted_one() {
-        let streams = Streams::new("test of the bins", 0);
-        for n in [4, 5, 7, 44, 86, 400] {
-            let mut scratch = Scratch::new(n);
-            for index in 0..200 {
-                let fast = scratch.replicate(&streams, index);
-                let sample = Sample::try_new(&scratch.values).unwrap();
-                let exact = Statistic::try_new(&sample).unwrap().d;
-                assert!((fast - exact).abs() < 4e-11, "n = {n}, {index}");
-            }
-        }
-    }
 
     #[test]
     fn threads_do_not_matter() {

@@ -1,63 +1,135 @@
-//! Maximum likelihood of a normal sample censored on the right.
+//! Maximum likelihood of normal values known exactly or by an interval.
 
-use libm::log;
+use libm::{exp, log};
 
 use super::FitError;
-use crate::statistics::normal::{LN_SQRT_TWO_PI, ln_cdf};
-use crate::statistics::sample::{mean, sum_of_squares};
+use crate::statistics::normal::{LN_SQRT_TWO_PI, cdf, ln_cdf, survival};
 
 const STEPS: usize = 100;
 
-/// Mean and standard deviation that maximise the likelihood of ascending
-/// values y, of which `censored` more are only known to exceed the last.
-///
-/// In a = 1/sigma and b = mu/sigma the log-likelihood
-/// k ln a - sum (a y_i - b)^2/2 + m ln Phi(b - a c) is concave, so that
-/// Newton's method with a halved step finds its one maximum.
-pub(super) fn maximise(
-    y: &[f64],
-    censored: usize,
-) -> Result<(f64, f64), FitError> {
-    let (k, m) = (y.len() as f64, censored as f64);
-    let (centre, squares) = (mean(y), sum_of_squares(y));
-    let spread = (squares / k).sqrt();
-    if censored == 0 {
-        return Ok((centre, spread));
-    }
-    // Standardised: mean 0 and mean square 1 of what was observed.
-    let limit = (y[y.len() - 1] - centre) / spread;
-    let value = |a: f64, b: f64| {
-        k * (log(a) - 0.5 * (a * a + b * b)) + m * ln_cdf(b - a * limit)
-    };
-    let (mut a, mut b) = (1.0, 0.0);
-    let mut best = value(a, b);
-    for _ in 0..STEPS {
-        let z = b - a * limit;
-        // Mills' ratio phi/Phi and its derivative.
-        let mills = libm::exp(-0.5 * z * z - LN_SQRT_TWO_PI - ln_cdf(z));
-        let slope = -mills * (z + mills);
-        let gradient =
-            [k * (1.0 / a - a) - m * limit * mills, m * mills - k * b];
-        let aa = -k * (1.0 / (a * a) + 1.0) + m * limit * limit * slope;
-        let ab = -m * limit * slope;
-        let bb = -k + m * slope;
-        let determinant = aa * bb - ab * ab;
-        let step_a = (bb * gradient[0] - ab * gradient[1]) / determinant;
-        let step_b = (aa * gradient[1] - ab * gradient[0]) / determinant;
-        if step_a.abs().max(step_b.abs()) < 1e-13 {
-            return Ok((centre + spread * b / a, spread / a));
+/// What is known of a value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Observation {
+    /// The value.
+    Exact(f64),
+    /// It lies between these, one of which may be infinite.
+    Interval(f64, f64),
+}
+
+use Observation::{Exact, Interval};
+
+/// The log-likelihood at (a, b) = (1/sigma, mu/sigma), its gradient and its
+/// second derivatives (aa, ab, bb).
+struct Point {
+    value: f64,
+    gradient: [f64; 2],
+    curvature: [f64; 3],
+}
+
+impl Point {
+    fn at(observations: &[Observation], a: f64, b: f64) -> Self {
+        let mut point =
+            Self { value: 0.0, gradient: [0.0; 2], curvature: [0.0; 3] };
+        for observation in observations {
+            match *observation {
+                Exact(y) => point.add_exact(y, a, b),
+                Interval(low, high) => point.add_interval(low, high, a, b),
+            }
         }
+        point
+    }
+
+    fn add_exact(&mut self, y: f64, a: f64, b: f64) {
+        let z = f64::mul_add(a, y, -b);
+        self.value += log(a) - 0.5 * z * z - LN_SQRT_TWO_PI;
+        self.gradient[0] += 1.0 / a - z * y;
+        self.gradient[1] += z;
+        self.curvature[0] -= f64::mul_add(y, y, 1.0 / (a * a));
+        self.curvature[1] += y;
+        self.curvature[2] -= 1.0;
+    }
+
+    fn add_interval(&mut self, low: f64, high: f64, a: f64, b: f64) {
+        let score = |y: f64| f64::mul_add(a, y, -b);
+        let (z0, z1) = (score(low), score(high));
+        let ln_p = if high == f64::INFINITY {
+            ln_cdf(-z0)
+        } else if low == f64::NEG_INFINITY {
+            ln_cdf(z1)
+        } else if z0 > 0.0 {
+            log(survival(z0) - survival(z1))
+        } else {
+            log(cdf(z1) - cdf(z0))
+        };
+        // (phi/P, z phi/P) at an end; both vanish at infinity.
+        let end = |y: f64, z: f64| {
+            if y.is_infinite() {
+                return (0.0, 0.0, 0.0);
+            }
+            let ratio = exp(-0.5 * z * z - LN_SQRT_TWO_PI - ln_p);
+            (y, ratio, z * ratio)
+        };
+        let (y0, f0, g0) = end(low, z0);
+        let (y1, f1, g1) = end(high, z1);
+        let (da, db) = (y1 * f1 - y0 * f0, f0 - f1);
+        self.value += ln_p;
+        self.gradient[0] += da;
+        self.gradient[1] += db;
+        self.curvature[0] -= y1 * y1 * g1 - y0 * y0 * g0 + da * da;
+        self.curvature[1] += y1 * g1 - y0 * g0 - da * db;
+        self.curvature[2] -= g1 - g0 + db * db;
+    }
+}
+
+/// Mean and standard deviation that maximise the likelihood, and its
+/// logarithm; from a rough centre and spread.
+///
+/// In (1/sigma, mu/sigma) the log-likelihood is concave, exact values or
+/// intervals, so that Newton's method with a halved step finds its one
+/// maximum.
+pub(super) fn maximise(
+    observations: &[Observation],
+    centre: f64,
+    spread: f64,
+) -> Result<(f64, f64, f64), FitError> {
+    let standard = |y: f64| (y - centre) / spread;
+    let standardised: Vec<Observation> = observations
+        .iter()
+        .map(|observation| match *observation {
+            Exact(y) => Exact(standard(y)),
+            Interval(low, high) => Interval(standard(low), standard(high)),
+        })
+        .collect();
+    let exact = observations.iter().filter(|o| matches!(o, Exact(_))).count();
+    let (mut a, mut b) = (1.0, 0.0);
+    let mut here = Point::at(&standardised, a, b);
+    let mut last = f64::INFINITY;
+    for _ in 0..STEPS {
+        let [aa, ab, bb] = here.curvature;
+        let [da, db] = here.gradient;
+        let determinant = aa * bb - ab * ab;
+        let step_a = (bb * da - ab * db) / determinant;
+        let step_b = (aa * db - ab * da) / determinant;
+        let size = step_a.abs().max(step_b.abs()) / (a + b.abs());
+        // Newton's steps shrink until the rounding of narrow intervals.
+        if size < 1e-13 || (size < 1e-7 && size >= last) {
+            let value = here.value - exact as f64 * log(spread);
+            return Ok((centre + spread * b / a, spread / a, value));
+        }
+        last = size;
         let mut share = 1.0;
         loop {
             let (next_a, next_b) = (a - share * step_a, b - share * step_b);
-            let next = value(next_a, next_b);
-            // At the maximum the value no longer tells steps apart.
-            if next_a > 0.0 && next >= best - 1e-13 * best.abs() {
-                (a, b, best) = (next_a, next_b, next);
-                break;
+            if next_a > 0.0 {
+                let next = Point::at(&standardised, next_a, next_b);
+                // At the maximum the value no longer tells steps apart.
+                if next.value >= here.value - 1e-13 * here.value.abs() {
+                    (a, b, here) = (next_a, next_b, next);
+                    break;
+                }
             }
             share *= 0.5;
-            if share < 1e-12 {
+            if share.is_nan() || share < 1e-12 {
                 return Err(FitError::NotConverged(STEPS));
             }
         }

@@ -5,6 +5,7 @@ use std::fmt;
 use libm::log;
 use thiserror::Error;
 
+use super::censored::Observation::{Exact, Interval};
 use super::censored::maximise;
 use super::{Lognormal, LognormalError};
 use crate::statistics::sample::{mean, sum_of_squares};
@@ -84,6 +85,23 @@ pub enum FitError {
     /// All values are equal, to rounding.
     #[error("the logarithms do not vary: expected distinct values")]
     Degenerate,
+    /// An interval holds its value.
+    #[error(
+        "interval {number}, from {low} to {high}: expected low < high, above the shift"
+    )]
+    Interval {
+        /// Place of the interval, from 1.
+        number: usize,
+        /// Its lower end.
+        low: f64,
+        /// Its upper end.
+        high: f64,
+    },
+    /// The likelihood rises up to the sample's smallest value.
+    #[error(
+        "the likelihood has no maximum over the shift below the smallest value"
+    )]
+    NoInteriorMaximum,
     /// The likelihood's maximum was not found.
     #[error("censored likelihood: no maximum found in {0} steps")]
     NotConverged(usize),
@@ -134,6 +152,7 @@ pub fn fit(
         0 => Ok(y.as_slice()),
         _ => Err(FitError::Infinite { censored, n }),
     };
+    let mut censored_likelihood = None;
     let (log_mean, dispersion, n_kept) = match method {
         FitMethod::MaximumLikelihood => {
             let (mu, squares) = moments(complete()?)?;
@@ -163,26 +182,89 @@ pub fn fit(
                 .of_extended(sample, 0.95)
                 .unwrap_or(f64::INFINITY);
             let kept = sample.finite().partition_point(|&x| x <= limit);
-            moments(&y[..kept])?;
-            let (mu, beta) = maximise(&y[..kept], n - kept)?;
+            let (centre, squares) = moments(&y[..kept])?;
+            let spread = (squares / kept as f64).sqrt();
+            let limit = Interval(y[kept - 1], f64::INFINITY);
+            let mut known: Vec<_> =
+                y[..kept].iter().map(|&y| Exact(y)).collect();
+            known.resize(n, limit);
+            let (mu, beta, value) = maximise(&known, centre, spread)?;
+            // In x: the Jacobian of the values known exactly.
+            let jacobian = y[..kept].iter().fold(0.0, |sum, y| sum + y);
+            censored_likelihood = Some(value - jacobian);
             (mu, beta, kept)
         }
     };
     let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
+    let complete =
+        (censored == 0).then(|| distribution.log_likelihood(sample.sorted()));
     let log_likelihood = match method {
-        FitMethod::Censored(_) => {
-            let kept = &sample.finite()[..n_kept];
-            let at_limit = -distribution.score(kept[n_kept - 1]);
-            Some(f64::mul_add(
-                (n - n_kept) as f64,
-                crate::statistics::normal::ln_cdf(at_limit),
-                distribution.log_likelihood(kept),
-            ))
-        }
-        _ => (censored == 0)
-            .then(|| distribution.log_likelihood(sample.sorted())),
+        FitMethod::Censored(_) => censored_likelihood,
+        _ => complete,
     };
     Ok(LognormalFit { distribution, n, n_kept, log_likelihood })
+}
+
+/// Fits a lognormal distribution above the shift by maximum likelihood to
+/// values known by intervals (low, high]: sum of ln[F(high) - F(low)].
+///
+/// What a scan of a grid tells about an overturning intensity, without
+/// taking an end or the middle for it. `low` up to the shift means "below
+/// high"; `high` may be infinite. The log-likelihood is that of the
+/// intervals.
+///
+/// ```
+/// use rocking::statistics::lognormal::fit_intervals;
+/// let intervals: Vec<(f64, f64)> = [(1.0, 1.2), (1.2, 1.4), (1.4, 1.6)]
+///     .repeat(5);
+/// let fit = fit_intervals(&intervals, 1.0)?;
+/// assert!((fit.distribution.median() - 1.28).abs() < 0.02);
+/// # Ok::<(), rocking::statistics::lognormal::FitError>(())
+/// ```
+///
+/// # Errors
+/// [`FitError`] for an interval that is empty or not above the shift, or
+/// where all intervals have a point in common.
+pub fn fit_intervals(
+    intervals: &[(f64, f64)],
+    shift: f64,
+) -> Result<LognormalFit, FitError> {
+    if !(shift >= 0.0 && shift.is_finite()) {
+        return Err(LognormalError::Shift(shift).into());
+    }
+    let n = intervals.len();
+    if n < 2 {
+        return Err(FitError::TooFew(n));
+    }
+    let logarithm = |x: f64| {
+        if x <= shift { f64::NEG_INFINITY } else { log(x - shift) }
+    };
+    let (mut known, mut middles) = (Vec::new(), Vec::new());
+    for (i, &(low, high)) in intervals.iter().enumerate() {
+        if !(low < high && high > shift) {
+            return Err(FitError::Interval { number: i + 1, low, high });
+        }
+        let (low, high) = (logarithm(low), logarithm(high));
+        known.push(Interval(low, high));
+        middles.push(match (low.is_finite(), high.is_finite()) {
+            (true, true) => 0.5 * (low + high),
+            (true, false) => low,
+            _ => high,
+        });
+    }
+    let ends = |f: fn(f64, f64) -> f64, pick: fn(&(f64, f64)) -> f64| {
+        intervals.iter().map(pick).reduce(f).unwrap_or(f64::NAN)
+    };
+    // A point in all of them would be a maximum with no dispersion.
+    if ends(f64::max, |i| i.0) < ends(f64::min, |i| i.1) {
+        return Err(FitError::Degenerate);
+    }
+    let spread = (sum_of_squares(&middles) / n as f64).sqrt();
+    let (log_mean, dispersion, value) =
+        maximise(&known, mean(&middles), spread.max(1e-3))?;
+    let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
+    let log_likelihood = Some(value);
+    Ok(LognormalFit { distribution, n, n_kept: n, log_likelihood })
 }
 
 /// ln(x - shift) of the finite values, ascending.

@@ -3,12 +3,12 @@
 mod sample;
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use serde_json::{Map, Value, json};
 
+use super::samples::Shift;
 use super::{Failure, print};
 use crate::json;
 
@@ -84,28 +84,6 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
-}
-
-/// A shift: a number, or the sample's smallest value.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Shift {
-    Given(f64),
-    Min,
-}
-
-impl FromStr for Shift {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if text == "min" {
-            return Ok(Self::Min);
-        }
-        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
-        let shift = number.filter(|x| *x >= 0.0);
-        shift
-            .map(Self::Given)
-            .ok_or_else(|| "expected a number, not negative, or `min`".into())
-    }
 }
 
 /// How a lognormal distribution is fitted.

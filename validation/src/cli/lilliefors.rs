@@ -6,20 +6,20 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::statistics::lilliefors::{
-    LillieforsError, NullDistribution, PValue, Statistic, Table, Verdict,
+    Assessment, Inapplicable, LillieforsError, Null, NullDistribution, Scale,
+    ShiftedNull, Table, Verdict,
 };
+use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::normality::{
     Test, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
-use rocking::statistics::{Sample, lognormal::shifted_finite};
-use serde_json::json;
+use rocking::statistics::{ExtendedSample, Sample};
+use serde_json::{Value, json};
 
-use super::samples::SampleFile;
+use super::samples::{SampleFile, Shift};
 use super::{Failure, print};
 use crate::json;
 
-/// Share of distinct values below which ties decide the test.
-const DISTINCT: f64 = 0.8;
 /// Replicates where none are asked for.
 const REPLICATES: u64 = 1_000_000;
 /// The same for sizes beyond the table.
@@ -43,13 +43,15 @@ pub struct Args {
     #[arg(long, conflicts_with_all = ["critical_values", "write_table"])]
     log: bool,
     /// Test the logarithms of the values above this shift (implies --log).
+    /// `min` takes the smallest value and leaves it out; the null is then
+    /// simulated with the smallest value taken from every draw.
     #[arg(
         long,
-        value_name = "X",
+        value_name = "X|min",
         conflicts_with_all = ["critical_values", "write_table"],
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
-    shift: Option<f64>,
+    shift: Option<Shift>,
     /// Simulate the critical value of one size and level.
     #[arg(long, requires = "n")]
     critical_values: bool,
@@ -133,176 +135,146 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
     ))
 }
 
-/// What the null distribution says of a statistic.
-struct Calibration {
-    p: PValue,
-    critical_value: Option<f64>,
-    method: &'static str,
-    replicates: Option<u64>,
-}
-
-fn calibrate(
-    args: &Args,
-    n: usize,
-    d: f64,
-) -> Result<Calibration, LillieforsError> {
-    let beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
-    let Some(replicates) =
-        args.replicates.or(beyond.then_some(REPLICATES_BEYOND))
-    else {
-        let table = Table::embedded();
-        let critical = table.critical_value(n, args.level).ok();
-        return Ok(Calibration {
-            p: table.p_value(n, d)?,
-            critical_value: critical.map(|(value, _)| value),
-            method: "table",
-            replicates: None,
-        });
-    };
-    let seed = args.seed.unwrap_or(0);
-    let null = NullDistribution::simulate(n, replicates, seed)?;
-    Ok(Calibration {
-        p: null.p_value(d),
-        critical_value: null.critical_value(args.level).ok().map(|c| c.value),
-        method: "simulation",
-        replicates: Some(replicates),
-    })
-}
-
-/// The values to be tested, or why there are none.
-fn transformed(args: &Args, file: &SampleFile) -> Result<Sample, Reason> {
-    let extended = file.extended()?;
-    if extended.censored() > 0 {
-        return Err(Reason::NotApplicable(format!(
-            "{} of {} values are infinite",
-            extended.censored(),
-            extended.len()
-        )));
-    }
-    if !args.log && args.shift.is_none() {
-        return Ok(file.finite()?);
-    }
-    let shift = args.shift.unwrap_or(0.0);
-    if !(shift >= 0.0 && shift.is_finite()) {
-        return Err(Reason::Failure(Failure::input(format!(
-            "--shift {shift}: expected a finite number, not negative"
-        ))));
-    }
-    let logs = shifted_finite(&extended, shift)
-        .map_err(|e| Reason::NotApplicable(e.to_string()))?;
-    Sample::try_new(&logs).map_err(|e| Reason::NotApplicable(e.to_string()))
-}
-
-/// Why a test gave no verdict.
-enum Reason {
-    NotApplicable(String),
-    Failure(Failure),
-}
-
-impl<E: Into<Failure>> From<E> for Reason {
-    fn from(error: E) -> Self {
-        Self::Failure(error.into())
-    }
-}
-
 fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
-    if args.seed.is_some() && args.replicates.is_none() {
+    let simulates =
+        args.replicates.is_some() || args.shift == Some(Shift::Min);
+    if args.seed.is_some() && !simulates {
         return Err(Failure::input(
             "--seed is not used without --replicates: the table is given",
         ));
     }
-    let n = file.values().len();
-    let sample = match transformed(args, file) {
-        Ok(sample) => sample,
-        Err(Reason::NotApplicable(reason)) => {
-            return report(args, n, None, Err(reason));
+    let whole = file.extended()?;
+    let shift = args.shift.or(args.log.then_some(Shift::Given(0.0)));
+    let (scale, sample) = match shift {
+        None => (Scale::Linear, whole),
+        Some(shift) => {
+            let (shift, above) = shift.split(file.values());
+            let scale = Scale::Logarithmic { shift };
+            (scale, ExtendedSample::try_new(&above)?)
         }
-        Err(Reason::Failure(failure)) => return Err(failure),
     };
-    let tested = Statistic::try_new(&sample).map_err(|e| e.to_string());
-    let tested = match tested {
-        Ok(statistic) => Ok((statistic, calibrate(args, n, statistic.d)?)),
-        Err(reason) => Err(reason),
-    };
-    report(args, n, Some(&sample), tested)
-}
-
-fn report(
-    args: &Args,
-    n: usize,
-    sample: Option<&Sample>,
-    tested: Result<(Statistic, Calibration), String>,
-) -> Result<(), Failure> {
-    let distinct = sample.map(Sample::distinct);
-    let (verdict, reason) = match (&tested, distinct) {
-        (Err(reason), _) => ("not-applicable", Some(reason.clone())),
-        (Ok(_), Some(distinct)) if (distinct as f64) < DISTINCT * n as f64 => {
-            let reason = format!("ties: {distinct} distinct values of {n}");
-            ("not-applicable", Some(reason))
-        }
-        (Ok((_, calibration)), _) => (verdict(&calibration.p, args), None),
-    };
-    let tested = tested.ok();
-    let statistic = tested.as_ref().map(|t| t.0);
-    let calibration = tested.as_ref().map(|t| &t.1);
-    let p = calibration.map(|c| c.p);
-    let other = |f: fn(&Sample) -> Result<Test, LillieforsError>| {
-        sample.and_then(|sample| f(sample).ok())
-    };
-    let (ad, cvm, sw) = (
-        other(anderson_darling),
-        other(cramer_von_mises),
-        other(shapiro_wilk),
-    );
+    let (method, simulated) = simulated_null(args, &sample, scale)?;
+    let null = simulated
+        .as_ref()
+        .map_or(Null::Table(Table::embedded()), Null::Simulated);
+    let assessment = Assessment::new(&sample, scale, args.level, null);
+    if let Err(Inapplicable::Test(error @ LillieforsError::Level { .. })) =
+        assessment.verdict
+    {
+        return Err(error.into());
+    }
     if args.json {
-        let number = json::optional;
-        let out = json!({
-            "n": n,
-            "distinct": distinct,
-            "largest_tie": sample.map(Sample::largest_tie),
-            "statistic": number(statistic.map(|s| s.d)),
-            "d_plus": number(statistic.map(|s| s.d_plus)),
-            "d_minus": number(statistic.map(|s| s.d_minus)),
-            "p_value": number(p.map(|p| p.value)),
-            "p_low": number(p.map(|p| p.low)),
-            "p_high": number(p.map(|p| p.high)),
-            "critical_value":
-                number(calibration.and_then(|c| c.critical_value)),
-            "level": json::number(args.level),
-            "verdict": verdict,
-            "reason": reason,
-            "method": calibration.map(|c| c.method),
-            "replicates": calibration.and_then(|c| c.replicates),
-            "anderson_darling": number(ad.map(|t| t.statistic)),
-            "anderson_darling_p_value": number(ad.map(|t| t.p_value)),
-            "cramer_von_mises": number(cvm.map(|t| t.statistic)),
-            "cramer_von_mises_p_value": number(cvm.map(|t| t.p_value)),
-            "shapiro_wilk": number(sw.map(|t| t.statistic)),
-            "shapiro_wilk_p_value": number(sw.map(|t| t.p_value)),
-        });
+        let out = to_json(&assessment, method, simulated.as_ref());
         return print(&format!("{out:#}\n"));
     }
-    let mut text = format!("values              {n}");
-    text += &distinct.map_or(String::new(), |d| format!(", {d} distinct"));
+    print(&to_text(&assessment))
+}
+
+/// The null distribution to simulate, if the table is not used, and how the
+/// p-value comes about.
+fn simulated_null(
+    args: &Args,
+    sample: &ExtendedSample,
+    scale: Scale,
+) -> Result<(&'static str, Option<NullDistribution>), Failure> {
+    let (n, seed) = (sample.len(), args.seed.unwrap_or(0));
+    if n < 4 || sample.censored() > 0 {
+        return Ok(("none", None));
+    }
+    if let (Some(Shift::Min), Scale::Logarithmic { shift }) =
+        (args.shift, scale)
+    {
+        let moment = fit(sample, shift, FitMethod::Moment);
+        let Ok(moment) = moment else { return Ok(("none", None)) };
+        let dispersion = moment.distribution.dispersion();
+        let replicates = args.replicates.unwrap_or(REPLICATES_BEYOND);
+        let null =
+            ShiftedNull::smallest_value(n + 1, dispersion, replicates, seed)?;
+        return Ok(("simulation, smallest value as shift", Some(null.null)));
+    }
+    let beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
+    let Some(replicates) =
+        args.replicates.or(beyond.then_some(REPLICATES_BEYOND))
+    else {
+        return Ok(("table", None));
+    };
+    let null = NullDistribution::simulate(n, replicates, seed)?;
+    Ok(("simulation", Some(null)))
+}
+
+/// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk of the tested values.
+fn others(assessment: &Assessment) -> [Option<Test>; 3] {
+    [anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
+        assessment.tested.as_ref().and_then(|sample| test(sample).ok())
+    })
+}
+
+fn verdict(assessment: &Assessment) -> (&'static str, Option<String>) {
+    match assessment.verdict {
+        Ok(Verdict::Rejected) => ("rejected", None),
+        Ok(Verdict::NotRejected) => ("not-rejected", None),
+        Ok(Verdict::Indeterminate) => ("indeterminate", None),
+        Err(reason) => ("not-applicable", Some(reason.to_string())),
+    }
+}
+
+fn to_json(
+    assessment: &Assessment,
+    method: &str,
+    null: Option<&NullDistribution>,
+) -> Value {
+    let (statistic, p) = (assessment.statistic, assessment.p_value);
+    let tested = assessment.tested.as_ref();
+    let (verdict, reason) = verdict(assessment);
+    let [ad, cvm, sw] = others(assessment);
+    let number = json::optional;
+    json!({
+        "n": assessment.n,
+        "distinct": tested.map(Sample::distinct),
+        "largest_tie": tested.map(Sample::largest_tie),
+        "statistic": number(statistic.map(|s| s.d)),
+        "d_plus": number(statistic.map(|s| s.d_plus)),
+        "d_minus": number(statistic.map(|s| s.d_minus)),
+        "p_value": number(p.map(|p| p.value)),
+        "p_low": number(p.map(|p| p.low)),
+        "p_high": number(p.map(|p| p.high)),
+        "critical_value": number(assessment.critical_value),
+        "level": json::number(assessment.level),
+        "verdict": verdict,
+        "reason": reason,
+        "method": p.map(|_| method),
+        "replicates": p.and(null.map(|null| null.sorted().len())),
+        "anderson_darling": number(ad.map(|t| t.statistic)),
+        "anderson_darling_p_value": number(ad.map(|t| t.p_value)),
+        "cramer_von_mises": number(cvm.map(|t| t.statistic)),
+        "cramer_von_mises_p_value": number(cvm.map(|t| t.p_value)),
+        "shapiro_wilk": number(sw.map(|t| t.statistic)),
+        "shapiro_wilk_p_value": number(sw.map(|t| t.p_value)),
+    })
+}
+
+fn to_text(assessment: &Assessment) -> String {
+    let mut text = format!("values              {}", assessment.n);
+    if let Some(tested) = &assessment.tested {
+        text += &format!(", {} distinct", tested.distinct());
+    }
     text += "\n";
-    if let (Some(s), Some(p)) = (statistic, p) {
+    if let (Some(s), Some(p)) = (assessment.statistic, assessment.p_value) {
         text += &format!(
             "Lilliefors D        {:.6} (D+ {:.6}, D- {:.6})\n\
              p                   {:.5} ({:.5} .. {:.5})\n",
             s.d, s.d_plus, s.d_minus, p.value, p.low, p.high
         );
     }
-    if let Some(critical) = calibration.and_then(|c| c.critical_value) {
+    if let Some(critical) = assessment.critical_value {
         text += &format!(
             "critical value      {critical:.6} at level {}\n",
-            args.level
+            assessment.level
         );
     }
-    for (name, test) in [
-        ("Anderson-Darling A2", ad),
-        ("Cramer-von Mises W2", cvm),
-        ("Shapiro-Wilk W", sw),
-    ] {
+    let names =
+        ["Anderson-Darling A2", "Cramer-von Mises W2", "Shapiro-Wilk W"];
+    for (name, test) in names.into_iter().zip(others(assessment)) {
         if let Some(t) = test {
             text += &format!(
                 "{name:<20}{:.6} (p {:.5})\n",
@@ -310,15 +282,8 @@ fn report(
             );
         }
     }
+    let (verdict, reason) = verdict(assessment);
     text += &format!("verdict             {verdict}");
     text += &reason.map_or(String::new(), |reason| format!(": {reason}"));
-    print(&(text + "\n"))
-}
-
-fn verdict(p: &PValue, args: &Args) -> &'static str {
-    match p.verdict(args.level) {
-        Verdict::Rejected => "rejected",
-        Verdict::NotRejected => "not-rejected",
-        Verdict::Indeterminate => "indeterminate",
-    }
+    text + "\n"
 }

@@ -4,21 +4,21 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Fault, Format, ReadOptions, RecordError, Suite, SuiteMember, Survey,
+    self, Fault, Format, ReadOptions, RecordError, Remark, Suite, SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
 
 use super::{Failure, print};
-use crate::inputs::suite_options;
+use crate::inputs;
 use crate::json::number;
 
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Record files, folders of them, or index files (CSV with a column
-    /// `file`).
+    /// Record files, folders or zips of them, or index files (CSV with a
+    /// column `file`, or PEER's search results).
     #[arg(required = true)]
     paths: Vec<PathBuf>,
     /// Sampling interval in s, for files that state none.
@@ -53,6 +53,7 @@ struct Listed {
     motion: record::Accelerogram,
     /// Pair and whether the study uses this component, in a suite.
     place: Option<(Option<String>, bool)>,
+    remarks: Vec<Remark>,
 }
 
 impl Listed {
@@ -64,6 +65,7 @@ impl Listed {
             motion: member.accelerogram.clone(),
             place: in_suite
                 .then(|| (member.pair.clone(), member.study_component)),
+            remarks: Vec::new(),
         }
     }
 }
@@ -98,6 +100,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.paths {
         listing.add(path, options);
     }
+    listing.remark();
     if args.json {
         print(&listing.json(args.gravity))?;
     } else {
@@ -123,7 +126,7 @@ impl From<&RecordError> for Refused {
 
 impl Listing {
     fn add(&mut self, path: &Path, options: ReadOptions) {
-        if path.is_dir() {
+        if path.is_dir() || inputs::is_zip(path) {
             return self.add_survey(path, options);
         }
         let file = path.display().to_string();
@@ -151,6 +154,7 @@ impl Listing {
                     unit: record.unit,
                     motion: record.accelerogram,
                     place: None,
+                    remarks: Vec::new(),
                 }))
             }
         }
@@ -162,7 +166,7 @@ impl Listing {
             line: error.line(),
             reason: error.to_string(),
         };
-        let survey = match Survey::read(path, &suite_options(options)) {
+        let survey = match inputs::survey(path, options) {
             Ok(survey) => survey,
             Err(error) => return self.refused.push(refused(&error)),
         };
@@ -199,6 +203,21 @@ impl Listing {
         self.records.extend(members.map(|m| Listed::member(m, true)));
     }
 
+    fn remark(&mut self) {
+        let records: Vec<_> = self
+            .records
+            .iter()
+            .map(|listed| {
+                let pair = listed.place.as_ref().and_then(|p| p.0.as_deref());
+                (&listed.motion, pair)
+            })
+            .collect();
+        let found = record::remarks_together(&records);
+        for (listed, remarks) in self.records.iter_mut().zip(found) {
+            listed.remarks = remarks;
+        }
+    }
+
     fn json(&self, gravity_m_s2: f64) -> String {
         let record = |listed: &Listed| {
             let motion = &listed.motion;
@@ -206,6 +225,13 @@ impl Listing {
                 Some((pair, study)) => (pair.as_deref(), Some(*study)),
                 None => (None, None),
             };
+            let remark = |remark: &Remark| {
+                json!({
+                    "code": remark.code(),
+                    "message": remark.to_string(),
+                })
+            };
+            let remarks = listed.remarks.iter().map(remark);
             json!({
                 "file": listed.file,
                 "format": listed.format.to_string(),
@@ -217,6 +243,7 @@ impl Listing {
                 "pgv_m_s": number(motion.pgv_m_s(gravity_m_s2)),
                 "pair": pair,
                 "study_component": study,
+                "remarks": remarks.collect::<Vec<_>>(),
             })
         };
         let refused = |list: &[Refused]| -> Vec<Value> {
@@ -274,6 +301,12 @@ impl Listing {
                     motion.pgv_m_s(gravity_m_s2),
                 ),
             );
+        }
+        for listed in &self.records {
+            for remark in &listed.remarks {
+                let (file, code) = (&listed.file, remark.code());
+                line(&mut text, format_args!("{file}: {code}: {remark}"));
+            }
         }
         for ignored in &self.ignored {
             line(&mut text, format_args!("set aside: {}", ignored.reason));

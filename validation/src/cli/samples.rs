@@ -3,6 +3,7 @@
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 
 use rocking::statistics::{ExtendedSample, Sample, SampleError};
 use thiserror::Error;
@@ -137,5 +138,46 @@ impl SampleFile {
         };
         let line = number.and_then(|n| self.lines.get(n - 1).copied());
         SampleFileError::Sample { path: self.path.clone(), line, source }
+    }
+}
+
+/// A shift: a number, or the sample's smallest value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shift {
+    /// This number, not negative.
+    Given(f64),
+    /// The smallest value of the sample.
+    Min,
+}
+
+impl FromStr for Shift {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text == "min" {
+            return Ok(Self::Min);
+        }
+        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
+        let shift = number.filter(|x| *x >= 0.0);
+        shift
+            .map(Self::Given)
+            .ok_or_else(|| "expected a number, not negative, or `min`".into())
+    }
+}
+
+impl Shift {
+    /// The shift, and the values that enter above it: all of them for a
+    /// given one, those above the smallest for that one.
+    #[must_use]
+    pub fn split(self, values: &[f64]) -> (f64, Vec<f64>) {
+        match self {
+            Self::Given(shift) => (shift, values.to_vec()),
+            Self::Min => {
+                let least =
+                    values.iter().copied().fold(f64::INFINITY, f64::min);
+                let above = values.iter().copied().filter(|&x| x > least);
+                (least, above.collect())
+            }
+        }
     }
 }

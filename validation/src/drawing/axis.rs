@@ -100,7 +100,9 @@ impl Axis {
                     _ => false,
                 };
                 if !labelled {
-                    axis.minor.push(at);
+                    if every == 1 || digit == 1 {
+                        axis.minor.push(at);
+                    }
                     continue;
                 }
                 let label = if plain {

@@ -111,12 +111,19 @@ fn clip_segment(a: Point, b: Point, to: Rect) -> Option<(Point, Point)> {
     Some((at(enter, b), at(leave, b)))
 }
 
-/// Drops points of a polyline that lie within `tolerance` of what remains
-/// (Douglas and Peucker, Cartographica 10, 1973, 112-122).
+/// Drops points of a polyline that lie within `tolerance` of what remains.
 #[must_use]
 pub fn simplify(line: &[Point], tolerance: f64) -> Vec<Point> {
+    let keep = kept(line, tolerance);
+    line.iter().zip(keep).filter(|(_, k)| *k).map(|(p, _)| *p).collect()
+}
+
+/// Which points of a polyline stay (Douglas and Peucker, Cartographica 10,
+/// 1973, 112-122).
+#[must_use]
+pub fn kept(line: &[Point], tolerance: f64) -> Vec<bool> {
     if line.len() < 3 {
-        return line.to_vec();
+        return vec![true; line.len()];
     }
     let mut keep = vec![false; line.len()];
     keep[0] = true;
@@ -136,7 +143,7 @@ pub fn simplify(line: &[Point], tolerance: f64) -> Vec<Point> {
             open.push((far, last));
         }
     }
-    line.iter().zip(keep).filter(|(_, k)| *k).map(|(p, _)| *p).collect()
+    keep
 }
 
 /// Squared distance of a point from a segment.

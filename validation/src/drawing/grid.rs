@@ -36,7 +36,7 @@ impl Grid {
             height: 222.0,
             left: 56.0,
             right: 16.0,
-            above: 34.0,
+            above: 26.0,
             below: 46.0,
             head: 10.0,
         }
@@ -46,6 +46,12 @@ impl Grid {
     #[must_use]
     pub fn plot(self, width: f64, height: f64) -> Self {
         Self { width, height, ..self }
+    }
+
+    /// The same with room for a second line of title.
+    #[must_use]
+    pub fn with_subtitles(self) -> Self {
+        Self { above: 38.0, ..self }
     }
 
     /// Width of the whole figure.

@@ -8,7 +8,7 @@ use super::svg::TEXT_PX;
 
 const SAMPLE_PX: f64 = 26.0;
 const GAP_PX: f64 = 6.0;
-const BETWEEN_PX: f64 = 22.0;
+const BETWEEN_PX: f64 = 18.0;
 const ROW_PX: f64 = 18.0;
 
 /// What stands before a legend's words.
@@ -43,7 +43,9 @@ impl Entry {
     }
 
     fn width(&self) -> f64 {
-        SAMPLE_PX + GAP_PX + markup::width(&self.label, TEXT_PX)
+        // A tenth more, for viewers whose font is wider than Helvetica.
+        1.1_f64
+            .mul_add(markup::width(&self.label, TEXT_PX), SAMPLE_PX + GAP_PX)
     }
 }
 

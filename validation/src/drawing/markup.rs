@@ -9,6 +9,11 @@ use std::fmt::Write as _;
 const SCRIPT: f64 = 0.72;
 /// How far a subscript goes down, in units of the text size.
 const SUB_EM: f64 = 0.22;
+/// How far a tilde goes up, and its middle to the right of the letter's.
+const ACCENT_EM: f64 = -0.13;
+const ACCENT_SLANT_EM: f64 = 0.05;
+/// Width of the tilde.
+const TILDE_EM: f64 = 0.333;
 /// How far a superscript goes up.
 const SUPER_EM: f64 = -0.36;
 
@@ -21,6 +26,8 @@ pub enum Level {
     Sub,
     /// Above.
     Super,
+    /// A tilde over the character before it.
+    Accent,
 }
 
 /// Characters of one style.
@@ -62,6 +69,12 @@ pub fn runs(markup: &str) -> Vec<Run> {
                 turn(&mut now, &mut done);
                 now.italic = !now.italic;
             }
+            // Fonts place the combining tilde badly over italics.
+            '\u{303}' => {
+                turn(&mut now, &mut done);
+                let text = String::from('˜');
+                done.push(Run { text, italic: false, level: Level::Accent });
+            }
             '_' | '^' if characters.peek() == Some(&'{') => {
                 characters.next();
                 turn(&mut now, &mut done);
@@ -96,7 +109,11 @@ pub fn escape(text: &str) -> String {
 pub fn width(markup: &str, size_px: f64) -> f64 {
     let mut thousandths = 0.0;
     for run in runs(markup) {
-        let scale = if run.level == Level::Base { 1.0 } else { SCRIPT };
+        let scale = match run.level {
+            Level::Base => 1.0,
+            Level::Sub | Level::Super => SCRIPT,
+            Level::Accent => 0.0,
+        };
         for c in run.text.chars() {
             thousandths += scale * f64::from(character_width(c));
         }
@@ -137,6 +154,8 @@ fn character_width(c: char) -> u16 {
     match c {
         ' '..='~' => ASCII[c as usize - 32],
         '\u{300}'..='\u{36f}' => 0,
+        'θ' => 556,
+        'α' => 578,
         '·' | '’' | '‘' => 250,
         '…' | '—' => 1000,
         'ω' => 781,
@@ -149,31 +168,48 @@ fn character_width(c: char) -> u16 {
 /// Writes the content of a `<text>` element: tspans where the style changes.
 pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
     let mut raised = 0.0;
+    // Width of the last letter, and how far the next run is to be moved.
+    let (mut letter, mut along) = (0.0, 0.0);
     for run in runs(markup) {
         let (shift, script) = match run.level {
             Level::Base => (0.0, false),
             Level::Sub => (SUB_EM * size_px, true),
             Level::Super => (SUPER_EM * size_px, true),
+            Level::Accent => (ACCENT_EM * size_px, false),
         };
+        if run.level == Level::Accent {
+            along = -f64::midpoint(letter, TILDE_EM) + ACCENT_SLANT_EM;
+        }
         let step = shift - raised;
         raised = shift;
-        if step == 0.0 && !script && !run.italic {
+        if step == 0.0 && along == 0.0 && !script && !run.italic {
             write_escaped(out, &run.text);
-            continue;
+        } else {
+            out.push_str("<tspan");
+            if along != 0.0 {
+                let _ = write!(out, " dx=\"{:.2}\"", along * size_px);
+            }
+            if step != 0.0 {
+                let _ = write!(out, " dy=\"{step:.2}\"");
+            }
+            if script {
+                let size = SCRIPT * size_px;
+                let _ = write!(out, " font-size=\"{size:.2}\"");
+            }
+            if run.italic {
+                out.push_str(" font-style=\"italic\"");
+            }
+            out.push('>');
+            write_escaped(out, &run.text);
+            out.push_str("</tspan>");
         }
-        out.push_str("<tspan");
-        if step != 0.0 {
-            let _ = write!(out, " dy=\"{step:.2}\"");
-        }
-        if script {
-            let _ = write!(out, " font-size=\"{:.2}\"", SCRIPT * size_px);
-        }
-        if run.italic {
-            out.push_str(" font-style=\"italic\"");
-        }
-        out.push('>');
-        write_escaped(out, &run.text);
-        out.push_str("</tspan>");
+        along = if run.level == Level::Accent {
+            0.5 * (letter - TILDE_EM) - ACCENT_SLANT_EM
+        } else {
+            0.0
+        };
+        let last = run.text.chars().last();
+        letter = last.map_or(0.0, |c| f64::from(character_width(c)) / 1000.0);
     }
 }
 

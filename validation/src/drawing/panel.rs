@@ -34,6 +34,8 @@ pub enum Marker {
     Diamond,
     /// Filled triangle, point down.
     Down,
+    /// Arrow head to the right: there is more beyond.
+    Beyond,
 }
 
 impl Marker {
@@ -62,6 +64,11 @@ impl Marker {
                 let s = 0.8 * r;
                 scene.line(&[(x - s, y - s), (x + s, y + s)], pen);
                 scene.line(&[(x - s, y + s), (x + s, y - s)], pen);
+            }
+            Self::Beyond => {
+                let back = x - 0.7 * r;
+                let head = [(back, y - r), (x + r, y), (back, y + r)];
+                scene.line(&head, pen);
             }
             Self::Plus => {
                 scene.line(&[(x - r, y), (x + r, y)], pen);
@@ -302,20 +309,21 @@ impl<'s> Panel<'s> {
         self.scene.text(line.size(TEXT_PX - 1.0));
     }
 
-    /// An arrow head at the right-hand edge: there is more beyond.
-    pub fn right_beyond(&mut self, y: f64, ink: Ink) {
-        let (x, y) = self.to_px((self.x.range().1, y));
-        let head = [(x - 5.0, y - 3.0), (x, y), (x - 5.0, y + 3.0)];
-        self.scene.line(&head, Pen::new(ink, 0.9));
-    }
-
     /// Draws the axes, the title, and words where there is nothing to see.
-    /// `subtitle` is plain text, cut to the panel's width.
+    /// Both are in [`super::markup`]; [`super::markup::fit`] cuts names.
     pub fn finish(mut self, title: &str, subtitle: &str) {
         let f = self.frame;
         if self.empty {
             let middle = ((f.left + f.right) / 2.0, (f.top + f.bottom) / 2.0);
             let words = TextLine::new(self.reason, middle, Horizontal::Centre);
+            let around = words.extent();
+            let backing = Rect {
+                left: around.left - 6.0,
+                right: around.right + 6.0,
+                top: around.top - 4.0,
+                bottom: around.bottom + 4.0,
+            };
+            self.scene.area(&backing.corners(), Fill::solid(Ink::Paper));
             self.scene.text(words.ink(Ink::Muted));
         }
         self.axis_lines();
@@ -323,13 +331,11 @@ impl<'s> Panel<'s> {
         let title_y = if subtitle.is_empty() {
             f.top - 9.0
         } else {
-            let text = markup::escape(&markup::fit(
+            let line = TextLine::new(
                 subtitle,
-                TEXT_PX - 1.0,
-                f.width() + 30.0,
-            ));
-            let line =
-                TextLine::new(text, (middle, f.top - 7.0), Horizontal::Centre);
+                (middle, f.top - 7.0),
+                Horizontal::Centre,
+            );
             self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
             f.top - 20.0
         };
@@ -357,7 +363,7 @@ impl<'s> Panel<'s> {
             let x = self.to_px((tick.at, 0.0)).0;
             let ends = [(x, f.bottom), (x, f.bottom + TICK_PX)];
             self.scene.line(&ends, HAIRLINE);
-            let at = (x, f.bottom + TICK_PX + 0.95 * TEXT_PX);
+            let at = (x, f.bottom + TICK_PX + TEXT_PX);
             let label = tick.label.as_str();
             self.scene.text(TextLine::new(label, at, Horizontal::Centre));
         }

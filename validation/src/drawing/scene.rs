@@ -135,7 +135,7 @@ impl TextLine {
             Horizontal::Centre => width / 2.0,
             Horizontal::Right => width,
         };
-        let (above, below) = (0.80 * self.size_px, 0.25 * self.size_px);
+        let (above, below) = (0.74 * self.size_px, 0.21 * self.size_px);
         let (x, y) = self.at;
         if self.upwards {
             Rect {

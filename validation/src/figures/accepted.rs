@@ -6,8 +6,8 @@ use super::common::{self, Slendernesses};
 use super::data::{AcceptedShares, Arm, Heading, SharePanel};
 use crate::drawing::axis::Tick;
 use crate::drawing::{
-    Axis, Dash, DrawError, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel,
-    Pen, Sample, Scene,
+    Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
+    Sample, Scene,
 };
 
 impl Figure for AcceptedShares {
@@ -15,8 +15,8 @@ impl Figure for AcceptedShares {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {

@@ -5,7 +5,7 @@ use super::common::{self, Slendernesses};
 use super::data::{BoxPanel, Boxplots, Heading, NotchedBox, StripeKind};
 use crate::drawing::axis::Tick;
 use crate::drawing::{
-    Axis, DrawError, Fill, Grid, Ink, Marker, Panel, Pen, Point, Scene,
+    Axis, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample, Scene,
 };
 
 impl Figure for Boxplots {
@@ -13,8 +13,8 @@ impl Figure for Boxplots {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -26,21 +26,43 @@ impl Figure for Boxplots {
 const HALF: f64 = 0.30;
 /// Half height at the notch.
 const WAIST: f64 = 0.15;
+/// Where the interval of the median is drawn, below the box.
+const BELOW: f64 = -0.43;
+const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
 /// Ratios beyond are cut, with an arrow head at the edge.
 const WIDEST: (f64, f64) = (0.0, 3.0);
 
 pub(super) fn scene(figure: &Boxplots) -> Scene {
     let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
-    let height = 16.0 * most.unwrap_or(0).clamp(7, 20) as f64;
-    let columns = figure.columns;
-    let grid = Grid::new(figure.panels.len(), columns);
-    let scale = 3.0 / grid.columns.max(3) as f64;
-    let grid = Grid { right: 42.0, ..grid };
-    let grid = grid.plot((262.0 * scale).max(180.0), height);
-    let legend = if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
-    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
+    let grid = Grid::new(figure.panels.len(), figure.columns);
+    let width = match grid.columns {
+        1 | 2 => 400.0,
+        3 => 262.0,
+        _ => 196.0,
+    };
+    let grid = Grid { right: 44.0, ..grid }.plot(width, height);
+    let grid = if figure.panels.iter().any(|p| !p.note.is_empty()) {
+        grid.with_subtitles()
+    } else {
+        grid
+    };
     let (low, high) = ratio_range(figure);
+    let mut legend =
+        if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
+    let cross = Sample::Mark(Marker::Cross, Ink::Text);
+    legend.push(Entry::new(cross, "outlier"));
+    if summaries(figure).any(|b| b.median_interval.is_some()) {
+        let words = "exact 95 % interval of the median";
+        legend.push(Entry::new(Sample::Line(INTERVAL), words));
+    }
+    let beyond = |b: &&NotchedBox| b.outliers.iter().any(|x| *x > high);
+    if summaries(figure).any(|b| beyond(&b)) {
+        let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
+        legend.push(Entry::new(arrow, "more outliers beyond the axis"));
+    }
+    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     let level = match figure.stripes {
         StripeKind::Intensity(kind) => kind.label(),
         StripeKind::Demand => common::DEMAND,
@@ -68,20 +90,23 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
             common::frequency(shown.p_rad_s),
             common::slenderness(shown.alpha_rad)
         );
-        panel.finish(&common::panel_title(i, &title), &shown.note);
+        panel.finish(
+            &common::panel_title(i, &title),
+            &common::words(&shown.note),
+        );
     }
     scene
+}
+
+fn summaries(figure: &Boxplots) -> impl Iterator<Item = &NotchedBox> {
+    let stripes = figure.panels.iter().flat_map(|p| &p.stripes);
+    stripes.filter_map(|s| s.summary.as_ref())
 }
 
 /// The same range for all panels: what the whiskers need, and most of the
 /// outliers.
 fn ratio_range(figure: &Boxplots) -> (f64, f64) {
-    let boxes = figure
-        .panels
-        .iter()
-        .flat_map(|p| &p.stripes)
-        .filter_map(|s| s.summary.as_ref());
-    let ends = boxes.flat_map(|b| {
+    let ends = summaries(figure).flat_map(|b| {
         let notch = [b.notch_low, b.notch_high];
         let whiskers = [b.whisker_low, b.whisker_high];
         notch.into_iter().chain(whiskers).chain(b.outliers.iter().copied())
@@ -145,6 +170,9 @@ fn draw_box(
     panel.scene().outline(&corners, pen);
     let waist = [(b.median, y - WAIST), (b.median, y + WAIST)];
     panel.line(waist, Pen::new(ink, 1.6));
+    if let Some((from, to)) = b.median_interval {
+        panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
+    }
     for x in &b.outliers {
         if *x >= low && *x <= high {
             panel.marks([(*x, y)], Marker::Cross, 3.0, ink);
@@ -152,6 +180,7 @@ fn draw_box(
     }
     let beyond = b.outliers.iter().filter(|x| **x > high).count();
     if beyond > 0 {
-        panel.right_beyond(y, ink);
+        let (x, y) = panel.to_px((high, y));
+        Marker::Beyond.draw(panel.scene(), (x - 3.0, y), 3.0, ink);
     }
 }

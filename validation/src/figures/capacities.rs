@@ -4,8 +4,7 @@ use super::Figure;
 use super::common;
 use super::data::{Capacities, CapacityPanel, Heading, Intensity};
 use crate::drawing::{
-    Axis, Dash, DrawError, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample,
-    Scene,
+    Axis, Dash, Entry, Grid, Ink, Panel, Pen, Sample, Scene,
 };
 
 impl Figure for Capacities {
@@ -13,8 +12,8 @@ impl Figure for Capacities {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -22,11 +21,13 @@ impl Figure for Capacities {
     }
 }
 
-const ORIGINAL: Pen = Pen::new(Ink::Series(0), 0.6);
-const SHIFTED: Pen = Pen::new(Ink::Series(2), 0.6).dash(Dash::Short);
+const ORIGINAL: Pen = Pen::new(Ink::Series(0), 0.45);
+const SHIFTED: Pen = Pen::new(Ink::Series(2), 0.45);
+const SHIFT: Pen = Pen::new(Ink::Text, 0.9).dash(Dash::Dashed);
 
 pub(super) fn scene(figure: &Capacities) -> Scene {
-    let grid = Grid::new(figure.panels.len(), 2).plot(440.0, 300.0);
+    let grid =
+        Grid::new(figure.panels.len(), 2).plot(440.0, 300.0).with_subtitles();
     let legend = [
         Entry::new(
             Sample::Line(Pen { width_px: 1.2, ..ORIGINAL }),
@@ -36,6 +37,7 @@ pub(super) fn scene(figure: &Capacities) -> Scene {
             Sample::Line(Pen { width_px: 1.2, ..SHIFTED }),
             "shifted sample (IM − IM_{R})",
         ),
+        Entry::new(Sample::Line(SHIFT), "IM_{R}"),
     ];
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
@@ -50,18 +52,13 @@ pub(super) fn scene(figure: &Capacities) -> Scene {
                 }
             });
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
-        panel.horizontal(
-            shown.shift,
-            Pen::new(Ink::Text, 0.8).dash(Dash::Dashed),
-        );
         for (pen, less) in [(SHIFTED, shown.shift), (ORIGINAL, 0.0)] {
             for curve in &shown.curves {
                 let points = curve.edp.iter().zip(&curve.im);
                 panel.line(points.map(|(e, im)| (*e, im - less)), pen);
             }
         }
-        let shift = format!("IM_{{R}} = {}", common::short(shown.shift));
-        panel.note(shift, (0.985, 0.06), Horizontal::Right);
+        panel.horizontal(shown.shift, SHIFT);
         let title = format!(
             "{}, {}, {}",
             match shown.intensity {
@@ -71,7 +68,11 @@ pub(super) fn scene(figure: &Capacities) -> Scene {
             common::frequency(figure.p_rad_s),
             common::slenderness(figure.alpha_rad),
         );
-        let records = format!("{} records", shown.curves.len());
+        let records = format!(
+            "{} records, IM_{{R}} = {}",
+            shown.curves.len(),
+            common::short(shown.shift)
+        );
         panel.finish(&common::panel_title(i, &title), &records);
     }
     scene

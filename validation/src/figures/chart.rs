@@ -5,8 +5,7 @@ use super::common;
 use super::data;
 use super::data::{Chart, ChartPanel, Heading, Mark, Scale, Series};
 use crate::drawing::{
-    Axis, Dash, DrawError, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample,
-    Scene,
+    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
 };
 
 impl Figure for Chart {
@@ -14,8 +13,8 @@ impl Figure for Chart {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {

@@ -107,8 +107,16 @@ pub fn words(text: &str) -> String {
     markup::escape(text)
 }
 
-/// A number for titles: three significant digits, no trailing zeros.
+/// The name of a record under a panel's title, cut to the panel's width.
+pub fn record(name: &str, grid: &Grid) -> String {
+    words(&markup::fit(name, 10.0, grid.width + 20.0))
+}
+
+/// A number for titles: two decimals, no trailing zeros.
 pub fn short(x: f64) -> String {
+    if !x.is_finite() {
+        return String::from("unknown");
+    }
     let text = format!("{x:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

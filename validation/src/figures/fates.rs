@@ -3,15 +3,15 @@
 use super::Figure;
 use super::data::{Fate, FateMap, FatePanel, Heading};
 use super::{chart, common};
-use crate::drawing::{DrawError, Entry, Fill, Ink, Panel, Sample, Scene};
+use crate::drawing::{Entry, Fill, Ink, Panel, Sample, Scene};
 
 impl Figure for FateMap {
     fn heading(&self) -> &Heading {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {

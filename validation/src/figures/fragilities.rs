@@ -7,8 +7,8 @@ use super::data::{
     Lognormal,
 };
 use crate::drawing::{
-    Axis, Dash, DrawError, Entry, Grid, Horizontal, Ink, Marker, Panel, Pen,
-    Sample, Scene,
+    Axis, Dash, Entry, Grid, Horizontal, Ink, Marker, Panel, Pen, Sample,
+    Scene,
 };
 
 impl Figure for Fragilities {
@@ -16,8 +16,8 @@ impl Figure for Fragilities {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -30,8 +30,8 @@ impl Figure for ByConstant {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        by_constant(self).svg()
+    fn scene(&self) -> Scene {
+        by_constant(self)
     }
 
     fn csv(&self) -> String {

@@ -3,15 +3,15 @@
 use super::Figure;
 use super::common::{self, Slendernesses};
 use super::data::{Heading, Histories, HistoryPanel};
-use crate::drawing::{Axis, DrawError, Grid, Ink, Marker, Panel, Pen, Scene};
+use crate::drawing::{Axis, Grid, Ink, Marker, Panel, Pen, Scene};
 
 impl Figure for Histories {
     fn heading(&self) -> &Heading {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -22,7 +22,7 @@ impl Figure for Histories {
 pub(super) fn scene(figure: &Histories) -> Scene {
     let curves = || figure.panels.iter().flat_map(|p| &p.curves);
     let inks = Slendernesses::new(curves().map(|c| c.alpha_rad));
-    let grid = Grid::new(figure.panels.len(), figure.columns);
+    let grid = Grid::new(figure.panels.len(), figure.columns).with_subtitles();
     let mut legend = inks.lines();
     if curves().any(|c| c.overturned) {
         legend.push(common::overturned_entry());
@@ -31,7 +31,12 @@ pub(super) fn scene(figure: &Histories) -> Scene {
     for (i, shown) in figure.panels.iter().enumerate() {
         let (low, high) = ratios(shown);
         let x = Axis::linear(0.0, end(shown), 5).label("*t* (s)");
-        let y = Axis::around(low, high, 5).label("*θ* / *α*");
+        let y = if shown.curves.iter().any(|c| c.overturned) {
+            Axis::linear(low.min(-0.5), high.max(0.5), 5)
+        } else {
+            Axis::around(low, high, 5)
+        };
+        let y = y.label("*θ* / *α*");
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         panel.horizontal(0.0, Pen::new(Ink::Muted, 0.6));
         for curve in &shown.curves {
@@ -50,9 +55,12 @@ pub(super) fn scene(figure: &Histories) -> Scene {
             "{}, {} = {}",
             common::frequency(shown.p_rad_s),
             shown.intensity.label(),
-            common::short(shown.im)
+            format_args!("{:.2}", shown.im)
         );
-        panel.finish(&common::panel_title(i, &title), &shown.record);
+        panel.finish(
+            &common::panel_title(i, &title),
+            &common::record(&shown.record, &grid),
+        );
     }
     scene
 }
@@ -71,5 +79,8 @@ fn ratios(shown: &HistoryPanel) -> (f64, f64) {
     let values = shown.curves.iter().flat_map(|c| &c.ratio);
     let (low, high) =
         common::span(values.copied(), false).unwrap_or((-1.0, 1.0));
-    (low.clamp(-1.05, -0.1), high.clamp(0.1, 1.05))
+    let overturned = shown.curves.iter().any(|c| c.overturned);
+    let most = if overturned { 1.08 } else { 1.0 };
+    let grow = |x: f64| if x.abs() > 0.97 { x.signum() * most } else { x };
+    (grow(low.clamp(-1.0, -0.1)), grow(high.clamp(0.1, 1.0)))
 }

@@ -3,15 +3,15 @@
 use super::Figure;
 use super::common::{self, Slendernesses};
 use super::data::{Heading, IdaCurve, IdaCurves};
-use crate::drawing::{Axis, DrawError, Grid, Panel, Pen, Scene};
+use crate::drawing::{Axis, Grid, Panel, Pen, Scene};
 
 impl Figure for IdaCurves {
     fn heading(&self) -> &Heading {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -25,7 +25,7 @@ const END: f64 = 1.08;
 pub(super) fn scene(figure: &IdaCurves) -> Scene {
     let curves = || figure.panels.iter().flat_map(|p| &p.curves);
     let inks = Slendernesses::new(curves().map(|c| c.alpha_rad));
-    let grid = Grid::new(figure.panels.len(), figure.columns);
+    let grid = Grid::new(figure.panels.len(), figure.columns).with_subtitles();
     let (mut scene, grid) =
         common::scene(&figure.heading, grid, &inks.lines());
     for (i, shown) in figure.panels.iter().enumerate() {
@@ -46,7 +46,7 @@ pub(super) fn scene(figure: &IdaCurves) -> Scene {
             panel.line(path(curve), pen);
         }
         let title = common::panel_title(i, &common::frequency(shown.p_rad_s));
-        panel.finish(&title, &shown.record);
+        panel.finish(&title, &common::record(&shown.record, &grid));
     }
     scene
 }

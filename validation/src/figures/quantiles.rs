@@ -4,7 +4,7 @@ use super::Figure;
 use super::common;
 use super::data::{Heading, QuantileGroup, QuantilePanel, Quantiles};
 use crate::drawing::{
-    Axis, DrawError, Entry, Grid, Ink, Panel, Pen, Sample, Scene,
+    Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene,
 };
 
 impl Figure for Quantiles {
@@ -12,8 +12,8 @@ impl Figure for Quantiles {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -44,8 +44,8 @@ pub(super) fn scene(figure: &Quantiles) -> Scene {
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let x = Axis::linear(0.0, END, 5).label(common::DEMAND);
-        let y =
-            Axis::around(1.0, top(shown), 6).label(figure.intensity.label());
+        let (low, high) = levels(shown);
+        let y = Axis::linear(low, high, 6).label(figure.intensity.label());
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for group in &shown.groups {
             let series =
@@ -54,7 +54,7 @@ pub(super) fn scene(figure: &Quantiles) -> Scene {
         }
         edge_words(&mut panel, shown);
         let title = common::panel_title(i, &common::frequency(shown.p_rad_s));
-        panel.finish(&title, &shown.note);
+        panel.finish(&title, &common::words(&shown.note));
     }
     scene
 }
@@ -99,26 +99,51 @@ fn ends_at(im: &[f64], edp: &[f64]) -> Option<f64> {
     im.get(first).copied()
 }
 
-/// Upper end of the intensity axis: a little above the last overturning
-/// level, or the last level shown.
-fn top(shown: &QuantilePanel) -> f64 {
+/// Ends of the intensity axis: 1, or the lowest level shown, and a little
+/// above the last overturning level.
+fn levels(shown: &QuantilePanel) -> (f64, f64) {
     let ends = shown.groups.iter().map(|g| {
         ends_at(&g.im, &g.q16).or(g.im.last().copied()).unwrap_or(1.0)
     });
+    let starts = shown.groups.iter().filter_map(|g| g.im.first().copied());
     let (_, high) = common::span(ends, true).unwrap_or((1.0, 2.0));
-    1.06_f64.mul_add(high - 1.0, 1.0)
+    let (low, _) = common::span(starts, true).unwrap_or((1.0, 2.0));
+    let low = if low < 0.99 { 0.0 } else { 1.0 };
+    (low, 1.06_f64.mul_add(high - low, low))
+}
+
+type Curve = fn(&QuantileGroup) -> &Vec<f64>;
+
+/// The words at the end of a curve that does not reach overturning.
+fn inner_words(
+    panel: &mut Panel<'_>,
+    shown: &QuantilePanel,
+    words: &str,
+    curve: Curve,
+) {
+    let finite = |g: &QuantileGroup| {
+        let last = curve(g).iter().rposition(|e| e.is_finite())?;
+        Some((curve(g)[last], *g.im.get(last)?))
+    };
+    let ends: Vec<_> = shown.groups.iter().filter_map(finite).collect();
+    let right = common::span(ends.iter().map(|e| e.0), false);
+    if let (Some((_, x)), Some((_, y))) = (right, ends.first()) {
+        panel.words_at((x + 0.02, *y), words, Horizontal::Left);
+    }
 }
 
 /// `16 %`, `50 %`, `84 %` where the curves leave, kept apart.
 fn edge_words(panel: &mut Panel<'_>, shown: &QuantilePanel) {
-    type Curve = fn(&QuantileGroup) -> &Vec<f64>;
     let curves: [(&str, Curve); 3] =
         [("84 %", |g| &g.q84), ("50 %", |g| &g.q50), ("16 %", |g| &g.q16)];
     let mut last = f64::INFINITY;
     for (words, curve) in curves {
         let ends =
             shown.groups.iter().filter_map(|g| ends_at(&g.im, curve(g)));
-        let Some((low, high)) = common::span(ends, true) else { continue };
+        let Some((low, high)) = common::span(ends, true) else {
+            inner_words(panel, shown, words, curve);
+            continue;
+        };
         let y = panel.to_px((0.0, f64::midpoint(low, high))).1;
         let y = y.min(last - APART_PX);
         last = y;

@@ -3,8 +3,7 @@
 use super::Figure;
 use super::data::{BlockSketch, Heading};
 use crate::drawing::{
-    Caption, Dash, DrawError, Fill, Horizontal, Ink, Pen, Point, Scene,
-    TextLine,
+    Caption, Dash, Fill, Horizontal, Ink, Pen, Point, Scene, TextLine,
 };
 
 impl Figure for BlockSketch {
@@ -12,8 +11,8 @@ impl Figure for BlockSketch {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -118,11 +117,11 @@ fn dimensions(scene: &mut Scene, block: &[Point; 4]) {
     let at = from(middle, 10.0, turn);
     word(scene, "2*b*", at);
     let right = std::f64::consts::FRAC_PI_2;
-    let away = |p| from(p, -16.0, turn + right);
+    let away = |p| from(p, -34.0, turn + right);
     let (a, b) = (away(low_left), away(top_left));
     measure(scene, a, b);
     let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
-    let (x, y) = from(middle, -14.0, turn + right);
+    let (x, y) = from(middle, -16.0, turn + right);
     word(scene, "2*h*", (x, y + 5.0));
 }
 
@@ -145,7 +144,7 @@ fn angles(scene: &mut Scene, alpha: f64, theta: f64) {
     };
     let radius = 0.46 * HALF_DIAGONAL;
     scene.line(&arc(radius, theta - alpha, theta), THIN);
-    let at = from(PIVOT, radius + 14.0, theta - 0.5 * alpha);
+    let at = from(PIVOT, radius + 13.0, 0.5 * theta - 0.01);
     word(scene, "*α*", (at.0, at.1 + 4.0));
     let radius = 1.18 * HALF_DIAGONAL;
     scene.line(&arc(radius, 0.0, theta), THIN);

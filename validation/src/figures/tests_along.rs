@@ -5,8 +5,7 @@ use super::common;
 use super::data::{Heading, Histogram, Intensity, TestsAlongDemand};
 use crate::drawing::geometry::Rect;
 use crate::drawing::{
-    Axis, Dash, DrawError, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample,
-    Scene,
+    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
 };
 
 impl Figure for TestsAlongDemand {
@@ -14,8 +13,8 @@ impl Figure for TestsAlongDemand {
         &self.heading
     }
 
-    fn svg(&self) -> Result<String, DrawError> {
-        scene(self).svg()
+    fn scene(&self) -> Scene {
+        scene(self)
     }
 
     fn csv(&self) -> String {
@@ -35,7 +34,7 @@ pub(super) fn scene(figure: &TestsAlongDemand) -> Scene {
         Entry::new(Sample::Line(LIMIT), "5 % critical value"),
         Entry::new(Sample::Line(Pen::new(Ink::Text, 1.1)), "fitted normal"),
     ];
-    let grid = Grid::new(3 * figure.blocks.len(), 3);
+    let grid = Grid::new(3 * figure.blocks.len(), 3).with_subtitles();
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     let im = match figure.intensity {
         Intensity::Pga => "IM = PGA / (*g* tan *α*)",

@@ -98,12 +98,7 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     naive(
         "rotation-kept-at-impact",
         "impact at the end of a step with the rotation found there",
-        Rules {
-            events: Events::StepEndsRotationKept,
-            // Without a located impact the chatter never dies out.
-            rest: Rest::Slower(1e-3),
-            ..RIGHT
-        },
+        Rules { events: Events::StepEndsRotationKept, ..RIGHT },
     ),
     naive(
         "crude-rest",
@@ -134,6 +129,11 @@ pub static WRONG_MODELS: &[WrongModel] = &[
         "plain-bisection",
         "one bisection over the whole range of amplitudes",
     ),
+    method(
+        "energy-of-the-other-equation",
+        "energy of Eq. 2 along Eq. 1, or of Eq. 1 along Eq. 2",
+    ),
+    method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
 ];
 

@@ -4,6 +4,7 @@ use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
+use rocking::excitation::NormalisedRecord;
 
 use super::choice::{by_rank, common_level};
 use super::grid::{
@@ -11,7 +12,7 @@ use super::grid::{
     blocks, position,
 };
 use super::histories::{distance, mean_log_ratio};
-use super::runs::{Prepared, Setup};
+use super::runs::Setup;
 use super::stripes::on_stripe;
 use super::suites::{Motion, StudySuite};
 use super::{StudyError, capacities};
@@ -96,6 +97,9 @@ pub struct SuiteResults {
     pub sha256: String,
     /// The records.
     pub records: Vec<Facts>,
+    /// Records whose onset is not exactly at intensity 1, for the reference
+    /// block with p = 3.
+    pub onset_violations: usize,
     /// Positions of the records that the single-record figures show.
     pub chosen: [usize; 3],
     /// Curves by arm.
@@ -164,15 +168,24 @@ impl Plan {
         progress: &ProgressBar,
     ) -> Result<SuiteResults, StudyError> {
         let blocks = blocks()?;
-        let records: Vec<Prepared> =
-            suite.motions.iter().map(|m| Prepared::new(&m.study)).collect();
+        let records: Vec<NormalisedRecord> = suite
+            .motions
+            .iter()
+            .map(|m| NormalisedRecord::new(&m.study))
+            .collect();
         let facts: Vec<Facts> = suite.motions.iter().map(facts).collect();
         progress.inc_length((blocks.len() * records.len()) as u64);
         let arms = self.curves(&blocks, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
         let chosen = by_rank(&ratios);
+        let reference = blocks[position(1, REFERENCE)];
+        let violations: Vec<bool> = records
+            .par_iter()
+            .map(|record| self.setup.violates_onset(reference, record))
+            .collect::<Result<_, _>>()?;
         let mut results = SuiteResults {
+            onset_violations: violations.iter().filter(|v| **v).count(),
             kind: suite.kind,
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),
@@ -199,7 +212,7 @@ impl Plan {
     fn curves(
         &self,
         blocks: &[Block],
-        records: &[Prepared],
+        records: &[NormalisedRecord],
         progress: &ProgressBar,
     ) -> Result<Vec<ArmCurves>, StudyError> {
         let n = records.len();
@@ -229,7 +242,7 @@ impl Plan {
         &self,
         frequency: usize,
         blocks: &[Block],
-        records: &[Prepared],
+        records: &[NormalisedRecord],
         results: &SuiteResults,
     ) -> Result<SingleRecords, StudyError> {
         let Some(curves) = results.curves(self.common()) else {
@@ -292,7 +305,7 @@ impl Plan {
     fn adjusted(
         &self,
         blocks: &[Block],
-        records: &[Prepared],
+        records: &[NormalisedRecord],
         progress: &ProgressBar,
     ) -> Result<Vec<(Arm, Vec<Vec<ResponseCurve>>)>, StudyError> {
         let drawn = self.drawn();
@@ -325,7 +338,7 @@ impl Plan {
     fn stripes(
         &self,
         blocks: &[Block],
-        records: &[Prepared],
+        records: &[NormalisedRecord],
         results: &SuiteResults,
     ) -> Result<Vec<StripeDemands>, StudyError> {
         let used = self.used_stripes(results);
@@ -424,8 +437,8 @@ impl Plan {
 
 fn on_levels(
     levels: &[f64],
-    records: &[Prepared],
-    run: impl Fn(f64, &Prepared) -> Result<f64, StudyError> + Sync,
+    records: &[NormalisedRecord],
+    run: impl Fn(f64, &NormalisedRecord) -> Result<f64, StudyError> + Sync,
 ) -> Result<Vec<Vec<f64>>, StudyError> {
     levels
         .iter()

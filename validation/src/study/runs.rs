@@ -5,9 +5,9 @@ use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
+    Model, Observe, Outcome, Overturning, Response, Scene, respond,
+    uplift_threshold,
 };
-use rocking::record::Accelerogram;
 
 use super::StudyError;
 use crate::figures::data::Arm;
@@ -22,26 +22,6 @@ pub struct Setup {
     /// Width to which arms B and C bisect the first overturning, in
     /// dimensionless intensity.
     pub tolerance: f64,
-}
-
-/// A record, prepared for many runs.
-#[derive(Clone, Debug)]
-pub struct Prepared {
-    unit: NormalisedRecord,
-}
-
-impl Prepared {
-    /// Prepares a record.
-    #[must_use]
-    pub fn new(record: &Accelerogram) -> Self {
-        Self { unit: NormalisedRecord::new(record) }
-    }
-
-    /// The record.
-    #[must_use]
-    pub fn unit(&self) -> &NormalisedRecord {
-        &self.unit
-    }
 }
 
 /// Highest intensity tried: a chain that stands there is censored.
@@ -124,11 +104,11 @@ impl Setup {
     fn respond(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         pga_g: f64,
         observe: &Observe,
     ) -> Result<Response, StudyError> {
-        let scaled = ScaledRecord::to_pga(&record.unit, pga_g);
+        let scaled = ScaledRecord::to_pga(record, pga_g);
         let scene = Scene {
             block,
             restitution: self.restitution,
@@ -147,17 +127,36 @@ impl Setup {
     pub fn demand(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         im: f64,
     ) -> Result<f64, StudyError> {
         let pga_g = im * uplift_threshold(&block, Model::Nonlinear);
         self.demand_at(block, record, pga_g)
     }
 
+    /// Whether the onset of rocking is not exactly at intensity 1: a motion
+    /// there, or none at 1 + 1e-9.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the record cannot be scaled so.
+    pub fn violates_onset(
+        &self,
+        block: Block,
+        record: &NormalisedRecord,
+    ) -> Result<bool, StudyError> {
+        let threshold = uplift_threshold(&block, Model::Nonlinear);
+        let moves = |pga_g| -> Result<bool, StudyError> {
+            let observe = Observe::default();
+            let response = self.respond(block, record, pga_g, &observe)?;
+            Ok(response.outcome != Outcome::NoUplift)
+        };
+        Ok(moves(threshold)? || !moves(threshold * (1.0 + 1e-9))?)
+    }
+
     fn demand_at(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         pga_g: f64,
     ) -> Result<f64, StudyError> {
         let observe = Observe::default();
@@ -171,7 +170,7 @@ impl Setup {
     pub fn chain(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         arms: &[Arm],
     ) -> Result<Vec<ResponseCurve>, StudyError> {
         let threshold = uplift_threshold(&block, Model::Nonlinear);
@@ -204,10 +203,10 @@ impl Setup {
     pub fn demand_adjusted(
         &self,
         p_rad_s: f64,
-        record: &Prepared,
+        record: &NormalisedRecord,
         im: f64,
     ) -> Result<(f64, f64), StudyError> {
-        let pga_g = record.unit.pga_g();
+        let pga_g = record.pga_g();
         let slenderness_rad = libm::atan(pga_g / im);
         let block = Block::try_new(slenderness_rad, p_rad_s)?;
         Ok((self.demand_at(block, record, pga_g)?, slenderness_rad))
@@ -221,7 +220,7 @@ impl Setup {
     pub fn chain_adjusted(
         &self,
         reference: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         arm: Arm,
     ) -> Result<ResponseCurve, StudyError> {
         let threshold = uplift_threshold(&reference, Model::Nonlinear);
@@ -242,7 +241,7 @@ impl Setup {
     pub fn history(
         &self,
         block: Block,
-        record: &Prepared,
+        record: &NormalisedRecord,
         im: f64,
         interval_s: f64,
     ) -> Result<(Vec<f64>, f64), StudyError> {

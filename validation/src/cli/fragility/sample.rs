@@ -8,9 +8,9 @@ use rocking::statistics::lognormal::{FitError, FitMethod, LognormalFit, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use serde_json::{Map, Value, json};
 
-use super::{Args, Method, Shift, insert, show};
+use super::{Args, Method, insert, show};
 use crate::cli::Failure;
-use crate::cli::samples::SampleFile;
+use crate::cli::samples::{SampleFile, Shift};
 use crate::json;
 
 /// The fit asked for, and what the unshifted statistics give instead.
@@ -47,22 +47,8 @@ impl Plan {
         Ok(Self { method, quantile_type, shift, c: args.c.unwrap_or(1.0) })
     }
 
-    /// The shift and the values that enter above it: all of them for a
-    /// given one, those above the smallest for that one.
-    fn split(&self, values: &[f64]) -> (f64, Vec<f64>) {
-        match self.shift {
-            Shift::Given(shift) => (shift, values.to_vec()),
-            Shift::Min => {
-                let least =
-                    values.iter().copied().fold(f64::INFINITY, f64::min);
-                let above = values.iter().copied().filter(|&x| x > least);
-                (least, above.collect())
-            }
-        }
-    }
-
     fn fits(&self, values: &[f64]) -> Result<Fits, FitError> {
-        let (shift, above) = self.split(values);
+        let (shift, above) = self.shift.split(values);
         let whole = sample(values)?;
         let fit = fit(&sample(&above)?, shift, self.method)?;
         let unshifted = fit_unshifted(&whole, self.method);
@@ -102,7 +88,7 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
         |e: FitError| Failure::input(format!("{}: {e}", path.display()));
     let fits = plan.fits(values).map_err(in_file)?;
     let fitted = fits.fit.distribution;
-    let left_out = values.len() - plan.split(values).1.len();
+    let left_out = values.len() - plan.shift.split(values).1.len();
     let at = |p| plan.quantile_type.of_extended(&whole, p);
     let (im16, im50, im84) = (at(0.16)?, at(0.5)?, at(0.84)?);
     let number = json::number;

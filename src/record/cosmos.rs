@@ -1,0 +1,243 @@
+//! COSMOS V1 and V2, and the CSMIP V2 it grew from: one or more channels,
+//! each with its header and with fixed-width blocks that say what they are.
+//!
+//! COSMOS: `6000 acceleration pts, approx 60 secs, units=cm/sec2 (4),
+//! Format=(8F10.3)`, the interval in milliseconds as the 34th real header
+//! value. CSMIP: `3000 points of accel data equally spaced at .020 sec, in
+//! cm/sec2. (8f10.3)`. Velocity and displacement blocks are passed over.
+
+use super::fields::{self, Layout};
+use super::number::{self, Reading};
+use super::text::{self, Text, excerpt};
+use super::{Channel, Fault, RecordError};
+use crate::units::AccelerationUnit;
+
+/// Place of the sampling interval among COSMOS's real header values.
+const INTERVAL_PLACE: usize = 34;
+
+/// A line that announces a block of samples.
+struct Block<'a> {
+    count: usize,
+    quantity: &'a str,
+    unit: &'a str,
+    layout: Layout,
+    dt_s: Option<f64>,
+}
+
+/// Whether any line announces a block of samples.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    text.lines().iter().any(|line| is_cosmos(line) || is_csmip(line))
+}
+
+fn is_cosmos(line: &str) -> bool {
+    text::after_word(line, "pts").is_some()
+        && text::contains(line, "units=")
+        && text::contains(line, "format=")
+}
+
+fn is_csmip(line: &str) -> bool {
+    text::contains(line, "data equally spaced at")
+}
+
+/// Reads every acceleration channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
+    let lines = text.lines();
+    let mut channels = Vec::new();
+    let mut head = 0;
+    let mut interval = None;
+    let mut index = 0;
+    while index < lines.len() {
+        let line = lines[index];
+        if text::contains(line, "real-header values follow") {
+            let (dt_s, end) = real_header(text, index)?;
+            interval = Some(dt_s);
+            index = end;
+            continue;
+        }
+        if !(is_cosmos(line) || is_csmip(line)) {
+            index += 1;
+            continue;
+        }
+        let block = announced(text, index)?;
+        let end = block.end(text, index)?;
+        let samples = fields::read(text, index + 1, end, Some(block.layout))?;
+        text.check_count_at(end - 1, samples.len(), block.count)?;
+        after_block(text, end)?;
+        if text::contains(block.quantity, "accel") {
+            let unit =
+                AccelerationUnit::parse(block.unit).ok_or_else(|| {
+                    text.on_line(index, Fault::Unit(excerpt(block.unit)))
+                })?;
+            let dt = block.dt_s.or(interval);
+            let dt =
+                Some(dt.ok_or_else(|| {
+                    text.on_line(index, Fault::IntervalMissing)
+                })?);
+            let label = Some(label(&lines[head..index], channels.len() + 1));
+            channels.push(Channel { dt, unit: Some(unit), samples, label });
+        }
+        head = end;
+        index = end;
+    }
+    if channels.is_empty() {
+        let first = (0..lines.len())
+            .find(|&i| is_cosmos(lines[i]) || is_csmip(lines[i]))
+            .unwrap_or(0);
+        let fault = Fault::Quantity(excerpt(lines[first]));
+        return Err(text.on_line(first, fault));
+    }
+    Ok(channels)
+}
+
+impl Block<'_> {
+    /// Index of the line after the block announced on line `index`.
+    fn end(
+        &self,
+        text: &Text<'_>,
+        index: usize,
+    ) -> Result<usize, RecordError> {
+        let rows = self.count.div_ceil(self.layout.per_line);
+        let end = index.saturating_add(1).saturating_add(rows);
+        if end <= text.lines().len() {
+            return Ok(end);
+        }
+        let found = text.lines().len() - index - 1;
+        let found = found.saturating_mul(self.layout.per_line);
+        let expected = self.count;
+        Err(text.at_end(Fault::Count { found, expected }))
+    }
+}
+
+/// A block is followed by words, never by more numbers.
+fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
+    let Some(line) = text.lines().get(end) else { return Ok(()) };
+    let numbers = number::tokens(line.as_bytes());
+    if numbers.is_ok_and(|tokens| !tokens.is_empty()) {
+        let expected = "the end of the samples".to_owned();
+        let fault = Fault::Number { found: excerpt(line), expected };
+        return Err(text.on_line(end, fault));
+    }
+    Ok(())
+}
+
+fn announced<'a>(
+    text: &Text<'a>,
+    index: usize,
+) -> Result<Block<'a>, RecordError> {
+    let line = text.lines()[index];
+    let header = |expected| {
+        let found = excerpt(line);
+        text.on_line(index, Fault::Header { found, expected })
+    };
+    let trimmed = line.trim_start();
+    let (count, rest) =
+        trimmed.split_once([' ', '\t']).unwrap_or((trimmed, ""));
+    let count: usize = count
+        .parse()
+        .map_err(|_| header("a number of samples before the quantity"))?;
+    let layout =
+        layout(line).ok_or_else(|| header("a format such as (8F10.3)"))?;
+    let lower = rest.to_ascii_lowercase();
+    if count == 0 {
+        return Err(header("a positive number of samples"));
+    }
+    if is_cosmos(line) {
+        let quantity = lower.find("pts").map_or("", |end| &rest[..end]);
+        let unit = lower.find("units=").map_or("", |at| &rest[at + 6..]);
+        let unit = unit.split(['(', ',']).next().unwrap_or("").trim();
+        return Ok(Block { count, quantity, unit, layout, dt_s: None });
+    }
+    let spaced = "equally spaced at";
+    let at = lower.find(spaced).unwrap_or(0);
+    let quantity = &rest[..at];
+    let after = rest[at + spaced.len()..].trim_start();
+    let end = after.find([' ', '\t', ',']).unwrap_or(after.len());
+    let seconds = after[end..].trim_start().to_ascii_lowercase();
+    let dt_s = match number::read(&after[..end]) {
+        Reading::Finite(x, _) if x > 0.0 && seconds.starts_with("sec") => x,
+        _ => {
+            let fault = Fault::Interval(excerpt(after));
+            return Err(text.on_line(index, fault));
+        }
+    };
+    let unit = seconds.find(" in ").map_or(after.len(), |at| {
+        after.len() - seconds.len() + at + " in ".len()
+    });
+    let unit = after[unit..].split(['(', ',', ' ']).find(|p| !p.is_empty());
+    let unit = unit.unwrap_or("").trim_end_matches('.');
+    Ok(Block { count, quantity, unit, layout, dt_s: Some(dt_s) })
+}
+
+/// The Fortran format of one kind of number in a line: `(8F10.3)`,
+/// `(8(1PE10.4E1))`; after the word `format`, or at the end.
+fn layout(line: &str) -> Option<Layout> {
+    let open = match text::after_word(line, "format") {
+        Some(end) => end + line[end..].find('(')?,
+        None => line.rfind('(')?,
+    };
+    let format = line[open..].trim_start_matches('(');
+    let letter =
+        format.find(|c: char| "FEGIfegi".contains(c)).filter(|at| *at > 0)?;
+    let repeat: String =
+        format.chars().take_while(char::is_ascii_digit).collect();
+    let width: String = format[letter + 1..]
+        .chars()
+        .take_while(char::is_ascii_digit)
+        .collect();
+    let layout =
+        Layout { width: width.parse().ok()?, per_line: repeat.parse().ok()? };
+    let sane = (1..=64).contains(&layout.width)
+        && (1..=64).contains(&layout.per_line);
+    sane.then_some(layout)
+}
+
+/// The sampling interval (s) of the real header announced on line `index`,
+/// and the index of the line after it.
+fn real_header(
+    text: &Text<'_>,
+    index: usize,
+) -> Result<(f64, usize), RecordError> {
+    let line = text.lines()[index];
+    let header = |expected| {
+        let found = excerpt(line);
+        text.on_line(index, Fault::Header { found, expected })
+    };
+    let count = line.split_ascii_whitespace().next();
+    let count: usize = count
+        .and_then(|word| word.parse().ok())
+        .filter(|count| *count >= INTERVAL_PLACE)
+        .ok_or_else(|| header("34 real header values or more"))?;
+    let layout =
+        layout(line).ok_or_else(|| header("a format such as (5F15.6)"))?;
+    let end = index.saturating_add(1 + count.div_ceil(layout.per_line));
+    if end > text.lines().len() {
+        return Err(text.at_end(Fault::Ends("the real header values")));
+    }
+    let values = fields::read(text, index + 1, end, Some(layout))?;
+    if values.len() != count {
+        return Err(header("as many values as the line says"));
+    }
+    let milliseconds = values[INTERVAL_PLACE - 1];
+    if milliseconds > 0.0 {
+        return Ok((milliseconds / 1000.0, end));
+    }
+    let fault = Fault::Interval(format!("{milliseconds} ms"));
+    let row = (INTERVAL_PLACE - 1) / layout.per_line;
+    Err(text.on_line(index + 1 + row, fault))
+}
+
+/// The channel's name in its header: what `Chan 1: 90 deg` says, else its
+/// number.
+fn label(header: &[&str], number: usize) -> String {
+    let named = header.iter().find_map(|line| {
+        let end = text::after_word(line, "chan")?;
+        let rest = line[end..].trim_start();
+        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+        let after = rest[digits..].trim_start().strip_prefix(':')?;
+        let name = after.split(['(', ',']).next().unwrap_or("");
+        let words: Vec<&str> = name.split_ascii_whitespace().take(2).collect();
+        (digits > 0 && !words.is_empty())
+            .then(|| format!("{} {}", &rest[..digits], words.join(" ")))
+    });
+    named.unwrap_or_else(|| number.to_string())
+}

@@ -1,0 +1,51 @@
+//! ESM and ITACA (the DYNA header, which AFAD uses too): lines
+//! `KEY: value`, then one sample a line.
+
+use super::column::one_number;
+use super::text::{self, Text, excerpt};
+use super::{Channel, Fault, RecordError, keys};
+use crate::units::AccelerationUnit;
+
+/// Whether the header has the format's keys.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    keys::find(text, "SAMPLING_INTERVAL_S").is_some()
+        && keys::find(text, "NDATA").is_some()
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let dt = keys::positive(text, "SAMPLING_INTERVAL_S", "")?;
+    let count = keys::count(text, "NDATA")?;
+    let (index, quantity) = keys::value(text, "DATA_TYPE")?;
+    if !text::contains(quantity, "ACCELERATION")
+        || text::contains(quantity, "SPECTR")
+    {
+        let fault = Fault::Quantity(excerpt(text.lines()[index]));
+        return Err(text.on_line(index, fault));
+    }
+    let (index, named) = keys::value(text, "UNITS")?;
+    let unit = AccelerationUnit::parse(named)
+        .ok_or_else(|| text.on_line(index, Fault::Unit(excerpt(named))))?;
+    let is_key = |line: &&str| {
+        let key = line.split(':').next().unwrap_or("");
+        line.contains(':')
+            && key.starts_with(|c: char| c.is_ascii_uppercase())
+            && !key.contains(' ')
+    };
+    let header = text.lines().iter().take_while(|l| is_key(l)).count();
+    let mut samples = Vec::new();
+    for (index, line) in text.lines().iter().enumerate().skip(header) {
+        samples.push(one_number(text, index, line)?);
+    }
+    text.check_count(samples.len(), count)?;
+    let peak = "PGA_CM/S^2";
+    let gal = unit == AccelerationUnit::CentimetrePerSecondSquared;
+    if gal && keys::find(text, peak).is_some_and(|(_, v)| !v.is_empty()) {
+        let (_, expected) = keys::number(text, peak, "")?;
+        // Files differ in the digits of header and samples.
+        let allowed = 1e-4 * expected.abs() + 1e-5;
+        keys::check_peak(text, &samples, expected, allowed, unit)?;
+    }
+    let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
+    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label })
+}

@@ -1,0 +1,57 @@
+//! K-NET and KiK-net ASCII: 17 lines of header, then integer counts in
+//! 8I9 or free fields, to be multiplied by a scale factor in gal.
+//!
+//! The counts carry the instrument's offset; it is read as it is and shows
+//! in the quality control.
+
+use super::number::{self, Reading};
+use super::text::{Text, excerpt};
+use super::{Channel, Fault, RecordError, fields, keys};
+use crate::units::AccelerationUnit;
+
+/// Whether the header has the format's keys.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    keys::find(text, "Scale Factor").is_some()
+        && keys::find(text, "Sampling Freq(Hz)").is_some()
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let frequency_hz = keys::positive(text, "Sampling Freq(Hz)", "Hz")?;
+    let duration_s = keys::positive(text, "Duration Time(s)", "")?;
+    let scale = scale(text)?;
+    let (memo, _) = keys::value(text, "Memo.")?;
+    let first = memo + 1;
+    let end = text.lines().len();
+    let layout = fields::infer(&text.lines()[first..]);
+    let counts = fields::read(text, first, end, layout)?;
+    let expected = frequency_hz * duration_s;
+    if !(expected <= 1e9 && expected.fract() == 0.0) {
+        let fault = Fault::Header {
+            found: format!("{frequency_hz} Hz for {duration_s} s"),
+            expected: "a whole number of samples",
+        };
+        return Err(text.on_line(memo, fault));
+    }
+    text.check_count(counts.len(), expected as usize)?;
+    let samples = counts.iter().map(|count| count * scale).collect();
+    let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
+    let label = keys::find(text, "Dir.").map(|(_, v)| v.to_owned());
+    Ok(Channel { dt: Some(1.0 / frequency_hz), unit, samples, label })
+}
+
+/// Gal per count: `7845(gal)/8223790`.
+fn scale(text: &Text<'_>) -> Result<f64, RecordError> {
+    let (index, found) = keys::value(text, "Scale Factor")?;
+    let number = |part: &str| match number::read(part.trim()) {
+        Reading::Finite(x, _) if x > 0.0 => Some(x),
+        _ => None,
+    };
+    let parts = found.split_once("(gal)/");
+    let ratio = parts.and_then(|(a, b)| Some(number(a)? / number(b)?));
+    ratio.ok_or_else(|| {
+        let found = excerpt(text.lines()[index]);
+        let expected = "a scale factor such as 3920(gal)/6182761";
+        text.on_line(index, Fault::Header { found, expected })
+    })
+}

@@ -1,0 +1,354 @@
+//! What is suspicious about a record that could be read.
+//!
+//! A remark changes nothing: samples stay as they are.
+
+use thiserror::Error;
+
+use super::Accelerogram;
+
+/// PGA in g outside of which the unit is suspected.
+const PGA_RANGE_G: (f64, f64) = (1e-4, 5.0);
+/// Consecutive samples at the peak that mean clipping.
+const CLIPPED_SAMPLES: usize = 3;
+/// Time with the same non-zero sample, in s, that means a dead channel.
+const FLAT_S: f64 = 0.5;
+/// Share of PGV that the velocity at the end may reach.
+const END_VELOCITY: f64 = 0.1;
+/// Share of PGA that the mean may reach.
+const OFFSET: f64 = 0.01;
+/// Time of exact zeros at one end, in s, that means padding.
+const PADDING_S: f64 = 1.0;
+/// Correlation about the peaks above which two records are one.
+const SAME_RECORDING: f64 = 0.98;
+/// Samples on each side of the peak that are compared, at most and, in all,
+/// at least.
+const COMPARED_SAMPLES: usize = 512;
+const LEAST_COMPARED: usize = 64;
+
+/// One suspicion, with the value that raised it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Remark {
+    /// PGA beyond what records have.
+    #[error(
+        "PGA {pga_g:.3e} g, outside {} to {} g: is the unit right?",
+        PGA_RANGE_G.0,
+        PGA_RANGE_G.1
+    )]
+    Units {
+        /// PGA in g.
+        pga_g: f64,
+    },
+    /// The peak lasts for several samples.
+    #[error("{samples} consecutive samples at the peak: clipped?")]
+    Clipped {
+        /// Longest run at the peak.
+        samples: usize,
+    },
+    /// The record stands still at a value that is not zero.
+    #[error("the same sample for {duration_s:.2} s: dead channel?")]
+    Flat {
+        /// Longest time at one value in s.
+        duration_s: f64,
+    },
+    /// The velocity does not come back to zero.
+    #[error(
+        "velocity at the end is {:.0} % of PGV: no baseline correction?",
+        share * 100.0
+    )]
+    EndVelocity {
+        /// |v(end)| / PGV.
+        share: f64,
+    },
+    /// The samples have a mean.
+    #[error("mean is {:.1} % of PGA: instrument offset?", share * 100.0)]
+    Offset {
+        /// |mean| / PGA.
+        share: f64,
+    },
+    /// The sampling rate is not a whole number of samples a second.
+    #[error(
+        "interval {dt_s} s is {:.2} samples/s: rounded in the header?",
+        1.0 / dt_s
+    )]
+    IntervalRounded {
+        /// Sampling interval in s.
+        dt_s: f64,
+    },
+    /// Zeros at the ends.
+    #[error(
+        "exact zeros for {leading_s:.2} s at the start and {trailing_s:.2} s at the end: padded"
+    )]
+    Padding {
+        /// At the start in s.
+        leading_s: f64,
+        /// At the end in s.
+        trailing_s: f64,
+    },
+    /// The two components of a pair differ in length or interval.
+    #[error("{0} differs in length or interval: components not aligned?")]
+    UnequalComponents(String),
+    /// Another record with the same motion.
+    #[error(
+        "correlation {correlation:.3} with {other} about the peaks: the same recording?"
+    )]
+    Duplicate {
+        /// Name of the other record.
+        other: String,
+        /// Absolute correlation coefficient.
+        correlation: f64,
+    },
+}
+
+impl Remark {
+    /// Short name of the reason, the same in every version.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Units { .. } => "units",
+            Self::Clipped { .. } => "clipped",
+            Self::Flat { .. } => "flat",
+            Self::EndVelocity { .. } => "end-velocity",
+            Self::Offset { .. } => "offset",
+            Self::IntervalRounded { .. } => "interval-rounded",
+            Self::Padding { .. } => "padding",
+            Self::UnequalComponents(_) => "unequal-components",
+            Self::Duplicate { .. } => "duplicate",
+        }
+    }
+}
+
+/// What is suspicious about one record.
+///
+/// ```
+/// use rocking::record::{Accelerogram, remarks};
+/// let gal = Accelerogram::try_new("x", 0.01, vec![0.0, 310.0, -310.0, 0.0])?;
+/// let codes: Vec<_> = remarks(&gal).iter().map(|r| r.code()).collect();
+/// assert_eq!(codes, ["units"]);
+/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// ```
+#[must_use]
+pub fn remarks(record: &Accelerogram) -> Vec<Remark> {
+    let mut found = Vec::new();
+    let (dt_s, samples) = (record.dt_s(), record.samples_g());
+    let pga_g = record.pga_g();
+    if !(pga_g >= PGA_RANGE_G.0 && pga_g <= PGA_RANGE_G.1) {
+        found.push(Remark::Units { pga_g });
+    }
+    let at_peak = longest_run(samples, |a| a.abs() == pga_g && pga_g > 0.0);
+    if at_peak >= CLIPPED_SAMPLES {
+        found.push(Remark::Clipped { samples: at_peak });
+    }
+    let duration_s = longest_run(samples, |a| a != 0.0) as f64 * dt_s;
+    if duration_s >= FLAT_S {
+        found.push(Remark::Flat { duration_s });
+    }
+    let mut sum = 0.0;
+    for pair in samples.windows(2) {
+        sum += pair[0] + pair[1];
+    }
+    let share = f64::abs(0.5 * dt_s * sum) / record.pgv_g_s();
+    if share > END_VELOCITY {
+        found.push(Remark::EndVelocity { share });
+    }
+    let mut sum = 0.0;
+    for sample in samples {
+        sum += sample;
+    }
+    let share = f64::abs(sum / samples.len() as f64) / pga_g;
+    if share > OFFSET {
+        found.push(Remark::Offset { share });
+    }
+    let rate = 1.0 / dt_s;
+    if (rate - rate.round()).abs() > 1e-6 * rate && dt_s < 1.0 {
+        found.push(Remark::IntervalRounded { dt_s });
+    }
+    let zeros = |n: usize| n as f64 * dt_s;
+    let leading = samples.iter().take_while(|a| **a == 0.0).count();
+    let trailing = samples.iter().rev().take_while(|a| **a == 0.0).count();
+    let (leading_s, trailing_s) = (zeros(leading), zeros(trailing));
+    if leading_s >= PADDING_S || trailing_s >= PADDING_S {
+        found.push(Remark::Padding { leading_s, trailing_s });
+    }
+    found
+}
+
+/// Longest run of equal consecutive samples for which `counts` holds.
+fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
+    let mut longest = 0;
+    let mut run = 0;
+    let mut last = f64::NAN;
+    for &sample in samples {
+        run = match (counts(sample), sample == last) {
+            (true, true) => run + 1,
+            (true, false) => 1,
+            (false, _) => 0,
+        };
+        last = sample;
+        longest = longest.max(run);
+    }
+    longest
+}
+
+/// Records that look like one recording: for each, the indices and the
+/// absolute correlation.
+///
+/// Compared are pairs of equal interval, aligned at their peaks, over up to
+/// 512 samples on each side; scale and sign do not matter.
+#[must_use]
+pub fn duplicates(records: &[&Accelerogram]) -> Vec<(usize, usize, f64)> {
+    let windows: Vec<_> = records.iter().map(|r| about_peak(r)).collect();
+    let mut found = Vec::new();
+    for (i, first) in windows.iter().enumerate() {
+        for (j, second) in windows.iter().enumerate().skip(i + 1) {
+            if records[i].dt_s() != records[j].dt_s() {
+                continue;
+            }
+            let correlation = correlation(first, second);
+            if correlation > SAME_RECORDING {
+                found.push((i, j, correlation));
+            }
+        }
+    }
+    found
+}
+
+/// What is suspicious about each of several records, given with the name of
+/// their pair: [`remarks`], components that are not alike, and
+/// [`duplicates`].
+#[must_use]
+pub fn remarks_together(
+    records: &[(&Accelerogram, Option<&str>)],
+) -> Vec<Vec<Remark>> {
+    let mut found: Vec<Vec<Remark>> =
+        records.iter().map(|(record, _)| remarks(record)).collect();
+    let shape = |r: &Accelerogram| (r.samples_g().len(), r.dt_s());
+    for (i, (record, pair)) in records.iter().enumerate() {
+        let other = records.iter().enumerate().find(|(j, (_, other))| {
+            *j != i && pair.is_some() && other == pair
+        });
+        if let Some((_, (other, _))) = other
+            && shape(record) != shape(other)
+        {
+            let name = other.name().to_owned();
+            found[i].push(Remark::UnequalComponents(name));
+        }
+    }
+    let motions: Vec<_> = records.iter().map(|(record, _)| *record).collect();
+    for (i, j, correlation) in duplicates(&motions) {
+        for (of, by) in [(i, j), (j, i)] {
+            let other = motions[by].name().to_owned();
+            found[of].push(Remark::Duplicate { other, correlation });
+        }
+    }
+    found
+}
+
+/// Samples about the peak, and the peak's place among them.
+fn about_peak(record: &Accelerogram) -> (&[f64], usize) {
+    let samples = record.samples_g();
+    let mut peak = 0;
+    for (index, sample) in samples.iter().enumerate() {
+        if sample.abs() > samples[peak].abs() {
+            peak = index;
+        }
+    }
+    let from = peak.saturating_sub(COMPARED_SAMPLES);
+    let to = samples.len().min(peak + COMPARED_SAMPLES + 1);
+    (&samples[from..to], peak - from)
+}
+
+fn correlation(first: &(&[f64], usize), second: &(&[f64], usize)) -> f64 {
+    let before = first.1.min(second.1);
+    let rest = |w: &(&[f64], usize)| w.0.len() - w.1;
+    let after = rest(first).min(rest(second));
+    if before + after < LEAST_COMPARED {
+        return 0.0;
+    }
+    let part = |w: &(&[f64], usize)| w.1 - before..w.1 + after;
+    let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
+    let (x, y) = (&first.0[part(first)], &second.0[part(second)]);
+    for (x, y) in x.iter().zip(y) {
+        xx += x * x;
+        yy += y * y;
+        xy += x * y;
+    }
+    f64::abs(xy) / (xx * yy).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn codes(dt_s: f64, samples: Vec<f64>) -> Vec<&'static str> {
+        let record = Accelerogram::try_new("x", dt_s, samples).unwrap();
+        remarks(&record).iter().map(Remark::code).collect()
+    }
+
+    /// A motion without a blemish: whole periods, ended at rest.
+    fn clean() -> Vec<f64> {
+        (0..401)
+            .map(|i| {
+                0.3 * libm::sin(0.1 * std::f64::consts::PI * f64::from(i))
+            })
+            .map(|a| if a.abs() < 1e-12 { 0.0 } else { a })
+            .collect()
+    }
+
+    #[test]
+    fn each_blemish_has_its_code() {
+        assert_eq!(codes(0.01, clean()), [""; 0]);
+        let scaled = |f: f64| clean().iter().map(|a| a * f).collect();
+        assert_eq!(codes(0.01, scaled(980.665)), ["units"]);
+        assert_eq!(codes(0.01, scaled(1e-4)), ["units"]);
+        let clipped = clean().iter().map(|a| a.clamp(-0.2, 0.2)).collect();
+        assert_eq!(codes(0.01, clipped), ["clipped"]);
+        let mut flat = clean();
+        flat.splice(100..100, (0..120).map(|i| 0.01 * (i / 60) as f64));
+        assert_eq!(codes(0.01, flat)[..1], ["flat"]);
+        let offset = clean().iter().map(|a| a + 0.004).collect();
+        assert_eq!(codes(0.01, offset), ["end-velocity", "offset"]);
+        assert_eq!(codes(0.0024, clean()), ["interval-rounded"]);
+        for dt_s in [0.001, 0.0025, 0.005, 0.01, 0.02, 1.0 / 410.0] {
+            assert_eq!(codes(dt_s, clean()), [""; 0], "{dt_s}");
+        }
+        let mut padded = clean();
+        padded.extend([0.0; 100]);
+        assert_eq!(codes(0.01, padded), ["padding"]);
+        assert_eq!(codes(0.01, vec![0.0; 10]), ["units"]);
+    }
+
+    #[test]
+    fn components_of_a_pair_are_compared() {
+        let record = |name: &str, n: usize| {
+            let mut samples = clean();
+            samples.truncate(n);
+            Accelerogram::try_new(name, 0.01, samples).unwrap()
+        };
+        let (a, b) = (record("a", 401), record("b", 381));
+        let codes = |pair| {
+            let found = remarks_together(&[(&a, Some("p")), (&b, Some(pair))]);
+            let unequal = Remark::UnequalComponents("b".to_owned());
+            (found[0].contains(&unequal), found[1].len())
+        };
+        assert_eq!(codes("p"), (true, 2));
+        assert_eq!(codes("q"), (false, 1));
+    }
+
+    #[test]
+    fn a_recording_is_known_again_by_its_shape() {
+        let motion = |shift: usize, scale: f64, power: f64| {
+            let wave = (0..600).map(|i| {
+                let t = 0.01 * f64::from(i) - 3.0;
+                scale * libm::exp(-t * t) * libm::cos(power * t)
+            });
+            let samples = std::iter::repeat_n(0.0, shift).chain(wave);
+            Accelerogram::try_new("x", 0.01, samples.collect()).unwrap()
+        };
+        let records =
+            [motion(0, 0.3, 9.0), motion(77, -0.2, 9.0), motion(0, 0.3, 7.0)];
+        let found = duplicates(&records.each_ref());
+        let pairs: Vec<_> = found.iter().map(|(i, j, _)| (*i, *j)).collect();
+        assert_eq!(pairs, [(0, 1)]);
+    }
+}

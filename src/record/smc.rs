@@ -1,0 +1,87 @@
+//! USGS SMC: 11 lines of text, 48 integers (8I10), 50 reals (5E15.7),
+//! comments, then samples in 8E10.4, in cm/s2.
+
+use super::fields::{self, Layout};
+use super::number::{self, Reading};
+use super::text::{Text, excerpt};
+use super::{Channel, Fault, RecordError};
+use crate::units::AccelerationUnit;
+
+const TEXT_LINES: usize = 11;
+const INTEGERS: Layout = Layout { width: 10, per_line: 8 };
+const INTEGER_LINES: usize = 6;
+const REALS: Layout = Layout { width: 15, per_line: 5 };
+const REAL_LINES: usize = 10;
+const SAMPLES: Layout = Layout { width: 10, per_line: 8 };
+
+const KINDS: [&str; 6] = [
+    "1 UNCORRECTED ACCELEROGRAM",
+    "2 CORRECTED ACCELEROGRAM",
+    "3 VELOCITY",
+    "4 DISPLACEMENT",
+    "5 RESPONSE SPECTRA",
+    "6 FOURIER AMPLITUDE SPECTRA",
+];
+
+/// Whether the first line names one of the format's kinds.
+pub(super) fn recognises(text: &Text<'_>) -> bool {
+    let line = text.lines()[0].trim_start().to_ascii_uppercase();
+    KINDS.iter().any(|kind| line.starts_with(kind))
+}
+
+/// Reads the file's one channel.
+pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
+    let lines = text.lines();
+    let kind = lines[0].trim_start().to_ascii_uppercase();
+    if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
+        return Err(text.on_line(0, Fault::Quantity(excerpt(lines[0]))));
+    }
+    let reals = TEXT_LINES + INTEGER_LINES;
+    let comments = reals + REAL_LINES;
+    if lines.len() <= comments {
+        return Err(text.at_end(Fault::Ends("27 header lines and samples")));
+    }
+    let integers = fields::read(text, TEXT_LINES, reals, Some(INTEGERS))?;
+    let count = |place: usize| {
+        let value = integers[place - 1];
+        // The null value is -32768.
+        let fine = (0.0..1e9).contains(&value) && value.fract() == 0.0;
+        fine.then_some(value as usize).ok_or_else(|| {
+            let index = TEXT_LINES + (place - 1) / INTEGERS.per_line;
+            let found = format!("integer {place} is {value}");
+            let expected = "a number of comments (16) or samples (17)";
+            text.on_line(index, Fault::Header { found, expected })
+        })
+    };
+    if integers.len() != INTEGER_LINES * INTEGERS.per_line {
+        let fault = Fault::Ends("48 integers");
+        return Err(text.on_line(reals - 1, fault));
+    }
+    let first = comments.saturating_add(count(16)?);
+    let expected = count(17)?;
+    let dt = interval(text, reals)?;
+    if first >= lines.len() {
+        return Err(text.at_end(Fault::Count { found: 0, expected }));
+    }
+    let samples = fields::read(text, first, lines.len(), Some(SAMPLES))?;
+    text.check_count(samples.len(), expected)?;
+    let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
+    Ok(Channel { dt: Some(dt), unit, samples, label: None })
+}
+
+/// The interval from the second real value, samples per second.
+fn interval(text: &Text<'_>, reals: usize) -> Result<f64, RecordError> {
+    let line = text.lines()[reals];
+    let from = REALS.width;
+    let found = line.get(from..2 * from).unwrap_or("").trim();
+    match number::read(found) {
+        // The null value is 1.7e38.
+        Reading::Finite(rate, _) if rate > 0.0 && rate < 1e6 => Ok(1.0 / rate),
+        _ => {
+            let found = excerpt(found);
+            let expected = "a positive number of samples per second";
+            let fault = Fault::Header { found, expected };
+            Err(text.at(reals, from, fault))
+        }
+    }
+}

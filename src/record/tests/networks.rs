@@ -1,0 +1,279 @@
+//! The networks' formats, written from their public descriptions with
+//! invented numbers.
+
+use super::*;
+
+/// Blocks of a COSMOS file with two horizontal channels and a vertical one;
+/// the first is followed by its velocity.
+pub(super) fn cosmos() -> String {
+    let reals: Vec<String> = (1..=40)
+        .map(|place| if place == 34 { 5.0 } else { -999.0 })
+        .map(|value: f64| format!("{value:15.6}"))
+        .collect();
+    let reals: Vec<String> = reals.chunks(5).map(|row| row.concat()).collect();
+    let reals = reals.join("\n");
+    let channel = |number: usize, name: &str| {
+        format!(
+            "Corrected acceleration   (Format v01.20 with 13 text lines)\n\
+             Sta Chan   {number}: {name} (Rcrdr Chan  {number}) Location:Free\n\
+             \x2010 Integer-header values follow on  1 lines, Format= (10I8)\n\
+             \x20      0       1      50     120       1    -999    -999       7    -999    -999\n\
+             \x2040 Real-header values follow on  8 lines, Format= (5F15.6)\n\
+             {reals}\n\
+             \x20  1 Comment line(s) follow, each starting with a \"|\":\n\
+             | invented\n\
+             \x20     10 acceleration pts, approx  0 secs, units=cm/sec2 (4),Format=(8F10.3)\n\
+             \x20    0.000     1.000    -2.000     3.000    -4.000     5.000-98066.500     7.000\n\
+             \x20    8.000    -9.000\n\
+             End-of-data for Chan  {number} acceleration\n"
+        )
+    };
+    let velocity = "      3 velocity     pts, approx  0 secs, units=cm/sec (5),Format=(8F10.3)\n\
+        \x20    0.000     1.000    -2.000\n\
+        End-of-data for Chan  1 velocity\n";
+    let first = channel(1, "90 deg");
+    let third = channel(3, "360 deg");
+    format!("{first}{velocity}{}{third}", channel(2, "Up"))
+}
+
+#[test]
+fn cosmos_channels_are_read_by_their_announced_format() {
+    let text = cosmos();
+    let all = read_all("d/CE1.V2", text.as_bytes(), &options(None)).unwrap();
+    assert_eq!(all.len(), 3);
+    for record in &all {
+        let motion = &record.accelerogram;
+        assert_eq!(record.format, Format::Cosmos);
+        assert_eq!(motion.dt_s(), 0.005);
+        assert_eq!(motion.samples_g().len(), 10);
+        assert_eq!(motion.pga_g(), 100.0);
+    }
+    let names: Vec<_> = all.iter().map(|r| r.accelerogram.name()).collect();
+    assert_eq!(names, ["CE1:1_90_deg", "CE1:2_Up", "CE1:3_360_deg"]);
+    assert_eq!(
+        refusal(&text),
+        "test: 3 acceleration channels: expected one (name the channel, or read them all)"
+    );
+    let row = text.lines().position(|l| l.contains("98066")).unwrap();
+    let cases = [
+        (
+            text.replacen("     8.000    -9.000\n", "", 1),
+            format!("test:{}:1: \"End-of-dat", row + 2),
+        ),
+        (
+            text.replacen("     8.000    -9.000\n", "     8.000\n", 1),
+            format!("test:{}: 9 samples: expected 10", row + 2),
+        ),
+        (
+            text.replacen("    -9.000\n", "    -9.000\n     1.000\n", 1),
+            format!("test:{}: \"1.000\": expected the end", row + 3),
+        ),
+        (
+            text.replacen("     3.000", "    3.000", 1),
+            format!("test:{}:35: \"3.000\": expected a number of 10", row + 1),
+        ),
+        (
+            text.replacen("     3.000", "      3.00", 1),
+            format!("test:{}:37: \"3.00\": expected 3 decimals", row + 1),
+        ),
+        (
+            text.replacen("units=cm/sec2 (4)", "units=counts (50)", 1),
+            format!("test:{row}: unit \"counts\": expected g"),
+        ),
+        (
+            text.replacen("       5.000000", "       0.000000", 1),
+            "test:12: sampling interval \"0 ms\"".to_owned(),
+        ),
+        (
+            text.replacen("10 acceleration", "99999999999 acceleration", 1),
+            "test:".to_owned(),
+        ),
+        (
+            text.replacen("(8F10.3)", "(8Q10.3)", 1),
+            format!("test:{row}: \"10 acceleration pts"),
+        ),
+    ];
+    for (text, expected) in cases {
+        let found = refusal(&text);
+        assert!(found.starts_with(&expected), "{found} / {expected}");
+        assert!(!found.contains("channels"), "{found}");
+    }
+    let velocity = "  3 velocity pts, approx 0 secs, units=cm/sec (5),Format=(8F10.3)\n     0.000     1.000    -2.000\n";
+    assert!(refusal(velocity).contains("an acceleration history"));
+}
+
+pub(super) const CSMIP: &str = "Corrected accelerogram     Nowhere\n\
+    Chan  1: 90 Deg\n\
+    \x20  10 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.3)\n\
+    \x20    .000     1.000    -2.000     3.000    -4.000     5.000  -980.665     7.000\n\
+    \x20   8.000    -9.000\n\
+    \x20   3 points of veloc data equally spaced at  .020 sec, in cm/sec.   (8f10.3)\n\
+    \x20    .000     1.000    -2.000\n\
+    /&  ----------  End of data for channel  1  ----------\n";
+
+#[test]
+fn csmip_v2_is_read() {
+    let text = CSMIP
+        .replace("\n     .000", "\n      .000")
+        .replace("\n    8.000", "\n     8.000");
+    let record = read_text(&text).unwrap();
+    assert_eq!(record.format, Format::Cosmos);
+    assert_eq!(record.accelerogram.dt_s(), 0.02);
+    assert_eq!(record.accelerogram.pga_g(), 1.0);
+    assert_eq!(record.channel.as_deref(), Some("1 90 Deg"));
+    // Two fields shorter by a blank: the lines are out of step.
+    assert!(refusal(CSMIP).starts_with("test:4:"), "{}", refusal(CSMIP));
+    let bad = text.replacen(".020 sec", "-.020 sec", 1);
+    assert!(refusal(&bad).starts_with("test:3: sampling interval"));
+}
+
+pub(super) const KNET: &str = "Origin Time       1900/01/01 00:00:00\n\
+    Lat.              38.103\n\
+    Long.             142.860\n\
+    Depth. (km)       24\n\
+    Mag.              9.9\n\
+    Station Code      XXX004\n\
+    Station Lat.      38.7292\n\
+    Station Long.     141.0217\n\
+    Station Height(m) 40\n\
+    Record Time       1900/01/01 00:00:15\n\
+    Sampling Freq(Hz) 10Hz\n\
+    Duration Time(s)  2\n\
+    Dir.              E-W\n\
+    Scale Factor      3920(gal)/4000\n\
+    Max. Acc. (gal)   980.000\n\
+    Last Correction   1900/01/01 00:00:15\n\
+    Memo.\n\
+    \x20     100      -10       20      -30       40      -50       60    -1000\n\
+    \x20      11      -12       13      -14       15      -16       17      -18\n\
+    \x20      80      -90       81       82\n";
+
+#[test]
+fn knet_counts_are_scaled() {
+    let gravity = 9.8;
+    let options = ReadOptions { gravity_m_s2: gravity, ..options(None) };
+    let record = read("a/X.EW", KNET.as_bytes(), &options).unwrap();
+    let motion = &record.accelerogram;
+    assert_eq!(record.format, Format::Knet);
+    assert_eq!(motion.name(), "X.EW");
+    assert_eq!(motion.dt_s(), 0.1);
+    assert_eq!(motion.pga_g(), 980.0 / (100.0 * gravity));
+    assert_eq!(record.channel.as_deref(), Some("E-W"));
+    let cases = [
+        (KNET.replace("       82", ""), "test:20: 19 samples: expected 20"),
+        (KNET.replace(" -1000", " -100"), "test:18:68: \"-100\": expected a"),
+        (
+            KNET.replace("      80", "      8O"),
+            "test:20:8: \"8O\": expected a",
+        ),
+        (KNET.replace("10Hz", "0Hz"), "test:11: \"Sampling Freq"),
+        (KNET.replace("/4000", "/0"), "test:14: \"Scale Factor"),
+        (KNET.replace("(s)  2", "(s)  2.05"), "test:17: \"10 Hz for 2.05 s\""),
+        (KNET[..KNET.len() - 170].to_owned(), "test:1"),
+    ];
+    for (text, expected) in cases {
+        let found = refusal(&text);
+        assert!(found.starts_with(expected), "{found}");
+    }
+}
+
+pub(super) const ESM: &str = "EVENT_NAME: NOWHERE\n\
+    EVENT_DATE_YYYYMMDD: 19000101\n\
+    STATION_CODE: XXX\n\
+    SAMPLING_INTERVAL_S: 0.005000\n\
+    NDATA: 4\n\
+    DURATION_S: 0.015\n\
+    STREAM: HNE\n\
+    UNITS: cm/s^2\n\
+    PGA_CM/S^2: -98.066500\n\
+    TIME_PGA_S: 0.010000\n\
+    DATA_TYPE: ACCELERATION\n\
+    USER5: \n\
+    0.012300\n\
+    -1.500000\n\
+    -98.066500\n\
+    3.000000\n";
+
+#[test]
+fn esm_is_read_and_checked_against_its_peak() {
+    let record = read_text(ESM).unwrap();
+    assert_eq!(record.format, Format::Esm);
+    assert_eq!(record.accelerogram.dt_s(), 0.005);
+    assert_eq!(record.accelerogram.pga_g(), 0.1);
+    assert_eq!(record.channel.as_deref(), Some("HNE"));
+    let cases = [
+        (ESM.replace("3.000000\n", ""), "test:15: 3 samples: expected 4"),
+        (ESM.replace("-98.066500\n3", "-98.06650\n3\n"), "test:17: 5 samples"),
+        (
+            ESM.replace("-98.066500\n3", "-8.066500\n3"),
+            "test:16: largest absolute sample 8.0665 cm/s2: expected 98.0665",
+        ),
+        (ESM.replace("-1.5", "-1.5x"), "test:14: \"-1.5x00000\": expected"),
+        (ESM.replace("ACCELERATION", "VELOCITY"), "test:11: \"DATA_TYPE"),
+        (ESM.replace("cm/s^2", "cm"), "test:8: unit \"cm\": expected"),
+        (ESM.replace(": 0.005000", ": -1"), "test:4: \"SAMPLING_INT"),
+        (ESM.replace("NDATA: 4", "NDATA: -4"), "test:5: \"NDATA: -4\""),
+    ];
+    for (text, expected) in cases {
+        let found = refusal(&text);
+        assert!(found.starts_with(expected), "{found}");
+    }
+}
+
+pub(super) fn smc() -> String {
+    let mut text = "2 CORRECTED ACCELEROGRAM\n".to_owned();
+    text.push_str(&"*\n".repeat(10));
+    for place in 1..=48 {
+        let value = match place {
+            16 => 2,
+            17 => 10,
+            _ => -32768,
+        };
+        text.push_str(&format!("{value:10}"));
+        text.push_str(if place % 8 == 0 { "\n" } else { "" });
+    }
+    for place in 1..=50 {
+        let value = if place == 2 { "2.0000000E+02" } else { "1.7000000E+38" };
+        text.push_str(&format!("{value:>15}"));
+        text.push_str(if place % 5 == 0 { "\n" } else { "" });
+    }
+    text.push_str("| invented\n| numbers\n");
+    text.push_str(
+        "-1.2345E-1 1.0000E+0-9.8067E+1 2.0000E+0-3.0000E+0 4.0000E+0-5.0000E+0 6.0000E+0\n",
+    );
+    text.push_str("-7.0000E+0 8.0000E+0\n");
+    text
+}
+
+#[test]
+fn smc_is_read() {
+    let text = smc();
+    let record = read_text(&text).unwrap();
+    assert_eq!(record.format, Format::Smc);
+    assert_eq!(record.accelerogram.dt_s(), 0.005);
+    assert_eq!(record.accelerogram.samples_g().len(), 10);
+    assert_eq!(record.accelerogram.pga_g(), 98.067 / 980.665);
+    let cases = [
+        (
+            text.replace("-7.0000E+0 8.0000E+0\n", ""),
+            "test:30: 8 samples: exp",
+        ),
+        (
+            text.replace("-9.8067E+1", "-9.8067E1"),
+            "test:30:21: \"-9.8067E1\": e",
+        ),
+        (text.replace("| numbers\n", ""), "test:30: 2 samples: expected 10"),
+        (
+            text.replace("2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
+            "test:1: \"3 V",
+        ),
+        (text.replace("2.0000000E+02", "1.7000000E+38"), "test:18:16: \"1.70"),
+        (text.lines().take(20).collect::<Vec<_>>().join("\n"), "test:20: the"),
+        (text.lines().take(27).collect::<Vec<_>>().join("\n"), "test:27: the"),
+        (text.replace("        10", "    -32768"), "test:14: \"integer 17 is"),
+    ];
+    for (text, expected) in cases {
+        let found = refusal(&text);
+        assert!(found.starts_with(expected), "{found}");
+    }
+}

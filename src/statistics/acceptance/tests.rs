@@ -1,0 +1,52 @@
+use super::*;
+use crate::statistics::lilliefors::Table;
+use crate::streams::Streams;
+
+fn normals(n: usize, index: u64) -> Vec<f64> {
+    let mut stream = Streams::new("acceptance, test", 0).stream(index);
+    (0..n).map(|_| StandardNormal.sample(&mut stream)).collect()
+}
+
+#[test]
+fn every_level_keeps_the_level_of_the_test() {
+    let (n, count, replicates) = (30, 12, 4000_u64);
+    let levels: Vec<_> = (0..count).map(|k| normals(n, k)).collect();
+    let (critical, _) = Table::embedded().critical_value(n, 0.05).unwrap();
+    let band =
+        NullBand::simulate(&levels, critical, replicates, "t", 0).unwrap();
+    let average = mean(&band.shares);
+    // Levels hardly correlated: 48000 decisions, binomial to a factor.
+    let deviation = (0.05 * 0.95 / (replicates as f64 * count as f64)).sqrt();
+    assert!((average - 0.95).abs() < 5.0 * deviation, "{average}");
+}
+
+#[test]
+fn correlation_widens_the_band() {
+    let base = normals(40, 0);
+    let apart: Vec<_> = (0..20).map(|k| normals(40, k)).collect();
+    let together: Vec<_> = (0..20)
+        .map(|k| {
+            let noise = normals(40, k);
+            base.iter().zip(noise).map(|(a, b)| a + 0.1 * b).collect()
+        })
+        .collect();
+    let spread = |levels: &[Vec<f64>]| {
+        let band = NullBand::simulate(levels, 0.1385, 2000, "t", 1).unwrap();
+        band.band(0.95, 0.95).unwrap().standard_error
+    };
+    // Independent levels: sqrt(0.05 0.95/20) = 0.049; one level: 0.218.
+    assert!((spread(&apart) - 0.049).abs() < 0.01);
+    assert!(spread(&together) > 0.12);
+}
+
+#[test]
+fn bad_levels_are_refused() {
+    let refused = |levels: &[Vec<f64>]| {
+        NullBand::simulate(levels, 0.1, 10, "t", 0).unwrap_err()
+    };
+    assert_eq!(refused(&[]), AcceptanceError::Empty);
+    let error = refused(&[normals(10, 0), normals(9, 1)]);
+    assert!(matches!(error, AcceptanceError::Lengths { level: 2, .. }));
+    let error = refused(&[normals(10, 0), vec![1.0; 10]]);
+    assert!(matches!(error, AcceptanceError::Scores { level: 2, .. }));
+}

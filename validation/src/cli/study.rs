@@ -1,0 +1,165 @@
+//! `rocking study`: the whole paper, from records to findings.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use indicatif::{ProgressBar, ProgressStyle};
+use rocking::block::Restitution;
+use rocking::integrator::Overturning;
+
+use super::{Failure, print};
+use crate::figures::data::Arm;
+use crate::study::analyses::Plan;
+use crate::study::runs::Setup;
+use crate::study::suites::StudySuite;
+use crate::study::{Study, output};
+
+/// Repeats the whole study and writes a report: 15 blocks, two suites,
+/// Figures 1 to 18 with their data, and what was found.
+///
+/// Without suites of your own it runs on the embedded synthetic ones.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Ordinary suite: a folder of records, or an index (CSV).
+    #[arg(long, value_name = "PATH", requires = "pulse")]
+    ordinary: Option<PathBuf>,
+    /// Pulse-type suite: a folder of records, or an index (CSV).
+    #[arg(long, value_name = "PATH", requires = "ordinary")]
+    pulse: Option<PathBuf>,
+    /// Coefficient of restitution, ratio of angular velocities.
+    #[arg(long, default_value_t = 0.92, allow_negative_numbers = true)]
+    eta: f64,
+    /// When a block counts as overturned.
+    #[arg(long, value_enum, default_value_t = Criterion::Alpha)]
+    overturn: Criterion,
+    /// Width in dimensionless intensity to which arms B and C bisect the
+    /// first overturning.
+    #[arg(
+        long,
+        value_name = "TOL",
+        default_value_t = 1e-4,
+        allow_negative_numbers = true
+    )]
+    refine: f64,
+    /// Arms of the intensity grid: A the paper's 0.01 g, B refined, C the
+    /// same dimensionless steps for every block.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "A,B,C")]
+    arms: Vec<ArmName>,
+    /// Other choices (restitution, criterion, component) on all 15 blocks.
+    #[arg(long)]
+    full: bool,
+    /// Number of threads; all processors by default. Results do not depend
+    /// on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Folder of the report.
+    #[arg(long, value_name = "DIR", default_value = "rocking-report")]
+    out: PathBuf,
+    /// Print the findings as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Criterion {
+    /// |theta| reaches alpha.
+    Alpha,
+    /// |theta| exceeds pi/2.
+    HalfPi,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+enum ArmName {
+    #[value(name = "A")]
+    A,
+    #[value(name = "B")]
+    B,
+    #[value(name = "C")]
+    C,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a suite that is refused, an option out of range, or a
+/// folder that cannot be written.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let plan = plan(args)?;
+    let suites = match (&args.ordinary, &args.pulse) {
+        (Some(ordinary), Some(pulse)) => [
+            StudySuite::read("ordinary", ordinary)?,
+            StudySuite::read("pulse-type", pulse)?,
+        ],
+        _ => StudySuite::embedded()?,
+    };
+    output::check(&args.out)?;
+    // Drawn on a terminal only.
+    let progress = ProgressBar::new(0);
+    if let Ok(style) =
+        ProgressStyle::with_template("{bar:40} {pos}/{len} chains, {eta} left")
+    {
+        progress.set_style(style);
+    }
+    let study = in_pool(args.threads, || {
+        Study::run(plan, &suites, args.full, &progress)
+    })??;
+    progress.finish_and_clear();
+    output::write(&args.out, &study.files()?)?;
+    if args.json {
+        print(&study.findings_text())
+    } else {
+        print(&format!(
+            "{}\nReport: {}\n",
+            study.table(),
+            args.out.join("index.html").display()
+        ))
+    }
+}
+
+fn plan(args: &Args) -> Result<Plan, Failure> {
+    if !(args.refine > 0.0 && args.refine.is_finite()) {
+        return Err(Failure::input(format!(
+            "--refine {}: expected a positive number",
+            args.refine
+        )));
+    }
+    let mut arms = args.arms.clone();
+    arms.sort();
+    arms.dedup();
+    if !arms.iter().any(|arm| *arm != ArmName::B) {
+        return Err(Failure::input(
+            "--arms B: expected A or C among them; figures are drawn from \
+             those",
+        ));
+    }
+    let arms = arms
+        .into_iter()
+        .map(|arm| match arm {
+            ArmName::A => Arm::A,
+            ArmName::B => Arm::B,
+            ArmName::C => Arm::C,
+        })
+        .collect();
+    let overturning = match args.overturn {
+        Criterion::Alpha => Overturning::Alpha,
+        Criterion::HalfPi => Overturning::HalfPi,
+    };
+    let setup = Setup {
+        restitution: Restitution::constant(args.eta)?,
+        overturning,
+        tolerance: args.refine,
+    };
+    Ok(Plan { setup, arms })
+}
+
+/// Runs `work` on a pool of that many threads.
+fn in_pool<T: Send>(
+    threads: Option<NonZeroUsize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, Failure> {
+    let Some(threads) = threads else { return Ok(work()) };
+    let pool =
+        rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build();
+    Ok(pool?.install(work))
+}

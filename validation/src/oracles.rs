@@ -1,0 +1,32 @@
+//! Closed forms, written anew: nothing here is shared with the core.
+
+pub mod carlson;
+pub mod free_rocking;
+pub mod linear;
+pub mod overturning;
+pub mod rectangular;
+
+#[cfg(test)]
+mod tests;
+
+/// Root of `f` between `low` and `high`, where it has opposite signs; not a
+/// number where it has not.
+#[must_use]
+pub fn bisect(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let rising = f(high) > 0.0;
+    if (f(low) > 0.0) == rising {
+        return f64::NAN;
+    }
+    for _ in 0..200 {
+        let mid = 0.5 * (low + high);
+        if mid <= low || mid >= high {
+            break;
+        }
+        if (f(mid) > 0.0) == rising {
+            high = mid;
+        } else {
+            low = mid;
+        }
+    }
+    0.5 * (low + high)
+}

@@ -1,0 +1,134 @@
+//! Free rocking from rest at an initial rotation: every impact, every peak
+//! and the settling time in closed form.
+
+use super::carlson::rf;
+
+/// What free rocking does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeRocking {
+    /// Times of the impacts, in units of 1/p.
+    pub impact_times_p: Vec<f64>,
+    /// Speeds just before them, over p.
+    pub impact_speeds_p: Vec<f64>,
+    /// Peak |theta|/alpha after each of them.
+    pub peak_ratios: Vec<f64>,
+    /// Sum of the infinite series of impacts, in units of 1/p; infinite
+    /// without loss.
+    pub settling_p: f64,
+}
+
+/// Speed over p alpha below which the rest of the series is geometric to
+/// rounding.
+const TAIL: f64 = 1e-6;
+
+/// Eq. 1: energy between impacts, Carlson's R_F for the times.
+///
+/// With D = 2 sin(theta0/2) sin(alpha - theta0/2): the speed is p sqrt(2 D),
+/// a quarter period sqrt(D/2) R_F(q^2 c^2, q^2 (1 - q^2), s^2 (1 - q^2)),
+/// s, c = sin, cos(alpha/2), q^2 = s^2 - D/2; an impact multiplies D by
+/// eta^2.
+#[must_use]
+pub fn nonlinear(
+    alpha_rad: f64,
+    eta: f64,
+    rotation_rad: f64,
+    impacts: usize,
+) -> FreeRocking {
+    let (s, c) = (libm::sin(0.5 * alpha_rad), libm::cos(0.5 * alpha_rad));
+    let energy = 2.0
+        * libm::sin(0.5 * rotation_rad)
+        * libm::sin(alpha_rad - 0.5 * rotation_rad);
+    // Near the saddle the difference s^2 - D/2 is known directly.
+    let gap = libm::sin(0.5 * (alpha_rad - rotation_rad));
+    let quarter = |d: f64, q2: f64| {
+        (0.5 * d).sqrt() * rf(q2 * c * c, q2 * (1.0 - q2), s * s * (1.0 - q2))
+    };
+    let peak = |d: f64| {
+        let psi = 2.0 * libm::asin((s * s - 0.5 * d).sqrt());
+        2.0 * libm::asin(0.5 * d / libm::sin(0.5 * (alpha_rad + psi)))
+            / alpha_rad
+    };
+    // A hop at the end of the series lasts 2 v / sin(alpha).
+    let short = |v: f64| 2.0 * v / libm::sin(alpha_rad);
+    series(
+        (energy, quarter(energy, gap * gap)),
+        eta,
+        impacts,
+        alpha_rad,
+        |d| 2.0 * quarter(d, s * s - 0.5 * d),
+        peak,
+        short,
+    )
+}
+
+/// Eq. 2: a quarter period is atanh(v), v = speed/(p alpha), and the peak
+/// v^2/(1 + sqrt(1 - v^2)).
+#[must_use]
+pub fn linearized(
+    alpha_rad: f64,
+    eta: f64,
+    rotation_rad: f64,
+    impacts: usize,
+) -> FreeRocking {
+    let ratio = rotation_rad / alpha_rad;
+    let v2 = ratio * (2.0 - ratio);
+    let scale = 0.5 * alpha_rad * alpha_rad;
+    let speed = |d: f64| (d / scale).sqrt();
+    // Near the saddle 1 - v = (1 - ratio)^2/(1 + v).
+    let v = v2.sqrt();
+    let first = 0.5
+        * libm::log((1.0 + v) * (1.0 + v) / ((1.0 - ratio) * (1.0 - ratio)));
+    let first = if ratio < 0.5 { libm::atanh(v) } else { first };
+    series(
+        (scale * v2, first),
+        eta,
+        impacts,
+        alpha_rad,
+        |d| 2.0 * libm::atanh(speed(d)),
+        |d| {
+            let v = speed(d);
+            v * v / (1.0 + (1.0 - v * v).sqrt())
+        },
+        |v| 2.0 * v / alpha_rad,
+    )
+}
+
+fn series(
+    (first_energy, first_quarter): (f64, f64),
+    eta: f64,
+    impacts: usize,
+    alpha_rad: f64,
+    hop: impl Fn(f64) -> f64,
+    peak: impl Fn(f64) -> f64,
+    short_hop: impl Fn(f64) -> f64,
+) -> FreeRocking {
+    let mut answer = FreeRocking {
+        impact_times_p: Vec::new(),
+        impact_speeds_p: Vec::new(),
+        peak_ratios: Vec::new(),
+        settling_p: f64::INFINITY,
+    };
+    let mut energy = first_energy;
+    let mut time = first_quarter;
+    loop {
+        let speed = (2.0 * energy).sqrt();
+        let listed = answer.impact_times_p.len() >= impacts;
+        if !listed {
+            answer.impact_times_p.push(time);
+            answer.impact_speeds_p.push(speed);
+        }
+        energy *= eta * eta;
+        if !listed {
+            answer.peak_ratios.push(peak(energy));
+        }
+        if listed && eta == 1.0 {
+            return answer;
+        }
+        let after = eta * speed;
+        if listed && after < TAIL * alpha_rad {
+            answer.settling_p = time + short_hop(after) / (1.0 - eta);
+            return answer;
+        }
+        time += hop(energy);
+    }
+}

@@ -1,0 +1,71 @@
+//! Rectangular pulse on the nonlinear block: gravity is turned by
+//! psi = atan(a/g), and the motion is again that of a pendulum.
+
+use super::bisect;
+use super::carlson::rf;
+
+/// A block (alpha, p) under a constant acceleration `pull` = a/g > tan
+/// alpha, from rest; y = |theta|.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectangular {
+    /// Slenderness angle in rad.
+    pub alpha_rad: f64,
+    /// Frequency parameter in rad/s.
+    pub frequency_rad_s: f64,
+    /// Acceleration over g.
+    pub pull: f64,
+}
+
+impl Rectangular {
+    fn turned(&self) -> (f64, f64) {
+        let psi = libm::atan(self.pull);
+        let rate =
+            self.frequency_rad_s * (1.0 + self.pull * self.pull).sqrt().sqrt();
+        (psi - self.alpha_rad, rate)
+    }
+
+    /// Time in s at which the pulse has lifted the block to y:
+    /// (sqrt(S)/P) R_F(q^2 C, q^2 (1 - q^2), S1 (1 - q^2)), with
+    /// delta = psi - alpha, q = sin(delta/2), S1 = sin^2((y + delta)/2),
+    /// S = S1 - q^2, C = 1 - S1, P = p (1 + (a/g)^2)^(1/4).
+    #[must_use]
+    pub fn time_s(&self, y_rad: f64) -> f64 {
+        let (delta, rate) = self.turned();
+        let q = libm::sin(0.5 * delta);
+        let s1 = libm::sin(0.5 * (y_rad + delta));
+        let s1 = s1 * s1;
+        // sin^2 a - sin^2 b = sin(a - b) sin(a + b).
+        let s = libm::sin(0.5 * y_rad) * libm::sin(0.5 * y_rad + delta);
+        let q2 = q * q;
+        s.sqrt() / rate * rf(q2 * (1.0 - s1), q2 * (1.0 - q2), s1 * (1.0 - q2))
+    }
+
+    /// Rotation reached after `t_s` of the pulse, rad.
+    #[must_use]
+    pub fn rotation_rad(&self, t_s: f64) -> f64 {
+        let (delta, _) = self.turned();
+        let most = std::f64::consts::PI - delta;
+        bisect(0.0, most * (1.0 - 1e-9), |y| self.time_s(y) - t_s)
+    }
+
+    /// Energy after the pulse has lifted the block to y, less that of the
+    /// saddle: cos alpha - 1 + (a/g)[sin alpha - sin(alpha - y)].
+    #[must_use]
+    pub fn energy_over_saddle(&self, y_rad: f64) -> f64 {
+        let half = libm::sin(0.5 * self.alpha_rad);
+        let work = 2.0
+            * libm::sin(0.5 * y_rad)
+            * libm::cos(self.alpha_rad - 0.5 * y_rad);
+        self.pull * work - 2.0 * half * half
+    }
+
+    /// Shortest pulse that overturns, s: the one that lifts the block to
+    /// alpha - asin[sin alpha - (1 - cos alpha) g/a].
+    #[must_use]
+    pub fn critical_duration_s(&self) -> f64 {
+        let half = libm::sin(0.5 * self.alpha_rad);
+        let need = 2.0 * half * half / self.pull;
+        let y = self.alpha_rad - libm::asin(libm::sin(self.alpha_rad) - need);
+        self.time_s(y)
+    }
+}

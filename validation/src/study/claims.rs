@@ -1,0 +1,228 @@
+//! The paper's claims, each with its measure and the margin that was fixed
+//! before any result was seen.
+
+mod basics;
+mod fragilities;
+mod lognormality;
+mod stages;
+
+use rocking::statistics::ExtendedSample;
+use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::boxplot::median_interval;
+use rocking::statistics::paired::Pairs;
+
+use super::StudyError;
+use super::analyses::{Apart, SuiteResults};
+use super::capacities::at;
+use super::figures::{Results, median_of};
+use super::findings::{Claim, Measured, Verdict};
+use super::grid::{FREQUENCIES_RAD_S, position};
+use super::sensitivities::Varied;
+use crate::figures::data::Arm;
+
+/// Gravity of the paper's Table 1, in m/s2.
+pub const PAPER_GRAVITY_M_S2: f64 = 9.81;
+
+/// Level of all intervals.
+const LEVEL: f64 = 0.95;
+
+/// Replicates of a bootstrap.
+const REPLICATES: usize = 2000;
+
+/// Equal within this share counts as the same.
+const SAME: f64 = 0.05;
+
+/// All claims, in the paper's order.
+///
+/// # Errors
+/// [`StudyError`] where a measure cannot be computed.
+pub fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
+    let mut out = basics::all(results)?;
+    out.extend(stages::all(results)?);
+    out.extend(lognormality::all(results)?);
+    out.extend(fragilities::all(results)?);
+    Ok(out)
+}
+
+/// What does not change from one claim to the next.
+struct Context<'a> {
+    section: &'a str,
+    suite: &'a str,
+    blocks: &'a str,
+    arm: Option<Arm>,
+}
+
+impl Context<'_> {
+    /// A claim measured here.
+    #[expect(clippy::too_many_arguments, reason = "all of them are words")]
+    fn claim(
+        &self,
+        id: &str,
+        quote: &str,
+        measure: &str,
+        measured: Measured,
+        margin: &str,
+        verdict: Verdict,
+        note: String,
+    ) -> Claim {
+        Claim {
+            id: id.into(),
+            section: self.section.into(),
+            quote: quote.into(),
+            suite: self.suite.into(),
+            blocks: self.blocks.into(),
+            arm: self.arm,
+            measure: measure.into(),
+            measured,
+            margin: margin.into(),
+            verdict,
+            note,
+        }
+    }
+}
+
+/// Median with its exact order-statistic interval.
+#[must_use]
+pub fn median(values: &[f64]) -> Measured {
+    let finite: Vec<f64> =
+        values.iter().copied().filter(|x| x.is_finite()).collect();
+    let Ok(sample) = ExtendedSample::try_new(&finite) else {
+        return Measured::exact(f64::NAN);
+    };
+    let sorted = sample.sorted();
+    let n = sorted.len();
+    Measured {
+        value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
+        interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
+    }
+}
+
+fn middle(values: &[f64]) -> f64 {
+    median(values).value
+}
+
+/// Difference of two samples' medians, a minus b, with the percentile
+/// interval of a bootstrap that draws from each sample on its own.
+fn difference(name: &str, a: &[f64], b: &[f64]) -> Measured {
+    let draw = |side: &str, x: &[f64]| {
+        let name = format!("study/{name}/{side}");
+        Bootstrap::new(&name, 0, x.len(), REPLICATES).map(|places| {
+            middle(&places.iter().map(|i| x[*i]).collect::<Vec<f64>>())
+        })
+    };
+    let value = middle(a) - middle(b);
+    let replicates: Vec<f64> =
+        draw("a", a).iter().zip(draw("b", b)).map(|(a, b)| a - b).collect();
+    let interval =
+        estimate(value, &replicates, LEVEL).map(|e| (e.low, e.high));
+    Measured { value, interval }
+}
+
+/// Medians that should all be 1: the worst one, and the verdict over all.
+struct Cells {
+    measured: Measured,
+    verdict: Verdict,
+    /// Number of cells, and of those whose interval does not contain 1.
+    counts: (usize, usize),
+}
+
+/// Confirmed if every cell's interval lies within 1 -+ `margin`, not
+/// confirmed if one lies wholly outside.
+fn all_one(cells: &[Vec<f64>], margin: f64) -> Cells {
+    let medians: Vec<Measured> = cells
+        .iter()
+        .filter(|c| c.len() >= super::grid::LEAST_USABLE)
+        .map(|c| median(c))
+        .collect();
+    let verdicts: Vec<Verdict> =
+        medians.iter().map(|m| m.within(1.0 - margin, 1.0 + margin)).collect();
+    let verdict = if verdicts.contains(&Verdict::NotConfirmed) {
+        Verdict::NotConfirmed
+    } else if verdicts.is_empty() || verdicts.contains(&Verdict::Inconclusive)
+    {
+        Verdict::Inconclusive
+    } else {
+        Verdict::Confirmed
+    };
+    let mut measured = Measured::exact(f64::NAN);
+    for m in &medians {
+        let off = |m: &Measured| (m.value - 1.0).abs();
+        if measured.value.is_nan() || off(m) > off(&measured) {
+            measured = *m;
+        }
+    }
+    let excludes =
+        |m: &&Measured| m.interval.is_some_and(|(a, b)| a > 1.0 || b < 1.0);
+    let excluding = medians.iter().filter(excludes).count();
+    Cells { measured, verdict, counts: (medians.len(), excluding) }
+}
+
+impl Cells {
+    fn note(&self) -> String {
+        format!(
+            "worst of {} cells; the intervals of {} exclude 1",
+            self.counts.0, self.counts.1
+        )
+    }
+}
+
+/// One frequency parameter of a suite's single-record comparison, medians
+/// over records and slendernesses.
+#[derive(Clone, Copy, Debug)]
+pub struct SingleRow {
+    /// Frequency parameter.
+    pub p_rad_s: f64,
+    /// Level of the histories.
+    pub im: f64,
+    /// Number of pairs of histories in which both blocks stand.
+    pub usable: usize,
+    /// Normalized L2 distance.
+    pub distance: f64,
+    /// Ratio of the peaks.
+    pub peak_ratio: f64,
+    /// Mean |ln| of the ratio of intensities at equal demand.
+    pub mean_ln_im: f64,
+}
+
+/// The single-record comparison by frequency parameter.
+#[must_use]
+pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
+    suite
+        .single
+        .iter()
+        .zip(FREQUENCIES_RAD_S)
+        .map(|(single, p_rad_s)| {
+            let stands = |a: &&Apart| a.distance.is_finite();
+            SingleRow {
+                p_rad_s,
+                im: single.im,
+                usable: single.apart.iter().flatten().filter(stands).count(),
+                distance: median_of(single, |a| a.distance),
+                peak_ratio: median_of(single, |a| a.peak_ratio),
+                mean_ln_im: median_of(single, |a| a.mean_ln_im),
+            }
+        })
+        .collect()
+}
+
+/// Paired capacities at a demand: another choice over the study's.
+///
+/// # Errors
+/// [`StudyError`] where a curve cannot be inverted.
+pub fn varied_ratios(
+    results: &Results,
+    varied: &Varied,
+    demand: f64,
+) -> Result<Pairs, StudyError> {
+    let curves = results.ordinary.curves(results.plan.common());
+    let base = &curves.ok_or(StudyError::NoArm)?
+        [position(varied.frequency, varied.slenderness)];
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    for (curve, base) in varied.curves.iter().zip(base) {
+        if let Some(curve) = curve {
+            a.extend(at(curve, &[demand])?);
+            b.extend(at(base, &[demand])?);
+        }
+    }
+    Ok(Pairs::try_new(&a, &b)?)
+}

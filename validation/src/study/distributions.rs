@@ -1,0 +1,122 @@
+//! Capacity samples of all blocks, and what Lilliefors' test says of them.
+
+use super::StudyError;
+use super::analyses::SuiteResults;
+use super::capacities::{samples, scaled};
+use super::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
+use super::normality::{accepted_share, along};
+use crate::figures::data::{Arm, Intensity};
+
+/// Capacities of one block, and the test along the demand.
+#[derive(Clone, Debug)]
+pub struct BlockSamples {
+    /// Frequency parameter.
+    pub p_rad_s: f64,
+    /// Slenderness.
+    pub alpha_rad: f64,
+    /// The shift IM_R.
+    pub shift: f64,
+    /// Capacities by level of [`demands`], then by record.
+    pub samples: Vec<Vec<f64>>,
+    /// D over its critical value by level, as they are.
+    pub original: Vec<f64>,
+    /// The same above the shift.
+    pub shifted: Vec<f64>,
+}
+
+impl BlockSamples {
+    /// Accepted share of the levels: original, shifted.
+    #[must_use]
+    pub fn shares(&self) -> (f64, f64) {
+        (accepted_share(&self.original), accepted_share(&self.shifted))
+    }
+}
+
+/// All 15 blocks of a suite in one arm and one measure.
+#[derive(Clone, Debug)]
+pub struct Distributions {
+    /// `ordinary` or `pulse-type`.
+    pub kind: &'static str,
+    /// Arm of the grid.
+    pub arm: Arm,
+    /// Intensity measure.
+    pub intensity: Intensity,
+    /// By frequency parameter, then by slenderness.
+    pub blocks: Vec<BlockSamples>,
+}
+
+/// The distributions of a suite: by arm, PGA then PGV.
+///
+/// # Errors
+/// None in practice: the levels are positive.
+pub fn of_suite(
+    suite: &SuiteResults,
+) -> Result<Vec<Distributions>, StudyError> {
+    let levels = demands();
+    let mut out = Vec::new();
+    for arm in &suite.arms {
+        let by_block: Vec<Vec<Vec<f64>>> = arm
+            .curves
+            .iter()
+            .map(|curves| samples(curves, &levels))
+            .collect::<Result<_, _>>()?;
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            let blocks = by_block
+                .iter()
+                .enumerate()
+                .map(|(i, s)| block(suite, intensity, i, s))
+                .collect();
+            out.push(Distributions {
+                kind: suite.kind,
+                arm: arm.arm,
+                intensity,
+                blocks,
+            });
+        }
+    }
+    Ok(out)
+}
+
+fn block(
+    suite: &SuiteResults,
+    intensity: Intensity,
+    position: usize,
+    pga: &[Vec<f64>],
+) -> BlockSamples {
+    let slendernesses = SLENDERNESSES_RAD.len();
+    let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
+    let alpha_rad = SLENDERNESSES_RAD[position % slendernesses];
+    let factors = factors(suite, intensity, p_rad_s);
+    let samples: Vec<Vec<f64>> =
+        pga.iter().map(|sample| scaled(sample, &factors)).collect();
+    let shift = least(&factors);
+    BlockSamples {
+        p_rad_s,
+        alpha_rad,
+        shift,
+        original: along(&samples, 0.0),
+        shifted: along(&samples, shift),
+        samples,
+    }
+}
+
+/// What turns PGA/(g tan alpha) into the measure, record by record: 1, or
+/// p PGV/PGA. The least of them is IM_R: at uplift PGA/(g tan alpha) is 1.
+#[must_use]
+pub fn factors(
+    suite: &SuiteResults,
+    intensity: Intensity,
+    p_rad_s: f64,
+) -> Vec<f64> {
+    let of = |ratio_s: f64| match intensity {
+        Intensity::Pga => 1.0,
+        Intensity::Pgv => p_rad_s * ratio_s,
+    };
+    suite.records.iter().map(|r| of(r.velocity_ratio_s)).collect()
+}
+
+/// The least of some numbers; infinite if there is none.
+#[must_use]
+pub fn least(values: &[f64]) -> f64 {
+    values.iter().fold(f64::INFINITY, |m, x| if *x < m { *x } else { m })
+}

@@ -1,0 +1,121 @@
+//! The paper's figures, filled from the analyses.
+
+mod distributions;
+mod fragilities;
+mod quantiles;
+mod ratios;
+mod single;
+
+pub(crate) use fragilities::{
+    BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, usfl7,
+};
+pub(crate) use ratios::{adjusted_boxes, demand_boxes, of_arm, pairs};
+pub(crate) use single::median_of;
+
+use super::StudyError;
+use super::analyses::{Plan, SuiteResults};
+use super::distributions::Distributions;
+use super::sensitivities::Varied;
+use crate::figures::data::Arm;
+
+/// Everything that the figures are made of.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// What was run.
+    pub plan: Plan,
+    /// The ordinary suite.
+    pub ordinary: SuiteResults,
+    /// The pulse-type suite.
+    pub pulse: SuiteResults,
+    /// Capacity samples: suites, arms, measures.
+    pub distributions: Vec<Distributions>,
+    /// Curves under other choices, ordinary suite.
+    pub varied: Vec<Varied>,
+}
+
+/// A figure and the sentence that says what one sees.
+pub struct Figure {
+    /// The drawing and its numbers.
+    pub drawing: Box<dyn crate::figures::Figure + Send + Sync>,
+    /// What one sees, in one sentence made from the numbers.
+    pub reading: String,
+}
+
+impl Results {
+    /// Figures 1 to 18, in order; those of the grid's arms once for each arm
+    /// drawn.
+    ///
+    /// # Errors
+    /// [`StudyError`] where a curve cannot be read.
+    pub fn figures(&self) -> Result<Vec<Figure>, StudyError> {
+        let drawn = self.plan.drawn();
+        let mut out = vec![single::sketch()];
+        for suite in [&self.ordinary, &self.pulse] {
+            out.push(single::histories(suite, self.plan.common()));
+        }
+        for suite in [&self.ordinary, &self.pulse] {
+            out.push(single::curves(suite, self.plan.common())?);
+        }
+        for number in [6, 7] {
+            for arm in &drawn {
+                out.extend(ratios::slendernesses(
+                    &self.ordinary,
+                    *arm,
+                    number,
+                )?);
+            }
+        }
+        for arm in &drawn {
+            out.push(quantiles::slendernesses(&self.ordinary, *arm)?);
+        }
+        for arm in &drawn {
+            out.extend(ratios::adjusted(&self.ordinary, *arm)?);
+        }
+        for arm in &drawn {
+            out.push(quantiles::adjusted(&self.ordinary, *arm)?);
+        }
+        let one = self.plan.common();
+        out.push(distributions::inverted(self, one)?);
+        out.push(distributions::shares(self, 12)?);
+        for arm in &drawn {
+            out.push(distributions::along(self, *arm)?);
+        }
+        out.push(distributions::shares(self, 14)?);
+        for number in [15, 16, 17] {
+            out.push(fragilities::thresholds(self, one, number)?);
+        }
+        out.push(fragilities::constants(self, one)?);
+        Ok(out)
+    }
+
+    /// The suite of that kind.
+    #[must_use]
+    pub fn suite(&self, kind: &str) -> &SuiteResults {
+        if kind == self.pulse.kind { &self.pulse } else { &self.ordinary }
+    }
+}
+
+/// Name of a figure, with the arm's letter where both arms have one.
+fn name(number: u32, arm: Option<Arm>) -> String {
+    match arm {
+        Some(arm) => {
+            format!("figure-{number:02}-{}", arm.letter().to_lowercase())
+        }
+        None => format!("figure-{number:02}"),
+    }
+}
+
+/// Percent with one decimal, for sentences.
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Least and largest of some numbers, those that are not finite left out.
+pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.filter(|x| x.is_finite()).fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(low, high), x| {
+            (if x < low { x } else { low }, if x > high { x } else { high })
+        },
+    )
+}

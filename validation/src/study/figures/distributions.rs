@@ -1,0 +1,238 @@
+//! Figures 11 to 14: capacities and their tests.
+
+use rocking::statistics::{QuantileType, Sample};
+
+use super::{Figure, Results, name, percent, range};
+use crate::figures::data::{
+    AcceptedShares, Arm, BlockShare, Capacities, CapacityCurve, CapacityPanel,
+    Heading, Histogram, Intensity, SharePanel, TestedBlock, TestsAlongDemand,
+};
+use crate::study::StudyError;
+use crate::study::distributions::{BlockSamples, Distributions};
+use crate::study::grid::{
+    FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index, demands, position,
+};
+use crate::study::normality::{LEVEL, accepted_share, logarithms};
+
+impl Results {
+    /// The capacity samples of a suite in an arm and a measure.
+    #[must_use]
+    pub fn distributions(
+        &self,
+        kind: &str,
+        arm: Arm,
+        intensity: Intensity,
+    ) -> Option<&Distributions> {
+        self.distributions.iter().find(|d| {
+            d.kind == kind && d.arm == arm && d.intensity == intensity
+        })
+    }
+
+    /// One block of the ordinary suite.
+    ///
+    /// # Errors
+    /// [`StudyError::NoArm`] if the arm was not run.
+    pub(crate) fn ordinary_block(
+        &self,
+        arm: Arm,
+        intensity: Intensity,
+        frequency: usize,
+        slenderness: usize,
+    ) -> Result<&BlockSamples, StudyError> {
+        let kind = self.ordinary.kind;
+        let found = self.distributions(kind, arm, intensity);
+        let found = found.ok_or(StudyError::NoArm)?;
+        Ok(&found.blocks[position(frequency, slenderness)])
+    }
+}
+
+/// Figure 11: p = 1, alpha = 0.20.
+pub(super) fn inverted(
+    results: &Results,
+    arm: Arm,
+) -> Result<Figure, StudyError> {
+    let levels = demands();
+    // Every fourth level is enough to draw.
+    let kept: Vec<usize> =
+        (0..levels.len()).filter(|i| *i == 0 || (i + 1) % 4 == 0).collect();
+    let mut panels = Vec::new();
+    let mut onsets = Vec::new();
+    for intensity in [Intensity::Pga, Intensity::Pgv] {
+        let block = results.ordinary_block(arm, intensity, 0, 3)?;
+        onsets.push(range(block.samples[0].iter().copied()));
+        let records = results.ordinary.records.iter().enumerate();
+        panels.push(CapacityPanel {
+            intensity,
+            shift: block.shift,
+            curves: records
+                .map(|(record, facts)| CapacityCurve {
+                    record: facts.name.clone(),
+                    edp: kept.iter().map(|i| levels[*i]).collect(),
+                    im: kept
+                        .iter()
+                        .map(|i| block.samples[*i][record])
+                        .collect(),
+                })
+                .collect(),
+        });
+    }
+    let (pga, pgv) = (onsets[0], onsets[1]);
+    Ok(Figure {
+        drawing: Box::new(Capacities {
+            heading: Heading {
+                name: name(11, None),
+                title: "Intensity given demand, original and shifted".into(),
+                description: "A curve for each record of the intensity that \
+                              reaches a demand, by median point; PGA and \
+                              PGV, as inverted and above IM_R."
+                    .into(),
+                arm: Some(arm),
+            },
+            alpha_rad: SLENDERNESSES_RAD[3],
+            p_rad_s: FREQUENCIES_RAD_S[0],
+            panels,
+        }),
+        reading: format!(
+            "At the lowest demand all capacities lie between {:.3} and \
+             {:.3} for PGA, but between {:.3} and {:.3} for PGV: the onset \
+             is sharp in the former alone.",
+            pga.0, pga.1, pgv.0, pgv.1
+        ),
+    })
+}
+
+/// Figure 12 (PGA) or 14 (PGV).
+pub(super) fn shares(
+    results: &Results,
+    number: u32,
+) -> Result<Figure, StudyError> {
+    let intensity = if number == 12 { Intensity::Pga } else { Intensity::Pgv };
+    let drawn = results.plan.drawn();
+    let mut panels = Vec::new();
+    let mut words = Vec::new();
+    for suite in [&results.ordinary, &results.pulse] {
+        for shifted in [false, true] {
+            let mut shares = Vec::new();
+            for arm in &drawn {
+                let found = results.distributions(suite.kind, *arm, intensity);
+                for block in &found.ok_or(StudyError::NoArm)?.blocks {
+                    let (original, above) = block.shares();
+                    shares.push(BlockShare {
+                        p_rad_s: block.p_rad_s,
+                        alpha_rad: block.alpha_rad,
+                        arm: *arm,
+                        share: if shifted { above } else { original },
+                        null_band: None,
+                    });
+                }
+            }
+            let mean = shares.iter().fold(0.0, |s, b| s + b.share)
+                / shares.len() as f64;
+            let sample = if shifted { "shifted" } else { "original" };
+            words.push(format!(
+                "{} for {sample} {} samples",
+                percent(mean),
+                suite.kind
+            ));
+            panels.push(SharePanel {
+                suite: suite.kind.into(),
+                records: suite.records.len(),
+                shifted,
+                shares,
+            });
+        }
+    }
+    let measure = if number == 12 { "PGA" } else { "PGV" };
+    Ok(Figure {
+        drawing: Box::new(AcceptedShares {
+            heading: Heading {
+                name: name(number, None),
+                title: format!(
+                    "Share of demand levels at which lognormality is \
+                     accepted, {measure}"
+                ),
+                description: "Percent of 200 demand levels accepted by \
+                              Lilliefors' test at 5 %, for 15 blocks; \
+                              original and shifted samples, ordinary and \
+                              pulse-type."
+                    .into(),
+                arm: None,
+            },
+            intensity,
+            expected: 1.0 - LEVEL,
+            panels,
+            columns: 2,
+        }),
+        reading: format!(
+            "Mean over blocks and arms of the accepted share: {}.",
+            words.join(", ")
+        ),
+    })
+}
+
+/// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA.
+pub(super) fn along(
+    results: &Results,
+    arm: Arm,
+) -> Result<Figure, StudyError> {
+    let edp = 0.5;
+    let mut blocks = Vec::new();
+    let mut words = Vec::new();
+    for slenderness in [0, 3] {
+        let block =
+            results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
+        let sample = &block.samples[demand_index(edp)];
+        words.push(format!(
+            "{} original and {} shifted at alpha = {:.2}",
+            percent(accepted_share(&block.original)),
+            percent(accepted_share(&block.shifted)),
+            block.alpha_rad
+        ));
+        blocks.push(TestedBlock {
+            p_rad_s: block.p_rad_s,
+            alpha_rad: block.alpha_rad,
+            edp: demands(),
+            original: block.original.clone(),
+            shifted: block.shifted.clone(),
+            original_histogram: histogram(sample, 0.0),
+            shifted_histogram: histogram(sample, block.shift),
+        });
+    }
+    Ok(Figure {
+        drawing: Box::new(TestsAlongDemand {
+            heading: Heading {
+                name: name(13, Some(arm)),
+                title: "Lilliefors' test along the demand, p = 3".into(),
+                description: "Test statistic over its critical value along \
+                              the demand, and histograms of the logarithm \
+                              of the capacity at demand 0.50, original and \
+                              shifted; alpha = 0.05 and 0.20."
+                    .into(),
+                arm: Some(arm),
+            },
+            intensity: Intensity::Pga,
+            edp,
+            blocks,
+        }),
+        reading: format!("Accepted levels: {}.", words.join("; ")),
+    })
+}
+
+fn histogram(sample: &[f64], shift: f64) -> Histogram {
+    let none = || Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
+    let Some(logs) = logarithms(sample, shift) else { return none() };
+    let n = logs.len() as f64;
+    let deviation = (logs.sum_of_squares() / (n - 1.0)).sqrt();
+    let quartile = |p| quartile(&logs, p);
+    let quartiles = (quartile(0.25), quartile(0.75));
+    Histogram::freedman_diaconis(
+        logs.sorted(),
+        quartiles,
+        logs.mean(),
+        deviation,
+    )
+}
+
+fn quartile(sample: &Sample, p: f64) -> f64 {
+    QuantileType::default().of(sample, p).unwrap_or(f64::NAN)
+}

@@ -1,0 +1,212 @@
+//! Figures 15 to 18: fitted and transformed fragilities.
+
+use rocking::fragility::transform;
+use rocking::statistics::lognormal::{FitMethod, fit};
+use rocking::statistics::{self, ExtendedSample, QuantileType};
+
+use super::{Figure, Results, name};
+use crate::figures::data::{
+    Arm, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
+    Fragilities, FragilityPanel, Heading, Intensity, Lognormal, Threshold,
+};
+use crate::study::StudyError;
+use crate::study::distributions::BlockSamples;
+use crate::study::grid::demand_index;
+
+/// Demand thresholds of Figures 15 to 17.
+pub(crate) const THRESHOLDS: [f64; 3] = [0.15, 0.35, 1.0];
+
+/// Constants of Eq. 7 in Figure 18.
+pub(crate) const CONSTANTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// The block of Figures 15 to 18: p = 3, alpha = 0.20.
+pub(crate) const BLOCK: (usize, usize) = (1, 3);
+
+/// The lognormals that the paper compares, of one sample and shift.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fits {
+    /// Fitted to the sample as it is, by maximum likelihood.
+    pub usfl: Option<statistics::Lognormal>,
+    /// Fitted to the shifted sample, by maximum likelihood.
+    pub ssfl: Option<statistics::Lognormal>,
+    /// Fitted to the trimmed sample, by moments.
+    pub trimmed: Option<statistics::Lognormal>,
+}
+
+impl Fits {
+    pub(crate) fn new(sample: &ExtendedSample, shift: f64) -> Self {
+        let by = |shift, method| {
+            fit(sample, shift, method).ok().map(|f| f.distribution)
+        };
+        let trim = FitMethod::Trimmed(QuantileType::default());
+        Self {
+            usfl: by(0.0, FitMethod::MaximumLikelihood),
+            ssfl: by(shift, FitMethod::MaximumLikelihood),
+            trimmed: by(0.0, trim),
+        }
+    }
+}
+
+/// Eqs. 5 and 7 applied to a fit; none where they are not defined.
+pub(crate) fn usfl7(
+    usfl: Option<statistics::Lognormal>,
+    shift: f64,
+    c: f64,
+) -> Option<statistics::Lognormal> {
+    transform(&usfl?, shift, c).ok()
+}
+
+/// Largest distance of a fitted fragility to the empirical one; NaN where
+/// there is no fit.
+pub(crate) fn distance(
+    fitted: Option<statistics::Lognormal>,
+    sample: &ExtendedSample,
+) -> f64 {
+    fitted.map_or(f64::NAN, |f| f.kolmogorov_distance(sample))
+}
+
+fn curve(fitted: Option<statistics::Lognormal>) -> Option<Lognormal> {
+    fitted.map(|f| Lognormal {
+        ln_median: f.log_mean(),
+        dispersion: f.dispersion(),
+        shift: f.shift(),
+    })
+}
+
+fn sample_at(
+    block: &BlockSamples,
+    edp: f64,
+) -> Result<ExtendedSample, StudyError> {
+    Ok(ExtendedSample::try_new(&block.samples[demand_index(edp)])?)
+}
+
+/// Figures 15, 16 and 17.
+pub(super) fn thresholds(
+    results: &Results,
+    arm: Arm,
+    number: u32,
+) -> Result<Figure, StudyError> {
+    let mut panels = Vec::new();
+    let mut words = Vec::new();
+    for intensity in [Intensity::Pga, Intensity::Pgv] {
+        let block =
+            results.ordinary_block(arm, intensity, BLOCK.0, BLOCK.1)?;
+        let mut thresholds = Vec::new();
+        for edp in THRESHOLDS {
+            let sample = sample_at(block, edp)?;
+            let fits = Fits::new(&sample, block.shift);
+            let (first, second) = match number {
+                15 => (fits.usfl, (Estimator::Ssfl, fits.ssfl)),
+                16 => (
+                    fits.trimmed,
+                    (Estimator::Usfl7, usfl7(fits.trimmed, block.shift, 1.0)),
+                ),
+                _ => (
+                    fits.usfl,
+                    (Estimator::Usfl7, usfl7(fits.usfl, block.shift, 1.0)),
+                ),
+            };
+            words.push(format!(
+                "{:.3} and {} ({} {edp:.2})",
+                distance(first, &sample),
+                second.1.map_or_else(
+                    || "undefined".into(),
+                    |f| format!("{:.3}", f.kolmogorov_distance(&sample))
+                ),
+                intensity.name().to_uppercase()
+            ));
+            thresholds.push(Threshold {
+                edp,
+                sample: block.samples[demand_index(edp)].clone(),
+                curves: vec![
+                    Fitted { estimator: Estimator::Usfl, curve: curve(first) },
+                    Fitted { estimator: second.0, curve: curve(second.1) },
+                ],
+            });
+        }
+        panels.push(FragilityPanel { intensity, thresholds });
+    }
+    let (title, pair) = match number {
+        15 => ("Fragilities: USFL and SSFL, untrimmed", "USFL and SSFL"),
+        16 => {
+            ("Fragilities: USFL and USFL7, trimmed, c = 1", "USFL and USFL7")
+        }
+        _ => {
+            ("Fragilities: USFL and USFL7, untrimmed, c = 1", "USFL and USFL7")
+        }
+    };
+    Ok(Figure {
+        drawing: Box::new(Fragilities {
+            heading: Heading {
+                name: name(number, None),
+                title: title.into(),
+                description: "Empirical fragilities at three demands with \
+                              two fitted ones each; PGA and PGV; p = 3, \
+                              alpha = 0.20."
+                    .into(),
+                arm: Some(arm),
+            },
+            panels,
+        }),
+        reading: format!(
+            "Largest distance of {pair} to the empirical fragility: {}.",
+            words.join(", ")
+        ),
+    })
+}
+
+/// Figure 18: demand 0.15, PGA.
+pub(super) fn constants(
+    results: &Results,
+    arm: Arm,
+) -> Result<Figure, StudyError> {
+    let edp = THRESHOLDS[0];
+    let block =
+        results.ordinary_block(arm, Intensity::Pga, BLOCK.0, BLOCK.1)?;
+    let sample = sample_at(block, edp)?;
+    let fits = Fits::new(&sample, block.shift);
+    let mut words = Vec::new();
+    let mut panels = Vec::new();
+    for (title, usfl) in [("untrimmed", fits.usfl), ("trimmed", fits.trimmed)]
+    {
+        let mut distances = Vec::new();
+        let curves = CONSTANTS
+            .iter()
+            .map(|c| {
+                let fitted = usfl7(usfl, block.shift, *c);
+                distances.push(fitted.map_or_else(
+                    || "undefined".into(),
+                    |f| format!("{:.3}", f.kolmogorov_distance(&sample)),
+                ));
+                ConstantCurve { c: *c, curve: curve(fitted) }
+            })
+            .collect();
+        words.push(format!("{title} {}", distances.join(", ")));
+        panels.push(ByConstantPanel {
+            title: title.into(),
+            benchmark: curve(fits.ssfl),
+            sample: block.samples[demand_index(edp)].clone(),
+            curves,
+        });
+    }
+    Ok(Figure {
+        drawing: Box::new(ByConstant {
+            heading: Heading {
+                name: name(18, None),
+                title: "The constant c of Eq. 7".into(),
+                description: "USFL7 for four constants against the SSFL, \
+                              demand 0.15, PGA; untrimmed and trimmed."
+                    .into(),
+                arm: Some(arm),
+            },
+            intensity: Intensity::Pga,
+            edp,
+            panels,
+        }),
+        reading: format!(
+            "Largest distance of USFL7 to the empirical fragility for c = \
+             0.25, 0.5, 0.75, 1: {}.",
+            words.join("; ")
+        ),
+    })
+}

@@ -1,0 +1,182 @@
+//! Figures 8 and 10: quantiles of the demand given the intensity.
+
+use rayon::prelude::*;
+use rocking::capacity::ResponseCurve;
+use rocking::statistics::{ExtendedSample, QuantileType};
+
+use super::{Figure, name};
+use crate::figures::data::{
+    Arm, Heading, Intensity, QuantileGroup, QuantilePanel, Quantiles,
+};
+use crate::study::StudyError;
+use crate::study::analyses::SuiteResults;
+use crate::study::grid::{
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+};
+
+/// Most points of a line.
+const MOST_POINTS: usize = 160;
+
+pub(super) fn slendernesses(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Figure, StudyError> {
+    let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
+    let panels = panels(|frequency| {
+        SLENDERNESSES_RAD
+            .iter()
+            .enumerate()
+            .map(|(slenderness, alpha)| {
+                let label = format!("*α* = {alpha:.2} rad");
+                group(label, &curves[position(frequency, slenderness)])
+            })
+            .collect()
+    })?;
+    let words = overturning_in_words(&panels);
+    Ok(Figure {
+        drawing: Box::new(Quantiles {
+            heading: Heading {
+                name: name(8, Some(arm)),
+                title: "16/50/84 % demand given intensity, five \
+                        slendernesses"
+                    .into(),
+                description: "Three quantile curves for each slenderness, \
+                              one panel a frequency parameter; a curve ends \
+                              where its quantile is overturned."
+                    .into(),
+                arm: Some(arm),
+            },
+            intensity: Intensity::Pga,
+            panels,
+            columns: 3,
+        }),
+        reading: format!(
+            "The median demand becomes overturning {words}, by slenderness."
+        ),
+    })
+}
+
+pub(super) fn adjusted(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Figure, StudyError> {
+    let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
+    let adjusted = suite.adjusted.iter().find(|(a, _)| *a == arm);
+    let panels = panels(|frequency| {
+        let scaled = &curves[position(frequency, REFERENCE)];
+        let mut groups = vec![group("scaled records".into(), scaled)?];
+        if let Some((_, by_frequency)) = adjusted {
+            groups.push(group(
+                "adjusted slenderness".into(),
+                &by_frequency[frequency],
+            )?);
+        }
+        Ok(groups)
+    })?;
+    let words = overturning_in_words(&panels);
+    Ok(Figure {
+        drawing: Box::new(Quantiles {
+            heading: Heading {
+                name: name(10, Some(arm)),
+                title: "16/50/84 % demand given intensity: scaled records \
+                        and adjusted slenderness"
+                    .into(),
+                description: "Three quantile curves for each procedure, one \
+                              panel a frequency parameter; alpha = 0.10 for \
+                              the scaled records."
+                    .into(),
+                arm: Some(arm),
+            },
+            intensity: Intensity::Pga,
+            panels,
+            columns: 3,
+        }),
+        reading: format!(
+            "The median demand becomes overturning {words}, by procedure."
+        ),
+    })
+}
+
+fn panels(
+    groups: impl Fn(usize) -> Result<Vec<QuantileGroup>, StudyError>,
+) -> Result<Vec<QuantilePanel>, StudyError> {
+    FREQUENCIES_RAD_S
+        .into_iter()
+        .enumerate()
+        .map(|(frequency, p_rad_s)| {
+            let groups = groups(frequency)?;
+            Ok(QuantilePanel { p_rad_s, note: String::new(), groups })
+        })
+        .collect()
+}
+
+/// Quantiles at the levels that the scan ran, up to the first at which the
+/// 16 % quantile has overturned; evenly thinned where there are many.
+pub(crate) fn group(
+    label: String,
+    curves: &[ResponseCurve],
+) -> Result<QuantileGroup, StudyError> {
+    // All curves of a block share their levels; the longest has them all.
+    let mut levels: Vec<f64> = Vec::new();
+    for curve in curves {
+        let own: Vec<f64> = curve.vertices().map(|(im, _)| im).collect();
+        if own.len() > levels.len() {
+            levels = own;
+        }
+    }
+    let overturned_at = |im: f64| {
+        let gone = |c: &&ResponseCurve| {
+            c.overturning_im().is_some_and(|first| first <= im)
+        };
+        curves.iter().filter(gone).count()
+    };
+    let most = (0.84 * curves.len() as f64).ceil() as usize;
+    let end = levels.partition_point(|im| overturned_at(*im) <= most);
+    levels.truncate(end + 1);
+    let stride = levels.len().div_ceil(MOST_POINTS).max(1);
+    let im: Vec<f64> = levels.iter().copied().step_by(stride).collect();
+    let at: Vec<[f64; 3]> = im
+        .par_iter()
+        .map(|im| three(curves, *im))
+        .collect::<Result<_, _>>()?;
+    let of = |i: usize| at.iter().map(|q| q[i]).collect();
+    Ok(QuantileGroup { label, im, q16: of(0), q50: of(1), q84: of(2) })
+}
+
+/// 16, 50 and 84 % quantile of the demand at an intensity; overturned
+/// counts as infinite.
+pub(crate) fn three(
+    curves: &[ResponseCurve],
+    im: f64,
+) -> Result<[f64; 3], StudyError> {
+    // Between the last standing level and a refined overturning the curve
+    // says nothing; the block stands there.
+    let demands: Vec<f64> = curves
+        .iter()
+        .map(|c| {
+            let last = || c.vertices().last().map_or(0.0, |(_, e)| e);
+            c.edp_at(im).unwrap_or_else(last)
+        })
+        .collect();
+    let sample = ExtendedSample::try_new(&demands)?;
+    let of = |p| QuantileType::default().of_extended(&sample, p);
+    Ok([of(0.16)?, of(0.5)?, of(0.84)?])
+}
+
+fn overturning_in_words(panels: &[QuantilePanel]) -> String {
+    let by_panel: Vec<String> = panels
+        .iter()
+        .map(|panel| {
+            let firsts: Vec<String> = panel
+                .groups
+                .iter()
+                .map(|g| {
+                    let at = g.q50.iter().position(|q| q.is_infinite());
+                    at.map_or("never".into(), |i| format!("{:.2}", g.im[i]))
+                })
+                .collect();
+            format!("at {} for p = {}", firsts.join(", "), panel.p_rad_s)
+        })
+        .collect();
+    by_panel.join("; ")
+}

@@ -1,0 +1,208 @@
+//! Figures 6, 7 and 9: paired ratios by stripe.
+
+use rocking::statistics::paired::Pairs;
+use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
+
+use super::{Figure, name, percent, range};
+use crate::figures::data::{
+    Arm, BoxPanel, Boxplots, Heading, Intensity, NotchedBox, Stripe,
+    StripeKind,
+};
+use crate::study::StudyError;
+use crate::study::analyses::{StripeDemands, SuiteResults};
+use crate::study::grid::{
+    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
+    position,
+};
+
+/// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
+pub(super) fn slendernesses(
+    suite: &SuiteResults,
+    arm: Arm,
+    number: u32,
+) -> Result<Option<Figure>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
+    let frequencies: &[usize] = if number == 6 { &[0] } else { &[1, 2] };
+    let mut panels = Vec::new();
+    for frequency in frequencies {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            if slenderness != REFERENCE {
+                panels.push(BoxPanel {
+                    p_rad_s: FREQUENCIES_RAD_S[*frequency],
+                    alpha_rad: SLENDERNESSES_RAD[slenderness],
+                    note: String::new(),
+                    stripes: boxes(stripes, *frequency, Some(slenderness))?,
+                });
+            }
+        }
+    }
+    let p = if number == 6 { "p = 1" } else { "p = 3 and 4" };
+    let reading = medians_in_words(&panels);
+    Ok(Some(Figure {
+        drawing: Box::new(Boxplots {
+            heading: Heading {
+                name: name(number, Some(arm)),
+                title: format!(
+                    "Paired ratios of demands to alpha = 0.10, {p}"
+                ),
+                description: "Notched boxplots of the ratio of peak rotation \
+                              over slenderness to that of the block with \
+                              alpha = 0.10 under the same record, by stripe \
+                              of intensity; the share of usable ratios \
+                              stands at the right."
+                    .into(),
+                arm: Some(arm),
+            },
+            ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
+            stripes: StripeKind::Intensity(Intensity::Pga),
+            panels,
+            columns: 4,
+        }),
+        reading,
+    }))
+}
+
+/// Figure 9; none where stripes were not run.
+pub(super) fn adjusted(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Option<Figure>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
+    let panels = FREQUENCIES_RAD_S
+        .into_iter()
+        .enumerate()
+        .map(|(frequency, p_rad_s)| {
+            Ok(BoxPanel {
+                p_rad_s,
+                alpha_rad: SLENDERNESSES_RAD[REFERENCE],
+                note: String::new(),
+                stripes: boxes(stripes, frequency, None)?,
+            })
+        })
+        .collect::<Result<Vec<_>, StudyError>>()?;
+    let reading = medians_in_words(&panels);
+    Ok(Some(Figure {
+        drawing: Box::new(Boxplots {
+            heading: Heading {
+                name: name(9, Some(arm)),
+                title: "Slenderness adjustment against record scaling".into(),
+                description: "Notched boxplots of the ratio of demands: \
+                              unscaled record on a block of adjusted \
+                              slenderness over scaled record on the block \
+                              with alpha = 0.10, by stripe of intensity."
+                    .into(),
+                arm: Some(arm),
+            },
+            ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),
+            stripes: StripeKind::Intensity(Intensity::Pga),
+            panels,
+            columns: 3,
+        }),
+        reading,
+    }))
+}
+
+/// Demands on the stripes of an arm.
+pub(crate) fn of_arm(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Option<&StripeDemands> {
+    suite.stripes.iter().find(|s| s.arm == arm)
+}
+
+/// Pairs on each stripe: a slenderness over the reference, or (none) the
+/// adjusted one over scaled records.
+pub(crate) fn pairs(
+    stripes: &StripeDemands,
+    frequency: usize,
+    slenderness: Option<usize>,
+) -> Result<Vec<(f64, Pairs)>, StudyError> {
+    let reference = &stripes.demands[position(frequency, REFERENCE)];
+    let compared = match slenderness {
+        Some(s) => &stripes.demands[position(frequency, s)],
+        None => &stripes.adjusted[frequency],
+    };
+    STRIPES
+        .iter()
+        .zip(compared.iter().zip(reference))
+        .map(|(im, (a, b))| Ok((*im, Pairs::try_new(a, b)?)))
+        .collect()
+}
+
+/// Boxes of a slenderness over the reference; none where stripes were not
+/// run.
+pub(crate) fn demand_boxes(
+    suite: &SuiteResults,
+    arm: Arm,
+    frequency: usize,
+    slenderness: usize,
+) -> Result<Vec<Stripe>, StudyError> {
+    match of_arm(suite, arm) {
+        Some(stripes) => boxes(stripes, frequency, Some(slenderness)),
+        None => Ok(Vec::new()),
+    }
+}
+
+/// Boxes of Figure 9 by frequency parameter; none where stripes were not
+/// run.
+pub(crate) fn adjusted_boxes(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Vec<(f64, Vec<Stripe>)>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(Vec::new()) };
+    FREQUENCIES_RAD_S
+        .into_iter()
+        .enumerate()
+        .map(|(frequency, p)| Ok((p, boxes(stripes, frequency, None)?)))
+        .collect()
+}
+
+/// Boxes of the stripes with at least ten usable ratios.
+fn boxes(
+    stripes: &StripeDemands,
+    frequency: usize,
+    slenderness: Option<usize>,
+) -> Result<Vec<Stripe>, StudyError> {
+    pairs(stripes, frequency, slenderness)?
+        .into_iter()
+        .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
+        .map(|(level, paired)| {
+            Ok(Stripe {
+                level,
+                usable: paired.ratios.len(),
+                records: paired.n,
+                summary: Some(notched(&paired.ratios)?),
+            })
+        })
+        .collect()
+}
+
+fn notched(ratios: &[f64]) -> Result<NotchedBox, StudyError> {
+    let sample = ExtendedSample::try_new(ratios)?;
+    let b = Boxplot::try_new(&sample, QuantileType::default())?;
+    Ok(NotchedBox {
+        q1: b.q1,
+        median: b.median,
+        q3: b.q3,
+        notch_low: b.notch_low,
+        notch_high: b.notch_high,
+        whisker_low: b.whisker_low,
+        whisker_high: b.whisker_high,
+        outliers: b.outliers,
+        median_interval: b.median_interval.map(|i| (i.low, i.high)),
+    })
+}
+
+fn medians_in_words(panels: &[BoxPanel]) -> String {
+    let stripes = || panels.iter().flat_map(|p| &p.stripes);
+    let medians =
+        stripes().filter_map(|s| s.summary.as_ref()).map(|b| b.median);
+    let (low, high) = range(medians);
+    let (least, _) = range(stripes().map(Stripe::usable_share));
+    format!(
+        "The medians of {} boxes lie between {low:.3} and {high:.3}; the \
+         share of usable ratios falls from 100 % to {}.",
+        stripes().count(),
+        percent(least)
+    )
+}

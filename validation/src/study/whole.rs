@@ -1,0 +1,322 @@
+//! The study from suites to files.
+
+use std::fmt::Write as _;
+
+use indicatif::ProgressBar;
+use rocking::integrator::Overturning;
+use serde_json::{Value, json};
+
+use super::StudyError;
+use super::analyses::{Plan, SuiteResults};
+use super::claims;
+use super::distributions::of_suite;
+use super::figures::{Figure, Results, adjusted_boxes};
+use super::findings::{Claim, Findings, rounded, text};
+use super::grid::{blocks, demands};
+use super::output::Files;
+use super::page;
+use super::sensitivities::Varied;
+use super::suites::StudySuite;
+use crate::figures::data::{Arm, Table, number};
+
+/// A finished study.
+pub struct Study {
+    results: Results,
+    figures: Vec<Figure>,
+    claims: Vec<Claim>,
+    findings: Findings,
+}
+
+impl Study {
+    /// Runs everything: `suites` are the ordinary and the pulse-type one;
+    /// `full` runs other choices on all blocks.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub fn run(
+        plan: Plan,
+        suites: &[StudySuite; 2],
+        full: bool,
+        progress: &ProgressBar,
+    ) -> Result<Self, StudyError> {
+        let [first, second] = suites;
+        let ordinary = plan.run(first, true, progress)?;
+        let pulse = plan.run(second, false, progress)?;
+        let mut distributions = of_suite(&ordinary)?;
+        distributions.extend(of_suite(&pulse)?);
+        let varied = plan.sensitivities(first, full)?;
+        let results = Results { plan, ordinary, pulse, distributions, varied };
+        let figures = results.figures()?;
+        let claims = claims::all(&results)?;
+        let findings = findings(&results, &claims)?;
+        Ok(Self { results, figures, claims, findings })
+    }
+
+    /// The claims and what was found about them.
+    #[must_use]
+    pub fn claims(&self) -> &[Claim] {
+        &self.claims
+    }
+
+    /// Text of `findings.json`.
+    #[must_use]
+    pub fn findings_text(&self) -> String {
+        text(&self.findings)
+    }
+
+    /// The claims as a table for people.
+    #[must_use]
+    pub fn table(&self) -> String {
+        let mut out = String::new();
+        for claim in &self.claims {
+            let suite = format!(
+                "{}{}",
+                claim.suite,
+                claim.arm.map_or(String::new(), |a| format!(
+                    ", arm {}",
+                    a.letter()
+                ))
+            );
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                out,
+                "{:<13}  {:<34} {:<20} {:>10}  {}",
+                claim.verdict.name(),
+                claim.id,
+                suite,
+                number_short(claim.measured.value),
+                claim.margin
+            );
+        }
+        out
+    }
+
+    /// The report's files: figures, their numbers, findings, page.
+    ///
+    /// # Errors
+    /// [`StudyError`] where a figure cannot be drawn.
+    pub fn files(&self) -> Result<Files, StudyError> {
+        let mut files = Files::new();
+        for figure in &self.figures {
+            let name = &figure.drawing.heading().name;
+            let svg = figure.drawing.svg()?;
+            files.insert(format!("{name}.svg"), svg.into_bytes());
+            let csv = figure.drawing.csv();
+            files.insert(format!("{name}.csv"), csv.into_bytes());
+        }
+        files.insert("table-01.csv".into(), table_1()?.into_bytes());
+        let text = self.findings_text();
+        files.insert("findings.json".into(), text.into_bytes());
+        let page = page::html(&self.results, &self.figures, &self.claims)?;
+        files.insert("index.html".into(), page.into_bytes());
+        Ok(files)
+    }
+}
+
+fn number_short(x: f64) -> String {
+    if x.is_nan() { "none".into() } else { format!("{x:.4}") }
+}
+
+/// Table 1, with the paper's gravity of 9.81 m/s2.
+fn table_1() -> Result<String, StudyError> {
+    let mut table = Table::new(&[
+        "p_rad_s",
+        "alpha_rad",
+        "width_m",
+        "height_m",
+        "half_diagonal_m",
+        "housner_eta",
+    ]);
+    for block in blocks()? {
+        let size = block.dimensions(claims::PAPER_GRAVITY_M_S2)?;
+        let eta = rocking::block::Restitution::housner(&block)?;
+        table.row([
+            number(block.frequency_rad_s()),
+            number(block.slenderness_rad()),
+            number(size.width_m),
+            number(size.height_m),
+            number(size.half_diagonal_m),
+            number(eta.velocity_ratio()),
+        ]);
+    }
+    Ok(table.finish())
+}
+
+fn findings(
+    results: &Results,
+    claims: &[Claim],
+) -> Result<Findings, StudyError> {
+    let mut out = Findings::new();
+    let claims = claims.iter().map(Claim::json).collect();
+    out.insert("claims".into(), Value::Array(claims));
+    out.insert("options".into(), options(&results.plan));
+    let suites = [&results.ordinary, &results.pulse].map(suite);
+    out.insert("suites".into(), Value::Array(suites.into()));
+    out.insert("figure_09".into(), figure_09(results)?);
+    out.insert("uplift_unscaled".into(), uplift(results)?);
+    out.insert("accepted_shares".into(), shares(results));
+    out.insert("resurrections".into(), resurrections(results));
+    out.insert("single_records".into(), single(results));
+    out.insert("sensitivities".into(), varied(results)?);
+    Ok(out)
+}
+
+fn options(plan: &Plan) -> Value {
+    let arms: Vec<&str> = plan.arms.iter().map(|a| a.letter()).collect();
+    let overturning = match plan.setup.overturning {
+        Overturning::Alpha => "alpha",
+        Overturning::HalfPi => "half-pi",
+    };
+    json!({
+        "arms": arms,
+        "eta": rounded(plan.setup.restitution.velocity_ratio()),
+        "overturning": overturning,
+        "refinement_im": rounded(plan.setup.tolerance),
+        "version": env!("CARGO_PKG_VERSION"),
+    })
+}
+
+fn suite(suite: &SuiteResults) -> Value {
+    let chosen: Vec<&str> = suite
+        .chosen
+        .iter()
+        .map(|record| suite.records[*record].name.as_str())
+        .collect();
+    json!({
+        "kind": suite.kind,
+        "source": suite.source,
+        "component_rule": suite.component_rule,
+        "records": suite.records.len(),
+        "sha256": suite.sha256,
+        "shown_alone": chosen,
+    })
+}
+
+/// Figure 9, a row a box: usable share, count and median.
+fn figure_09(results: &Results) -> Result<Value, StudyError> {
+    let mut rows = Vec::new();
+    for arm in results.plan.drawn() {
+        for (p_rad_s, stripes) in adjusted_boxes(&results.ordinary, arm)? {
+            for stripe in stripes {
+                let median = stripe.summary.as_ref().map(|b| b.median);
+                rows.push(json!({
+                    "arm": arm.letter(),
+                    "p_rad_s": rounded(p_rad_s),
+                    "im_pga": rounded(stripe.level),
+                    "records": stripe.records,
+                    "usable": stripe.usable,
+                    "usable_share": rounded(stripe.usable_share()),
+                    "median": median.map(rounded),
+                }));
+            }
+        }
+    }
+    Ok(json!({ "row_count": rows.len(), "rows": rows }))
+}
+
+/// How many records uplift each block without being scaled.
+fn uplift(results: &Results) -> Result<Value, StudyError> {
+    let rows: Vec<Value> = blocks()?
+        .iter()
+        .map(|block| {
+            json!({
+                "p_rad_s": rounded(block.frequency_rad_s()),
+                "alpha_rad": rounded(block.slenderness_rad()),
+                "ordinary": results.ordinary.uplift_unscaled(block),
+                "pulse_type": results.pulse.uplift_unscaled(block),
+            })
+        })
+        .collect();
+    Ok(Value::Array(rows))
+}
+
+fn shares(results: &Results) -> Value {
+    let mut rows = Vec::new();
+    for d in &results.distributions {
+        for block in &d.blocks {
+            let (original, shifted) = block.shares();
+            rows.push(json!({
+                "suite": d.kind,
+                "arm": d.arm.letter(),
+                "im_kind": d.intensity.name(),
+                "p_rad_s": rounded(block.p_rad_s),
+                "alpha_rad": rounded(block.alpha_rad),
+                "im_r": rounded(block.shift),
+                "original": rounded(original),
+                "shifted": rounded(shifted),
+            }));
+        }
+    }
+    json!({ "levels": demands().len(), "rows": rows })
+}
+
+fn resurrections(results: &Results) -> Value {
+    let rows: Vec<Value> = results
+        .ordinary
+        .stripes
+        .iter()
+        .map(|stripes| {
+            let total = |counts: &[Vec<usize>]| -> usize {
+                counts.iter().flatten().sum()
+            };
+            json!({
+                "arm": stripes.arm.letter(),
+                "overturned": total(&stripes.overturned),
+                "stand_again": total(&stripes.stand_again),
+            })
+        })
+        .collect();
+    Value::Array(rows)
+}
+
+fn single(results: &Results) -> Value {
+    let mut rows = Vec::new();
+    for suite in [&results.ordinary, &results.pulse] {
+        for row in claims::single_rows(suite) {
+            rows.push(json!({
+                "suite": suite.kind,
+                "p_rad_s": rounded(row.p_rad_s),
+                "im_pga": rounded(row.im),
+                "usable": row.usable,
+                "median_distance": rounded(row.distance),
+                "median_peak_ratio": rounded(row.peak_ratio),
+                "median_ln_im": rounded(row.mean_ln_im),
+            }));
+        }
+    }
+    Value::Array(rows)
+}
+
+fn varied(results: &Results) -> Result<Value, StudyError> {
+    let rows = results
+        .varied
+        .iter()
+        .map(|v: &Varied| {
+            let pairs = claims::varied_ratios(results, v, 1.0)?;
+            let measured = claims::median(&pairs.ratios);
+            Ok(json!({
+                "choice": v.choice.name(),
+                "p_rad_s": rounded(super::grid::FREQUENCIES_RAD_S[v.frequency]),
+                "alpha_rad":
+                    rounded(super::grid::SLENDERNESSES_RAD[v.slenderness]),
+                "edp": 1.0,
+                "usable": pairs.ratios.len(),
+                "median_ratio": rounded(measured.value),
+                "interval": measured
+                    .interval
+                    .map(|(a, b)| [rounded(a), rounded(b)]),
+            }))
+        })
+        .collect::<Result<Vec<Value>, StudyError>>()?;
+    Ok(Value::Array(rows))
+}
+
+/// Arms in words, for the page.
+#[must_use]
+pub fn arm_words(arm: Arm) -> &'static str {
+    match arm {
+        Arm::A => "A: steps of 0.01 g",
+        Arm::B => "B: steps of 0.01 g, first overturning bisected",
+        Arm::C => "C: steps of 0.02 in intensity, bisected",
+    }
+}

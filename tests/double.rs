@@ -340,13 +340,13 @@ fn compare<N: Wide>(
     (errors, found)
 }
 
-/// What conditioning leaves of 28 digits: as many roundoffs as a code in
-/// double precision is off.
+/// What conditioning leaves of 28 digits: ten times as many roundoffs as a
+/// code in double precision is off.
 fn tolerance(case: &Value) -> f64 {
     let attainable = case["attainable_float64"].as_object().unwrap();
     let errors = attainable.iter().filter(|(key, _)| key.contains("_err"));
     let worst = errors.fold(0.0_f64, |most, (_, x)| most.max(double(x)));
-    (worst * DoubleDouble::ROUNDOFF / f64::ROUNDOFF).max(1e-28)
+    (10.0 * worst * DoubleDouble::ROUNDOFF / f64::ROUNDOFF).max(1e-28)
 }
 
 /// The same for the instant of overturning, which the margin magnifies.
@@ -390,7 +390,7 @@ fn trajectories_agree_with_the_references_to_28_digits() {
     });
     assert_eq!(runs, 2 * 41);
     println!("{well} of {runs} well conditioned, {compared} numbers");
-    assert!(well >= 30 && compared >= 1000);
+    assert!(well >= 40 && compared >= 1400);
 }
 
 #[test]
@@ -412,5 +412,6 @@ fn coefficients_rounded_to_double_precision_are_caught() {
         caught += usize::from(!missed);
     });
     println!("{caught} of {flights} runs catch rounded constants");
-    assert!(caught >= 50);
+    // All but a touch of the threshold by one unit in the last place.
+    assert!(caught >= flights - 2 && flights >= 80);
 }

@@ -11,7 +11,7 @@ use super::analyses::{Plan, SuiteResults};
 use super::claims;
 use super::distributions::of_suite;
 use super::figures::{Figure, Results, adjusted_boxes};
-use super::findings::{Claim, Findings, rounded, text};
+use super::findings::{Claim, Findings, ends, rounded, text};
 use super::grid::{blocks, demands};
 use super::output::Files;
 use super::page;
@@ -43,8 +43,9 @@ impl Study {
         let [first, second] = suites;
         let ordinary = plan.run(first, true, progress)?;
         let pulse = plan.run(second, false, progress)?;
-        let mut distributions = of_suite(&ordinary)?;
-        distributions.extend(of_suite(&pulse)?);
+        let common = plan.common();
+        let mut distributions = of_suite(&ordinary, common)?;
+        distributions.extend(of_suite(&pulse, common)?);
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
         let figures = results.figures()?;
@@ -235,7 +236,9 @@ fn shares(results: &Results) -> Value {
                 "alpha_rad": rounded(block.alpha_rad),
                 "im_r": rounded(block.shift),
                 "original": rounded(original),
+                "original_null_band": ends(block.bands[0]),
                 "shifted": rounded(shifted),
+                "shifted_null_band": ends(block.bands[1]),
             }));
         }
     }
@@ -294,9 +297,7 @@ fn varied(results: &Results) -> Result<Value, StudyError> {
                 "edp": 1.0,
                 "usable": pairs.ratios.len(),
                 "median_ratio": rounded(measured.value),
-                "interval": measured
-                    .interval
-                    .map(|(a, b)| [rounded(a), rounded(b)]),
+                "interval": ends(measured.interval),
             }))
         })
         .collect::<Result<Vec<Value>, StudyError>>()?;

@@ -25,11 +25,13 @@ pub(super) fn slendernesses(
     let frequencies: &[usize] = if number == 6 { &[0] } else { &[1, 2] };
     let mut panels = Vec::new();
     for frequency in frequencies {
-        for slenderness in 0..SLENDERNESSES_RAD.len() {
+        for (slenderness, alpha_rad) in
+            SLENDERNESSES_RAD.into_iter().enumerate()
+        {
             if slenderness != REFERENCE {
                 panels.push(BoxPanel {
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
-                    alpha_rad: SLENDERNESSES_RAD[slenderness],
+                    alpha_rad,
                     note: String::new(),
                     stripes: boxes(stripes, *frequency, Some(slenderness))?,
                 });

@@ -122,7 +122,7 @@ pub(super) fn shares(
                         alpha_rad: block.alpha_rad,
                         arm: *arm,
                         share: if shifted { above } else { original },
-                        null_band: None,
+                        null_band: block.bands[usize::from(shifted)],
                     });
                 }
             }

@@ -1,6 +1,6 @@
 //! Figures 1 to 5: the block, and single records.
 
-use super::{Figure, name};
+use super::{Figure, name, range};
 use crate::figures::data::{
     Arm, BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
     IdaCurves, IdaPanel, Intensity,
@@ -12,8 +12,9 @@ use crate::study::analyses::{
 use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::histories::simplified;
 
-/// How closely the lines drawn follow the numbers computed, in theta/alpha.
-const FAITHFUL: f64 = 0.003;
+/// How closely the lines drawn follow the numbers computed, as a share of
+/// the largest one.
+const FAITHFUL: f64 = 0.004;
 
 pub(super) fn sketch() -> Figure {
     Figure {
@@ -85,6 +86,11 @@ pub(super) fn histories(suite: &SuiteResults, arm: Arm) -> Figure {
     }
 }
 
+fn tolerance(values: &[f64]) -> f64 {
+    let (low, high) = range(values.iter().copied());
+    FAITHFUL * if -low > high { -low } else { high }
+}
+
 /// Points enough to draw the history, from shortly before the first motion
 /// to rest.
 fn history(alpha_rad: f64, ratio: &[f64], overturned: bool) -> History {
@@ -92,7 +98,7 @@ fn history(alpha_rad: f64, ratio: &[f64], overturned: bool) -> History {
     let end = end.min(ratio.len());
     let x: Vec<f64> =
         (0..end).map(|i| i as f64 * HISTORY_INTERVAL_S).collect();
-    let kept = simplified(&x, &ratio[..end], FAITHFUL);
+    let kept = simplified(&x, &ratio[..end], tolerance(ratio));
     History {
         alpha_rad,
         time_s: kept.iter().map(|i| x[*i]).collect(),
@@ -155,7 +161,7 @@ pub(super) fn curves(
                     let curve = &all[block][record];
                     let (im, edp): (Vec<f64>, Vec<f64>) =
                         curve.vertices().unzip();
-                    let kept = simplified(&im, &edp, FAITHFUL);
+                    let kept = simplified(&im, &edp, tolerance(&edp));
                     IdaCurve {
                         alpha_rad: *alpha_rad,
                         im: kept.iter().map(|i| im[*i]).collect(),

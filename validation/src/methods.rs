@@ -1,6 +1,7 @@
 //! Registry of what a case can ask to be computed, and of wrong models.
 
 mod closed_forms;
+mod fates;
 mod invariance;
 mod references;
 mod response;
@@ -104,6 +105,9 @@ pub const METHODS: &[(&str, Run)] = &[
     ("invariance", invariance::invariance),
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
+    ("response", fates::response),
+    ("fates-over-levels", fates::levels),
+    ("adjustment-on-suite", fates::adjustment),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
+use rocking::ida::Method;
 
 use super::choice::{by_rank, common_level};
 use super::grid::{
@@ -12,7 +13,7 @@ use super::grid::{
     blocks, position,
 };
 use super::histories::{distance, mean_log_ratio};
-use super::runs::Setup;
+use super::runs::{Chain, Setup};
 use super::stripes::on_stripe;
 use super::suites::{Motion, StudySuite};
 use super::{StudyError, capacities};
@@ -32,6 +33,15 @@ pub struct Facts {
     pub velocity_ratio_s: f64,
     /// PGA of the geometric mean of the pair over this component's.
     pub mean_over_study: Option<f64>,
+}
+
+/// What the chains of a suite took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Analyses, bisection included.
+    pub analyses: u64,
+    /// Those whose fate double precision cannot tell.
+    pub unresolved: usize,
 }
 
 /// All curves of one arm, by block, then by record.
@@ -95,6 +105,8 @@ pub struct SuiteResults {
     pub component_rule: String,
     /// Hash of the input.
     pub sha256: String,
+    /// What the chains took.
+    pub work: Work,
     /// The records.
     pub records: Vec<Facts>,
     /// Records whose onset is not exactly at intensity 1, for the reference
@@ -175,7 +187,7 @@ impl Plan {
             .collect();
         let facts: Vec<Facts> = suite.motions.iter().map(facts).collect();
         progress.inc_length((blocks.len() * records.len()) as u64);
-        let arms = self.curves(&blocks, &records, progress)?;
+        let (arms, work) = self.curves(&blocks, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
         let chosen = by_rank(&ratios);
@@ -190,6 +202,7 @@ impl Plan {
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),
             sha256: suite.sha256(),
+            work,
             records: facts,
             chosen,
             arms,
@@ -214,10 +227,10 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<ArmCurves>, StudyError> {
+    ) -> Result<(Vec<ArmCurves>, Work), StudyError> {
         let n = records.len();
         // One task a chain; results come back in the order of the tasks.
-        let chains: Vec<Vec<ResponseCurve>> = (0..blocks.len() * n)
+        let chains: Vec<Chain> = (0..blocks.len() * n)
             .into_par_iter()
             .map(|task| {
                 let (block, record) = (blocks[task / n], &records[task % n]);
@@ -229,13 +242,18 @@ impl Plan {
         let of = |i: usize| {
             chains
                 .chunks(n)
-                .map(|block| block.iter().map(|c| c[i].clone()).collect())
+                .map(|block| {
+                    block.iter().map(|c| c.curves[i].clone()).collect()
+                })
                 .collect()
         };
         let arms = self.arms.iter().enumerate();
-        Ok(arms
-            .map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) })
-            .collect())
+        let arms = arms.map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) });
+        let work = Work {
+            analyses: chains.iter().map(|c| c.analyses).sum(),
+            unresolved: chains.iter().map(|c| c.unresolved).sum(),
+        };
+        Ok((arms.collect(), work))
     }
 
     fn single(
@@ -342,19 +360,21 @@ impl Plan {
         results: &SuiteResults,
     ) -> Result<Vec<StripeDemands>, StudyError> {
         let used = self.used_stripes(results);
+        let scaling = Method::RecordScaling;
         let runs: Vec<Vec<Vec<f64>>> = blocks
             .iter()
             .map(|block| {
                 on_levels(&used, records, |im, record| {
-                    self.setup.demand(*block, record, im)
+                    self.setup.demand(*block, record, im, scaling)
                 })
             })
             .collect::<Result<_, _>>()?;
-        let adjusted_runs: Vec<Vec<Vec<f64>>> = FREQUENCIES_RAD_S
-            .iter()
-            .map(|p| {
+        let adjusted_runs: Vec<Vec<Vec<f64>>> = (0..FREQUENCIES_RAD_S.len())
+            .map(|frequency| {
+                let block = blocks[position(frequency, REFERENCE)];
                 on_levels(&used, records, |im, record| {
-                    Ok(self.setup.demand_adjusted(*p, record, im)?.0)
+                    let method = Method::SlendernessAdjustment;
+                    self.setup.demand(block, record, im, method)
                 })
             })
             .collect::<Result<_, _>>()?;

@@ -94,12 +94,21 @@ pub struct Claim {
 }
 
 impl Claim {
+    /// Unique among all claims: id, suite and arm.
+    #[must_use]
+    pub fn key(&self) -> String {
+        let arm = self.arm.map_or(String::new(), |arm| {
+            format!("-{}", arm.letter().to_lowercase())
+        });
+        format!("{}-{}{arm}", self.id, self.suite)
+    }
+
     /// As JSON, keys sorted.
     #[must_use]
     pub fn json(&self) -> Value {
         let Measured { value, interval } = self.measured;
         json!({
-            "id": self.id,
+            "id": self.key(),
             "section": self.section,
             "quote": self.quote,
             "suite": self.suite,

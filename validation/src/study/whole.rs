@@ -17,7 +17,8 @@ use super::output::Files;
 use super::page;
 use super::sensitivities::Varied;
 use super::suites::StudySuite;
-use crate::figures::data::{Arm, Table, number};
+use crate::figures::data::{Arm, Table};
+use crate::report;
 
 /// A finished study.
 pub struct Study {
@@ -84,7 +85,7 @@ impl Study {
                 claim.verdict.name(),
                 claim.id,
                 suite,
-                number_short(claim.measured.value),
+                rounded_text(claim.measured.value),
                 claim.margin
             );
         }
@@ -104,42 +105,29 @@ impl Study {
             let csv = figure.drawing.csv();
             files.insert(format!("{name}.csv"), csv.into_bytes());
         }
-        let table = table_1()?;
+        files.insert("table-01.csv".into(), table_1()?.into_bytes());
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
-        let page =
-            page::html(&self.results, &self.figures, &self.claims, &table)?;
-        files.insert("table-01.csv".into(), table.into_bytes());
-        files.insert("index.html".into(), page.into_bytes());
+        let input = page::input(&self.results, &self.figures, &self.claims)?;
+        files.insert("index.html".into(), report::page(&input).into_bytes());
         Ok(files)
     }
 }
 
-fn number_short(x: f64) -> String {
+/// A number for people: four decimals, "none" where there is none.
+#[must_use]
+pub fn rounded_text(x: f64) -> String {
     if x.is_nan() { "none".into() } else { format!("{x:.4}") }
 }
 
-/// Table 1, with the paper's gravity of 9.81 m/s2.
+/// Table 1 as CSV.
 fn table_1() -> Result<String, StudyError> {
-    let mut table = Table::new(&[
-        "p_rad_s",
-        "alpha_rad",
-        "width_m",
-        "height_m",
-        "half_diagonal_m",
-        "housner_eta",
-    ]);
-    for block in blocks()? {
-        let size = block.dimensions(claims::PAPER_GRAVITY_M_S2)?;
-        let eta = rocking::block::Restitution::housner(&block)?;
-        table.row([
-            number(block.frequency_rad_s()),
-            number(block.slenderness_rad()),
-            number(size.width_m),
-            number(size.height_m),
-            number(size.half_diagonal_m),
-            number(eta.velocity_ratio()),
-        ]);
+    let printed = page::table_1()?;
+    let header: Vec<&str> =
+        printed.header.iter().map(String::as_str).collect();
+    let mut table = Table::new(&header);
+    for row in printed.rows {
+        table.row(row);
     }
     Ok(table.finish())
 }
@@ -190,6 +178,8 @@ fn suite(suite: &SuiteResults) -> Value {
         "component_rule": suite.component_rule,
         "records": suite.records.len(),
         "sha256": suite.sha256,
+        "analyses": suite.work.analyses,
+        "unresolved": suite.work.unresolved,
         "shown_alone": chosen,
     })
 }

@@ -23,6 +23,7 @@ pub use whole::Study;
 
 use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
+use rocking::ida::IdaError;
 use rocking::integrator::SceneError;
 use rocking::record::{AccelerogramError, SuiteError};
 use rocking::statistics::SampleError;
@@ -46,6 +47,9 @@ pub enum StudyError {
     /// A block outside the model's range.
     #[error(transparent)]
     Block(#[from] BlockError),
+    /// A chain that cannot be done.
+    #[error(transparent)]
+    Ida(#[from] IdaError),
     /// A run that cannot be done.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -71,3 +75,6 @@ pub enum StudyError {
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
+use rocking::ida::Method;
 
 use super::choice::{by_rank, common_level};
 use super::grid::{
@@ -12,7 +13,7 @@ use super::grid::{
     blocks, position,
 };
 use super::histories::{distance, mean_log_ratio};
-use super::runs::Setup;
+use super::runs::{Chain, Setup};
 use super::stripes::on_stripe;
 use super::suites::{Motion, StudySuite};
 use super::{StudyError, capacities};
@@ -34,6 +35,15 @@ pub struct Facts {
     pub mean_over_study: Option<f64>,
 }
 
+/// What the chains of a suite took.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Analyses, bisection included.
+    pub analyses: u64,
+    /// Those whose fate double precision cannot tell.
+    pub unresolved: usize,
+}
+
 /// All curves of one arm, by block, then by record.
 #[derive(Clone, Debug)]
 pub struct ArmCurves {
@@ -43,6 +53,10 @@ pub struct ArmCurves {
     pub curves: Vec<Vec<ResponseCurve>>,
 }
 
+/// Theta/alpha every [`HISTORY_INTERVAL_S`], and whether the block
+/// overturned.
+pub type ShownHistory = (Vec<f64>, bool);
+
 /// Histories of the chosen records, and how far all records' histories and
 /// curves are from the reference slenderness, for one frequency parameter.
 #[derive(Clone, Debug)]
@@ -51,7 +65,7 @@ pub struct SingleRecords {
     pub im: f64,
     /// Theta/alpha of the chosen records, by record, then by slenderness,
     /// and whether the block overturned.
-    pub histories: Vec<Vec<(Vec<f64>, bool)>>,
+    pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
     pub apart: Vec<Vec<Apart>>,
 }
@@ -95,6 +109,8 @@ pub struct SuiteResults {
     pub component_rule: String,
     /// Hash of the input.
     pub sha256: String,
+    /// What the chains took.
+    pub work: Work,
     /// The records.
     pub records: Vec<Facts>,
     /// Records whose onset is not exactly at intensity 1, for the reference
@@ -108,9 +124,9 @@ pub struct SuiteResults {
     pub single: Vec<SingleRecords>,
     /// By arm; ordinary suite only.
     pub stripes: Vec<StripeDemands>,
-    /// Slenderness-adjusted curves by arm, frequency, record; ordinary
-    /// suite only.
-    pub adjusted: Vec<(Arm, Vec<Vec<ResponseCurve>>)>,
+    /// Slenderness-adjusted curves by arm; by frequency instead of block,
+    /// then by record; ordinary suite only.
+    pub adjusted: Vec<ArmCurves>,
 }
 
 impl SuiteResults {
@@ -175,7 +191,7 @@ impl Plan {
             .collect();
         let facts: Vec<Facts> = suite.motions.iter().map(facts).collect();
         progress.inc_length((blocks.len() * records.len()) as u64);
-        let arms = self.curves(&blocks, &records, progress)?;
+        let (arms, work) = self.curves(&blocks, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
         let chosen = by_rank(&ratios);
@@ -190,6 +206,7 @@ impl Plan {
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),
             sha256: suite.sha256(),
+            work,
             records: facts,
             chosen,
             arms,
@@ -214,10 +231,10 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<ArmCurves>, StudyError> {
+    ) -> Result<(Vec<ArmCurves>, Work), StudyError> {
         let n = records.len();
         // One task a chain; results come back in the order of the tasks.
-        let chains: Vec<Vec<ResponseCurve>> = (0..blocks.len() * n)
+        let chains: Vec<Chain> = (0..blocks.len() * n)
             .into_par_iter()
             .map(|task| {
                 let (block, record) = (blocks[task / n], &records[task % n]);
@@ -229,13 +246,18 @@ impl Plan {
         let of = |i: usize| {
             chains
                 .chunks(n)
-                .map(|block| block.iter().map(|c| c[i].clone()).collect())
+                .map(|block| {
+                    block.iter().map(|c| c.curves[i].clone()).collect()
+                })
                 .collect()
         };
         let arms = self.arms.iter().enumerate();
-        Ok(arms
-            .map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) })
-            .collect())
+        let arms = arms.map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) });
+        let work = Work {
+            analyses: chains.iter().map(|c| c.analyses).sum(),
+            unresolved: chains.iter().map(|c| c.unresolved).sum(),
+        };
+        Ok((arms.collect(), work))
     }
 
     fn single(
@@ -262,7 +284,7 @@ impl Plan {
             .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
             .collect();
         let im = common_level(&standing);
-        let all: Vec<(Vec<(Vec<f64>, bool)>, Vec<Apart>)> = (0..records.len())
+        let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
             .into_par_iter()
             .map(|record| {
                 let histories: Vec<(Vec<f64>, f64)> = slendernesses
@@ -307,7 +329,7 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<(Arm, Vec<Vec<ResponseCurve>>)>, StudyError> {
+    ) -> Result<Vec<ArmCurves>, StudyError> {
         let drawn = self.drawn();
         let frequencies = 0..FREQUENCIES_RAD_S.len();
         let tasks = drawn.len() * frequencies.len() * records.len();
@@ -315,7 +337,7 @@ impl Plan {
         drawn
             .into_iter()
             .map(|arm| {
-                let by_frequency = frequencies
+                let curves = frequencies
                     .clone()
                     .map(|frequency| {
                         let block = blocks[position(frequency, REFERENCE)];
@@ -328,7 +350,7 @@ impl Plan {
                             .collect::<Result<Vec<_>, _>>()
                     })
                     .collect::<Result<_, _>>()?;
-                Ok((arm, by_frequency))
+                Ok(ArmCurves { arm, curves })
             })
             .collect()
     }
@@ -342,24 +364,26 @@ impl Plan {
         results: &SuiteResults,
     ) -> Result<Vec<StripeDemands>, StudyError> {
         let used = self.used_stripes(results);
+        let scaling = Method::RecordScaling;
         let runs: Vec<Vec<Vec<f64>>> = blocks
             .iter()
             .map(|block| {
                 on_levels(&used, records, |im, record| {
-                    self.setup.demand(*block, record, im)
+                    self.setup.demand(*block, record, im, scaling)
                 })
             })
             .collect::<Result<_, _>>()?;
-        let adjusted_runs: Vec<Vec<Vec<f64>>> = FREQUENCIES_RAD_S
-            .iter()
-            .map(|p| {
+        let adjusted_runs: Vec<Vec<Vec<f64>>> = (0..FREQUENCIES_RAD_S.len())
+            .map(|frequency| {
+                let block = blocks[position(frequency, REFERENCE)];
                 on_levels(&used, records, |im, record| {
-                    Ok(self.setup.demand_adjusted(*p, record, im)?.0)
+                    let method = Method::SlendernessAdjustment;
+                    self.setup.demand(block, record, im, method)
                 })
             })
             .collect::<Result<_, _>>()?;
         let mut out = Vec::new();
-        for (arm, adjusted) in &results.adjusted {
+        for ArmCurves { arm, curves: adjusted } in &results.adjusted {
             let Some(curves) = results.curves(*arm) else { continue };
             let apply = |runs: &[Vec<f64>], curves: &[ResponseCurve]| {
                 used.iter()

@@ -4,29 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::figures::data::Arm;
 use crate::json::number;
-
-/// What a measure says about a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The whole interval lies where the claim says.
-    Confirmed,
-    /// The whole interval lies where the claim does not.
-    NotConfirmed,
-    /// The interval lies on both sides, or there are no data.
-    Inconclusive,
-}
-
-impl Verdict {
-    /// The words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Confirmed => "confirmed",
-            Self::NotConfirmed => "not confirmed",
-            Self::Inconclusive => "inconclusive",
-        }
-    }
-}
+pub use crate::report::Verdict;
 
 /// A measured value, with an interval where there is one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,12 +94,21 @@ pub struct Claim {
 }
 
 impl Claim {
+    /// Unique among all claims: id, suite and arm.
+    #[must_use]
+    pub fn key(&self) -> String {
+        let arm = self.arm.map_or(String::new(), |arm| {
+            format!("-{}", arm.letter().to_lowercase())
+        });
+        format!("{}-{}{arm}", self.id, self.suite)
+    }
+
     /// As JSON, keys sorted.
     #[must_use]
     pub fn json(&self) -> Value {
         let Measured { value, interval } = self.measured;
         json!({
-            "id": self.id,
+            "id": self.key(),
             "section": self.section,
             "quote": self.quote,
             "suite": self.suite,
@@ -129,7 +116,7 @@ impl Claim {
             "arm": self.arm.map(Arm::letter),
             "measure": self.measure,
             "value": rounded(value),
-            "interval": interval.map(|(a, b)| [rounded(a), rounded(b)]),
+            "interval": ends(interval),
             "margin": self.margin,
             "verdict": self.verdict.name(),
             "note": self.note,
@@ -142,6 +129,12 @@ impl Claim {
 #[must_use]
 pub fn rounded(x: f64) -> Value {
     number(format!("{x:.8e}").parse().unwrap_or(x))
+}
+
+/// The two ends of an interval, or null.
+#[must_use]
+pub fn ends(interval: Option<(f64, f64)>) -> Value {
+    interval.map_or(Value::Null, |(a, b)| json!([rounded(a), rounded(b)]))
 }
 
 /// Everything that goes to `findings.json`, by name; keys are sorted.

@@ -4,6 +4,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use rocking::ida::{self, Analysis, Grid, IdaCurve, Method};
 use rocking::integrator::{
     Model, Observe, Outcome, Overturning, Response, Scene, respond,
     uplift_threshold,
@@ -24,82 +25,109 @@ pub struct Setup {
     pub tolerance: f64,
 }
 
-/// Highest intensity tried: a chain that stands there is censored.
-const HIGHEST_IM: f64 = 100.0;
-
-/// An intensity and the peak ground acceleration that makes it.
-#[derive(Clone, Copy, Debug)]
-struct Level {
-    im: f64,
-    pga_g: f64,
-}
-
-/// The rising levels of an arm above the onset of rocking, for a block of
-/// uplift threshold `threshold`: whole hundredths of g (A and B) or
-/// intensities 1 + 0.02 k (C).
-fn levels(arm: Arm, threshold: f64) -> impl Iterator<Item = Level> {
-    let first = match arm {
-        Arm::A | Arm::B => (100.0 * threshold).floor() as u32,
-        Arm::C => 1,
-    };
-    (first..)
-        .map(move |k| match arm {
-            Arm::A | Arm::B => {
-                let pga_g = f64::from(k) / 100.0;
-                Level { im: pga_g / threshold, pga_g }
-            }
-            Arm::C => {
-                let im = f64::from(50 + k) / 50.0;
-                Level { im, pga_g: im * threshold }
-            }
-        })
-        .skip_while(|level| !(level.im > 1.0))
-        .take_while(|level| level.im <= HIGHEST_IM)
-}
-
-/// Scans rising levels to the first overturning; the onset is the first
-/// vertex.
-fn scan(
-    levels: impl Iterator<Item = Level>,
-    run: impl Fn(Level) -> Result<f64, StudyError>,
-) -> Result<ResponseCurve, StudyError> {
-    let mut vertices = vec![(1.0, 0.0)];
-    let mut overturning = None;
-    for level in levels {
-        let demand = run(level)?;
-        if !demand.is_finite() {
-            overturning = Some(level.im);
-            break;
-        }
-        vertices.push((level.im, demand));
-    }
-    Ok(ResponseCurve::try_new(&vertices, overturning)?)
-}
-
-/// Bisects the bracket of the first overturning to the width `tolerance`;
-/// the curve then overturns at the bracket's upper end. The vertices stay.
-fn refine(
-    curve: &ResponseCurve,
-    tolerance: f64,
-    run: impl Fn(f64) -> Result<f64, StudyError>,
-) -> Result<ResponseCurve, StudyError> {
-    let Some(mut upper) = curve.overturning_im() else {
-        return Ok(curve.clone());
-    };
-    let mut lower = curve.last_im();
-    while upper - lower > tolerance {
-        let middle = 0.5 * (lower + upper);
-        if run(middle)?.is_finite() {
-            lower = middle;
-        } else {
-            upper = middle;
-        }
-    }
-    let vertices: Vec<(f64, f64)> = curve.vertices().collect();
-    Ok(ResponseCurve::try_new(&vertices, Some(upper))?)
+/// The curves of one block and record, arm by arm, and what they took.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    /// Curves in the order of the arms asked for.
+    pub curves: Vec<ResponseCurve>,
+    /// Analyses made.
+    pub analyses: u64,
+    /// Analyses whose fate double precision cannot tell.
+    pub unresolved: usize,
 }
 
 impl Setup {
+    /// What an arm asks of a block.
+    fn analysis(&self, block: Block, arm: Arm, method: Method) -> Analysis {
+        Analysis {
+            overturning: self.overturning,
+            grid: match arm {
+                Arm::A | Arm::B => Grid::Pga { step_g: 0.01 },
+                Arm::C => Grid::Im { step: 0.02 },
+            },
+            method,
+            refine: match arm {
+                Arm::A => None,
+                Arm::B | Arm::C => Some(self.tolerance),
+            },
+            ..Analysis::paper(block, self.restitution)
+        }
+    }
+
+    /// The curves of one chain in the arms asked for; A and B are one scan.
+    ///
+    /// # Errors
+    /// [`StudyError`] where the record cannot be scaled.
+    pub fn chain(
+        &self,
+        block: Block,
+        record: &NormalisedRecord,
+        arms: &[Arm],
+    ) -> Result<Chain, StudyError> {
+        let mut scan: Option<IdaCurve> = None;
+        let mut chain =
+            Chain { curves: Vec::new(), analyses: 0, unresolved: 0 };
+        let refined = arms.contains(&Arm::B);
+        for arm in arms {
+            let run = match (arm, &scan) {
+                (Arm::B, Some(scan)) => scan.clone(),
+                (Arm::A, _) if refined => {
+                    self.scan(block, record, Arm::B, &mut chain)?
+                }
+                _ => self.scan(block, record, *arm, &mut chain)?,
+            };
+            chain.curves.push(response_curve(&run, *arm)?);
+            scan = Some(run).filter(|_| *arm == Arm::A);
+        }
+        Ok(chain)
+    }
+
+    fn scan(
+        &self,
+        block: Block,
+        record: &NormalisedRecord,
+        arm: Arm,
+        chain: &mut Chain,
+    ) -> Result<IdaCurve, StudyError> {
+        let analysis = self.analysis(block, arm, Method::RecordScaling);
+        let run = ida::curve(record, &analysis)?;
+        chain.analyses += run.analyses;
+        chain.unresolved += run.points.iter().filter(|p| !p.resolved).count();
+        Ok(run)
+    }
+
+    /// The curve of one record by slenderness adjustment, on the levels of
+    /// the reference block.
+    ///
+    /// # Errors
+    /// [`StudyError`] where there is no such block.
+    pub fn chain_adjusted(
+        &self,
+        reference: Block,
+        record: &NormalisedRecord,
+        arm: Arm,
+    ) -> Result<ResponseCurve, StudyError> {
+        let method = Method::SlendernessAdjustment;
+        let analysis = self.analysis(reference, arm, method);
+        response_curve(&ida::curve(record, &analysis)?, arm)
+    }
+
+    /// Demand of `block` at dimensionless intensity `im`: by scaling the
+    /// record, or by adjusting the slenderness.
+    ///
+    /// # Errors
+    /// [`StudyError`] where there is no such block or scale.
+    pub fn demand(
+        &self,
+        block: Block,
+        record: &NormalisedRecord,
+        im: f64,
+        method: Method,
+    ) -> Result<f64, StudyError> {
+        let analysis = self.analysis(block, Arm::A, method);
+        Ok(ida::at(record, &analysis, im)?.edp())
+    }
+
     /// The response of `block` to the record scaled to `pga_g`.
     fn respond(
         &self,
@@ -120,20 +148,6 @@ impl Setup {
         Ok(respond(&scene, observe)?)
     }
 
-    /// Demand of `block` at dimensionless intensity `im`.
-    ///
-    /// # Errors
-    /// [`StudyError`] where the record cannot be scaled so.
-    pub fn demand(
-        &self,
-        block: Block,
-        record: &NormalisedRecord,
-        im: f64,
-    ) -> Result<f64, StudyError> {
-        let pga_g = im * uplift_threshold(&block, Model::Nonlinear);
-        self.demand_at(block, record, pga_g)
-    }
-
     /// Whether the onset of rocking is not exactly at intensity 1: a motion
     /// there, or none at 1 + 1e-9.
     ///
@@ -151,86 +165,6 @@ impl Setup {
             Ok(response.outcome != Outcome::NoUplift)
         };
         Ok(moves(threshold)? || !moves(threshold * (1.0 + 1e-9))?)
-    }
-
-    fn demand_at(
-        &self,
-        block: Block,
-        record: &NormalisedRecord,
-        pga_g: f64,
-    ) -> Result<f64, StudyError> {
-        let observe = Observe::default();
-        Ok(self.respond(block, record, pga_g, &observe)?.outcome.edp())
-    }
-
-    /// The curves of one chain in the three arms; arm B's scan is arm A's.
-    ///
-    /// # Errors
-    /// [`StudyError`] where the record cannot be scaled.
-    pub fn chain(
-        &self,
-        block: Block,
-        record: &NormalisedRecord,
-        arms: &[Arm],
-    ) -> Result<Vec<ResponseCurve>, StudyError> {
-        let threshold = uplift_threshold(&block, Model::Nonlinear);
-        let at = |l: Level| self.demand_at(block, record, l.pga_g);
-        let between = |im| self.demand(block, record, im);
-        let mut coarse = None;
-        let mut out = Vec::with_capacity(arms.len());
-        for arm in arms {
-            let curve = match (arm, &coarse) {
-                (Arm::B, Some(curve)) => ResponseCurve::clone(curve),
-                _ => scan(levels(*arm, threshold), at)?,
-            };
-            if *arm == Arm::A {
-                coarse = Some(curve.clone());
-            }
-            out.push(match arm {
-                Arm::A => curve,
-                Arm::B | Arm::C => refine(&curve, self.tolerance, between)?,
-            });
-        }
-        Ok(out)
-    }
-
-    /// Demand of the unscaled record on the block of frequency parameter
-    /// `p_rad_s` whose slenderness makes the intensity `im`, over that
-    /// slenderness; that angle is second.
-    ///
-    /// # Errors
-    /// [`StudyError`] where there is no such block.
-    pub fn demand_adjusted(
-        &self,
-        p_rad_s: f64,
-        record: &NormalisedRecord,
-        im: f64,
-    ) -> Result<(f64, f64), StudyError> {
-        let pga_g = record.pga_g();
-        let slenderness_rad = libm::atan(pga_g / im);
-        let block = Block::try_new(slenderness_rad, p_rad_s)?;
-        Ok((self.demand_at(block, record, pga_g)?, slenderness_rad))
-    }
-
-    /// The curve of one record by slenderness adjustment, on the levels of
-    /// the reference block.
-    ///
-    /// # Errors
-    /// [`StudyError`] where there is no such block.
-    pub fn chain_adjusted(
-        &self,
-        reference: Block,
-        record: &NormalisedRecord,
-        arm: Arm,
-    ) -> Result<ResponseCurve, StudyError> {
-        let threshold = uplift_threshold(&reference, Model::Nonlinear);
-        let p = reference.frequency_rad_s();
-        let at = |im| Ok(self.demand_adjusted(p, record, im)?.0);
-        let curve = scan(levels(arm, threshold), |l| at(l.im))?;
-        match arm {
-            Arm::A => Ok(curve),
-            Arm::B | Arm::C => refine(&curve, self.tolerance, at),
-        }
     }
 
     /// History of theta/alpha every `interval_s`, and the peak (infinite
@@ -258,6 +192,22 @@ impl Setup {
             .collect();
         Ok((ratio, response.outcome.edp()))
     }
+}
+
+/// The standing points above the onset (1, 0), and the first overturning:
+/// the level of the grid in arm A, the bracket's upper end in B and C.
+fn response_curve(
+    run: &IdaCurve,
+    arm: Arm,
+) -> Result<ResponseCurve, StudyError> {
+    let standing = run.standing().map(|point| (point.im, point.edp()));
+    let vertices: Vec<(f64, f64)> =
+        std::iter::once((1.0, 0.0)).chain(standing).collect();
+    let overturning = run.overturning.map(|first| match arm {
+        Arm::A => first.scanned_im,
+        Arm::B | Arm::C => first.im(),
+    });
+    Ok(ResponseCurve::try_new(&vertices, overturning)?)
 }
 
 #[cfg(test)]

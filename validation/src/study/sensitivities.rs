@@ -131,7 +131,7 @@ impl Plan {
                             let Some(record) = record else { return Ok(None) };
                             let mut chain =
                                 setup.chain(block, record, &arm)?;
-                            Ok(chain.pop())
+                            Ok(chain.curves.pop())
                         })
                         .collect::<Result<_, StudyError>>()?;
                     out.push(Varied {

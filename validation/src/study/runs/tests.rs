@@ -1,38 +1,60 @@
 //! Tests of the chains.
 
+use rocking::record::Accelerogram;
+
 use super::*;
 
-#[test]
-fn levels_start_above_the_onset_and_keep_their_grid() {
-    let threshold = libm::tan(0.25);
-    let a: Vec<Level> = levels(Arm::A, threshold).take(2).collect();
-    // tan 0.25 = 0.25534: the first whole hundredth above is 0.26.
-    assert_eq!(a[0].pga_g, 0.26);
-    assert_eq!(a[1].pga_g, 0.27);
-    let c: Vec<Level> = levels(Arm::C, threshold).take(25).collect();
-    assert_eq!((c[0].im, c[24].im), (1.02, 1.5));
-    assert_eq!(c[24].pga_g, 1.5 * threshold);
+/// Half a second of a triangular lobe, as in the guide to the analysis.
+fn lobe() -> NormalisedRecord {
+    let height = |k: i32| 0.2 - 0.008 * f64::from((k - 25).abs());
+    let samples = (0..=50).map(height).collect();
+    let record = Accelerogram::try_new("lobe", 0.01, samples);
+    NormalisedRecord::new(&record.expect("record"))
+}
+
+fn setup() -> Setup {
+    Setup {
+        restitution: Restitution::constant(0.92).expect("restitution"),
+        overturning: Overturning::Alpha,
+        tolerance: 1e-4,
+    }
 }
 
 #[test]
-fn a_level_equal_to_the_threshold_is_not_run() {
-    let mut levels = levels(Arm::A, 0.25);
-    assert_eq!(levels.next().expect("level").pga_g, 0.26);
+fn arms_differ_by_grid_and_refinement_alone() {
+    let (setup, lobe) = (setup(), lobe());
+    let block = Block::try_new(0.1, 3.0).expect("block");
+    let arms = [Arm::A, Arm::B, Arm::C];
+    let chain = setup.chain(block, &lobe, &arms).expect("chain");
+    let [a, b, c] = chain.curves.as_slice() else { panic!("three") };
+    let of = |curve: &ResponseCurve| curve.overturning_im().expect("end");
+    // A and B share their vertices; B overturns within A's last bracket.
+    assert!(a.vertices().eq(b.vertices()));
+    assert!(a.last_im() < of(b) && of(b) <= of(a));
+    // B and C bisect the same edge, if no window lies below.
+    assert!((of(b) - of(c)).abs() <= 1e-4, "{} {}", of(b), of(c));
+    // A's edge is a whole hundredth of g.
+    let hundredths = 100.0 * of(a) * libm::tan(0.1);
+    assert!((hundredths - hundredths.round()).abs() < 1e-9);
+    // C's vertices are 1, 1.02, 1.04 and so on.
+    let second = c.vertices().nth(2).expect("vertex").0;
+    assert!((second - 1.04).abs() < 1e-12);
 }
 
 #[test]
-fn scan_stops_at_the_first_overturning() {
-    let run = |l: Level| {
-        let gone = l.im > 1.31 && l.im < 1.39;
-        Ok(if gone { f64::INFINITY } else { l.im - 1.0 })
-    };
-    let curve = scan(levels(Arm::C, 0.1), run).expect("curve");
-    assert_eq!(curve.overturning_im(), Some(1.32));
-    assert_eq!(curve.last_im(), 1.3);
-    let fine = refine(&curve, 1e-4, |im| {
-        Ok(if im > 1.31 { f64::INFINITY } else { 0.0 })
-    })
-    .expect("curve");
-    let upper = fine.overturning_im().expect("overturned");
-    assert!(upper > 1.31 && upper <= 1.31 + 1e-4);
+fn one_arm_alone_gives_the_same_curve() {
+    let (setup, lobe) = (setup(), lobe());
+    let block = Block::try_new(0.1, 3.0).expect("block");
+    let all =
+        setup.chain(block, &lobe, &[Arm::A, Arm::B, Arm::C]).expect("chain");
+    for (arm, curve) in [Arm::A, Arm::B, Arm::C].into_iter().zip(all.curves) {
+        let alone = setup.chain(block, &lobe, &[arm]).expect("chain");
+        assert_eq!(alone.curves, [curve]);
+    }
+}
+
+#[test]
+fn onset_is_exact() {
+    let block = Block::try_new(0.1, 3.0).expect("block");
+    assert!(!setup().violates_onset(block, &lobe()).expect("runs"));
 }

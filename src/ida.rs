@@ -608,3 +608,6 @@ impl<'a> Chain<'a> {
         Ok(Some((low, high)))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -101,3 +101,61 @@ pub fn certify(scene: &Scene<'_>) -> Result<Certified, SceneError> {
     let careful = Certified::of(&careful, Engine::DoubleDouble);
     Ok(Certified { double: quick.outcome, ..careful })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Engine, certify};
+    use crate::block::{Block, Restitution};
+    use crate::excitation::{Excitation, Pulse, PulseKind};
+    use crate::integrator::{Model, Overturning, Scene};
+
+    /// Fate of the reference `hs-near-ulp-above` at another amplitude.
+    fn fate(amplitude_m_s2: f64) -> super::Certified {
+        let kind = PulseKind::HalfSine {
+            amplitude_g: amplitude_m_s2,
+            omega_rad_s: 5.0,
+        };
+        let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
+        let scene = Scene {
+            block: Block::try_new(0.2, 2.0).unwrap(),
+            restitution: Restitution::constant(0.92).unwrap(),
+            model: Model::Nonlinear,
+            overturning: Overturning::HalfPi,
+            excitation: Excitation::Pulse(&pulse),
+            initial_ratio: 0.0,
+        };
+        certify(&scene).unwrap()
+    }
+
+    #[test]
+    fn the_doubles_around_a_critical_amplitude_are_told() {
+        // The reference names the first double above the critical amplitude.
+        let first = 4.072_395_807_424_461_f64;
+        let mut below = first;
+        let mut above = first;
+        for _ in 0..4 {
+            below = below.next_down();
+            for (amplitude, overturns) in [(below, false), (above, true)] {
+                let fate = fate(amplitude);
+                assert!(fate.decided, "{amplitude}: {fate:?}");
+                assert_eq!(
+                    fate.outcome.is_overturned(),
+                    overturns,
+                    "{fate:?}"
+                );
+            }
+            above = above.next_up();
+        }
+        assert_eq!(fate(first).by, Engine::DoubleDouble);
+    }
+
+    #[test]
+    fn a_clear_fate_is_told_in_double_precision() {
+        for amplitude in [3.0, 5.0] {
+            let fate = fate(amplitude);
+            assert!(
+                fate.decided && fate.by == Engine::Double && !fate.moved()
+            );
+        }
+    }
+}

@@ -7,9 +7,11 @@
 
 mod crossings;
 mod curve;
+mod stripes;
 
 pub use crossings::{Capacity, Crossings, InversionRule};
 pub use curve::{CapacityError, ResponseCurve};
+pub use stripes::{demands, inversion_discrepancy};
 
 #[cfg(test)]
 mod tests;

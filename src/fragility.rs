@@ -7,6 +7,8 @@
 //! IM_R by Eqs. 5 and 7, here [`transform`]. A fragility's value at an
 //! intensity is [`Lognormal::cdf`].
 
+pub mod options;
+
 use libm::{exp, expm1, log, log1p};
 use thiserror::Error;
 

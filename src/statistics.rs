@@ -21,3 +21,6 @@ pub use boxplot::Boxplot;
 pub use lognormal::Lognormal;
 pub use quantile::QuantileType;
 pub use sample::{ExtendedSample, Sample, SampleError};
+
+#[cfg(test)]
+mod calibration;

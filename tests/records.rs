@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use rocking::record::{ReadOptions, Suite, SuiteOptions};
+use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_validation::inputs;
 
@@ -39,6 +39,52 @@ fn real_suites_meet_their_index() {
             assert!(motion.pga_g() > 0.14, "{}", member.file);
             assert!(motion.pgv_m_s(STANDARD_GRAVITY_M_S2) > 0.0);
             assert!(member.attributes.contains_key("event"));
+        }
+    }
+}
+
+/// A character or a line lost anywhere among the samples of a real
+/// fixed-width file is refused; a lost line of any file fails its count.
+#[test]
+fn real_files_that_lost_something_are_refused() {
+    let Some(index) = real("pulse.csv") else { return };
+    let root = index.parent().unwrap();
+    let text = std::fs::read_to_string(&index).unwrap();
+    let mut place = 12_345_usize;
+    for row in text.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let bytes = std::fs::read(root.join(cells[0])).unwrap();
+        let dt_s = (cells[1] == "column").then(|| cells[3].parse().unwrap());
+        let options = ReadOptions { dt_s, ..ReadOptions::default() };
+        let whole = record::read("x", &bytes, &options).unwrap();
+        let count = whole.accelerogram.samples_g().len();
+        let from = bytes.len() / 2;
+        for _ in 0..4 {
+            place = (place * 1_103 + 12_345) % (bytes.len() - from - 200);
+            let at = from + place;
+            let mut cut = bytes.clone();
+            let lost = cut.remove(at);
+            if cells[1] != "column" && !lost.is_ascii_whitespace() {
+                let refused = record::read("x", &cut, &options);
+                let error = refused.expect_err(cells[0]);
+                assert!(error.line().is_some() && error.column().is_some());
+            }
+            let start =
+                at + bytes[at..].iter().position(|b| *b == b'\n').unwrap();
+            let length = bytes[start + 1..]
+                .iter()
+                .position(|b| *b == b'\n')
+                .unwrap_or(0);
+            let mut cut = bytes.clone();
+            cut.drain(start..=start + length);
+            match record::read("x", &cut, &options) {
+                Err(_) => assert_ne!(cells[1], "column"),
+                Ok(record) => {
+                    assert_eq!(cells[1], "column");
+                    let found = record.accelerogram.samples_g().len();
+                    assert_eq!(found, count - 1, "{}", cells[0]);
+                }
+            }
         }
     }
 }

@@ -44,6 +44,16 @@ pub enum CapacityError {
         /// The last vertex's intensity.
         last: f64,
     },
+    /// A curve ends somewhere.
+    #[error(
+        "curve {number} says nothing at intensity {im}: beyond its last vertex, before overturning"
+    )]
+    Beyond {
+        /// Place of the curve, from 1.
+        number: usize,
+        /// The intensity asked for.
+        im: f64,
+    },
     /// Levels are positive.
     #[error("EDP level {0}: expected a positive finite number")]
     Level(f64),

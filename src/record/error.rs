@@ -197,9 +197,7 @@ pub enum Fault {
         unit: AccelerationUnit,
     },
     /// The file holds several components where one was asked for.
-    #[error(
-        "{0} acceleration channels: expected one (name the channel, or read them all)"
-    )]
+    #[error("{0} acceleration channels: expected one")]
     SeveralChannels(usize),
     /// The samples make no accelerogram.
     #[error(transparent)]

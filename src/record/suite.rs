@@ -51,6 +51,9 @@ pub struct SuiteMember {
     pub format: Format,
     /// Unit in which the file is written.
     pub unit: AccelerationUnit,
+    /// Whether file, index or caller stated the unit; if not, multiples of
+    /// gravity were assumed.
+    pub unit_stated: bool,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.

@@ -285,6 +285,7 @@ pub struct Case {
 
 /// The case files, by family, embedded.
 pub const FAMILIES: &[(&str, &str)] = &[
+    ("fates", include_str!("../cases/fates.toml")),
     ("free-rocking", include_str!("../cases/free-rocking.toml")),
     ("hard-cases", include_str!("../cases/hard-cases.toml")),
     ("invariants", include_str!("../cases/invariants.toml")),

@@ -1,6 +1,8 @@
 //! Registry of what a case can ask to be computed, and of wrong models.
 
 mod closed_forms;
+mod convergence;
+mod fates;
 mod invariance;
 mod references;
 mod response;
@@ -104,6 +106,10 @@ pub const METHODS: &[(&str, Run)] = &[
     ("invariance", invariance::invariance),
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
+    ("order-of-convergence", convergence::order),
+    ("response", fates::response),
+    ("fates-over-levels", fates::levels),
+    ("adjustment-on-suite", fates::adjustment),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

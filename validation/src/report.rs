@@ -82,14 +82,14 @@ pub struct Finding {
     pub remark: String,
 }
 
-/// What came out of a finding.
+/// What a measure says about a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// The claim holds within its margin.
+    /// The whole interval lies where the claim says.
     Confirmed,
-    /// It does not.
+    /// The whole interval lies where the claim does not.
     NotConfirmed,
-    /// These suites cannot settle it.
+    /// The interval lies on both sides, or there are no data.
     Inconclusive,
 }
 
@@ -98,9 +98,9 @@ impl Verdict {
     pub const ALL: [Self; 3] =
         [Self::Confirmed, Self::NotConfirmed, Self::Inconclusive];
 
-    /// Plain words.
+    /// The words.
     #[must_use]
-    pub fn words(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Confirmed => "confirmed",
             Self::NotConfirmed => "not confirmed",

@@ -99,8 +99,8 @@ impl Index {
         let mut table = Table { path, columns: Vec::new(), lines: &lines };
         table.columns = table.head(head)?;
         let mut rows = Vec::new();
-        for line in head + 1..lines.len() {
-            let blank = lines[line].trim_matches([',', ' ', '\t']).is_empty();
+        for (line, text) in lines.iter().enumerate().skip(head + 1) {
+            let blank = text.trim_matches([',', ' ', '\t']).is_empty();
             if blank && peer.is_some() {
                 break;
             }
@@ -313,6 +313,7 @@ impl Row {
             file: self.file.clone(),
             format: record.format,
             unit: record.unit,
+            unit_stated: record.unit_stated,
             pair: self.cell("pair").map(str::to_owned),
             study_component,
             attributes,

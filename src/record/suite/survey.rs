@@ -175,6 +175,7 @@ fn horizontal(
         file: file.to_owned(),
         format: record.format,
         unit: record.unit,
+        unit_stated: record.unit_stated,
         pair: None,
         study_component: false,
         attributes: BTreeMap::new(),

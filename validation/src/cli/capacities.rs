@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
-use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
+use rocking::capacity::{
+    CapacityError, InversionRule, ResponseCurve, inversion_discrepancy,
+};
 use rocking::statistics::{ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
@@ -287,6 +289,8 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
 struct Quantiles {
     values: [f64; 3],
     censored: usize,
+    /// Largest difference to the stripe fragility.
+    discrepancy: f64,
 }
 
 fn quantiles(
@@ -301,7 +305,10 @@ fn quantiles(
     let sample = ExtendedSample::try_new(&ims)?;
     let at = |p| QuantileType::default().of_extended(&sample, p);
     let values = [at(0.16)?, at(0.5)?, at(0.84)?];
-    Ok(Quantiles { values, censored: sample.censored() })
+    let curves: Vec<ResponseCurve> =
+        suite.curves.iter().map(|(_, curve)| curve.clone()).collect();
+    let discrepancy = inversion_discrepancy(&curves, level, rule)?;
+    Ok(Quantiles { values, censored: sample.censored(), discrepancy })
 }
 
 fn json(
@@ -326,6 +333,7 @@ fn json(
             "im50": json::number(q.values[1]),
             "im84": json::number(q.values[2]),
             "censored": q.censored,
+            "stripe_discrepancy": json::number(q.discrepancy),
         })
     };
     Ok(json!({

@@ -45,8 +45,21 @@ pub struct Args {
     #[arg(long, value_name = "N", conflicts_with = "transform")]
     bootstrap: Option<usize>,
     /// Repetition of the bootstrap.
-    #[arg(long, value_name = "S", requires = "bootstrap")]
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "bootstrap",
+        conflicts_with = "transform"
+    )]
     seed: Option<u64>,
+    /// Threads of the bootstrap; the result doesn't depend on them.
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "bootstrap",
+        conflicts_with = "transform"
+    )]
+    threads: Option<usize>,
     /// Unshifted median IM50.
     #[arg(
         long,

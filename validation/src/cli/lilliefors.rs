@@ -17,7 +17,7 @@ use rocking::statistics::{ExtendedSample, Sample};
 use serde_json::{Value, json};
 
 use super::samples::{SampleFile, Shift};
-use super::{Failure, print};
+use super::{Failure, print, with_threads};
 use crate::json;
 
 /// Replicates where none are asked for.
@@ -73,6 +73,10 @@ pub struct Args {
     /// Repetition of the simulation.
     #[arg(long, value_name = "S", conflicts_with = "write_table")]
     seed: Option<u64>,
+    /// Threads of a simulation; the result doesn't depend on them [default:
+    /// as many as the machine has].
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
     /// Simulate the committed table anew and write it to this file.
     #[arg(long, value_name = "FILE")]
     write_table: Option<PathBuf>,
@@ -93,13 +97,23 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             args.level
         )));
     }
-    if let Some(path) = &args.write_table {
-        return table::write(path);
+    let simulates = args.sample.is_none()
+        || args.replicates.is_some()
+        || args.shift == Some(Shift::Min);
+    if !simulates && (args.seed.is_some() || args.threads.is_some()) {
+        return Err(Failure::input(
+            "--seed and --threads are not used without --replicates: the table answers",
+        ));
     }
-    if let Some(path) = &args.sample {
-        return test(args, &SampleFile::read(path)?);
-    }
-    critical_value(args, args.n.unwrap_or(0))
+    with_threads(args.threads, || {
+        if let Some(path) = &args.write_table {
+            table::write(path)
+        } else if let Some(path) = &args.sample {
+            test(args, &SampleFile::read(path)?)
+        } else {
+            critical_value(args, args.n.unwrap_or(0))
+        }
+    })?
 }
 
 fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
@@ -136,13 +150,6 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
 }
 
 fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
-    let simulates =
-        args.replicates.is_some() || args.shift == Some(Shift::Min);
-    if args.seed.is_some() && !simulates {
-        return Err(Failure::input(
-            "--seed is not used without --replicates: the table is given",
-        ));
-    }
     let whole = file.extended()?;
     let shift = args.shift.or(args.log.then_some(Shift::Given(0.0)));
     let (scale, sample) = match shift {

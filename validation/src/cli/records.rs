@@ -50,6 +50,7 @@ struct Listed {
     file: String,
     format: Format,
     unit: AccelerationUnit,
+    unit_stated: bool,
     motion: record::Accelerogram,
     /// Pair and whether the study uses this component, in a suite.
     place: Option<(Option<String>, bool)>,
@@ -62,6 +63,7 @@ impl Listed {
             file: member.file.clone(),
             format: member.format,
             unit: member.unit,
+            unit_stated: member.unit_stated,
             motion: member.accelerogram.clone(),
             place: in_suite
                 .then(|| (member.pair.clone(), member.study_component)),
@@ -152,6 +154,7 @@ impl Listing {
                     },
                     format: record.format,
                     unit: record.unit,
+                    unit_stated: record.unit_stated,
                     motion: record.accelerogram,
                     place: None,
                     remarks: Vec::new(),
@@ -236,6 +239,7 @@ impl Listing {
                 "file": listed.file,
                 "format": listed.format.to_string(),
                 "units": listed.unit.to_string(),
+                "units_stated": listed.unit_stated,
                 "dt_s": number(motion.dt_s()),
                 "npts": motion.samples_g().len(),
                 "duration_s": number(motion.duration_s()),
@@ -287,13 +291,15 @@ impl Listing {
         }
         for listed in &self.records {
             let motion = &listed.motion;
+            let mark = if listed.unit_stated { "" } else { "?" };
+            let unit = format!("{}{mark}", listed.unit);
             line(
                 &mut text,
                 format_args!(
                     "{:width$}  {:8} {:>6} {:>10} {:>7} {:>11.3} {:>9.5} {:>10.5}",
                     listed.file,
                     listed.format.to_string(),
-                    listed.unit.to_string(),
+                    unit,
                     motion.dt_s(),
                     motion.samples_g().len(),
                     motion.duration_s(),

@@ -80,7 +80,7 @@ impl SampleFile {
             if content.is_empty() {
                 continue;
             }
-            let value = content.parse::<f64>().ok().filter(|x| !x.is_nan());
+            let value = parse(content);
             values.push(value.ok_or_else(|| SampleFileError::Line {
                 path: path.to_owned(),
                 line: i + 1,
@@ -139,6 +139,14 @@ impl SampleFile {
         let line = number.and_then(|n| self.lines.get(n - 1).copied());
         SampleFileError::Sample { path: self.path.clone(), line, source }
     }
+}
+
+/// A number, or infinity where the text says so: a number too large for a
+/// double is not silently infinite.
+fn parse(text: &str) -> Option<f64> {
+    let value = text.parse::<f64>().ok().filter(|x| !x.is_nan())?;
+    let says_so = text.to_ascii_lowercase().contains("inf");
+    (value.is_finite() || says_so).then_some(value)
 }
 
 /// A shift: a number, or the sample's smallest value.

@@ -9,12 +9,28 @@ pub struct Tick {
     pub label: String,
 }
 
+/// How values go to places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Scale {
+    Linear,
+    Logarithmic,
+    /// Inverse hyperbolic sine of the logarithm over this width: linear
+    /// within it about 1, logarithmic twice over beyond.
+    AboutOne(f64),
+}
+
+/// Ticks of an axis of ratios in the order in which they get room.
+const RATIOS: [f64; 19] = [
+    1.0, 0.5, 2.0, 0.9, 1.1, 0.2, 5.0, 0.1, 10.0, 0.98, 1.02, 0.95, 1.05, 0.8,
+    1.25, 0.99, 1.01, 0.7, 1.4,
+];
+
 /// An axis: a range, ticks and a label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     low: f64,
     high: f64,
-    logarithmic: bool,
+    scale: Scale,
     ticks: Vec<Tick>,
     minor: Vec<f64>,
     label: String,
@@ -40,7 +56,7 @@ impl Axis {
         Self {
             low,
             high,
-            logarithmic: false,
+            scale: Scale::Linear,
             ticks,
             minor: Vec::new(),
             label: String::new(),
@@ -74,7 +90,7 @@ impl Axis {
         let mut axis = Self {
             low,
             high,
-            logarithmic: true,
+            scale: Scale::Logarithmic,
             ticks: Vec::new(),
             minor: Vec::new(),
             label: String::new(),
@@ -118,6 +134,36 @@ impl Axis {
         axis
     }
 
+    /// An axis of ratios that shows both what lies within `width` of 1 (in
+    /// ln) and what lies far away: ln r goes to asinh(ln r / width). Ticks
+    /// are at least the share `apart` of the axis away from one another.
+    #[must_use]
+    pub fn about_one(low: f64, high: f64, width: f64, apart: f64) -> Self {
+        let low = if low > 0.0 && low < 1.0 { low } else { 0.5 };
+        let high = if high > 1.0 && high.is_finite() { high } else { 2.0 };
+        let mut axis = Self {
+            low,
+            high,
+            scale: Scale::AboutOne(width),
+            ticks: Vec::new(),
+            minor: Vec::new(),
+            label: String::new(),
+            grid: true,
+        };
+        let mut taken: Vec<f64> = Vec::new();
+        for ratio in RATIOS {
+            let place = axis.place(ratio);
+            let free = taken.iter().all(|t| (t - place).abs() >= apart);
+            if free && (-1e-9..=1.0 + 1e-9).contains(&place) {
+                taken.push(place);
+                let label = ratio.to_string();
+                axis.ticks.push(Tick { at: ratio, label });
+            }
+        }
+        axis.ticks.sort_by(|a, b| a.at.total_cmp(&b.at));
+        axis
+    }
+
     /// An axis of names at 1, 2, 3 and so on.
     #[must_use]
     pub fn named(names: &[String]) -> Self {
@@ -129,7 +175,7 @@ impl Axis {
         Self {
             low: 0.4,
             high: names.len().max(1) as f64 + 0.6,
-            logarithmic: false,
+            scale: Scale::Linear,
             ticks,
             minor: Vec::new(),
             label: String::new(),
@@ -189,13 +235,18 @@ impl Axis {
     /// the axis cannot show.
     #[must_use]
     pub fn place(&self, x: f64) -> f64 {
-        if self.logarithmic {
+        let positive = |f: &dyn Fn(f64) -> f64| {
             if x.is_nan() || x <= 0.0 {
                 return f64::NAN;
             }
-            libm::log(x / self.low) / libm::log(self.high / self.low)
-        } else {
-            (x - self.low) / (self.high - self.low)
+            (f(x) - f(self.low)) / (f(self.high) - f(self.low))
+        };
+        match self.scale {
+            Scale::Linear => (x - self.low) / (self.high - self.low),
+            Scale::Logarithmic => positive(&libm::log),
+            Scale::AboutOne(width) => {
+                positive(&|x| libm::asinh(libm::log(x) / width))
+            }
         }
     }
 }

@@ -36,6 +36,8 @@ pub enum Marker {
     Down,
     /// Arrow head to the right: there is more beyond.
     Beyond,
+    /// Arrow head to the left.
+    BeyondLeft,
 }
 
 impl Marker {
@@ -65,9 +67,10 @@ impl Marker {
                 scene.line(&[(x - s, y - s), (x + s, y + s)], pen);
                 scene.line(&[(x - s, y + s), (x + s, y - s)], pen);
             }
-            Self::Beyond => {
-                let back = x - 0.7 * r;
-                let head = [(back, y - r), (x + r, y), (back, y + r)];
+            Self::Beyond | Self::BeyondLeft => {
+                let r_x = if self == Self::Beyond { r } else { -r };
+                let back = (-0.7_f64).mul_add(r_x, x);
+                let head = [(back, y - r), (x + r_x, y), (back, y + r)];
                 scene.line(&head, pen);
             }
             Self::Plus => {

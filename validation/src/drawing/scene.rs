@@ -24,7 +24,7 @@ pub const LIMIT_BYTES: usize = 150_000;
 /// How far a simplified line may be from the full one, in px: the first, and
 /// the next ones, with points on multiples of them, only where the SVG would
 /// be too large.
-pub const TOLERANCES_PX: [f64; 4] = [0.05, 0.1, 0.2, 0.5];
+pub const TOLERANCES_PX: [f64; 6] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0];
 
 /// A drawing that could not be made.
 #[derive(Debug, Error)]

@@ -29,8 +29,8 @@ const WAIST: f64 = 0.15;
 /// Where the interval of the median is drawn, below the box.
 const BELOW: f64 = -0.43;
 const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
-/// Ratios beyond are cut, with an arrow head at the edge.
-const WIDEST: (f64, f64) = (0.0, 3.0);
+/// Ratios beyond are left out, with an arrow head at the edge.
+const WIDEST: (f64, f64) = (0.1, 10.0);
 
 pub(super) fn scene(figure: &Boxplots) -> Scene {
     let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
@@ -49,6 +49,7 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
         grid
     };
     let (low, high) = ratio_range(figure);
+    let near = box_width(figure);
     let mut legend =
         if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
     let cross = Sample::Mark(Marker::Cross, Ink::Text);
@@ -57,8 +58,9 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
         let words = "exact 95 % interval of the median";
         legend.push(Entry::new(Sample::Line(INTERVAL), words));
     }
-    let beyond = |b: &&NotchedBox| b.outliers.iter().any(|x| *x > high);
-    if summaries(figure).any(|b| beyond(&b)) {
+    let beyond =
+        |b: &NotchedBox| b.outliers.iter().any(|x| *x > high || *x < low);
+    if summaries(figure).any(beyond) {
         let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
     }
@@ -79,7 +81,10 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
             .collect();
         let names = vec![String::new(); shown.stripes.len()];
         let y = Axis::named(&names).with_ticks(ticks).label(level);
-        let x = Axis::linear(low, high, 5).label(figure.ratio_label.as_str());
+        let x = Axis::about_one(low, high, near, 34.0 / width).label(format!(
+            "{} (scale stretched about 1)",
+            figure.ratio_label
+        ));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
             .empty_because("too few usable ratios");
         panel.vertical(1.0, Pen::new(Ink::Muted, 0.8));
@@ -112,9 +117,20 @@ fn ratio_range(figure: &Boxplots) -> (f64, f64) {
         notch.into_iter().chain(whiskers).chain(b.outliers.iter().copied())
     });
     let (low, high) = common::span(ends, false).unwrap_or((0.5, 1.5));
-    let low = (5.0 * low.min(0.9)).floor() / 5.0;
-    let high = (5.0 * high.max(1.1)).ceil() / 5.0;
-    (low.max(WIDEST.0), high.min(WIDEST.1))
+    let low = (0.97 * low).clamp(WIDEST.0, 0.9);
+    let high = (1.03 * high).clamp(1.1, WIDEST.1);
+    (low, high)
+}
+
+/// Width about 1 within which the axis is linear: half the median box, in
+/// ln, but 0.01 to 0.2.
+fn box_width(figure: &Boxplots) -> f64 {
+    let half = |b: &NotchedBox| 0.5 * libm::log(b.q3 / b.q1);
+    let mut widths: Vec<f64> =
+        summaries(figure).map(half).filter(|w| w.is_finite()).collect();
+    widths.sort_by(f64::total_cmp);
+    let middle = widths.get(widths.len() / 2).copied().unwrap_or(0.2);
+    middle.clamp(0.01, 0.2)
 }
 
 fn draw_stripes(
@@ -160,6 +176,11 @@ fn draw_box(
         return;
     }
     panel.mark_used();
+    for x in &b.outliers {
+        if *x >= low && *x <= high {
+            panel.marks([(*x, y)], Marker::Cross, 2.6, ink);
+        }
+    }
     panel.line([(b.whisker_low, y), (b.q1, y)], pen);
     panel.line([(b.q3, y), (b.whisker_high, y)], pen);
     for end in [b.whisker_low, b.whisker_high] {
@@ -173,14 +194,14 @@ fn draw_box(
     if let Some((from, to)) = b.median_interval {
         panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
     }
-    for x in &b.outliers {
-        if *x >= low && *x <= high {
-            panel.marks([(*x, y)], Marker::Cross, 3.0, ink);
+    let edges = [
+        (b.outliers.iter().any(|x| *x > high), high, Marker::Beyond, -3.0),
+        (b.outliers.iter().any(|x| *x < low), low, Marker::BeyondLeft, 3.0),
+    ];
+    for (wanted, edge, marker, inwards) in edges {
+        if wanted {
+            let (x, y) = panel.to_px((edge, y));
+            marker.draw(panel.scene(), (x + inwards, y), 3.0, ink);
         }
-    }
-    let beyond = b.outliers.iter().filter(|x| **x > high).count();
-    if beyond > 0 {
-        let (x, y) = panel.to_px((high, y));
-        Marker::Beyond.draw(panel.scene(), (x - 3.0, y), 3.0, ink);
     }
 }

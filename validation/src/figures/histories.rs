@@ -30,7 +30,8 @@ pub(super) fn scene(figure: &Histories) -> Scene {
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let (low, high) = ratios(shown);
-        let x = Axis::linear(0.0, end(shown), 5).label("*t* (s)");
+        let (start, end) = times(shown);
+        let x = Axis::linear(start, end, 5).label("*t* (s)");
         let y = if shown.curves.iter().any(|c| c.overturned) {
             Axis::linear(low.min(-0.5), high.max(0.5), 5)
         } else {
@@ -65,12 +66,26 @@ pub(super) fn scene(figure: &Histories) -> Scene {
     scene
 }
 
-fn end(shown: &HistoryPanel) -> f64 {
-    if shown.until_s > 0.0 && shown.until_s.is_finite() {
-        return shown.until_s;
-    }
-    let times = shown.curves.iter().flat_map(|c| &c.time_s);
-    common::span(times.copied(), true).map_or(1.0, |(_, high)| high)
+/// Ends of the time axis: the motion, with a little rest before and after.
+fn times(shown: &HistoryPanel) -> (f64, f64) {
+    let points = || {
+        let curves = shown.curves.iter();
+        curves.flat_map(|c| c.time_s.iter().zip(&c.ratio))
+    };
+    let sizes = points().map(|(_, y)| y.abs());
+    let most = common::span(sizes, true).map_or(1.0, |(_, most)| most);
+    let moving = points().filter(|(_, y)| y.abs() > 0.002 * most);
+    let (first, last) =
+        common::span(moving.map(|(t, _)| *t), false).unwrap_or((0.0, 1.0));
+    let last = if shown.until_s > first && shown.until_s.is_finite() {
+        last.min(shown.until_s)
+    } else {
+        last
+    };
+    let rest = 0.04 * (last - first);
+    let first = (first - rest).max(0.0);
+    let start = if first < 0.15 * last { 0.0 } else { first };
+    (start, last + rest)
 }
 
 /// The panel's range: what the histories reach, and never less than a tenth

@@ -142,6 +142,8 @@ fn thinned_histories_draw_the_same() {
     };
     assert!(4 * points(&thin) < points(&full));
     for (a, b) in full.panels.iter().zip(&thin.panels) {
+        let ratios = a.curves.iter().flat_map(|c| &c.ratio);
+        let peak = ratios.fold(0.0_f64, |m, y| m.max(y.abs()));
         for (full, thin) in a.curves.iter().zip(&b.curves) {
             let mut at = 0;
             for (t, y) in full.time_s.iter().zip(&full.ratio) {
@@ -151,11 +153,11 @@ fn thinned_histories_draw_the_same() {
                 let (t0, t1) = (thin.time_s[at], thin.time_s[at + 1]);
                 let (y0, y1) = (thin.ratio[at], thin.ratio[at + 1]);
                 let rise = (y1 - y0) / (t1 - t0);
-                let off = (y0 + rise * (t - t0) - y).abs();
-                // In px, 300 of them for 30 s and for a ratio of one.
-                let slope = 30.0 * rise;
-                let px = 300.0 * off / (1.0 + slope * slope).sqrt();
-                assert!(px < 0.0501, "{px}");
+                let off = (y0 + rise * (t - t0) - y).abs() * 111.0 / peak;
+                // In px, 288 of them for almost 30 s, 111 for the peak.
+                let slope = rise * (111.0 / peak) / (288.0 / 29.99);
+                let px = off / (1.0 + slope * slope).sqrt();
+                assert!(px < 0.1001, "{px}");
             }
         }
     }

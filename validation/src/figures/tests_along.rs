@@ -1,5 +1,7 @@
 //! Figure 13: the test along the demand, and histograms at one level.
 
+use rocking::statistics::normal;
+
 use super::Figure;
 use super::common;
 use super::data::{Heading, Histogram, Intensity, TestsAlongDemand};
@@ -98,8 +100,7 @@ fn draw_histogram(
     };
     let density = |x: f64| {
         let z = (x - histogram.mean) / histogram.deviation;
-        0.398_942_280_401_432_7 * libm::exp(-0.5 * z * z) / histogram.deviation
-            * (n as f64 * width)
+        normal::pdf(z) / histogram.deviation * (n as f64 * width)
     };
     let peak = density(histogram.mean);
     let peak = if peak.is_finite() { peak } else { 0.0 };

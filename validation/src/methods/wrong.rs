@@ -80,6 +80,16 @@ pub static WRONG_MODELS: &[WrongModel] = &[
             acceleration_m_s2.insert(0, 0.0);
         }
     }),
+    scene("record-normalised", "a record of whatever size made 1 g", |s| {
+        if let Forcing::Samples { acceleration_m_s2, .. } = &mut s.forcing {
+            let a = acceleration_m_s2;
+            let peak = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            a.iter_mut().for_each(|x| *x = *x / peak * s.gravity_m_s2);
+        }
+    }),
+    scene("cm-read-as-m", "cm/s2 taken for m/s2", |s| {
+        scale(&mut s.forcing, 100.0);
+    }),
     scene("last-sample-lost", "record one sample short", |s| {
         if let Forcing::Samples { acceleration_m_s2, .. } = &mut s.forcing {
             acceleration_m_s2.pop();
@@ -134,6 +144,7 @@ pub static WRONG_MODELS: &[WrongModel] = &[
         "energy of Eq. 2 along Eq. 1, or of Eq. 1 along Eq. 2",
     ),
     method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
+    method("order-too-low", "the series stops two terms early"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
 ];
 

@@ -92,7 +92,7 @@ fn mark(verdict: Verdict) -> Markup {
     html! {
         span class=(verdict.class()) {
             span aria-hidden="true" { (verdict.sign()) " " }
-            (verdict.words())
+            (verdict.name())
         }
     }
 }

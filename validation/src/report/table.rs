@@ -17,6 +17,26 @@ pub struct PlainTable {
     pub rows: Vec<Vec<String>>,
 }
 
+impl PlainTable {
+    /// A table from CSV text.
+    #[must_use]
+    pub fn from_csv(
+        name: &str,
+        title: &str,
+        reading: &str,
+        csv: &str,
+    ) -> Self {
+        let mut lines = csv.lines().map(cells);
+        Self {
+            name: name.into(),
+            title: title.into(),
+            reading: reading.into(),
+            header: lines.next().unwrap_or_default(),
+            rows: lines.collect(),
+        }
+    }
+}
+
 /// The table under its title.
 pub fn plain(table: &PlainTable) -> Markup {
     let body = html! {

@@ -4,29 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::figures::data::Arm;
 use crate::json::number;
-
-/// What a measure says about a claim.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// The whole interval lies where the claim says.
-    Confirmed,
-    /// The whole interval lies where the claim does not.
-    NotConfirmed,
-    /// The interval lies on both sides, or there are no data.
-    Inconclusive,
-}
-
-impl Verdict {
-    /// The words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Confirmed => "confirmed",
-            Self::NotConfirmed => "not confirmed",
-            Self::Inconclusive => "inconclusive",
-        }
-    }
-}
+pub use crate::report::Verdict;
 
 /// A measured value, with an interval where there is one.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,8 +9,8 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use serde_json::{Map, Value, json};
 
 use super::{Args, Method, insert, show};
-use crate::cli::Failure;
 use crate::cli::samples::{SampleFile, Shift};
+use crate::cli::{Failure, with_threads};
 use crate::json;
 
 /// The fit asked for, and what the unshifted statistics give instead.
@@ -130,7 +130,9 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
             )));
         }
         let seed = args.seed.unwrap_or(0);
-        let intervals = bootstrap(&plan, values, &fits, replicates, seed);
+        let intervals = with_threads(args.threads, || {
+            bootstrap(&plan, values, &fits, replicates, seed)
+        })?;
         out.insert("bootstrap".to_owned(), intervals);
     }
     show(args, out)

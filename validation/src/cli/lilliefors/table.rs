@@ -3,10 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use indicatif::ProgressBar;
 use rocking::statistics::lilliefors::{NullDistribution, Table};
 
-use crate::cli::Failure;
+use crate::cli::{Failure, progress};
 use crate::files::write_atomically;
 
 /// Simulates every size of the table and writes it: 3.4e8 samples, some
@@ -16,7 +15,7 @@ use crate::files::write_atomically;
 /// [`Failure`] if the file cannot be written.
 pub(super) fn write(path: &Path) -> Result<(), Failure> {
     let sizes = Table::sizes();
-    let progress = ProgressBar::new(sizes.len() as u64);
+    let progress = progress(sizes.len() as u64);
     let mut csv =
         String::from("n,replicates,level,critical_value,standard_error\n");
     for (n, replicates) in sizes {

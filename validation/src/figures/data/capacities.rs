@@ -2,7 +2,12 @@
 
 use serde::Serialize;
 
+use super::table::point;
+use super::thin::{largest, thin};
 use super::{Heading, Intensity, Table, number};
+
+/// Size of a panel for [`Capacities::thinned`].
+const PX: f64 = 440.0;
 
 /// Capacity curves, intensity given demand, as inverted and shifted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,6 +45,20 @@ pub struct CapacityCurve {
 }
 
 impl Capacities {
+    /// The same with only the points that a drawing keeps: none that is
+    /// left out lies farther than a tenth of a pixel from the line. Of
+    /// a curve's levels without a capacity the first one stays.
+    #[must_use]
+    pub fn thinned(mut self) -> Self {
+        for panel in &mut self.panels {
+            let top = largest(panel.curves.iter().flat_map(|c| &c.im));
+            for curve in &mut panel.curves {
+                thin(&mut curve.edp, &mut curve.im, (PX, PX / top));
+            }
+        }
+        self
+    }
+
     /// `panel,im_kind,shift,record,edp,im`.
     #[must_use]
     pub fn csv(&self) -> String {
@@ -54,7 +73,7 @@ impl Capacities {
                         number(panel.shift),
                         curve.record.clone(),
                         number(*edp),
-                        number(*im),
+                        point(*im),
                     ]);
                 }
             }

@@ -1,5 +1,6 @@
 //! Figures 15 to 18.
 
+use rocking::statistics::normal;
 use serde::Serialize;
 
 use super::{Heading, Intensity, Table, number};
@@ -95,7 +96,7 @@ impl Lognormal {
             return 0.0;
         }
         let z = (libm::log(excess) - self.ln_median) / self.dispersion;
-        0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
+        normal::cdf(z)
     }
 }
 

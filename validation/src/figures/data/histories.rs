@@ -2,9 +2,13 @@
 
 use serde::Serialize;
 
+use super::table::point;
+use super::thin::{largest, thin};
 use super::{Heading, Intensity, Table, number};
-use crate::drawing::geometry::kept;
-use crate::drawing::scene::TOLERANCES_PX;
+
+/// Size of a panel for [`Histories::thinned`].
+const WIDTH_PX: f64 = 288.0;
+const HALF_PX: f64 = 111.0;
 
 /// Response histories at equal dimensionless intensity.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -49,14 +53,16 @@ pub struct History {
 
 impl Histories {
     /// The same with only the points that a drawing keeps: none that is
-    /// left out lies farther than a twentieth of a pixel from the line.
+    /// left out lies farther than a tenth of a pixel from the line.
     #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
-            let ends = panel.curves.iter().filter_map(|c| c.time_s.last());
-            let until_s = ends.copied().fold(panel.until_s, f64::max);
-            if until_s > 0.0 && until_s.is_finite() {
-                panel.curves.iter_mut().for_each(|c| c.thin(until_s));
+            let curves = || panel.curves.iter();
+            let until_s = largest(curves().flat_map(|c| &c.time_s));
+            let peak = largest(curves().flat_map(|c| &c.ratio));
+            let px = (WIDTH_PX / until_s, HALF_PX / peak);
+            for curve in &mut panel.curves {
+                thin(&mut curve.time_s, &mut curve.ratio, px);
             }
         }
         self
@@ -85,31 +91,12 @@ impl Histories {
                         panel.intensity.name().into(),
                         number(panel.im),
                         number(curve.alpha_rad),
-                        number(*t),
-                        number(*y),
+                        point(*t),
+                        point(*y),
                     ]);
                 }
             }
         }
         table.finish()
-    }
-}
-
-impl History {
-    /// Keeps what a drawing of this length, some 300 px square for a ratio
-    /// of one, needs.
-    fn thin(&mut self, until_s: f64) {
-        const PX: f64 = 300.0;
-        let points = self.time_s.iter().zip(&self.ratio);
-        let points = points.map(|(t, y)| (PX * t / until_s, PX * y));
-        let points: Vec<_> = points.collect();
-        if points.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
-            return;
-        }
-        let keep = kept(&points, TOLERANCES_PX[0]);
-        for values in [&mut self.time_s, &mut self.ratio] {
-            let mut keep = keep.iter();
-            values.retain(|_| keep.next() == Some(&true));
-        }
     }
 }

@@ -48,18 +48,28 @@ impl Table {
 /// empty where there is none (NaN).
 #[must_use]
 pub fn number(x: f64) -> String {
+    to_digits(x, 9)
+}
+
+/// The same with five digits: a point of a curve, to less than a hundredth
+/// of a pixel.
+pub(super) fn point(x: f64) -> String {
+    to_digits(x, 5)
+}
+
+fn to_digits(x: f64, digits: usize) -> String {
     if x.is_nan() {
         return String::new();
     }
     if x.is_infinite() {
         return String::from(if x > 0.0 { "inf" } else { "-inf" });
     }
-    let nine = format!("{x:.8e}");
-    match nine.parse::<f64>() {
+    let rounded = format!("{x:.0$e}", digits.saturating_sub(1));
+    match rounded.parse::<f64>() {
         Ok(0.0) => String::from("0"),
         Ok(y) if (1e-5..1e15).contains(&y.abs()) => y.to_string(),
         Ok(y) => format!("{y:e}"),
-        Err(_) => nine,
+        Err(_) => rounded,
     }
 }
 

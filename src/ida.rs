@@ -11,8 +11,8 @@ use thiserror::Error;
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::{
-    Model, Observe, Outcome, Overturning, Scene, SceneError, respond,
-    uplift_threshold,
+    Certified, Engine, Model, Observe, Outcome, Overturning, Scene,
+    SceneError, certify, respond, uplift_threshold,
 };
 
 /// Intensities at which a curve is sampled.
@@ -244,55 +244,42 @@ pub fn curve(
     record: &NormalisedRecord,
     analysis: &Analysis,
 ) -> Result<IdaCurve, IdaError> {
-    check(record, analysis)?;
-    let mut chain = Chain { record, analysis, analyses: 0 };
-    let threshold = uplift_threshold(&analysis.block, analysis.model);
-    let mut points = Vec::new();
-    let mut overturning = None;
-    let mut standing_im = 1.0;
-    let mut level = chain.first_level(threshold);
-    loop {
-        let im = chain.level_im(level, threshold);
-        if im > analysis.highest_im {
-            break;
-        }
-        let point = chain.at_level(level, threshold)?;
-        points.push(point);
-        if point.outcome.is_overturned() {
-            let refined = chain.bisect(standing_im, point)?;
-            overturning = Some(FirstOverturning {
-                scanned_im: point.im,
-                refined: refined.map(|(_, upper)| upper),
-                standing_im: refined.map_or(standing_im, |(low, _)| low),
-            });
-            break;
-        }
-        standing_im = point.im;
-        level += 1;
+    Ok(Chain::new(record, analysis)?.curve()?.0)
+}
+
+/// What certification did to a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Certification {
+    /// Analyses whose fate double precision could not tell.
+    pub needed: u64,
+    /// Those of them that double precision had told wrongly.
+    pub moved: u64,
+    /// Those that double-double could not tell either.
+    pub unresolved: u64,
+}
+
+impl Certification {
+    fn add(&mut self, fate: &Certified) {
+        self.needed += u64::from(fate.by == Engine::DoubleDouble);
+        self.moved += u64::from(fate.moved());
+        self.unresolved += u64::from(!fate.decided);
     }
-    let mut above = Vec::new();
-    if let (Some(first), Some(reach)) = (overturning, analysis.resurrections) {
-        let end = match reach {
-            Resurrections::Multiple(times) => times * first.scanned_im,
-            Resurrections::To(im) => im,
-        };
-        loop {
-            level += 1;
-            if chain.level_im(level, threshold) > end {
-                break;
-            }
-            above.push(chain.at_level(level, threshold)?);
-        }
-    }
-    Ok(IdaCurve {
-        record: record.name().to_owned(),
-        record_pga_g: record.pga_g(),
-        velocity_ratio_s: record.velocity_ratio_s(),
-        points,
-        overturning,
-        above,
-        analyses: chain.analyses,
-    })
+}
+
+/// [`curve`] with every fate certified: where the margin does not clear the
+/// error in double precision, the outcome is that of a run in double-double
+/// (see [`certify`]), and the chain goes on from it.
+///
+/// # Errors
+/// As [`curve`].
+pub fn certified_curve(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+) -> Result<(IdaCurve, Certification), IdaError> {
+    let mut chain = Chain::new(record, analysis)?;
+    chain.certification = Some(Certification::default());
+    let (curve, certification) = chain.curve()?;
+    Ok((curve, certification.unwrap_or_default()))
 }
 
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
@@ -306,19 +293,43 @@ pub fn curves(
     analyses: &[Analysis],
     done: impl Fn() + Sync,
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    every(records, analyses, |record, analysis| {
+        let result = curve(record, analysis);
+        done();
+        result
+    })
+}
+
+/// [`curves`] with every fate certified, as [`certified_curve`].
+///
+/// # Errors
+/// As [`curves`].
+pub fn certified_curves(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    done: impl Fn() + Sync,
+) -> Result<Vec<Vec<(IdaCurve, Certification)>>, IdaError> {
+    every(records, analyses, |record, analysis| {
+        let result = certified_curve(record, analysis);
+        done();
+        result
+    })
+}
+
+fn every<T: Send>(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    chain: impl Fn(&NormalisedRecord, &Analysis) -> Result<T, IdaError> + Sync,
+) -> Result<Vec<Vec<T>>, IdaError> {
     // Small blocks of p, alpha first would leave the long chains for the
     // end; rayon steals single chains, so order matters little here.
     let chains: Vec<(usize, usize)> = (0..analyses.len())
         .flat_map(|a| (0..records.len()).map(move |r| (a, r)))
         .collect();
-    let flat: Vec<Result<IdaCurve, IdaError>> = chains
+    let flat: Vec<Result<T, IdaError>> = chains
         .par_iter()
         .with_max_len(1)
-        .map(|&(a, r)| {
-            let result = curve(&records[r], &analyses[a]);
-            done();
-            result
-        })
+        .map(|&(a, r)| chain(&records[r], &analyses[a]))
         .collect();
     let mut flat = flat.into_iter();
     (0..analyses.len())
@@ -339,12 +350,12 @@ pub fn at(
     analysis: &Analysis,
     im: f64,
 ) -> Result<IdaPoint, IdaError> {
-    check(record, analysis)?;
+    let mut chain = Chain::new(record, analysis)?;
     if !(im > 0.0 && im.is_finite()) {
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
     let threshold = uplift_threshold(&analysis.block, analysis.model);
-    Chain { record, analysis, analyses: 0 }.at_im(im, im * threshold)
+    chain.at_im(im, im * threshold)
 }
 
 fn check(
@@ -383,12 +394,77 @@ struct Chain<'a> {
     record: &'a NormalisedRecord,
     analysis: &'a Analysis,
     analyses: u64,
+    /// Counted where fates are certified.
+    certification: Option<Certification>,
 }
 
 /// Margins below this are worth an error estimate.
 const NEAR: f64 = 1e-6;
 
-impl Chain<'_> {
+impl<'a> Chain<'a> {
+    fn new(
+        record: &'a NormalisedRecord,
+        analysis: &'a Analysis,
+    ) -> Result<Self, IdaError> {
+        check(record, analysis)?;
+        Ok(Self { record, analysis, analyses: 0, certification: None })
+    }
+
+    /// Levels to the first overturning, its bisection, and what is above.
+    fn curve(mut self) -> Result<(IdaCurve, Option<Certification>), IdaError> {
+        let (record, analysis) = (self.record, self.analysis);
+        let threshold = uplift_threshold(&analysis.block, analysis.model);
+        let mut points = Vec::new();
+        let mut overturning = None;
+        let mut standing_im = 1.0;
+        let mut level = self.first_level(threshold);
+        loop {
+            let im = self.level_im(level, threshold);
+            if im > analysis.highest_im {
+                break;
+            }
+            let point = self.at_level(level, threshold)?;
+            points.push(point);
+            if point.outcome.is_overturned() {
+                let refined = self.bisect(standing_im, point)?;
+                overturning = Some(FirstOverturning {
+                    scanned_im: point.im,
+                    refined: refined.map(|(_, upper)| upper),
+                    standing_im: refined.map_or(standing_im, |(low, _)| low),
+                });
+                break;
+            }
+            standing_im = point.im;
+            level += 1;
+        }
+        let mut above = Vec::new();
+        if let (Some(first), Some(reach)) =
+            (overturning, analysis.resurrections)
+        {
+            let end = match reach {
+                Resurrections::Multiple(times) => times * first.scanned_im,
+                Resurrections::To(im) => im,
+            };
+            loop {
+                level += 1;
+                if self.level_im(level, threshold) > end {
+                    break;
+                }
+                above.push(self.at_level(level, threshold)?);
+            }
+        }
+        let curve = IdaCurve {
+            record: record.name().to_owned(),
+            record_pga_g: record.pga_g(),
+            velocity_ratio_s: record.velocity_ratio_s(),
+            points,
+            overturning,
+            above,
+            analyses: self.analyses,
+        };
+        Ok((curve, self.certification))
+    }
+
     /// PGA of a level in multiples of gravity.
     fn level_pga_g(&self, level: u64, threshold: f64) -> f64 {
         let k = level as f64;
@@ -477,6 +553,18 @@ impl Chain<'_> {
             initial_ratio: 0.0,
         };
         self.analyses += 1;
+        if let Some(count) = &mut self.certification {
+            let fate = certify(&scene)?;
+            count.add(&fate);
+            return Ok(IdaPoint {
+                im,
+                pga_g: amplitude,
+                slenderness_rad: block.slenderness_rad(),
+                outcome: fate.outcome,
+                fate_margin: fate.margin,
+                resolved: fate.decided,
+            });
+        }
         let response = respond(&scene, &Observe::default())?;
         let resolved = response.fate_margin > NEAR || {
             let careful = Observe { accuracy: true, ..Observe::default() };

@@ -14,9 +14,10 @@ use crate::number::Real;
 
 /// Post-impact speed over alpha p below which an observer of events lets the
 /// geometric tail of the impacts stand for the rest of them: the tail's own
-/// error is of second order in it.
+/// error is of second order in it (over the square of the least downward
+/// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
-    if N::ROUNDOFF < f64::ROUNDOFF { 1e-18 } else { 1e-10 }
+    if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
 }
 
 /// Truncation allowed per unit of time, in roundoffs of the slenderness

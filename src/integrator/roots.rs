@@ -159,6 +159,23 @@ fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
 #[cfg(test)]
 mod tests {
     use super::first_descent;
+    use crate::number::Number;
+    use crate::number::double::DoubleDouble;
+
+    #[test]
+    fn tells_roots_apart_that_are_one_in_double_precision() {
+        // (1/2 - tau) (1/2 + 2^-40 - tau), and (tau - 1/2)^2 + 2^-90.
+        let [half, gap, lift] =
+            [0.5, libm::scalbn(1.0, -40), libm::scalbn(1.0, -90)]
+                .map(DoubleDouble::from_f64);
+        let one = DoubleDouble::one();
+        let pair = [half * (half + gap), -(one + gap), one];
+        let found = first_descent(&pair, one).map(|tau| tau - half);
+        assert!(found.is_some_and(|off| off.hi().abs() < 1e-19), "{found:?}");
+        let miss = [half * half + lift, -one, one];
+        assert_eq!(first_descent(&miss, one), None);
+        assert!(first_descent(&[0.25, -1.0, 1.0], 1.0).is_some());
+    }
 
     /// Coefficients of the product of (r - tau) for the roots given.
     fn with_roots(roots: &[f64]) -> Vec<f64> {

@@ -7,6 +7,7 @@
 //! precision.
 
 pub mod dispatch;
+pub mod double;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -8,15 +8,16 @@ use crate::integrator::forcing::{Forcing, Place, Silence};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{expand, slope, value};
 use crate::integrator::{
-    HistoryPoint, Impact, Observe, Outcome, Response, SMOOTH, Scene, Side,
-    Work,
+    HistoryPoint, Impact, Observe, Outcome, Response, Scene, Side, Work,
 };
 use crate::number::Real;
 
 /// Post-impact speed over alpha p below which an observer of events lets the
 /// geometric tail of the impacts stand for the rest of them: the tail's own
 /// error is of second order in it.
-const TAIL_SPEED: f64 = 1e-10;
+pub(crate) fn tail_speed<N: Real>() -> f64 {
+    if N::ROUNDOFF < f64::ROUNDOFF { 1e-18 } else { 1e-10 }
+}
 
 /// Truncation allowed per unit of time, in roundoffs of the slenderness
 /// angle: what rounding does anyway.
@@ -40,14 +41,23 @@ pub(crate) struct Record<N> {
     pub peak_time_s: Option<N>,
     pub uplift_time_s: Option<N>,
     pub rest_time_s: Option<N>,
-    pub impacts: Vec<Impact>,
-    pub history: Vec<HistoryPoint>,
+    pub impacts: Vec<Impact<N>>,
+    pub history: Vec<HistoryPoint<N>>,
     pub work: Work,
     /// Largest |a/g| met, for the margin of a run without uplift.
     pub accuracy: Option<Accuracy>,
 }
 
-pub(crate) struct Driver<'f, N, G, const LEN: usize, const F: usize> {
+/// Steps by a series of `SIZE` coefficients, and by one of `HARD` where that
+/// leaves too much; the forcing's series has `F`.
+pub(crate) struct Driver<
+    'f,
+    N,
+    G,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> {
     dynamics: Dynamics<N>,
     forcing: &'f G,
     record: Record<N>,
@@ -98,7 +108,8 @@ enum Event<N> {
     Overturning(N),
 }
 
-impl<'f, N, G, const SIZE: usize, const F: usize> Driver<'f, N, G, SIZE, F>
+impl<'f, N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<'f, N, G, SIZE, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -136,7 +147,7 @@ where
 
     /// Runs the scene to its end.
     #[inline(always)]
-    pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response {
+    pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response<N> {
         self.observe(observe);
         let start = Place { piece: 0, offset: N::zero() };
         if scene.initial_ratio > 0.0 {
@@ -165,7 +176,8 @@ where
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
         self.until_s = observe.until_s.map(N::from_f64);
-        self.record.accuracy = observe.accuracy.then(Accuracy::default);
+        self.record.accuracy =
+            observe.accuracy.then(|| Accuracy::new(N::ROUNDOFF));
     }
 
     /// Alternates rest and flight from a place at rest on.
@@ -271,7 +283,7 @@ where
             if last {
                 self.tolerance = N::one() / N::zero();
             }
-            let done = self.attempt::<SMOOTH>(step, part);
+            let done = self.attempt::<HARD>(step, part);
             self.tolerance = tolerance;
             match done {
                 // Short of the step's end: go on from there.
@@ -506,8 +518,8 @@ where
         self.record.work.impacts += 1;
         if self.events && speed > N::zero() {
             self.record.impacts.push(Impact {
-                time_s: self.time_s(step.place).to_f64(),
-                speed_before_rad_s: (speed * self.dynamics.p).to_f64(),
+                time_s: self.time_s(step.place),
+                speed_before_rad_s: speed * self.dynamics.p,
             });
         }
         let f = self.oriented(step.place, side, false);
@@ -590,7 +602,7 @@ where
         if !(w * w / (two * least) * worst < self.record.peak) {
             return None;
         }
-        let tail = self.dynamics.alpha * N::from_f64(TAIL_SPEED);
+        let tail = self.dynamics.alpha * N::from_f64(tail_speed::<N>());
         if self.events && !(w < tail) {
             return None;
         }
@@ -614,8 +626,7 @@ where
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
             let (a, b) = self.dynamics.drive(&f);
-            let (c, v): ([N; SMOOTH], [N; SMOOTH]) =
-                self.expand(u, w, (&a, &b));
+            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, (&a, &b));
             if let Some(tau) = first_descent(&v, left) {
                 return self.beyond(value(&c, tau));
             }
@@ -709,9 +720,9 @@ where
         let mut time_s = self.record.history.len() as f64 * interval;
         while time_s <= to_s.to_f64() {
             self.record.history.push(HistoryPoint {
-                time_s,
-                rotation_rad: 0.0,
-                velocity_rad_s: 0.0,
+                time_s: N::from_f64(time_s),
+                rotation_rad: N::zero(),
+                velocity_rad_s: N::zero(),
             });
             time_s = self.record.history.len() as f64 * interval;
         }
@@ -730,23 +741,25 @@ where
         let Some(interval) = self.interval_s else { return };
         let start_s = self.time_s(place);
         let p = self.dynamics.p;
+        let sign = N::from_f64(side.sign());
         loop {
             let time_s = self.record.history.len() as f64 * interval;
-            let at = (N::from_f64(time_s) - start_s) * p;
+            let time_s = N::from_f64(time_s);
+            let at = (time_s - start_s) * p;
             if !(at <= tau) {
                 return;
             }
             let at = if at > N::zero() { at } else { N::zero() };
             self.record.history.push(HistoryPoint {
                 time_s,
-                rotation_rad: side.sign() * value(c, at).to_f64(),
-                velocity_rad_s: side.sign() * (value(v, at) * p).to_f64(),
+                rotation_rad: sign * value(c, at),
+                velocity_rad_s: sign * (value(v, at) * p),
             });
         }
     }
 
     /// From the end of a flight to the answer.
-    fn conclude(mut self, flight: Flight<N>) -> Response {
+    fn conclude(mut self, flight: Flight<N>) -> Response<N> {
         let alpha = self.dynamics.alpha;
         let mut margin = None;
         let mut overturned = None;
@@ -794,7 +807,8 @@ where
     #[inline(never)]
     fn trace(&mut self, motion: Motion<N>, end_s: N) {
         let silence = Silence::endless(end_s, self.dynamics.p);
-        let mut free = Driver::<N, _, SMOOTH, 1>::new(self.dynamics, &silence);
+        let mut free =
+            Driver::<N, _, HARD, 1, HARD>::new(self.dynamics, &silence);
         free.events = true;
         free.interval_s = self.interval_s;
         free.until_s = self.until_s.or_else(|| {
@@ -820,7 +834,7 @@ where
         self,
         overturned: Option<(N, Side)>,
         margin: Option<f64>,
-    ) -> Response {
+    ) -> Response<N> {
         let alpha = self.dynamics.alpha;
         let record = self.record;
         let moved = record.uplift_time_s.is_some()
@@ -832,10 +846,8 @@ where
             Overturning::HalfPi => (N::right_angle() - record.peak) / alpha,
         };
         let outcome = match overturned {
-            Some((time_s, side)) => {
-                Outcome::Overturned { time_s: time_s.to_f64(), side }
-            }
-            None if moved => Outcome::Rocked { peak_ratio: ratio.to_f64() },
+            Some((time_s, side)) => Outcome::Overturned { time_s, side },
+            None if moved => Outcome::Rocked { peak_ratio: ratio },
             None => Outcome::NoUplift,
         };
         let fate_margin = match margin {
@@ -846,10 +858,10 @@ where
         let accuracy = record.accuracy;
         Response {
             outcome,
-            peak_ratio: ratio.to_f64(),
-            peak_time_s: record.peak_time_s.map(Real::to_f64),
-            uplift_time_s: record.uplift_time_s.map(Real::to_f64),
-            rest_time_s: record.rest_time_s.map(Real::to_f64),
+            peak_ratio: ratio,
+            peak_time_s: record.peak_time_s,
+            uplift_time_s: record.uplift_time_s,
+            rest_time_s: record.rest_time_s,
             impacts: record.impacts,
             fate_margin,
             error_estimate: accuracy.map(|a| a.peak_error()),

@@ -53,6 +53,10 @@ pub struct ArmCurves {
     pub curves: Vec<Vec<ResponseCurve>>,
 }
 
+/// Theta/alpha every [`HISTORY_INTERVAL_S`], and whether the block
+/// overturned.
+pub type ShownHistory = (Vec<f64>, bool);
+
 /// Histories of the chosen records, and how far all records' histories and
 /// curves are from the reference slenderness, for one frequency parameter.
 #[derive(Clone, Debug)]
@@ -61,7 +65,7 @@ pub struct SingleRecords {
     pub im: f64,
     /// Theta/alpha of the chosen records, by record, then by slenderness,
     /// and whether the block overturned.
-    pub histories: Vec<Vec<(Vec<f64>, bool)>>,
+    pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
     pub apart: Vec<Vec<Apart>>,
 }
@@ -120,9 +124,9 @@ pub struct SuiteResults {
     pub single: Vec<SingleRecords>,
     /// By arm; ordinary suite only.
     pub stripes: Vec<StripeDemands>,
-    /// Slenderness-adjusted curves by arm, frequency, record; ordinary
-    /// suite only.
-    pub adjusted: Vec<(Arm, Vec<Vec<ResponseCurve>>)>,
+    /// Slenderness-adjusted curves by arm; by frequency instead of block,
+    /// then by record; ordinary suite only.
+    pub adjusted: Vec<ArmCurves>,
 }
 
 impl SuiteResults {
@@ -280,7 +284,7 @@ impl Plan {
             .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
             .collect();
         let im = common_level(&standing);
-        let all: Vec<(Vec<(Vec<f64>, bool)>, Vec<Apart>)> = (0..records.len())
+        let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
             .into_par_iter()
             .map(|record| {
                 let histories: Vec<(Vec<f64>, f64)> = slendernesses
@@ -325,7 +329,7 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<(Arm, Vec<Vec<ResponseCurve>>)>, StudyError> {
+    ) -> Result<Vec<ArmCurves>, StudyError> {
         let drawn = self.drawn();
         let frequencies = 0..FREQUENCIES_RAD_S.len();
         let tasks = drawn.len() * frequencies.len() * records.len();
@@ -333,7 +337,7 @@ impl Plan {
         drawn
             .into_iter()
             .map(|arm| {
-                let by_frequency = frequencies
+                let curves = frequencies
                     .clone()
                     .map(|frequency| {
                         let block = blocks[position(frequency, REFERENCE)];
@@ -346,7 +350,7 @@ impl Plan {
                             .collect::<Result<Vec<_>, _>>()
                     })
                     .collect::<Result<_, _>>()?;
-                Ok((arm, by_frequency))
+                Ok(ArmCurves { arm, curves })
             })
             .collect()
     }
@@ -379,7 +383,7 @@ impl Plan {
             })
             .collect::<Result<_, _>>()?;
         let mut out = Vec::new();
-        for (arm, adjusted) in &results.adjusted {
+        for ArmCurves { arm, curves: adjusted } in &results.adjusted {
             let Some(curves) = results.curves(*arm) else { continue };
             let apply = |runs: &[Vec<f64>], curves: &[ResponseCurve]| {
                 used.iter()

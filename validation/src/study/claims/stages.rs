@@ -338,7 +338,7 @@ fn quantile_curves(
 ) -> Result<Vec<Claim>, StudyError> {
     let curves = results.ordinary.curves(arm).ok_or(StudyError::NoArm)?;
     let (mut slender, mut adjusted): (f64, f64) = (0.0, 0.0);
-    let by_frequency = results.ordinary.adjusted.iter().find(|a| a.0 == arm);
+    let by_frequency = results.ordinary.adjusted.iter().find(|a| a.arm == arm);
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         let reference = medians(&curves[position(frequency, REFERENCE)])?;
         for slenderness in 0..SLENDERNESSES_RAD.len() {
@@ -346,8 +346,8 @@ fn quantile_curves(
             let off = worst_off(&own, &reference);
             slender = if off > slender { off } else { slender };
         }
-        if let Some((_, by_frequency)) = by_frequency {
-            let own = medians(&by_frequency[frequency])?;
+        if let Some(by_frequency) = by_frequency {
+            let own = medians(&by_frequency.curves[frequency])?;
             let off = worst_off(&own, &reference);
             adjusted = if off > adjusted { off } else { adjusted };
         }

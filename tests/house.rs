@@ -18,7 +18,7 @@ use source::{holds, named_modules, tokens};
 const EDGES: &[(&str, &[&str])] = &[
     ("block", &[]),
     ("capacity", &["statistics"]),
-    ("excitation", &["record"]),
+    ("excitation", &["number", "record"]),
     ("fragility", &["statistics"]),
     ("ida", &["block", "excitation", "integrator"]),
     ("integrator", &["block", "excitation", "number"]),
@@ -41,11 +41,11 @@ const SOFT_LIMIT: usize = 400;
 
 /// Files above the limit, how long they may be, and why.
 const LONG_FILES: &[(&str, usize, &str)] = &[
-    ("src/excitation/pulse.rs", 500, "eight pulses, one formula set each"),
+    ("src/excitation/pulse.rs", 600, "eight pulses, one formula set each"),
     ("src/ida.rs", 550, "levels, chain and bisection share one state"),
-    ("src/integrator.rs", 450, "the public types of a scene, documented"),
+    ("src/integrator.rs", 500, "the public types of a scene, documented"),
     ("src/integrator/coast.rs", 500, "one closed form with its cases"),
-    ("src/integrator/driver.rs", 900, "one state machine of the motion"),
+    ("src/integrator/driver.rs", 950, "one state machine of the motion"),
     ("src/integrator/forcing.rs", 450, "one step shape for each excitation"),
     ("src/record/tests.rs", 500, "one small file for each format"),
     ("validation/src/naive.rs", 500, "whole on purpose: shares nothing"),

@@ -1,126 +1,25 @@
 //! What must hold for any block and any motion, on random ones. Cases are
 //! drawn from a fixed seed, so a failure repeats.
 
-use std::sync::LazyLock;
-
 use proptest::collection::vec;
 use proptest::prelude::*;
-use proptest::test_runner::{Config, RngSeed};
 
 use rocking::block::{Block, Restitution};
 use rocking::capacity::{InversionRule, ResponseCurve};
-use rocking::excitation::{
-    Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
-};
+use rocking::excitation::{Excitation, NormalisedRecord, Pulse, PulseKind};
 use rocking::ida::{Analysis, Grid, curve};
 use rocking::integrator::{
-    Model, Observe, Outcome, Overturning, Response, Scene, respond,
+    Model, Outcome, Overturning, Response, Scene, respond,
 };
-use rocking::record::Accelerogram;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
-fn config(cases: u32) -> Config {
-    static SEED: LazyLock<u64> = LazyLock::new(|| {
-        println!("properties: seed 1234");
-        1234
-    });
-    Config {
-        cases,
-        rng_seed: RngSeed::Fixed(*SEED),
-        failure_persistence: None,
-        ..Config::default()
-    }
-}
+#[path = "properties/drawn.rs"]
+mod drawn;
 
-/// What a scene is made of, but for the excitation.
-#[derive(Clone, Copy, Debug)]
-struct Body {
-    alpha_rad: f64,
-    p_rad_s: f64,
-    eta: f64,
-    model: Model,
-    overturning: Overturning,
-}
-
-fn body() -> impl Strategy<Value = Body> {
-    (
-        0.02..0.6_f64,
-        0.8..6.0_f64,
-        prop_oneof![Just(1.0), 0.4..1.0_f64],
-        prop_oneof![Just(Model::Nonlinear), Just(Model::Linearized)],
-        prop_oneof![Just(Overturning::Alpha), Just(Overturning::HalfPi)],
-    )
-        .prop_map(|(alpha_rad, p_rad_s, eta, model, overturning)| Body {
-            alpha_rad,
-            p_rad_s,
-            eta,
-            model,
-            overturning,
-        })
-}
-
-/// Samples in g with zeros, plateaus, spikes and noise among them.
-fn samples() -> impl Strategy<Value = Vec<f64>> {
-    let sample = prop_oneof![
-        6 => -1.0..1.0_f64,
-        2 => Just(0.0),
-        1 => Just(0.25),
-        1 => -4.0..4.0_f64,
-    ];
-    (vec((sample, 1..4_usize), 2..60), 0.05..1.5_f64).prop_map(
-        |(runs, size)| {
-            let repeat = |(a, n): (f64, usize)| vec![size * a; n];
-            runs.into_iter().flat_map(repeat).collect()
-        },
-    )
-}
-
-fn interval_s() -> impl Strategy<Value = f64> {
-    prop_oneof![Just(0.005), Just(0.01), Just(0.02), 0.002..0.05_f64]
-}
-
-fn record(dt_s: f64, samples: &[f64]) -> Accelerogram {
-    Accelerogram::try_new("drawn", dt_s, samples.to_vec()).unwrap()
-}
-
-fn scene<'a>(body: Body, excitation: Excitation<'a>) -> Scene<'a> {
-    Scene {
-        block: Block::try_new(body.alpha_rad, body.p_rad_s).unwrap(),
-        restitution: Restitution::constant(body.eta).unwrap(),
-        model: body.model,
-        overturning: body.overturning,
-        excitation,
-        initial_ratio: 0.0,
-    }
-}
-
-/// Ends observation, because eta = 1 never comes to rest.
-const UNTIL_S: f64 = 12.0;
-
-fn observe() -> Observe {
-    Observe {
-        events: true,
-        accuracy: true,
-        history_interval_s: Some(0.02),
-        until_s: Some(UNTIL_S),
-    }
-}
-
-fn run(body: Body, excitation: Excitation<'_>) -> Response {
-    respond(&scene(body, excitation), &observe()).unwrap()
-}
-
-fn under(body: Body, record: &Accelerogram) -> Response {
-    run(body, Excitation::Record(ScaledRecord::by_factor(record, 1.0)))
-}
-
-fn close(a: Option<f64>, b: Option<f64>, shift: f64, tolerance: f64) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => (a + shift - b).abs() <= tolerance,
-        (None, None) => true,
-        _ => false,
-    }
-}
+use drawn::{
+    UNTIL_S, body, close, config, interval_s, observe, record, run, samples,
+    scene, under,
+};
 
 proptest! {
     #![proptest_config(config(192))]

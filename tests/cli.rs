@@ -178,7 +178,7 @@ fn a_flag_that_the_pulse_does_not_use_is_refused() {
         ("--pulse triangle --duration-s 1 --units g", "--units"),
         ("--free --initial-ratio 0.5 --im-kind pgv", "--im"),
         ("--record x.at2 --scale 2 --im-kind pgv", "--im"),
-        ("--pulse triangle --duration-s 1 --initial-ratio 0.5", "--free"),
+        ("--pulse triangle --duration-s 1 --initial-ratio 0.5", "--initial"),
         ("--pulse triangle --duration-s 1 --record x.at2", "--record"),
     ] {
         let error = refused(&place, &format!("respond {BLOCK} {arguments}"));

@@ -185,7 +185,12 @@ proptest! {
             Scene { initial_ratio: ratio, ..scene(body, Excitation::Free) };
         let response = respond(&scene, &observe()).unwrap();
         prop_assert!(!response.outcome.is_overturned());
-        prop_assert!((response.peak_ratio - ratio).abs() < 1e-15);
+        // Without loss a later peak may be larger, by rounding of the energy
+        // over its slope there.
+        let slope = body.alpha_rad * body.alpha_rad * (1.0 - ratio);
+        let rounding = 16.0 * f64::EPSILON / slope;
+        let later = if body.eta < 0.99 { 0.0 } else { rounding };
+        prop_assert!((response.peak_ratio - ratio).abs() <= later);
         for pair in response.impacts.windows(2) {
             let expected = body.eta * pair[0].speed_before_rad_s;
             let gap = (pair[1].speed_before_rad_s - expected).abs();

@@ -223,8 +223,7 @@ impl ExcitationArgs {
         self.pga.or(by_im)
     }
 
-    /// Refuses a pulse's flag that the chosen pulse, or a record, has no use
-    /// for.
+    /// Refuses a flag that the chosen excitation has no use for.
     fn refuse_unused(&self) -> Result<(), Failure> {
         use PulseName as P;
         let sines = [P::OneSine, P::HalfSine, P::OneCosine];
@@ -243,17 +242,33 @@ impl ExcitationArgs {
             ("--gamma", self.gamma.is_some(), &mavroeidis),
             ("--phase-rad", self.phase_rad.is_some(), &mavroeidis),
         ];
+        let chosen = match self.pulse {
+            Some(kind) => format!("--pulse {}", kind.name()),
+            None if self.free => "--free".to_owned(),
+            None => "--record".to_owned(),
+        };
+        let unused = |flag: &str| {
+            Err(Failure::input(format!("{flag} is not used with {chosen}")))
+        };
+        // The parser lets a flag stand that requires one which the chosen
+        // excitation excludes.
+        let of_record = self.record.is_some();
+        if self.dt.is_some() && !of_record {
+            return unused("--dt");
+        }
+        if self.units.is_some() && !of_record {
+            return unused("--units");
+        }
+        if self.initial_ratio.is_some() && !self.free {
+            return unused("--initial-ratio");
+        }
+        if self.im_kind.is_some() && self.im.is_none() {
+            return Err(Failure::input("--im-kind is not used without --im"));
+        }
         for (flag, given, pulses) in used {
             let fits = self.pulse.is_some_and(|kind| pulses.contains(&kind));
             if given && !fits {
-                let chosen = match self.pulse {
-                    Some(kind) => format!("--pulse {}", kind.name()),
-                    None if self.free => "--free".to_owned(),
-                    None => "--record".to_owned(),
-                };
-                return Err(Failure::input(format!(
-                    "{flag} is not used with {chosen}"
-                )));
+                return unused(flag);
             }
         }
         Ok(())

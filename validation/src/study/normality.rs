@@ -105,9 +105,10 @@ mod tests {
         let level: Vec<f64> =
             (1..=44).map(|i| 1.0 + f64::from(i * i)).collect();
         let copies = vec![level; 40];
-        // All levels are accepted together 95 % of the time.
+        // All levels are accepted together, 95 % of the time: the band
+        // reaches 1 and does not shrink to it.
         let (low, high) = null_band(&copies, 1.0, "test").expect("band");
-        assert_eq!((low, high), (0.0, 1.0));
+        assert!(low < 1.0 && high == 1.0, "{low} {high}");
         assert!(null_band(&copies, 2.0, "test").is_none());
     }
 }

@@ -40,8 +40,8 @@ const SIZE: usize = 28;
 /// };
 /// let answer = respond_precise(&scene, &Observe::default())?;
 /// // A 36-digit reference: 0.493881599743772889432469876681278552.
-/// let rest = answer.peak_ratio.lo() + (answer.peak_ratio.hi() - 0.49388159974377286);
-/// assert!((rest - 2.9432469876681e-17).abs() < 1e-28);
+/// assert_eq!(answer.peak_ratio.hi(), 0.4938815997437729);
+/// assert!((answer.peak_ratio.lo() - 8.348755566601465e-18).abs() < 1e-30);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn respond_precise(

@@ -42,16 +42,13 @@ const SOFT_LIMIT: usize = 400;
 /// Files above the limit, how long they may be, and why.
 const LONG_FILES: &[(&str, usize, &str)] = &[
     ("src/excitation/pulse.rs", 600, "eight pulses, one formula set each"),
-    ("src/ida.rs", 550, "levels, chain and bisection share one state"),
+    ("src/ida.rs", 650, "levels, chain and bisection share one state"),
     ("src/integrator.rs", 500, "the public types of a scene, documented"),
     ("src/integrator/coast.rs", 500, "one closed form with its cases"),
     ("src/integrator/driver.rs", 950, "one state machine of the motion"),
     ("src/integrator/forcing.rs", 450, "one step shape for each excitation"),
     ("src/record/tests.rs", 500, "one small file for each format"),
-    ("validation/src/naive.rs", 500, "whole on purpose: shares nothing"),
-    ("validation/src/study/analyses.rs", 550, "all analyses of the plan"),
-    ("validation/src/study/claims/stages.rs", 550, "four stages, one form"),
-    ("validation/src/verdict.rs", 450, "one function gives the verdict"),
+    ("tests/double.rs", 450, "one family of checks on one set of scenes"),
 ];
 
 /// Folders of the root that people see in a clone.

@@ -264,6 +264,7 @@ fn json_is_json_and_missing_values_have_reasons() {
         format!("{BLOCK} {sine} 0.5"),
         format!("{BLOCK} {sine} 1.5"),
         format!("{BLOCK} {sine} 1.5 --until 0.3"),
+        format!("{BLOCK} {sine} 1.5 --certify"),
         format!("{BLOCK} {sine} 9"),
         format!("{BLOCK} {sine} 9 --overturn half-pi --model linearized"),
         format!("{BLOCK} --free --initial-ratio 0.9 --eta 1 --until 9"),

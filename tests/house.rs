@@ -20,7 +20,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("capacity", &["statistics"]),
     ("excitation", &["number", "record"]),
     ("fragility", &["statistics"]),
-    ("ida", &["block", "excitation", "integrator"]),
+    ("ida", &["block", "excitation", "integrator", "record"]),
     ("integrator", &["block", "excitation", "number"]),
     ("number", &[]),
     ("record", &["units"]),

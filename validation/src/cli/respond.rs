@@ -236,6 +236,9 @@ impl Setting<'_> {
         let mut because = |key: &str, text: &str| {
             reasons.insert(key.to_owned(), Value::from(text));
         };
+        if self.certified.is_none() {
+            because("certified", "not asked for by --certify");
+        }
         let overturned = response.outcome.is_overturned();
         if response.outcome == Outcome::NoUplift {
             for key in ["peak_time_s", "uplift_time_s", "rest_time_s"] {

@@ -8,7 +8,8 @@ pub(crate) use pulse::Shape;
 pub use pulse::{Pulse, PulseError, PulseKind};
 pub use rest_index::RestIndex;
 
-use crate::record::Accelerogram;
+use crate::number::Number;
+use crate::record::{Accelerogram, AccelerogramError};
 
 /// Ground acceleration as the block feels it.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,9 @@ pub struct ScaledRecord<'a> {
     samples: &'a [f64],
     dt_s: f64,
     amplitude: f64,
+    /// What every sample is to be divided by: 1, or gravity in m/s2. Kept
+    /// apart because the quotient is rounded in the precision of the run.
+    divisor: f64,
     index: Option<&'a RestIndex>,
 }
 
@@ -43,8 +47,40 @@ impl<'a> ScaledRecord<'a> {
             samples: record.samples_g(),
             dt_s: record.dt_s(),
             amplitude: factor,
+            divisor: 1.0,
             index: None,
         }
+    }
+
+    /// Samples in m/s2, each `dt_s` after the other, under gravity in m/s2.
+    ///
+    /// # Errors
+    /// [`AccelerogramError`] for fewer than two samples, a sample that is
+    /// not finite, or an interval or gravity that is not positive.
+    ///
+    /// ```
+    /// use rocking::excitation::ScaledRecord;
+    /// let samples_m_s2 = [0.0, 2.5, -3.0, 0.0];
+    /// let record = ScaledRecord::try_new_si(&samples_m_s2, 0.1, 9.81)?;
+    /// assert_eq!(record.factor::<f64>(), 1.0 / 9.81);
+    /// # Ok::<(), rocking::record::AccelerogramError>(())
+    /// ```
+    pub fn try_new_si(
+        samples_m_s2: &'a [f64],
+        dt_s: f64,
+        gravity_m_s2: f64,
+    ) -> Result<Self, AccelerogramError> {
+        Accelerogram::check(dt_s, samples_m_s2)?;
+        if !(gravity_m_s2 > 0.0 && gravity_m_s2.is_finite()) {
+            return Err(AccelerogramError::Gravity(gravity_m_s2));
+        }
+        Ok(Self {
+            samples: samples_m_s2,
+            dt_s,
+            amplitude: 1.0,
+            divisor: gravity_m_s2,
+            index: None,
+        })
     }
 
     /// The record scaled to a peak ground acceleration in multiples of
@@ -55,6 +91,7 @@ impl<'a> ScaledRecord<'a> {
             samples: &record.samples,
             dt_s: record.dt_s,
             amplitude: pga_g,
+            divisor: 1.0,
             index: Some(&record.index),
         }
     }
@@ -80,7 +117,13 @@ impl<'a> ScaledRecord<'a> {
     /// Factor on every sample.
     #[must_use]
     pub fn amplitude(&self) -> f64 {
-        self.amplitude
+        self.factor()
+    }
+
+    /// Factor on every sample, in the precision of the type.
+    #[must_use]
+    pub fn factor<N: Number>(&self) -> N {
+        N::from_f64(self.amplitude) / N::from_f64(self.divisor)
     }
 }
 

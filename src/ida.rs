@@ -6,16 +6,15 @@
 //! p PGV/PGA.
 
 mod batch;
-#[cfg(test)]
-mod tests;
 
+use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::{
-    Model, Observe, Outcome, Overturning, Response, Scene, SceneError,
-    respond, uplift_threshold,
+    Certified, Engine, Model, Observe, Outcome, Overturning, Response, Scene,
+    SceneError, certify, respond, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
 
@@ -249,10 +248,7 @@ pub fn curve(
     analysis: &Analysis,
 ) -> Result<IdaCurve, IdaError> {
     let mut climb = Climb::start(record, analysis)?;
-    while let Some(level) = climb.next_level()? {
-        let response = respond(&level.scene, &Observe::default())?;
-        climb.settle(&level, &response)?;
-    }
+    climb.ascend()?;
     climb.finish()
 }
 
@@ -278,8 +274,7 @@ impl<'a> Climb<'a> {
         record: &'a NormalisedRecord,
         analysis: &'a Analysis,
     ) -> Result<Self, IdaError> {
-        check(record, analysis)?;
-        let chain = Chain { record, analysis, analyses: 0 };
+        let chain = Chain::new(record, analysis)?;
         let threshold = uplift_threshold(&analysis.block, analysis.model);
         let level = chain.first_level(threshold);
         Ok(Self { chain, threshold, level, points: Vec::new() })
@@ -298,6 +293,15 @@ impl<'a> Climb<'a> {
         self.chain.level(im, pga_g).map(Some)
     }
 
+    /// Makes every level, one after the other.
+    fn ascend(&mut self) -> Result<(), IdaError> {
+        while let Some(level) = self.next_level()? {
+            self.points.push(self.chain.run(&level)?);
+            self.level += 1;
+        }
+        Ok(())
+    }
+
     /// Takes the response of that level.
     fn settle(
         &mut self,
@@ -309,8 +313,12 @@ impl<'a> Climb<'a> {
         Ok(())
     }
 
-    /// Bisects the first overturning and looks above it, as asked.
     fn finish(self) -> Result<IdaCurve, IdaError> {
+        Ok(self.conclude()?.0)
+    }
+
+    /// Bisects the first overturning and looks above it, as asked.
+    fn conclude(self) -> Result<(IdaCurve, Option<Certification>), IdaError> {
         let Self { mut chain, threshold, mut level, points } = self;
         let (record, analysis) = (chain.record, chain.analysis);
         let mut overturning = None;
@@ -338,7 +346,7 @@ impl<'a> Climb<'a> {
                 level += 1;
             }
         }
-        Ok(IdaCurve {
+        let curve = IdaCurve {
             record: record.name().to_owned(),
             record_pga_g: record.pga_g(),
             velocity_ratio_s: record.velocity_ratio_s(),
@@ -346,8 +354,45 @@ impl<'a> Climb<'a> {
             overturning,
             above,
             analyses: chain.analyses,
-        })
+        };
+        Ok((curve, chain.certification))
     }
+}
+
+/// What certification did to a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Certification {
+    /// Analyses whose fate double precision could not tell.
+    pub needed: u64,
+    /// Those of them that double precision had told wrongly.
+    pub moved: u64,
+    /// Those that double-double could not tell either.
+    pub unresolved: u64,
+}
+
+impl Certification {
+    fn add(&mut self, fate: &Certified) {
+        self.needed += u64::from(fate.by == Engine::DoubleDouble);
+        self.moved += u64::from(fate.moved());
+        self.unresolved += u64::from(!fate.decided);
+    }
+}
+
+/// [`curve`] with every fate certified: where the margin does not clear the
+/// error in double precision, the outcome is that of a run in double-double
+/// (see [`certify`]), and the chain goes on from it.
+///
+/// # Errors
+/// As [`curve`].
+pub fn certified_curve(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+) -> Result<(IdaCurve, Certification), IdaError> {
+    let mut climb = Climb::start(record, analysis)?;
+    climb.chain.certification = Some(Certification::default());
+    climb.ascend()?;
+    let (curve, certification) = climb.conclude()?;
+    Ok((curve, certification.unwrap_or_default()))
 }
 
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
@@ -378,6 +423,34 @@ pub fn curves_with(
     batch::curves(records, analyses, isa, &done)
 }
 
+/// [`curves`] with every fate certified, as [`certified_curve`].
+///
+/// # Errors
+/// As [`curves`].
+pub fn certified_curves(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    done: impl Fn() + Sync,
+) -> Result<Vec<Vec<(IdaCurve, Certification)>>, IdaError> {
+    // Rayon steals single chains, so that their order matters little here.
+    let chains: Vec<(usize, usize)> = (0..analyses.len())
+        .flat_map(|a| (0..records.len()).map(move |r| (a, r)))
+        .collect();
+    let flat: Vec<Result<_, IdaError>> = chains
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(a, r)| {
+            let result = certified_curve(&records[r], &analyses[a]);
+            done();
+            result
+        })
+        .collect();
+    let mut flat = flat.into_iter();
+    (0..analyses.len())
+        .map(|_| flat.by_ref().take(records.len()).collect())
+        .collect()
+}
+
 /// Engineering demand parameter at one intensity, whatever happens below it:
 /// peak |theta|/alpha, infinite when overturned.
 ///
@@ -391,12 +464,12 @@ pub fn at(
     analysis: &Analysis,
     im: f64,
 ) -> Result<IdaPoint, IdaError> {
-    check(record, analysis)?;
+    let mut chain = Chain::new(record, analysis)?;
     if !(im > 0.0 && im.is_finite()) {
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
     let threshold = uplift_threshold(&analysis.block, analysis.model);
-    Chain { record, analysis, analyses: 0 }.at_im(im, im * threshold)
+    chain.at_im(im, im * threshold)
 }
 
 fn check(
@@ -435,12 +508,22 @@ struct Chain<'a> {
     record: &'a NormalisedRecord,
     analysis: &'a Analysis,
     analyses: u64,
+    /// Counted where fates are certified.
+    certification: Option<Certification>,
 }
 
 /// Margins below this are worth an error estimate.
 const NEAR: f64 = 1e-6;
 
 impl<'a> Chain<'a> {
+    fn new(
+        record: &'a NormalisedRecord,
+        analysis: &'a Analysis,
+    ) -> Result<Self, IdaError> {
+        check(record, analysis)?;
+        Ok(Self { record, analysis, analyses: 0, certification: None })
+    }
+
     /// PGA of a level in multiples of gravity.
     fn level_pga_g(&self, level: u64, threshold: f64) -> f64 {
         let k = level as f64;
@@ -499,8 +582,26 @@ impl<'a> Chain<'a> {
     /// grid.
     fn at_im(&mut self, im: f64, pga_g: f64) -> Result<IdaPoint, IdaError> {
         let level = self.level(im, pga_g)?;
-        let response = respond(&level.scene, &Observe::default())?;
-        self.settle(&level, &response)
+        self.run(&level)
+    }
+
+    /// Makes the analysis of a level.
+    fn run(&mut self, level: &Level<'_>) -> Result<IdaPoint, IdaError> {
+        let Some(count) = &mut self.certification else {
+            let response = respond(&level.scene, &Observe::default())?;
+            return self.settle(level, &response);
+        };
+        self.analyses += 1;
+        let fate = certify(&level.scene)?;
+        count.add(&fate);
+        Ok(IdaPoint {
+            im: level.im,
+            pga_g: level.pga_g,
+            slenderness_rad: level.scene.block.slenderness_rad(),
+            outcome: fate.outcome,
+            fate_margin: fate.margin,
+            resolved: fate.decided,
+        })
     }
 
     /// The analysis at an intensity, which is `pga_g` for the block of the
@@ -589,3 +690,6 @@ impl<'a> Chain<'a> {
         Ok(Some((low, high)))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -8,15 +8,19 @@
 //! uplift threshold; after the excitation energy decides in closed form.
 
 mod accuracy;
+mod certify;
 mod coast;
 mod driver;
 mod dynamics;
 mod forcing;
 pub(crate) mod pool;
+mod precise;
 mod roots;
 mod taylor;
 
+pub use certify::{Certified, Engine, certify};
 pub use dynamics::{Model, Overturning, uplift_threshold};
+pub use precise::{respond_in, respond_precise};
 
 use thiserror::Error;
 
@@ -60,18 +64,18 @@ pub struct Observe {
 
 /// What became of the block.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum Outcome<N = f64> {
     /// The ground acceleration never exceeded the uplift threshold.
     NoUplift,
     /// It rocked and stands.
     Rocked {
         /// Peak |theta|/alpha.
-        peak_ratio: f64,
+        peak_ratio: N,
     },
     /// It overturned.
     Overturned {
         /// When the criterion was met, s.
-        time_s: f64,
+        time_s: N,
         /// Sign of the rotation.
         side: Side,
     },
@@ -88,7 +92,9 @@ impl Outcome {
             Self::Overturned { .. } => f64::INFINITY,
         }
     }
+}
 
+impl<N> Outcome<N> {
     /// True when the block overturned.
     #[must_use]
     pub fn is_overturned(&self) -> bool {
@@ -125,22 +131,22 @@ impl Side {
 
 /// An impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impact {
+pub struct Impact<N = f64> {
     /// Time in s.
-    pub time_s: f64,
+    pub time_s: N,
     /// Absolute angular velocity just before it, rad/s.
-    pub speed_before_rad_s: f64,
+    pub speed_before_rad_s: N,
 }
 
 /// A point of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HistoryPoint {
+pub struct HistoryPoint<N = f64> {
     /// Time in s.
-    pub time_s: f64,
+    pub time_s: N,
     /// Rotation theta in rad, signed.
-    pub rotation_rad: f64,
+    pub rotation_rad: N,
     /// Angular velocity in rad/s, signed.
-    pub velocity_rad_s: f64,
+    pub velocity_rad_s: N,
 }
 
 /// How much was computed.
@@ -158,21 +164,21 @@ pub struct Work {
     pub rest_scans: u64,
 }
 
-/// The answer to a scene.
+/// The answer to a scene, in the numbers of the run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Response {
-    /// What became of the block, by the double-precision run.
-    pub outcome: Outcome,
+pub struct Response<N = f64> {
+    /// What became of the block, by this run.
+    pub outcome: Outcome<N>,
     /// Largest |theta|/alpha reached before overturning or at all.
-    pub peak_ratio: f64,
+    pub peak_ratio: N,
     /// When the peak was reached, s.
-    pub peak_time_s: Option<f64>,
+    pub peak_time_s: Option<N>,
     /// First uplift, s.
-    pub uplift_time_s: Option<f64>,
+    pub uplift_time_s: Option<N>,
     /// Final coming to rest, s; recorded with events.
-    pub rest_time_s: Option<f64>,
+    pub rest_time_s: Option<N>,
     /// Impacts in order; recorded with events.
-    pub impacts: Vec<Impact>,
+    pub impacts: Vec<Impact<N>>,
     /// Distance of the run from the other fate, in units of the slenderness
     /// angle (see the design of the criterion in [`Overturning`]).
     pub fate_margin: f64,
@@ -186,12 +192,12 @@ pub struct Response {
     /// Work counters.
     pub work: Work,
     /// Signed rotation in time; recorded when asked for.
-    pub history: Vec<HistoryPoint>,
+    pub history: Vec<HistoryPoint<N>>,
 }
 
-impl Response {
+impl<N> Response<N> {
     /// False where the error estimate does not clear the fate margin: the
-    /// fate cannot be told in double precision. True without an estimate.
+    /// fate cannot be told in this precision. True without an estimate.
     #[must_use]
     pub fn is_resolved(&self) -> bool {
         self.fate_error.is_none_or(|error| self.fate_margin >= error)
@@ -329,19 +335,33 @@ fn run(
     order: Option<Order>,
     isa: Isa,
 ) -> Result<Response, SceneError> {
-    let own;
-    let index = match scene.excitation {
-        Excitation::Record(record) => Some(match record.index() {
-            Some(index) => index,
-            None => {
-                own = RestIndex::new(record.samples());
-                &own
-            }
-        }),
-        Excitation::Pulse(_) | Excitation::Free => None,
-    };
+    let own = own_index(scene);
+    let index = index_of(scene, own.as_ref());
     let isa = isa.scalar();
     Ok(isa.run(Run { scene, observe, index, order, isa }))
+}
+
+/// Index of a record that brings none.
+fn own_index(scene: &Scene<'_>) -> Option<RestIndex> {
+    match scene.excitation {
+        Excitation::Record(record) if record.index().is_none() => {
+            Some(RestIndex::new(record.samples()))
+        }
+        Excitation::Record(_) | Excitation::Pulse(_) | Excitation::Free => {
+            None
+        }
+    }
+}
+
+/// The record's index, or its own; none without a record.
+fn index_of<'a>(
+    scene: &Scene<'a>,
+    own: Option<&'a RestIndex>,
+) -> Option<&'a RestIndex> {
+    match scene.excitation {
+        Excitation::Record(record) => record.index().or(own),
+        Excitation::Pulse(_) | Excitation::Free => None,
+    }
 }
 
 /// One run, compiled for each instruction-set level.
@@ -386,19 +406,19 @@ impl Dispatched for Run<'_> {
                 }
                 match model {
                     Model::Nonlinear if step <= SHORT_STEP * GUARD => {
-                        Driver::<_, _, SHORT, 2>::new(
+                        Driver::<_, _, SHORT, 2, SMOOTH>::new(
                             dynamics, forcing, self.isa,
                         )
                         .run(self.scene, self.observe)
                     }
                     Model::Nonlinear if step <= LONG_STEP * GUARD => {
-                        Driver::<_, _, LONG, 2>::new(
+                        Driver::<_, _, LONG, 2, SMOOTH>::new(
                             dynamics, forcing, self.isa,
                         )
                         .run(self.scene, self.observe)
                     }
                     Model::Nonlinear | Model::Linearized => {
-                        Driver::<_, _, SMOOTH, 2>::new(
+                        Driver::<_, _, SMOOTH, 2, SMOOTH>::new(
                             dynamics, forcing, self.isa,
                         )
                         .run(self.scene, self.observe)
@@ -407,13 +427,13 @@ impl Dispatched for Run<'_> {
             }
             (Excitation::Pulse(pulse), _) => {
                 let forcing = PulseForcing::new(pulse, p);
-                Driver::<_, _, SMOOTH, SMOOTH>::new(
+                Driver::<_, _, SMOOTH, SMOOTH, SMOOTH>::new(
                     dynamics, forcing, self.isa,
                 )
                 .run(self.scene, self.observe)
             }
             (Excitation::Record(_) | Excitation::Free, _) => {
-                Driver::<_, _, SMOOTH, 1>::new(
+                Driver::<_, _, SMOOTH, 1, SMOOTH>::new(
                     dynamics,
                     Silence::nothing(),
                     self.isa,
@@ -435,25 +455,25 @@ impl Run<'_> {
         let (scene, observe) = (self.scene, self.observe);
         match order {
             Order::Four => {
-                Driver::<_, _, 5, 2>::new(dynamics, forcing, self.isa)
+                Driver::<_, _, 5, 2, SMOOTH>::new(dynamics, forcing, self.isa)
                     .at_fixed_order()
                     .run(scene, observe)
             }
             Order::Six => {
-                Driver::<_, _, 7, 2>::new(dynamics, forcing, self.isa)
+                Driver::<_, _, 7, 2, SMOOTH>::new(dynamics, forcing, self.isa)
                     .at_fixed_order()
                     .run(scene, observe)
             }
-            Order::Eight => {
-                Driver::<_, _, SHORT, 2>::new(dynamics, forcing, self.isa)
-                    .at_fixed_order()
-                    .run(scene, observe)
-            }
-            Order::Ten => {
-                Driver::<_, _, LONG, 2>::new(dynamics, forcing, self.isa)
-                    .at_fixed_order()
-                    .run(scene, observe)
-            }
+            Order::Eight => Driver::<_, _, SHORT, 2, SMOOTH>::new(
+                dynamics, forcing, self.isa,
+            )
+            .at_fixed_order()
+            .run(scene, observe),
+            Order::Ten => Driver::<_, _, LONG, 2, SMOOTH>::new(
+                dynamics, forcing, self.isa,
+            )
+            .at_fixed_order()
+            .run(scene, observe),
         }
     }
 }

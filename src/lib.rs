@@ -27,3 +27,8 @@ pub mod record;
 pub mod statistics;
 pub mod streams;
 pub mod units;
+
+/// The README's example compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;

@@ -7,6 +7,7 @@
 //! precision.
 
 pub mod dispatch;
+pub mod double;
 pub(crate) mod lanes;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

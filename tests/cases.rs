@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use libtest_mimic::{Arguments, Failed, Trial};
 use rocking_validation::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_validation::methods::{METHODS, WRONG_MODELS};
-use rocking_validation::verdict::run_case;
+use rocking_validation::verdict::{run_all, run_case, snapshot};
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
@@ -93,20 +93,63 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         });
         unknown.map(|stem| format!("cases/{stem} is no family")).collect()
     });
-    let origins = used(|case| vec![case.expect.origin.clone()]);
-    add("every-reference-is-used", {
-        let mut idle = Vec::new();
-        for folder in ["fixtures/references", "fixtures/oracles"] {
-            for name in names(&root.join(folder), ".json") {
-                let path = format!("{folder}/{name}");
-                if !origins.iter().any(|o| o.contains(&path)) {
-                    idle.push(format!("no case uses {path}"));
+    add("every-fixture-is-used", {
+        let mut texts: Vec<String> = Vec::new();
+        for folder in ["src", "validation/src", "tests"] {
+            gather(&root.join(folder), &mut |path| {
+                if path.extension().is_some_and(|e| e == "rs") {
+                    texts.extend(std::fs::read_to_string(path).ok());
                 }
-            }
+            });
         }
+        texts.extend(cases.iter().map(|case| case.expect.origin.clone()));
+        let mut idle = Vec::new();
+        gather(&root.join("fixtures"), &mut |path| {
+            let data = path.extension().is_some_and(|e| {
+                ["json", "csv", "AT2"].iter().any(|x| e == *x)
+            });
+            let name = path.file_name().unwrap_or_default();
+            let name = name.to_string_lossy();
+            if data && !texts.iter().any(|text| text.contains(&*name)) {
+                idle.push(format!("nothing uses {}", path.display()));
+            }
+        });
         idle
     });
+    trials.push(Trial::test("snapshot/validation-json", move || {
+        let quick: Vec<Case> = load_all()
+            .map_err(|e| e.to_string())?
+            .into_iter()
+            .filter(|case| case.cost == Cost::Quick)
+            .collect();
+        let path = root.join("reports/data/validation.json");
+        let found = std::fs::read_to_string(&path).unwrap_or_default();
+        if found == snapshot::text(&quick, &run_all(&quick)) {
+            Ok(())
+        } else {
+            Err(Failed::from(
+                "reports/data/validation.json is stale: see what changed \
+                 with `rocking validate --check`, accept it with `rocking \
+                 validate`",
+            ))
+        }
+    }));
     trials
+}
+
+/// Shows every file below a folder.
+fn gather(folder: &Path, show: &mut dyn FnMut(&Path)) {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut paths: Vec<_> =
+        entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            gather(&path, show);
+        } else {
+            show(&path);
+        }
+    }
 }
 
 /// Names in a folder that end so; none where the folder is missing.

@@ -1,1 +1,365 @@
 //! House rules that the compiler doesn't enforce.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+#[path = "house/fixtures.rs"]
+mod fixtures;
+#[path = "house/source.rs"]
+mod source;
+
+use source::{holds, named_modules, tokens};
+
+/// Which top-level module of the core may name which: the data flow. Tests
+/// inside a module count as the module.
+const EDGES: &[(&str, &[&str])] = &[
+    ("block", &[]),
+    ("capacity", &["statistics"]),
+    ("excitation", &["number", "record"]),
+    ("fragility", &["statistics"]),
+    ("ida", &["block", "excitation", "integrator", "record"]),
+    ("integrator", &["block", "excitation", "number"]),
+    ("number", &[]),
+    ("record", &["units"]),
+    ("statistics", &["streams"]),
+    ("streams", &[]),
+    ("units", &[]),
+];
+
+/// Dependencies of the core. Whoever uses the core gets all of them.
+const CORE_DEPENDENCIES: &[&str] =
+    &["libm", "rand", "rand_distr", "rayon", "statrs", "thiserror"];
+
+/// The only file with `unsafe`.
+const UNSAFE: &str = "src/number/dispatch.rs";
+
+/// Lines that a file should not exceed.
+const SOFT_LIMIT: usize = 400;
+
+/// Files above the limit, how long they may be, and why.
+const LONG_FILES: &[(&str, usize, &str)] = &[
+    ("src/excitation/pulse.rs", 600, "eight pulses, one formula set each"),
+    ("src/ida.rs", 650, "levels, chain and bisection share one state"),
+    ("src/integrator.rs", 500, "the public types of a scene, documented"),
+    ("src/integrator/coast.rs", 500, "one closed form with its cases"),
+    ("src/integrator/driver.rs", 950, "one state machine of the motion"),
+    ("src/integrator/forcing.rs", 450, "one step shape for each excitation"),
+    ("src/record/tests.rs", 500, "one small file for each format"),
+    ("tests/double.rs", 450, "one family of checks on one set of scenes"),
+];
+
+/// Folders of the root that people see in a clone.
+const FOLDERS: &[&str] =
+    &["src", "validation", "tests", "fixtures", "reports", ".ci"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn read(path: &str) -> String {
+    fs::read_to_string(root().join(path))
+        .unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// All files below a folder, as paths from the root, in order.
+fn files(folder: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let Ok(entries) = fs::read_dir(root().join(folder)) else {
+        return found;
+    };
+    for entry in entries {
+        let entry = entry.unwrap();
+        let path = format!("{folder}/{}", entry.file_name().display());
+        if entry.file_type().unwrap().is_dir() {
+            found.extend(files(&path));
+        } else {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn sources(folders: &[&str]) -> Vec<String> {
+    let found: Vec<String> = folders
+        .iter()
+        .flat_map(|folder| files(folder))
+        .filter(|path| path.ends_with(".rs"))
+        .collect();
+    assert!(found.len() > folders.len(), "no sources in {folders:?}");
+    found
+}
+
+fn pass(problems: &[String]) {
+    assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));
+}
+
+/// Modules that a file of the core lies in, without `lib`.
+fn modules_of(path: &str) -> Vec<&str> {
+    let inner = path.trim_start_matches("src/").trim_end_matches(".rs");
+    inner.split('/').filter(|name| *name != "lib").collect()
+}
+
+#[test]
+fn modules_of_the_core_name_only_those_before_them() {
+    let allowed: BTreeMap<&str, &[&str]> = EDGES.iter().copied().collect();
+    let mut problems = Vec::new();
+    let mut found: BTreeSet<(String, String)> = BTreeSet::new();
+    let mut modules: BTreeSet<String> = BTreeSet::new();
+    for path in sources(&["src"]) {
+        let place = modules_of(&path);
+        let Some(&module) = place.first() else { continue };
+        modules.insert(module.to_owned());
+        for name in named_modules(&tokens(&read(&path)), place.len()) {
+            if name == module {
+                continue;
+            }
+            let edges = allowed.get(module).copied().unwrap_or_default();
+            if name == "{" {
+                problems.push(format!("{path}: write `crate::name`"));
+            } else if !edges.contains(&name.as_str()) {
+                problems.push(format!("{path}: {module} may not use {name}"));
+            }
+            found.insert((module.to_owned(), name));
+        }
+    }
+    let listed: BTreeSet<String> =
+        EDGES.iter().map(|(module, _)| (*module).to_owned()).collect();
+    for module in modules.symmetric_difference(&listed) {
+        problems.push(format!("module {module}: in the core or the table"));
+    }
+    for (module, names) in EDGES {
+        for name in *names {
+            if !found.contains(&((*module).to_owned(), (*name).to_owned())) {
+                problems.push(format!("{module} -> {name} is not used"));
+            }
+        }
+    }
+    pass(&problems);
+}
+
+#[test]
+fn allowed_edges_have_no_cycle() {
+    let mut left: Vec<_> = EDGES.to_vec();
+    while !left.is_empty() {
+        let before = left.len();
+        let names: Vec<&str> = left.iter().map(|(name, _)| *name).collect();
+        left.retain(|(_, uses)| uses.iter().any(|u| names.contains(u)));
+        assert!(left.len() < before, "a cycle among {names:?}");
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Manifest {
+    #[serde(default)]
+    dependencies: BTreeMap<String, toml::Value>,
+    #[serde(default)]
+    dev_dependencies: BTreeMap<String, toml::Value>,
+    #[serde(default)]
+    build_dependencies: BTreeMap<String, toml::Value>,
+    #[serde(default)]
+    features: BTreeMap<String, toml::Value>,
+    lints: Option<toml::Value>,
+    #[serde(default)]
+    test: Vec<Target>,
+}
+
+#[derive(Deserialize)]
+struct Target {
+    path: String,
+}
+
+fn manifest(path: &str) -> Manifest {
+    toml::from_str(&read(path)).unwrap()
+}
+
+#[test]
+fn the_core_has_six_dependencies_and_no_features() {
+    let core = manifest("Cargo.toml");
+    let found: Vec<&String> = core.dependencies.keys().collect();
+    assert_eq!(found, CORE_DEPENDENCIES);
+    assert!(core.dev_dependencies.is_empty());
+    assert!(core.build_dependencies.is_empty());
+    assert!(core.features.is_empty());
+}
+
+#[test]
+fn every_dependency_is_used_and_in_the_readme() {
+    let readme = read("README.md");
+    let (core, harness) =
+        (manifest("Cargo.toml"), manifest("validation/Cargo.toml"));
+    let mut problems = Vec::new();
+    let mut direct = BTreeSet::new();
+    let harness_all: Vec<String> = harness
+        .dependencies
+        .into_keys()
+        .chain(harness.dev_dependencies.into_keys())
+        .collect();
+    let core_all: Vec<String> = core.dependencies.into_keys().collect();
+    for (names, folders) in [
+        (core_all, &["src"] as &[&str]),
+        (harness_all, &["validation/src", "tests"]),
+    ] {
+        let words: BTreeSet<String> = sources(folders)
+            .iter()
+            .flat_map(|path| tokens(&read(path)))
+            .collect();
+        for name in names {
+            if !words.contains(&name.replace('-', "_")) {
+                problems.push(format!("{name}: not used in {folders:?}"));
+            }
+            direct.insert(name);
+        }
+    }
+    let row = |name: &str| {
+        readme
+            .lines()
+            .find(|line| line.starts_with(&format!("| `{name}` |")))
+            .map(|line| line.split('|').collect::<Vec<_>>())
+    };
+    for name in &direct {
+        match row(name).as_deref() {
+            Some([_, _, licence, reason, _])
+                if !licence.trim().is_empty() && !reason.trim().is_empty() => {
+            }
+            _ => problems.push(format!("README: no licence, reason: {name}")),
+        }
+    }
+    let table = readme.split("### Dependencies").nth(1).unwrap_or_default();
+    let table = table.split("\n## ").next().unwrap_or_default();
+    for line in table.lines().filter(|line| line.starts_with("| `")) {
+        let name = line.split('`').nth(1).unwrap_or_default();
+        if !direct.contains(name) {
+            problems.push(format!("README: {name} is no dependency"));
+        }
+    }
+    pass(&problems);
+}
+
+#[test]
+fn every_test_file_is_a_target_and_lints_are_the_same() {
+    let harness = manifest("validation/Cargo.toml");
+    let targets: BTreeSet<String> = harness
+        .test
+        .into_iter()
+        .map(|target| target.path.replace("../", ""))
+        .collect();
+    let on_disk: BTreeSet<String> = files("tests")
+        .into_iter()
+        .filter(|path| path.ends_with(".rs") && path.matches('/').count() == 1)
+        .collect();
+    assert_eq!(targets, on_disk);
+    assert!(manifest("Cargo.toml").lints.is_some());
+    assert!(harness.lints.is_some());
+}
+
+#[test]
+fn nothing_is_unsafe_unfinished_or_skipped() {
+    let mut problems = Vec::new();
+    for path in sources(&["src", "validation/src", "tests"]) {
+        let tokens = tokens(&read(&path));
+        let mut refuse = |sequence: &[&str]| {
+            if holds(&tokens, sequence) {
+                problems.push(format!("{path}: {}", sequence.concat()));
+            }
+        };
+        if path != UNSAFE {
+            refuse(&["unsafe"]);
+        }
+        refuse(&["todo", "!"]);
+        refuse(&["unimplemented", "!"]);
+        refuse(&["dbg", "!"]);
+        refuse(&["#", "[", "ignore"]);
+        refuse(&["Other", "(", "String", ")"]);
+    }
+    pass(&problems);
+}
+
+#[test]
+fn the_harness_stands_on_the_public_core() {
+    let mut problems = Vec::new();
+    for path in sources(&["validation/src", "tests"]) {
+        let text = read(&path);
+        let tokens = tokens(&text);
+        let sources = format!("../{}/", "src");
+        if holds(&tokens, &["include", "!"]) || text.contains(&sources) {
+            problems.push(format!("{path}: reads sources of the core"));
+        }
+        // Oracles share nothing with the core; their tests may meet it.
+        if path.starts_with("validation/src/oracles")
+            && !path.ends_with("tests.rs")
+            && holds(&tokens, &["rocking", "::"])
+        {
+            problems.push(format!("{path}: an oracle uses the core"));
+        }
+    }
+    for path in sources(&["src"]) {
+        let tokens = tokens(&read(&path));
+        if tokens.iter().any(|token| token == "rocking_validation") {
+            problems.push(format!("{path}: the core knows the harness"));
+        }
+        if holds(&tokens, &["doc", "(", "hidden", ")"]) {
+            problems.push(format!("{path}: public but hidden"));
+        }
+    }
+    pass(&problems);
+}
+
+#[test]
+fn files_stay_on_one_topic() {
+    let mut problems = Vec::new();
+    let mut seen = BTreeSet::new();
+    for path in sources(&["src", "validation/src", "tests"]) {
+        let lines = read(&path).lines().count();
+        let exception = LONG_FILES.iter().find(|(name, ..)| *name == path);
+        let limit = exception.map_or(SOFT_LIMIT, |(_, limit, _)| *limit);
+        if lines > limit {
+            problems.push(format!("{path}: {lines} lines, limit {limit}"));
+        }
+        if exception.is_some() && lines <= SOFT_LIMIT {
+            problems.push(format!("{path}: {lines} lines, no exception"));
+        }
+        seen.insert(path);
+    }
+    for (path, _, reason) in LONG_FILES {
+        if !seen.contains(*path) || reason.is_empty() {
+            problems.push(format!("{path}: no such file, or no reason"));
+        }
+    }
+    pass(&problems);
+}
+
+#[test]
+fn texts_name_no_place_of_a_machine() {
+    let places = ["home", "root", "work", "tmp", "Users", "mnt", "opt"];
+    let mut texts: Vec<String> =
+        FOLDERS.iter().flat_map(|folder| files(folder)).collect();
+    let top = fs::read_dir(root()).unwrap().map(Result::unwrap);
+    texts.extend(
+        top.filter(|entry| entry.file_type().unwrap().is_file())
+            .map(|entry| entry.file_name().display().to_string())
+            // In a worktree it is a file that says where the rest lies.
+            .filter(|name| name != ".git"),
+    );
+    let mut problems = Vec::new();
+    for path in texts {
+        let Ok(text) = fs::read_to_string(root().join(&path)) else {
+            continue;
+        };
+        for place in places {
+            let place = format!("/{place}/");
+            for (at, _) in text.match_indices(&place) {
+                let before = text[..at].chars().next_back();
+                // A part of a longer relative path is no absolute path.
+                if !before.is_some_and(|c| c.is_alphanumeric() || c == '.') {
+                    problems.push(format!("{path}: {place}.."));
+                }
+            }
+        }
+    }
+    pass(&problems);
+}

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::number::{Number, Real};
+
 /// Shape of a pulse; amplitudes in multiples of gravity.
 ///
 /// Every pulse starts at t = 0 and is zero afterwards (a jump, if it does not
@@ -97,6 +99,9 @@ pub enum PulseError {
     /// The phase must be finite.
     #[error("pulse phase {0} rad: expected a finite number")]
     Phase(f64),
+    /// Gravity must be positive and finite.
+    #[error("gravity {0} m/s2: expected a positive number")]
+    Gravity(f64),
 }
 
 /// An analytic pulse, checked.
@@ -115,35 +120,55 @@ pub enum PulseError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pulse {
     kind: PulseKind,
+    /// What the amplitude is to be divided by: 1, or gravity in m/s2. Kept
+    /// apart because the quotient is rounded in the precision of the run.
+    divisor: f64,
 }
 
 /// A smooth stretch of a pulse, as the integrator expands it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Shape {
+pub(crate) enum Shape<N> {
     /// Sum of `amplitude * sin(rate * t + phase)`, t from the pulse's start.
-    Sines([Sine; 3]),
+    Sines([Sine<N>; 3]),
     /// `at_zero + slope * t`.
-    Line { at_zero: f64, slope: f64 },
+    Line { at_zero: N, slope: N },
     /// `scale * (q0 + q1 x + q2 x^2 + q3 x^3) exp(-x^2/2)`,
-    /// x = rate * (t - centre).
-    Gauss { scale: f64, polynomial: [f64; 4], rate: f64, centre_s: f64 },
+    /// x = rate * (t - centre), with small integers q.
+    Gauss { scale: N, polynomial: [f64; 4], rate: N, centre_s: N },
 }
 
 /// One sine of a sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sine {
-    pub amplitude: f64,
-    pub rate_rad_s: f64,
-    pub phase_rad: f64,
+pub(crate) struct Sine<N> {
+    pub amplitude: N,
+    pub rate_rad_s: N,
+    pub phase_rad: N,
 }
 
-const NO_SINE: Sine = Sine { amplitude: 0.0, rate_rad_s: 0.0, phase_rad: 0.0 };
+impl<N: Number> Sine<N> {
+    fn silent() -> Self {
+        let zero = N::zero();
+        Self { amplitude: zero, rate_rad_s: zero, phase_rad: zero }
+    }
+}
 
 /// Peak of (x^2 - 3) x exp(-x^2/2): sqrt(6) sqrt(3 - sqrt(6))
-/// exp(-(3 - sqrt(6))/2).
-const RICKER_BETA: f64 = 1.380_119_046_160_749_3;
+/// exp(-(3 - sqrt(6))/2) = 1.380119...
+fn ricker_beta<N: Real>() -> N {
+    let root = N::from_f64(6.0).sqrt();
+    let square = N::from_f64(3.0) - root;
+    root * square.sqrt() * (-(square * N::ratio(1, 2))).exp()
+}
 
-use std::f64::consts::{PI, SQRT_2, TAU};
+/// pi, in the precision of the type.
+fn half_turn<N: Real>() -> N {
+    N::from_f64(2.0) * N::right_angle()
+}
+
+/// 2 pi, in the precision of the type.
+fn full_turn<N: Real>() -> N {
+    N::from_f64(4.0) * N::right_angle()
+}
 
 impl Pulse {
     /// Checks the parameters.
@@ -198,13 +223,42 @@ impl Pulse {
                 }
             }
         }
-        Ok(Self { kind })
+        Ok(Self { kind, divisor: 1.0 })
     }
 
-    /// The shape and its parameters.
+    /// A pulse with its acceleration in m/s2, or its velocity in m/s, where
+    /// `kind` has multiples of gravity.
+    ///
+    /// # Errors
+    /// As [`Pulse::try_new`], and [`PulseError::Gravity`] unless gravity is
+    /// positive and finite.
+    ///
+    /// ```
+    /// use rocking::excitation::{Pulse, PulseKind};
+    /// let kind = PulseKind::Rectangle { amplitude_g: 4.0, duration_s: 0.25 };
+    /// let pulse = Pulse::try_new_si(kind, 9.81)?;
+    /// assert_eq!(pulse.pga_g(), 4.0 / 9.81);
+    /// # Ok::<(), rocking::excitation::PulseError>(())
+    /// ```
+    pub fn try_new_si(
+        kind: PulseKind,
+        gravity_m_s2: f64,
+    ) -> Result<Self, PulseError> {
+        if !(gravity_m_s2 > 0.0 && gravity_m_s2.is_finite()) {
+            return Err(PulseError::Gravity(gravity_m_s2));
+        }
+        Ok(Self { divisor: gravity_m_s2, ..Self::try_new(kind)? })
+    }
+
+    /// The shape and its parameters, in multiples of gravity.
     #[must_use]
     pub fn kind(&self) -> PulseKind {
-        self.kind
+        self.kind.with_amplitude(|a| a / self.divisor)
+    }
+
+    /// Amplitude over gravity.
+    fn amplitude<N: Number>(&self) -> N {
+        N::from_f64(self.kind.amplitude()) / N::from_f64(self.divisor)
     }
 
     /// The same pulse with every acceleration times `factor`.
@@ -212,19 +266,7 @@ impl Pulse {
     /// # Errors
     /// [`PulseError::Amplitude`] if the product is not finite.
     pub fn scaled(&self, factor: f64) -> Result<Self, PulseError> {
-        let mut kind = self.kind;
-        match &mut kind {
-            PulseKind::OneSine { amplitude_g: a, .. }
-            | PulseKind::HalfSine { amplitude_g: a, .. }
-            | PulseKind::OneCosine { amplitude_g: a, .. }
-            | PulseKind::Rectangle { amplitude_g: a, .. }
-            | PulseKind::Triangle { amplitude_g: a, .. }
-            | PulseKind::RickerSymmetric { amplitude_g: a, .. }
-            | PulseKind::RickerAntisymmetric { amplitude_g: a, .. }
-            | PulseKind::MavroeidisPapageorgiou { velocity_g_s: a, .. } => {
-                *a *= factor;
-            }
-        }
+        let kind = self.kind().with_amplitude(|a| a * factor);
         Self::try_new(kind)
     }
 
@@ -236,7 +278,7 @@ impl Pulse {
     /// pulse of amplitude zero.
     pub fn with_pga(&self, pga_g: f64) -> Result<Self, PulseError> {
         let own = self.pga_g();
-        let mut kind = self.kind;
+        let mut kind = self.kind();
         match &mut kind {
             PulseKind::OneSine { amplitude_g: a, .. }
             | PulseKind::HalfSine { amplitude_g: a, .. }
@@ -256,96 +298,114 @@ impl Pulse {
     /// Duration in s.
     #[must_use]
     pub fn duration_s(&self) -> f64 {
+        self.duration()
+    }
+
+    fn duration<N: Real>(&self) -> N {
         match self.kind {
             PulseKind::OneSine { omega_rad_s, .. }
-            | PulseKind::OneCosine { omega_rad_s, .. } => TAU / omega_rad_s,
-            PulseKind::HalfSine { omega_rad_s, .. } => PI / omega_rad_s,
+            | PulseKind::OneCosine { omega_rad_s, .. } => {
+                full_turn::<N>() / N::from_f64(omega_rad_s)
+            }
+            PulseKind::HalfSine { omega_rad_s, .. } => {
+                half_turn::<N>() / N::from_f64(omega_rad_s)
+            }
             PulseKind::Rectangle { duration_s, .. }
-            | PulseKind::Triangle { duration_s, .. } => duration_s,
+            | PulseKind::Triangle { duration_s, .. } => {
+                N::from_f64(duration_s)
+            }
             PulseKind::RickerSymmetric { period_s, cycles, .. }
             | PulseKind::RickerAntisymmetric { period_s, cycles, .. } => {
-                cycles * period_s
+                N::from_f64(cycles) * N::from_f64(period_s)
             }
             PulseKind::MavroeidisPapageorgiou {
                 frequency_hz, gamma, ..
-            } => gamma / frequency_hz,
+            } => N::from_f64(gamma) / N::from_f64(frequency_hz),
         }
     }
 
     /// Smooth stretches: where each ends (s) and its shape.
-    pub(crate) fn stretches(&self) -> Vec<(f64, Shape)> {
-        let end = self.duration_s();
+    pub(crate) fn stretches<N: Real>(&self) -> Vec<(N, Shape<N>)> {
+        let end: N = self.duration();
+        let amplitude: N = self.amplitude();
+        let half = N::ratio(1, 2);
         let sine = |amplitude, rate_rad_s, phase_rad| Sine {
             amplitude,
             rate_rad_s,
             phase_rad,
         };
+        let only = |sine| Shape::Sines([sine, Sine::silent(), Sine::silent()]);
         match self.kind {
-            PulseKind::OneSine { amplitude_g, omega_rad_s }
-            | PulseKind::HalfSine { amplitude_g, omega_rad_s } => {
-                let only = sine(amplitude_g, omega_rad_s, 0.0);
-                vec![(end, Shape::Sines([only, NO_SINE, NO_SINE]))]
+            PulseKind::OneSine { omega_rad_s, .. }
+            | PulseKind::HalfSine { omega_rad_s, .. } => {
+                let rate = N::from_f64(omega_rad_s);
+                vec![(end, only(sine(amplitude, rate, N::zero())))]
             }
-            PulseKind::OneCosine { amplitude_g, omega_rad_s } => {
-                let only = sine(amplitude_g, omega_rad_s, 0.5 * PI);
-                vec![(end, Shape::Sines([only, NO_SINE, NO_SINE]))]
+            PulseKind::OneCosine { omega_rad_s, .. } => {
+                let rate = N::from_f64(omega_rad_s);
+                vec![(end, only(sine(amplitude, rate, N::right_angle())))]
             }
-            PulseKind::Rectangle { amplitude_g, .. } => {
-                vec![(end, Shape::Line { at_zero: amplitude_g, slope: 0.0 })]
+            PulseKind::Rectangle { .. } => {
+                let shape =
+                    Shape::Line { at_zero: amplitude, slope: N::zero() };
+                vec![(end, shape)]
             }
-            PulseKind::Triangle { amplitude_g, .. } => {
-                let slope = 2.0 * amplitude_g / end;
-                let up = Shape::Line { at_zero: 0.0, slope };
-                let down =
-                    Shape::Line { at_zero: 2.0 * amplitude_g, slope: -slope };
-                vec![(0.5 * end, up), (end, down)]
+            PulseKind::Triangle { .. } => {
+                let twice = N::from_f64(2.0) * amplitude;
+                let slope = twice / end;
+                let up = Shape::Line { at_zero: N::zero(), slope };
+                let down = Shape::Line { at_zero: twice, slope: -slope };
+                vec![(half * end, up), (end, down)]
             }
-            PulseKind::RickerSymmetric { amplitude_g, period_s, .. } => {
+            PulseKind::RickerSymmetric { period_s, .. } => {
+                let root = N::from_f64(2.0).sqrt();
                 let shape = Shape::Gauss {
-                    scale: amplitude_g,
+                    scale: amplitude,
                     polynomial: [1.0, 0.0, -1.0, 0.0],
-                    rate: SQRT_2 * PI / period_s,
-                    centre_s: 0.5 * end,
+                    rate: root * half_turn() / N::from_f64(period_s),
+                    centre_s: half * end,
                 };
                 vec![(end, shape)]
             }
-            PulseKind::RickerAntisymmetric {
-                amplitude_g, period_s, ..
-            } => {
+            PulseKind::RickerAntisymmetric { period_s, .. } => {
+                let root = N::from_f64(3.0).sqrt();
                 let shape = Shape::Gauss {
-                    scale: amplitude_g / RICKER_BETA,
+                    scale: amplitude / ricker_beta(),
                     polynomial: [0.0, -3.0, 0.0, 1.0],
-                    rate: TAU / (3.0_f64.sqrt() * period_s),
-                    centre_s: 0.5 * end,
+                    rate: full_turn::<N>() / (root * N::from_f64(period_s)),
+                    centre_s: half * end,
                 };
                 vec![(end, shape)]
             }
             PulseKind::MavroeidisPapageorgiou {
-                velocity_g_s,
                 frequency_hz,
                 gamma,
                 phase_rad,
+                ..
             } => {
                 // a = -V W { sin(W u + nu)/2
                 //   + (1 + 1/gamma)/4 sin(W (1 + 1/gamma) u + nu)
                 //   + (1 - 1/gamma)/4 sin(W (1 - 1/gamma) u + nu) },
                 // u = t - gamma/(2 f), hence phases nu - W k gamma/(2 f).
-                let rate = TAU * frequency_hz;
-                let half = 0.5 * gamma / frequency_hz;
-                let term = |weight: f64, ratio: f64| {
+                let [frequency, gamma, phase] =
+                    [frequency_hz, gamma, phase_rad].map(N::from_f64);
+                let rate = full_turn::<N>() * frequency;
+                let middle = half * gamma / frequency;
+                let term = |weight: N, ratio: N| {
                     let own = rate * ratio;
                     sine(
-                        -velocity_g_s * rate * weight,
+                        -amplitude * rate * weight,
                         own,
-                        (-own).mul_add(half, phase_rad),
+                        (-own).mul_add(middle, phase),
                     )
                 };
-                let up = 1.0 + 1.0 / gamma;
-                let down = 1.0 - 1.0 / gamma;
+                let quarter = N::ratio(1, 4);
+                let up = N::one() + N::one() / gamma;
+                let down = N::one() - N::one() / gamma;
                 let terms = [
-                    term(0.5, 1.0),
-                    term(0.25 * up, up),
-                    term(0.25 * down, down),
+                    term(half, N::one()),
+                    term(quarter * up, up),
+                    term(quarter * down, down),
                 ];
                 vec![(end, Shape::Sines(terms))]
             }
@@ -358,7 +418,7 @@ impl Pulse {
         if !(t_s >= 0.0) {
             return 0.0;
         }
-        self.stretches()
+        self.stretches::<f64>()
             .into_iter()
             .find(|(end_s, _)| t_s <= *end_s)
             .map_or(0.0, |(_, shape)| shape.at(t_s))
@@ -367,7 +427,7 @@ impl Pulse {
     /// Peak ground acceleration over g.
     #[must_use]
     pub fn pga_g(&self) -> f64 {
-        match self.kind {
+        match self.kind() {
             PulseKind::OneSine { amplitude_g, .. }
             | PulseKind::HalfSine { amplitude_g, .. }
             | PulseKind::OneCosine { amplitude_g, .. }
@@ -386,7 +446,7 @@ impl Pulse {
     /// Peak ground velocity over g in s, with v(0) = 0.
     #[must_use]
     pub fn pgv_g_s(&self) -> f64 {
-        match self.kind {
+        match self.kind() {
             PulseKind::OneSine { amplitude_g, omega_rad_s }
             | PulseKind::HalfSine { amplitude_g, omega_rad_s } => {
                 2.0 * amplitude_g.abs() / omega_rad_s
@@ -414,7 +474,8 @@ impl Pulse {
                 let x = |t: f64| self.gauss_argument(t);
                 let part = |x: f64| (1.0 - x * x) * gauss(x);
                 let first = part(x(0.0));
-                let scale = amplitude_g / (RICKER_BETA * self.gauss_rate());
+                let scale =
+                    amplitude_g / (ricker_beta::<f64>() * self.gauss_rate());
                 self.extreme(|t| scale * (part(x(t)) - first))
             }
             PulseKind::MavroeidisPapageorgiou {
@@ -423,7 +484,7 @@ impl Pulse {
                 gamma,
                 phase_rad,
             } => {
-                let rate = TAU * frequency_hz;
+                let rate = full_turn::<f64>() * frequency_hz;
                 let half = 0.5 * gamma / frequency_hz;
                 // The velocity is zero at both ends: 1 + cos(pi) = 0.
                 self.extreme(|t| {
@@ -437,7 +498,7 @@ impl Pulse {
     }
 
     fn gauss_rate(&self) -> f64 {
-        match self.stretches()[0].1 {
+        match self.stretches::<f64>()[0].1 {
             Shape::Gauss { rate, .. } => rate,
             Shape::Sines(_) | Shape::Line { .. } => 1.0,
         }
@@ -479,7 +540,40 @@ fn gauss(x: f64) -> f64 {
     libm::exp(-0.5 * x * x)
 }
 
-impl Shape {
+impl PulseKind {
+    /// The amplitude: an acceleration, or a velocity.
+    fn amplitude(self) -> f64 {
+        match self {
+            Self::OneSine { amplitude_g: a, .. }
+            | Self::HalfSine { amplitude_g: a, .. }
+            | Self::OneCosine { amplitude_g: a, .. }
+            | Self::Rectangle { amplitude_g: a, .. }
+            | Self::Triangle { amplitude_g: a, .. }
+            | Self::RickerSymmetric { amplitude_g: a, .. }
+            | Self::RickerAntisymmetric { amplitude_g: a, .. }
+            | Self::MavroeidisPapageorgiou { velocity_g_s: a, .. } => a,
+        }
+    }
+
+    /// The same with another amplitude.
+    fn with_amplitude(mut self, change: impl Fn(f64) -> f64) -> Self {
+        match &mut self {
+            Self::OneSine { amplitude_g: a, .. }
+            | Self::HalfSine { amplitude_g: a, .. }
+            | Self::OneCosine { amplitude_g: a, .. }
+            | Self::Rectangle { amplitude_g: a, .. }
+            | Self::Triangle { amplitude_g: a, .. }
+            | Self::RickerSymmetric { amplitude_g: a, .. }
+            | Self::RickerAntisymmetric { amplitude_g: a, .. }
+            | Self::MavroeidisPapageorgiou { velocity_g_s: a, .. } => {
+                *a = change(*a);
+            }
+        }
+        self
+    }
+}
+
+impl Shape<f64> {
     fn at(&self, t_s: f64) -> f64 {
         match self {
             Shape::Sines(sines) => sines.iter().fold(0.0, |sum, sine| {

@@ -12,6 +12,8 @@ const COVERAGE: f64 = 32.0;
 /// Tracked quantities, in units of 1/p.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Accuracy {
+    /// Distance from 1 to the next number of the run's type.
+    unit: f64,
     /// Covariance of the error of (u, w).
     uu: f64,
     uw: f64,
@@ -31,6 +33,11 @@ pub(crate) struct Accuracy {
 type Matrix = [[f64; 2]; 2];
 
 impl Accuracy {
+    /// Nothing yet, in arithmetic with this unit roundoff.
+    pub fn new(roundoff: f64) -> Self {
+        Self { unit: 2.0 * roundoff, ..Self::default() }
+    }
+
     /// Starts anew at an uplift from rest, or at release.
     pub fn start(&mut self) {
         (self.uu, self.uw, self.ww) = (0.0, 0.0, 0.0);
@@ -99,19 +106,19 @@ impl Accuracy {
         let along = |v: [f64; 2]| (slope * v[0] + w * v[1]).abs();
         let moved = along(self.eta)
             + alpha * (along(self.initial[0]) + along(self.initial[1]));
-        let own = f64::EPSILON * (w * w + (slope * u).abs());
+        let own = self.unit * (w * w + (slope * u).abs());
         let error = COVERAGE * variance.max(0.0).sqrt() + own;
         self.note(error / (at_peak * alpha), moved / (at_peak * u));
     }
 
     fn note(&mut self, error: f64, condition: f64) {
-        self.peak_error = error + f64::EPSILON;
+        self.peak_error = error + self.unit;
         self.peak_condition = condition;
     }
 
     /// Notes the error of a run that overturns in the current state.
     pub fn overturned(&mut self, alpha: f64) {
-        self.peak_error = COVERAGE * self.deviation() / alpha + f64::EPSILON;
+        self.peak_error = COVERAGE * self.deviation() / alpha + self.unit;
     }
 
     /// Notes the error of a decision about fate, a quantity with these
@@ -121,7 +128,7 @@ impl Accuracy {
         let variance =
             a * a * self.uu + 2.0 * a * b * self.uw + b * b * self.ww;
         let error = COVERAGE * variance.max(0.0).sqrt() / alpha;
-        self.decision_error = error + f64::EPSILON;
+        self.decision_error = error + self.unit;
     }
 
     /// Bound on the error of the fate margin.

@@ -7,16 +7,13 @@
 //! the other side if eta^2 D > E_s. Times follow by Carlson's R_F (Eq. 1) or
 //! atanh (Eq. 2).
 
-use crate::integrator::driver::{Motion, Record};
+use crate::integrator::driver::{Motion, Record, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::{Impact, Side};
 use crate::number::Real;
 
 /// Impacts logged at most where the motion never ends.
 const ENDLESS_IMPACTS: usize = 1000;
-
-/// Impact speed over alpha p below which the tail of impacts is summed.
-const TAIL_SPEED: f64 = 1e-10;
 
 /// What the free motion is asked.
 pub(crate) struct Coast<'a, N> {
@@ -238,8 +235,8 @@ fn log_impact<N: Real>(
     record.work.impacts += 1;
     if ask.events {
         record.impacts.push(Impact {
-            time_s: time_s.to_f64(),
-            speed_before_rad_s: (speed * ask.dynamics.p).to_f64(),
+            time_s,
+            speed_before_rad_s: speed * ask.dynamics.p,
         });
     }
 }
@@ -253,7 +250,7 @@ fn hops<N: Real>(
     state: (N, N),
 ) {
     let d = ask.dynamics;
-    let tail = d.alpha * N::from_f64(TAIL_SPEED);
+    let tail = d.alpha * N::from_f64(tail_speed::<N>());
     let two = N::from_f64(2.0);
     let mut level = before;
     let mut time_s = first_s;

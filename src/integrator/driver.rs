@@ -8,16 +8,18 @@ use crate::integrator::forcing::{Forcing, Place, Silence};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{expand, slope, value};
 use crate::integrator::{
-    HistoryPoint, Impact, Observe, Outcome, Response, SMOOTH, Scene, Side,
-    Work,
+    HistoryPoint, Impact, Observe, Outcome, Response, Scene, Side, Work,
 };
 use crate::number::Real;
 use crate::number::dispatch::{Isa, Work as Dispatched};
 
 /// Post-impact speed over alpha p below which an observer of events lets the
 /// geometric tail of the impacts stand for the rest of them: the tail's own
-/// error is of second order in it.
-const TAIL_SPEED: f64 = 1e-10;
+/// error is of second order in it (over the square of the least downward
+/// acceleration, which grazing uplifts make small).
+pub(crate) fn tail_speed<N: Real>() -> f64 {
+    if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
+}
 
 /// Truncation allowed per unit of time, in roundoffs of the slenderness
 /// angle: what rounding does anyway.
@@ -41,14 +43,22 @@ pub(crate) struct Record<N> {
     pub peak_time_s: Option<N>,
     pub uplift_time_s: Option<N>,
     pub rest_time_s: Option<N>,
-    pub impacts: Vec<Impact>,
-    pub history: Vec<HistoryPoint>,
+    pub impacts: Vec<Impact<N>>,
+    pub history: Vec<HistoryPoint<N>>,
     pub work: Work,
     /// Largest |a/g| met, for the margin of a run without uplift.
     pub accuracy: Option<Accuracy>,
 }
 
-pub(crate) struct Driver<N, G, const LEN: usize, const F: usize> {
+/// Steps by a series of `SIZE` coefficients, and by one of `HARD` where that
+/// leaves too much; the forcing's series has `F`.
+pub(crate) struct Driver<
+    N,
+    G,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> {
     dynamics: Dynamics<N>,
     forcing: G,
     isa: Isa,
@@ -112,7 +122,8 @@ enum Event<N> {
     Overturning(N),
 }
 
-impl<N, G, const SIZE: usize, const F: usize> Driver<N, G, SIZE, F>
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -151,7 +162,7 @@ where
 
     /// Runs the scene to its end.
     #[inline(always)]
-    pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response {
+    pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response<N> {
         let mut stage = self.begin(scene, observe);
         loop {
             match stage {
@@ -221,7 +232,8 @@ where
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
         self.until_s = observe.until_s.map(N::from_f64);
-        self.record.accuracy = observe.accuracy.then(Accuracy::default);
+        self.record.accuracy =
+            observe.accuracy.then(|| Accuracy::new(N::ROUNDOFF));
     }
 
     /// From a place at rest to the next uplift, if there is one.
@@ -349,7 +361,7 @@ where
             if last {
                 self.tolerance = N::one() / N::zero();
             }
-            let done = self.attempt::<SMOOTH>(step, part);
+            let done = self.attempt::<HARD>(step, part);
             self.tolerance = tolerance;
             match done {
                 // Short of the step's end: go on from there.
@@ -616,8 +628,8 @@ where
         self.record.work.impacts += 1;
         if self.events && speed > N::zero() {
             self.record.impacts.push(Impact {
-                time_s: self.time_s(step.place).to_f64(),
-                speed_before_rad_s: (speed * self.dynamics.p).to_f64(),
+                time_s: self.time_s(step.place),
+                speed_before_rad_s: speed * self.dynamics.p,
             });
         }
         let f = self.oriented(step.place, side, false);
@@ -700,7 +712,7 @@ where
         if !(w * w / (two * least) * worst < self.record.peak) {
             return None;
         }
-        let tail = self.dynamics.alpha * N::from_f64(TAIL_SPEED);
+        let tail = self.dynamics.alpha * N::from_f64(tail_speed::<N>());
         if self.events && !(w < tail) {
             return None;
         }
@@ -729,8 +741,7 @@ where
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
             let (a, b) = self.dynamics.drive(&f);
-            let (c, v): ([N; SMOOTH], [N; SMOOTH]) =
-                self.expand(u, w, (&a, &b));
+            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, (&a, &b));
             if let Some(tau) = first_descent(&v, left, self.isa) {
                 return self.beyond(value(&c, tau));
             }
@@ -824,9 +835,9 @@ where
         let mut time_s = self.record.history.len() as f64 * interval;
         while time_s <= to_s.to_f64() {
             self.record.history.push(HistoryPoint {
-                time_s,
-                rotation_rad: 0.0,
-                velocity_rad_s: 0.0,
+                time_s: N::from_f64(time_s),
+                rotation_rad: N::zero(),
+                velocity_rad_s: N::zero(),
             });
             time_s = self.record.history.len() as f64 * interval;
         }
@@ -845,23 +856,25 @@ where
         let Some(interval) = self.interval_s else { return };
         let start_s = self.time_s(place);
         let p = self.dynamics.p;
+        let sign = N::from_f64(side.sign());
         loop {
             let time_s = self.record.history.len() as f64 * interval;
-            let at = (N::from_f64(time_s) - start_s) * p;
+            let time_s = N::from_f64(time_s);
+            let at = (time_s - start_s) * p;
             if !(at <= tau) {
                 return;
             }
             let at = if at > N::zero() { at } else { N::zero() };
             self.record.history.push(HistoryPoint {
                 time_s,
-                rotation_rad: side.sign() * value(c, at).to_f64(),
-                velocity_rad_s: side.sign() * (value(v, at) * p).to_f64(),
+                rotation_rad: sign * value(c, at),
+                velocity_rad_s: sign * (value(v, at) * p),
             });
         }
     }
 
     /// From the end of a flight to the answer.
-    pub fn conclude(&mut self, flight: &Flight<N>) -> Response {
+    pub fn conclude(&mut self, flight: &Flight<N>) -> Response<N> {
         let alpha = self.dynamics.alpha;
         let mut margin = None;
         let mut overturned = None;
@@ -909,8 +922,11 @@ where
     #[inline(never)]
     fn trace(&mut self, motion: Motion<N>, end_s: N) {
         let silence = Silence::endless(end_s, self.dynamics.p);
-        let mut free =
-            Driver::<N, _, SMOOTH, 1>::new(self.dynamics, silence, self.isa);
+        let mut free = Driver::<N, _, HARD, 1, HARD>::new(
+            self.dynamics,
+            silence,
+            self.isa,
+        );
         free.events = true;
         free.interval_s = self.interval_s;
         free.until_s = self.until_s.or_else(|| {
@@ -939,7 +955,7 @@ where
         &mut self,
         overturned: Option<(N, Side)>,
         margin: Option<f64>,
-    ) -> Response {
+    ) -> Response<N> {
         let alpha = self.dynamics.alpha;
         let record = &mut self.record;
         let moved = record.uplift_time_s.is_some()
@@ -951,10 +967,8 @@ where
             Overturning::HalfPi => (N::right_angle() - record.peak) / alpha,
         };
         let outcome = match overturned {
-            Some((time_s, side)) => {
-                Outcome::Overturned { time_s: time_s.to_f64(), side }
-            }
-            None if moved => Outcome::Rocked { peak_ratio: ratio.to_f64() },
+            Some((time_s, side)) => Outcome::Overturned { time_s, side },
+            None if moved => Outcome::Rocked { peak_ratio: ratio },
             None => Outcome::NoUplift,
         };
         let fate_margin = match margin {
@@ -965,10 +979,10 @@ where
         let accuracy = record.accuracy;
         Response {
             outcome,
-            peak_ratio: ratio.to_f64(),
-            peak_time_s: record.peak_time_s.map(Real::to_f64),
-            uplift_time_s: record.uplift_time_s.map(Real::to_f64),
-            rest_time_s: record.rest_time_s.map(Real::to_f64),
+            peak_ratio: ratio,
+            peak_time_s: record.peak_time_s,
+            uplift_time_s: record.uplift_time_s,
+            rest_time_s: record.rest_time_s,
             impacts: std::mem::take(&mut record.impacts),
             fate_margin,
             error_estimate: accuracy.map(|a| a.peak_error()),
@@ -981,14 +995,17 @@ where
 }
 
 /// A hard step, compiled for each instruction-set level.
-struct Hard<'d, N, G, const SIZE: usize, const F: usize> {
-    driver: &'d mut Driver<N, G, SIZE, F>,
+struct Hard<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
+    driver: &'d mut Driver<N, G, SIZE, F, HARD>,
     step: &'d mut Step<N>,
     length: N,
 }
 
-impl<N: Real, G: Forcing<N, F>, const SIZE: usize, const F: usize> Dispatched
-    for Hard<'_, N, G, SIZE, F>
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Dispatched
+    for Hard<'_, N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
 {
     type Output = Advance<N>;
 
@@ -999,14 +1016,17 @@ impl<N: Real, G: Forcing<N, F>, const SIZE: usize, const F: usize> Dispatched
 }
 
 /// The margin of an overturning, compiled for each instruction-set level.
-struct Beyond<'d, N, G, const SIZE: usize, const F: usize> {
-    driver: &'d Driver<N, G, SIZE, F>,
+struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
+    driver: &'d Driver<N, G, SIZE, F, HARD>,
     from: Place<N>,
     motion: Motion<N>,
 }
 
-impl<N: Real, G: Forcing<N, F>, const SIZE: usize, const F: usize> Dispatched
-    for Beyond<'_, N, G, SIZE, F>
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Dispatched
+    for Beyond<'_, N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
 {
     type Output = f64;
 
@@ -1017,16 +1037,30 @@ impl<N: Real, G: Forcing<N, F>, const SIZE: usize, const F: usize> Dispatched
 }
 
 /// Turning points of a step, compiled for each instruction-set level.
-struct Turning<'d, N, G, const LEN: usize, const SIZE: usize, const F: usize> {
-    driver: &'d mut Driver<N, G, SIZE, F>,
+struct Turning<
+    'd,
+    N,
+    G,
+    const LEN: usize,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> {
+    driver: &'d mut Driver<N, G, SIZE, F, HARD>,
     c: &'d [N; LEN],
     v: &'d [N; LEN],
     tau: N,
     place: Place<N>,
 }
 
-impl<N, G, const LEN: usize, const SIZE: usize, const F: usize> Dispatched
-    for Turning<'_, N, G, LEN, SIZE, F>
+impl<
+    N,
+    G,
+    const LEN: usize,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> Dispatched for Turning<'_, N, G, LEN, SIZE, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,

@@ -68,6 +68,7 @@ pub(crate) fn steps_of(length: f64) -> usize {
 pub(crate) struct RecordForcing<'a, N> {
     record: ScaledRecord<'a>,
     index: &'a RestIndex,
+    factor: N,
     length: N,
     inverse: N,
     steps: usize,
@@ -83,6 +84,7 @@ impl<'a, N: Real> RecordForcing<'a, N> {
         Self {
             record,
             index,
+            factor: record.factor(),
             length,
             inverse: N::one() / length,
             steps: steps_of(length.to_f64()),
@@ -114,8 +116,7 @@ impl<'a, N: Real> RecordForcing<'a, N> {
 
     #[inline(always)]
     fn sample(&self, i: usize) -> N {
-        N::from_f64(self.record.samples()[i])
-            * N::from_f64(self.record.amplitude())
+        N::from_f64(self.record.samples()[i]) * self.factor
     }
 }
 
@@ -214,32 +215,34 @@ pub(crate) struct PulseForcing<N> {
 struct PulsePiece<N> {
     start_s: N,
     length: N,
-    shape: Shape,
+    shape: Shape<N>,
 }
 
 impl<N: Real> PulseForcing<N> {
     pub fn new(pulse: &Pulse, frequency_rad_s: f64) -> Self {
         let p = N::from_f64(frequency_rad_s);
         let mut pieces = Vec::new();
-        let mut start = 0.0;
-        for (end, shape) in pulse.stretches() {
-            let duration = end - start;
+        let mut start = N::zero();
+        for (end, shape) in pulse.stretches::<N>() {
+            let duration: N = end - start;
             let rate = match shape {
-                Shape::Sines(sines) => sines
-                    .iter()
-                    .fold(0.0_f64, |most, s| most.max(s.rate_rad_s.abs())),
+                Shape::Sines(sines) => {
+                    sines.iter().fold(0.0_f64, |most, s| {
+                        most.max(s.rate_rad_s.to_f64().abs())
+                    })
+                }
                 Shape::Line { .. } => 0.0,
                 // The Gaussian's series converges more slowly.
-                Shape::Gauss { rate, .. } => 2.0 * rate,
+                Shape::Gauss { rate, .. } => 2.0 * rate.to_f64(),
             };
-            let by_block = duration * frequency_rad_s / LONGEST_STEP;
-            let by_phase = duration * rate / LONGEST_PHASE;
+            let seconds = duration.to_f64();
+            let by_block = seconds * frequency_rad_s / LONGEST_STEP;
+            let by_phase = seconds * rate / LONGEST_PHASE;
             let count = libm::ceil(by_block.max(by_phase)).max(1.0);
-            let share = N::from_f64(duration) / N::from_f64(count);
+            let share = duration / N::from_f64(count);
             for k in 0..count as usize {
                 pieces.push(PulsePiece {
-                    start_s: share
-                        .mul_add(N::from_f64(k as f64), N::from_f64(start)),
+                    start_s: share.mul_add(N::from_f64(k as f64), start),
                     length: share * p,
                     shape,
                 });
@@ -306,7 +309,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                     continue;
                 };
                 // A touch is no exceedance.
-                let beyond = tau + left * N::from_f64(1e-6);
+                let beyond = tau + left * N::from_f64(touch::<N>());
                 if tau < left && !(value(&gap, beyond) < N::zero()) {
                     continue;
                 }
@@ -331,6 +334,12 @@ impl<N: Real> PulseForcing<N> {
     fn continues(&self, piece: usize) -> bool {
         piece > 0
     }
+}
+
+/// Share of a piece within which an excess over the threshold is a touch:
+/// it rises by the square of that, which should be about a rounding.
+fn touch<N: Real>() -> f64 {
+    if N::ROUNDOFF < f64::ROUNDOFF { 1e-14 } else { 1e-6 }
 }
 
 /// No ground motion: equal pieces of silence.
@@ -386,16 +395,20 @@ impl<N: Real> Forcing<N, 1> for Silence<N> {
 }
 
 /// Series of a shape about time `t` (s) in units of 1/p.
-fn shape_series<N: Real, const F: usize>(shape: &Shape, t: N, p: N) -> [N; F] {
+fn shape_series<N: Real, const F: usize>(
+    shape: &Shape<N>,
+    t: N,
+    p: N,
+) -> [N; F] {
     let mut out = [N::zero(); F];
     match shape {
         Shape::Sines(sines) => {
-            for sine in sines.iter().filter(|s| s.amplitude != 0.0) {
-                let rate = N::from_f64(sine.rate_rad_s);
-                let angle = rate * t + N::from_f64(sine.phase_rad);
+            for sine in sines.iter().filter(|s| s.amplitude != N::zero()) {
+                let rate = sine.rate_rad_s;
+                let angle = rate * t + sine.phase_rad;
                 let (s, c) = angle.sin_cos();
                 let step = rate / p;
-                let mut term = N::from_f64(sine.amplitude);
+                let mut term = sine.amplitude;
                 for (k, x) in out.iter_mut().enumerate() {
                     let derivative = match k % 4 {
                         0 => s,
@@ -409,15 +422,14 @@ fn shape_series<N: Real, const F: usize>(shape: &Shape, t: N, p: N) -> [N; F] {
             }
         }
         Shape::Line { at_zero, slope } => {
-            let slope = N::from_f64(*slope);
-            out[0] = slope * t + N::from_f64(*at_zero);
+            out[0] = *slope * t + *at_zero;
             if F > 1 {
-                out[1] = slope / p;
+                out[1] = *slope / p;
             }
         }
         Shape::Gauss { scale, polynomial, rate, centre_s } => {
-            let rate = N::from_f64(*rate);
-            let x = rate * (t - N::from_f64(*centre_s));
+            let rate = *rate;
+            let x = rate * (t - *centre_s);
             let half = N::ratio(-1, 2);
             // G' = -x G in the variable x.
             let mut g = [N::zero(); F];
@@ -436,7 +448,7 @@ fn shape_series<N: Real, const F: usize>(shape: &Shape, t: N, p: N) -> [N; F] {
                 q[3],
             ];
             let step = rate / p;
-            let mut power = N::from_f64(*scale);
+            let mut power = *scale;
             for k in 0..F {
                 let mut sum = N::zero();
                 for (j, a) in about.iter().enumerate().take(k + 1) {

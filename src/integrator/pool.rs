@@ -232,7 +232,7 @@ where
 /// A chain in its lane.
 struct Slot<'a, C, const LEN: usize> {
     chain: C,
-    driver: Driver<f64, RecordForcing<'a, f64>, LEN, 2>,
+    driver: Driver<f64, RecordForcing<'a, f64>, LEN, 2, SMOOTH>,
     stage: Stage<f64>,
 }
 

@@ -10,8 +10,11 @@ use crate::number::Real;
 use crate::number::dispatch::{Isa, Work};
 
 /// Depth at which a pair of roots that halving could not tell apart counts
-/// as contact without crossing.
-const DEPTH: u32 = 48;
+/// as contact without crossing: 48 in double precision, a few bits short of
+/// the type's.
+fn depth<N: Real>() -> u32 {
+    (-libm::ilogb(N::ROUNDOFF) - 5).unsigned_abs()
+}
 
 /// Largest degree plus one of a polynomial here.
 const MOST: usize = 40;
@@ -83,25 +86,24 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
     let n = c.len() - 1;
     // Bernstein coefficients on [0, length]:
     // b_j = sum_{k<=j} C(j,k)/C(n,k) c_k length^k.
-    let mut scaled = [0.0; MOST];
-    let mut power = 1.0;
-    let length_f64 = length.to_f64();
-    let mut binomial = 1.0;
+    let mut scaled = [N::zero(); MOST];
+    let mut power = N::one();
+    let mut binomial = N::one();
     for k in 0..=n {
-        scaled[k] = c[k].to_f64() * power / binomial;
-        power *= length_f64;
-        binomial *= (n - k) as f64 / (k + 1) as f64;
+        scaled[k] = c[k] * power / binomial;
+        power = power * length;
+        binomial = binomial * N::ratio((n - k) as i32, k as i32 + 1);
     }
     // Repeated differences turn scaled powers into Bernstein coefficients.
     let mut b = scaled;
     for round in 1..=n {
         for j in (round..=n).rev() {
-            b[j] += b[j - 1];
+            b[j] = b[j] + b[j - 1];
         }
     }
     let b = &mut b[..=n];
-    let (low, high) = search(b, 0.0, 1.0, DEPTH)?;
-    refine(c, length * N::from_f64(low), length * N::from_f64(high))
+    let (low, high) = search(b, N::zero(), N::one(), depth::<N>())?;
+    refine(c, length * low, length * high)
 }
 
 /// Whether a polynomial that surely falls all the way ends below zero;
@@ -131,11 +133,12 @@ fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
 
 /// Leftmost isolating interval in units of the whole, positive at its left
 /// end.
-fn search(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
+fn search<N: Real>(b: &[N], low: N, high: N, depth: u32) -> Option<(N, N)> {
+    let zero = N::zero();
     let variations = b
         .iter()
-        .filter(|x| **x != 0.0)
-        .map(|x| x.is_sign_positive())
+        .filter(|x| **x != zero)
+        .map(|x| *x > zero)
         .fold((None, 0), |(last, count), sign| {
             let changed = last.is_some_and(|before| before != sign);
             (Some(sign), count + u32::from(changed))
@@ -143,28 +146,29 @@ fn search(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
         .1;
     let end = b[b.len() - 1];
     if variations == 0 {
-        return (end == 0.0).then_some((low, high));
+        return (end == zero).then_some((low, high));
     }
     if variations == 1 {
         // One crossing; positive on the left, so the right end is below.
         return Some((low, high));
     }
     if depth == 0 {
-        return (!(end > 0.0)).then_some((low, high));
+        return (!(end > zero)).then_some((low, high));
     }
     // De Casteljau at the middle.
     let n = b.len() - 1;
-    let mut left = [0.0; MOST];
-    let mut right = [0.0; MOST];
+    let half = N::ratio(1, 2);
+    let mut left = [zero; MOST];
+    let mut right = [zero; MOST];
     right[..=n].copy_from_slice(b);
     for (k, first) in left.iter_mut().enumerate().take(n + 1) {
         *first = right[0];
         for j in 0..n - k {
-            right[j] = 0.5 * (right[j] + right[j + 1]);
+            right[j] = half * (right[j] + right[j + 1]);
         }
     }
     // `right[j]` now holds the diagonal from the middle to the end.
-    let middle = 0.5 * (low + high);
+    let middle = half * (low + high);
     if let Some(found) = search(&left[..=n], low, middle, depth - 1) {
         return Some(found);
     }
@@ -177,7 +181,7 @@ fn search(b: &[f64], low: f64, high: f64, depth: u32) -> Option<(f64, f64)> {
 fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
     let half = N::ratio(1, 2);
     if value(c, high) > N::zero() {
-        // Isolation in double precision saw a contact that is none.
+        // Isolation saw a contact that is none.
         return None;
     }
     let mut tau = half * (low + high);
@@ -209,9 +213,26 @@ fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
 #[cfg(test)]
 mod tests {
     use crate::number::dispatch::Isa;
+    use crate::number::double::DoubleDouble;
+    use crate::number::{Number, Real};
 
-    fn first_descent(c: &[f64], length: f64) -> Option<f64> {
+    fn first_descent<N: Real>(c: &[N], length: N) -> Option<N> {
         super::first_descent(c, length, Isa::best())
+    }
+
+    #[test]
+    fn tells_roots_apart_that_are_one_in_double_precision() {
+        // (1/2 - tau) (1/2 + 2^-40 - tau), and (tau - 1/2)^2 + 2^-90.
+        let [half, gap, lift] =
+            [0.5, libm::scalbn(1.0, -40), libm::scalbn(1.0, -90)]
+                .map(DoubleDouble::from_f64);
+        let one = DoubleDouble::one();
+        let pair = [half * (half + gap), -(one + gap), one];
+        let found = first_descent(&pair, one).map(|tau| tau - half);
+        assert!(found.is_some_and(|off| off.hi().abs() < 1e-19), "{found:?}");
+        let miss = [half * half + lift, -one, one];
+        assert_eq!(first_descent(&miss, one), None);
+        assert!(first_descent(&[0.25, -1.0, 1.0], 1.0).is_some());
     }
 
     /// Coefficients of the product of (r - tau) for the roots given.

@@ -23,6 +23,9 @@ pub enum AccelerogramError {
         /// What was found.
         value: f64,
     },
+    /// Gravity must be positive and finite.
+    #[error("gravity {0} m/s2: expected a positive number")]
+    Gravity(f64),
 }
 
 /// Ground acceleration at equal intervals, in multiples of gravity.
@@ -58,18 +61,27 @@ impl Accelerogram {
         dt_s: f64,
         samples_g: Vec<f64>,
     ) -> Result<Self, AccelerogramError> {
+        Self::check(dt_s, &samples_g)?;
+        Ok(Self { name: name.into(), dt_s, samples_g })
+    }
+
+    /// What makes samples an accelerogram, whatever their unit.
+    pub(crate) fn check(
+        dt_s: f64,
+        samples: &[f64],
+    ) -> Result<(), AccelerogramError> {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return Err(AccelerogramError::SamplingInterval(dt_s));
         }
-        if samples_g.len() < 2 {
-            let found = samples_g.len();
+        if samples.len() < 2 {
+            let found = samples.len();
             return Err(AccelerogramError::TooFewSamples { found });
         }
-        if let Some(index) = samples_g.iter().position(|a| !a.is_finite()) {
-            let value = samples_g[index];
+        if let Some(index) = samples.iter().position(|a| !a.is_finite()) {
+            let value = samples[index];
             return Err(AccelerogramError::NotFinite { index, value });
         }
-        Ok(Self { name: name.into(), dt_s, samples_g })
+        Ok(())
     }
 
     /// Name by which results refer to the record.

@@ -3,7 +3,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    self, Model, Observe, Outcome, Overturning, Response,
+    self, Model, Observe, Order, Outcome, Overturning, Response, SceneError,
 };
 use rocking::record::Accelerogram;
 
@@ -81,6 +81,27 @@ pub fn respond(
     scene: &Scene,
     observe: &Observe,
 ) -> Result<Response, EngineError> {
+    with_core_scene(scene, |scene| integrator::respond(scene, observe))
+}
+
+/// Runs the core on a record at a fixed order of Eq. 1, with events.
+///
+/// # Errors
+/// [`EngineError::Refused`] with the core's own words.
+pub fn respond_at_order(
+    scene: &Scene,
+    order: Order,
+) -> Result<Response, EngineError> {
+    let observe = Observe { events: true, ..Observe::default() };
+    with_core_scene(scene, |scene| {
+        integrator::respond_at_order(scene, &observe, order)
+    })
+}
+
+fn with_core_scene(
+    scene: &Scene,
+    run: impl FnOnce(&integrator::Scene<'_>) -> Result<Response, SceneError>,
+) -> Result<Response, EngineError> {
     fn refused(error: impl std::fmt::Display) -> EngineError {
         EngineError::Refused(error.to_string())
     }
@@ -117,7 +138,7 @@ pub fn respond(
         excitation,
         initial_ratio,
     };
-    integrator::respond(&scene, observe).map_err(refused)
+    run(&scene).map_err(refused)
 }
 
 type Record = Result<Accelerogram, rocking::record::AccelerogramError>;

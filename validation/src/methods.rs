@@ -1,6 +1,7 @@
 //! Registry of what a case can ask to be computed, and of wrong models.
 
 mod closed_forms;
+mod convergence;
 mod fates;
 mod invariance;
 mod references;
@@ -105,6 +106,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("invariance", invariance::invariance),
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
+    ("order-of-convergence", convergence::order),
     ("response", fates::response),
     ("fates-over-levels", fates::levels),
     ("adjustment-on-suite", fates::adjustment),

@@ -75,3 +75,6 @@ pub enum StudyError {
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,
 }
+
+#[cfg(test)]
+mod tests;

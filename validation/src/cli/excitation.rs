@@ -198,11 +198,13 @@ impl ExcitationArgs {
                 Some(pga_g) => Ok(Ground::Peak(unit, pga_g)),
             };
         }
-        let pulse = Pulse::try_new(self.pulse_kind(gravity_m_s2)?)?;
+        let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
         let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
-        let pulse = match self.target_pga_g(threshold, p, ratio_s) {
-            None => pulse.scaled(self.scale.unwrap_or(1.0))?,
-            Some(pga_g) => pulse.with_pga(pga_g)?,
+        let target = self.target_pga_g(threshold, p, ratio_s);
+        let pulse = match (target, self.scale) {
+            (Some(pga_g), _) => pulse.with_pga(pga_g)?,
+            (None, Some(scale)) => pulse.scaled(scale)?,
+            (None, None) => pulse,
         };
         Ok(Ground::Pulse(pulse))
     }
@@ -221,8 +223,7 @@ impl ExcitationArgs {
         self.pga.or(by_im)
     }
 
-    /// Refuses a pulse's flag that the chosen pulse, or a record, has no use
-    /// for.
+    /// Refuses a flag that the chosen excitation has no use for.
     fn refuse_unused(&self) -> Result<(), Failure> {
         use PulseName as P;
         let sines = [P::OneSine, P::HalfSine, P::OneCosine];
@@ -241,23 +242,40 @@ impl ExcitationArgs {
             ("--gamma", self.gamma.is_some(), &mavroeidis),
             ("--phase-rad", self.phase_rad.is_some(), &mavroeidis),
         ];
+        let chosen = match self.pulse {
+            Some(kind) => format!("--pulse {}", kind.name()),
+            None if self.free => "--free".to_owned(),
+            None => "--record".to_owned(),
+        };
+        let unused = |flag: &str| {
+            Err(Failure::input(format!("{flag} is not used with {chosen}")))
+        };
+        // The parser lets a flag stand that requires one which the chosen
+        // excitation excludes.
+        let of_record = self.record.is_some();
+        if self.dt.is_some() && !of_record {
+            return unused("--dt");
+        }
+        if self.units.is_some() && !of_record {
+            return unused("--units");
+        }
+        if self.initial_ratio.is_some() && !self.free {
+            return unused("--initial-ratio");
+        }
+        if self.im_kind.is_some() && self.im.is_none() {
+            return Err(Failure::input("--im-kind is not used without --im"));
+        }
         for (flag, given, pulses) in used {
             let fits = self.pulse.is_some_and(|kind| pulses.contains(&kind));
             if given && !fits {
-                let chosen = match self.pulse {
-                    Some(kind) => format!("--pulse {}", kind.name()),
-                    None if self.free => "--free".to_owned(),
-                    None => "--record".to_owned(),
-                };
-                return Err(Failure::input(format!(
-                    "{flag} is not used with {chosen}"
-                )));
+                return unused(flag);
             }
         }
         Ok(())
     }
 
-    fn pulse_kind(&self, gravity_m_s2: f64) -> Result<PulseKind, Failure> {
+    /// The pulse with its amplitude as given, in m/s2 or m/s.
+    fn pulse_kind(&self) -> Result<PulseKind, Failure> {
         let Some(name) = self.pulse else {
             return Err(Failure::input(
                 "expected --record, --pulse or --free",
@@ -268,10 +286,7 @@ impl ExcitationArgs {
                 Failure::input(format!("--pulse {} needs {flag}", name.name()))
             })
         };
-        let amplitude_g = || {
-            need("--amplitude-m-s2", self.amplitude_m_s2)
-                .map(|a| a / gravity_m_s2)
-        };
+        let amplitude_g = || need("--amplitude-m-s2", self.amplitude_m_s2);
         let omega_rad_s = || need("--omega-rad-s", self.omega_rad_s);
         let duration_s = || need("--duration-s", self.duration_s);
         let period_s = || need("--period-s", self.period_s);
@@ -309,8 +324,7 @@ impl ExcitationArgs {
             },
             PulseName::MavroeidisPapageorgiou => {
                 PulseKind::MavroeidisPapageorgiou {
-                    velocity_g_s: need("--velocity-m-s", self.velocity_m_s)?
-                        / gravity_m_s2,
+                    velocity_g_s: need("--velocity-m-s", self.velocity_m_s)?,
                     frequency_hz: need("--frequency-hz", self.frequency_hz)?,
                     gamma: need("--gamma", self.gamma)?,
                     phase_rad: need("--phase-rad", self.phase_rad)?,

@@ -7,8 +7,8 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Analysis, Grid, HIGHEST_IM, IdaCurve, IdaPoint, Method, REFINEMENT,
-    Resurrections, curves,
+    Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaError, IdaPoint,
+    Method, REFINEMENT, Resurrections, certified_curves, curves,
 };
 use rocking::integrator::uplift_threshold;
 use rocking::record::{ReadOptions, Suite};
@@ -62,6 +62,10 @@ pub struct Args {
     /// Which components of the pairs.
     #[arg(long, value_enum, default_value_t = Component::Study)]
     component: Component,
+    /// Tell each fate in the precision that it needs: double-double where
+    /// double precision cannot.
+    #[arg(long)]
+    certify: bool,
     /// Threads [default: all].
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -133,16 +137,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let suite = read_suite(&args.suite, read)?;
     let records = args.records(&suite)?;
     let bar = progress(records.len() as u64);
-    let found = with_threads(args.threads, || {
-        curves(&records, &[analysis], || bar.inc(1))
+    let (table, certified) = with_threads(args.threads, || {
+        args.curves(&records, &analysis, || bar.inc(1))
     })??;
     bar.finish_and_clear();
-    let table = found.first().map(Vec::as_slice).unwrap_or_default();
-    write_atomically(&args.out, csv(table, &analysis, gravity_m_s2))?;
+    write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
     let text = if args.json {
-        format!("{}\n", summary_json(args, table, &suite))
+        format!("{}\n", summary_json(args, &table, certified, &suite))
     } else {
-        summary(args, table, &suite)
+        summary(args, &table, certified, &suite)
     };
     print(&text)
 }
@@ -171,6 +174,31 @@ impl Args {
             highest_im: HIGHEST_IM,
             resurrections,
         })
+    }
+
+    /// The curves, and what certification did to all of them where it was
+    /// asked for.
+    fn curves(
+        &self,
+        records: &[NormalisedRecord],
+        analysis: &Analysis,
+        done: impl Fn() + Sync,
+    ) -> Result<(Vec<IdaCurve>, Option<Certification>), IdaError> {
+        let only = std::slice::from_ref(analysis);
+        if !self.certify {
+            let found = curves(records, only, done)?;
+            return Ok((found.into_iter().flatten().collect(), None));
+        }
+        let found = certified_curves(records, only, done)?;
+        let mut total = Certification::default();
+        let table = found.into_iter().flatten().map(|(curve, own)| {
+            total.needed += own.needed;
+            total.moved += own.moved;
+            total.unresolved += own.unresolved;
+            curve
+        });
+        let table = table.collect();
+        Ok((table, Some(total)))
     }
 
     fn records(
@@ -304,7 +332,12 @@ fn counts(table: &[IdaCurve]) -> Counts {
     }
 }
 
-fn summary_json(args: &Args, table: &[IdaCurve], suite: &Suite) -> String {
+fn summary_json(
+    args: &Args,
+    table: &[IdaCurve],
+    certified: Option<Certification>,
+    suite: &Suite,
+) -> String {
     let counts = counts(table);
     let sought = args.resurrections_to.is_some();
     json!({
@@ -315,6 +348,11 @@ fn summary_json(args: &Args, table: &[IdaCurve], suite: &Suite) -> String {
         "overturned_curves": counts.overturned,
         "median_overturning_im": optional(median_overturning(table)),
         "unresolved": counts.unresolved,
+        "certified": certified.map(|c| json!({
+            "needed_double_double": c.needed,
+            "fates_moved": c.moved,
+            "unresolved": c.unresolved,
+        })),
         "resurrections": sought.then_some(counts.resurrections),
         "curves": table.iter().map(|c| json!({
             "record": c.record,
@@ -326,7 +364,12 @@ fn summary_json(args: &Args, table: &[IdaCurve], suite: &Suite) -> String {
     .to_string()
 }
 
-fn summary(args: &Args, table: &[IdaCurve], suite: &Suite) -> String {
+fn summary(
+    args: &Args,
+    table: &[IdaCurve],
+    certified: Option<Certification>,
+    suite: &Suite,
+) -> String {
     let counts = counts(table);
     let mut text = String::new();
     let mut row = |name: &str, value: String| {
@@ -339,6 +382,10 @@ fn summary(args: &Args, table: &[IdaCurve], suite: &Suite) -> String {
     row("overturned", format!("{} of {}", counts.overturned, table.len()));
     if let Some(median) = median_overturning(table) {
         row("median overturning IM", format!("{median:.4}"));
+    }
+    if let Some(certified) = certified {
+        row("needed double-double", certified.needed.to_string());
+        row("fates moved by it", certified.moved.to_string());
     }
     row("unresolved fates", counts.unresolved.to_string());
     if args.resurrections_to.is_some() {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{
-    Observe, Outcome, Response, Scene, Side, respond, uplift_threshold,
+    Certified, Engine, Observe, Outcome, Response, Scene, Side, certify,
+    respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
 
@@ -30,6 +31,10 @@ pub struct Args {
     /// Write the history theta(t) as CSV.
     #[arg(long, value_name = "FILE.csv")]
     history: Option<PathBuf>,
+    /// Tell the fate in the precision that it needs: double-double where
+    /// double precision cannot.
+    #[arg(long, conflicts_with = "until")]
+    certify: bool,
     /// JSON for machines.
     #[arg(long)]
     json: bool,
@@ -90,7 +95,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Ground::Pulse(pulse) => pulse.pga_g(),
         Ground::Free(_) => 0.0,
     };
-    let setting = Setting { args, scene: &scene, gravity_m_s2, pga_g };
+    let certified = if args.certify { Some(certify(&scene)?) } else { None };
+    let scene = &scene;
+    let setting = Setting { args, scene, certified, gravity_m_s2, pga_g };
     if args.json {
         let text = serde_json::to_string_pretty(&setting.json(&response))?;
         print(&format!("{text}\n"))
@@ -139,8 +146,21 @@ fn side_name(side: Side) -> &'static str {
 struct Setting<'a> {
     args: &'a Args,
     scene: &'a Scene<'a>,
+    certified: Option<Certified>,
     gravity_m_s2: f64,
     pga_g: f64,
+}
+
+/// The certified outcome, `unresolved` where no engine can tell.
+fn certified_name(fate: &Certified) -> &'static str {
+    outcome_name(&fate.outcome, fate.decided)
+}
+
+fn engine_name(engine: Engine) -> &'static str {
+    match engine {
+        Engine::Double => "double",
+        Engine::DoubleDouble => "double-double",
+    }
 }
 
 impl Setting<'_> {
@@ -177,6 +197,12 @@ impl Setting<'_> {
             "impacts": impacts,
             "fate_margin": number(response.fate_margin),
             "fate_error": optional(response.fate_error),
+            "certified": self.certified.map(|fate| json!({
+                "outcome": certified_name(&fate),
+                "margin": number(fate.margin),
+                "error": number(fate.error),
+                "by": engine_name(fate.by),
+            })),
             "error_estimate": optional(response.error_estimate),
             "condition_number": optional(response.condition_number),
             "reasons": self.reasons(response),
@@ -210,6 +236,9 @@ impl Setting<'_> {
         let mut because = |key: &str, text: &str| {
             reasons.insert(key.to_owned(), Value::from(text));
         };
+        if self.certified.is_none() {
+            because("certified", "not asked for by --certify");
+        }
         let overturned = response.outcome.is_overturned();
         if response.outcome == Outcome::NoUplift {
             for key in ["peak_time_s", "uplift_time_s", "rest_time_s"] {
@@ -292,6 +321,18 @@ impl Setting<'_> {
         row("rest", time(response.rest_time_s));
         row("impacts", response.work.impacts.to_string());
         row("fate margin", format!("{:.3e}", response.fate_margin));
+        if let Some(fate) = self.certified {
+            row(
+                "certified",
+                format!(
+                    "{} by {}, margin {:.3e}, error {:.1e}",
+                    certified_name(&fate),
+                    engine_name(fate.by),
+                    fate.margin,
+                    fate.error
+                ),
+            );
+        }
         if let Some(error) = response.error_estimate {
             row("error estimate", format!("{error:.1e}"));
         }

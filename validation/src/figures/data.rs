@@ -18,6 +18,7 @@ mod quantiles;
 mod sketch;
 mod table;
 mod tests_along;
+mod thin;
 
 use serde::Serialize;
 

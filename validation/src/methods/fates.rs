@@ -207,12 +207,12 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
             let scaled = Core.respond(&scene(alpha, factor))?;
             let twin = context.engine.respond(&scene(adjusted, 1.0))?;
             let (a, b) = (twin.peak_ratio, scaled.peak_ratio);
-            extend(&mut answer, "peak-ratio", [a], [b]);
             differences.push(if a == b { 0.0 } else { (a / b - 1.0).abs() });
         }
     }
     differences.sort_by(f64::total_cmp);
-    let median = differences[differences.len() / 2];
-    answer.put("median-difference", vec![median], vec![0.0]);
+    let at = |share: usize| differences[differences.len() * share / 10];
+    answer.put("median-difference", vec![at(5)], vec![0.0]);
+    answer.put("upper-decile-difference", vec![at(9)], vec![0.0]);
     Ok(answer)
 }

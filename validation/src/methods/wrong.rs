@@ -144,6 +144,7 @@ pub static WRONG_MODELS: &[WrongModel] = &[
         "energy of Eq. 2 along Eq. 1, or of Eq. 1 along Eq. 2",
     ),
     method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
+    method("order-too-low", "the series stops two terms early"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
 ];
 

@@ -1,5 +1,7 @@
 //! All analyses of a study, in a fixed order for any number of threads.
 
+mod stripes;
+
 use indicatif::ProgressBar;
 use rayon::prelude::*;
 use rocking::block::Block;
@@ -9,12 +11,10 @@ use rocking::ida::Method;
 
 use super::choice::{by_rank, common_level};
 use super::grid::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
-    blocks, position,
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, position,
 };
 use super::histories::{distance, mean_log_ratio};
-use super::runs::{Chain, Setup};
-use super::stripes::on_stripe;
+use super::runs::Setup;
 use super::suites::{Motion, StudySuite};
 use super::{StudyError, capacities};
 use crate::figures::data::Arm;
@@ -53,6 +53,10 @@ pub struct ArmCurves {
     pub curves: Vec<Vec<ResponseCurve>>,
 }
 
+/// Theta/alpha every [`HISTORY_INTERVAL_S`], and whether the block
+/// overturned.
+pub type ShownHistory = (Vec<f64>, bool);
+
 /// Histories of the chosen records, and how far all records' histories and
 /// curves are from the reference slenderness, for one frequency parameter.
 #[derive(Clone, Debug)]
@@ -61,7 +65,7 @@ pub struct SingleRecords {
     pub im: f64,
     /// Theta/alpha of the chosen records, by record, then by slenderness,
     /// and whether the block overturned.
-    pub histories: Vec<Vec<(Vec<f64>, bool)>>,
+    pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
     pub apart: Vec<Vec<Apart>>,
 }
@@ -120,9 +124,9 @@ pub struct SuiteResults {
     pub single: Vec<SingleRecords>,
     /// By arm; ordinary suite only.
     pub stripes: Vec<StripeDemands>,
-    /// Slenderness-adjusted curves by arm, frequency, record; ordinary
-    /// suite only.
-    pub adjusted: Vec<(Arm, Vec<Vec<ResponseCurve>>)>,
+    /// Slenderness-adjusted curves by arm; by frequency instead of block,
+    /// then by record; ordinary suite only.
+    pub adjusted: Vec<ArmCurves>,
 }
 
 impl SuiteResults {
@@ -186,7 +190,9 @@ impl Plan {
             .map(|m| NormalisedRecord::new(&m.study))
             .collect();
         let facts: Vec<Facts> = suite.motions.iter().map(facts).collect();
-        progress.inc_length((blocks.len() * records.len()) as u64);
+        let scans = Setup::scans(&self.arms).len();
+        let chains = scans * blocks.len() * records.len();
+        progress.inc_length(chains as u64);
         let (arms, work) = self.curves(&blocks, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
@@ -228,31 +234,14 @@ impl Plan {
         records: &[NormalisedRecord],
         progress: &ProgressBar,
     ) -> Result<(Vec<ArmCurves>, Work), StudyError> {
-        let n = records.len();
-        // One task a chain; results come back in the order of the tasks.
-        let chains: Vec<Chain> = (0..blocks.len() * n)
-            .into_par_iter()
-            .map(|task| {
-                let (block, record) = (blocks[task / n], &records[task % n]);
-                let chain = self.setup.chain(block, record, &self.arms);
-                progress.inc(1);
-                chain
-            })
-            .collect::<Result<_, _>>()?;
-        let of = |i: usize| {
-            chains
-                .chunks(n)
-                .map(|block| {
-                    block.iter().map(|c| c.curves[i].clone()).collect()
-                })
-                .collect()
-        };
-        let arms = self.arms.iter().enumerate();
-        let arms = arms.map(|(i, arm)| ArmCurves { arm: *arm, curves: of(i) });
-        let work = Work {
-            analyses: chains.iter().map(|c| c.analyses).sum(),
-            unresolved: chains.iter().map(|c| c.unresolved).sum(),
-        };
+        let method = Method::RecordScaling;
+        let done = || progress.inc(1);
+        let chains =
+            self.setup.chains(blocks, records, &self.arms, method, done)?;
+        let arms = self.arms.iter().zip(chains.curves);
+        let arms = arms.map(|(arm, curves)| ArmCurves { arm: *arm, curves });
+        let work =
+            Work { analyses: chains.analyses, unresolved: chains.unresolved };
         Ok((arms.collect(), work))
     }
 
@@ -280,7 +269,7 @@ impl Plan {
             .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
             .collect();
         let im = common_level(&standing);
-        let all: Vec<(Vec<(Vec<f64>, bool)>, Vec<Apart>)> = (0..records.len())
+        let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
             .into_par_iter()
             .map(|record| {
                 let histories: Vec<(Vec<f64>, f64)> = slendernesses
@@ -325,145 +314,20 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<(Arm, Vec<Vec<ResponseCurve>>)>, StudyError> {
+    ) -> Result<Vec<ArmCurves>, StudyError> {
         let drawn = self.drawn();
-        let frequencies = 0..FREQUENCIES_RAD_S.len();
-        let tasks = drawn.len() * frequencies.len() * records.len();
+        let references: Vec<Block> = (0..FREQUENCIES_RAD_S.len())
+            .map(|frequency| blocks[position(frequency, REFERENCE)])
+            .collect();
+        let tasks = drawn.len() * references.len() * records.len();
         progress.inc_length(tasks as u64);
-        drawn
-            .into_iter()
-            .map(|arm| {
-                let by_frequency = frequencies
-                    .clone()
-                    .map(|frequency| {
-                        let block = blocks[position(frequency, REFERENCE)];
-                        records
-                            .par_iter()
-                            .map(|r| {
-                                progress.inc(1);
-                                self.setup.chain_adjusted(block, r, arm)
-                            })
-                            .collect::<Result<Vec<_>, _>>()
-                    })
-                    .collect::<Result<_, _>>()?;
-                Ok((arm, by_frequency))
-            })
-            .collect()
+        let method = Method::SlendernessAdjustment;
+        let done = || progress.inc(1);
+        let chains =
+            self.setup.chains(&references, records, &drawn, method, done)?;
+        let arms = drawn.into_iter().zip(chains.curves);
+        Ok(arms.map(|(arm, curves)| ArmCurves { arm, curves }).collect())
     }
-
-    /// One run a block, stripe and record; what an arm's scan makes of it
-    /// is a matter of its first overturning.
-    fn stripes(
-        &self,
-        blocks: &[Block],
-        records: &[NormalisedRecord],
-        results: &SuiteResults,
-    ) -> Result<Vec<StripeDemands>, StudyError> {
-        let used = self.used_stripes(results);
-        let scaling = Method::RecordScaling;
-        let runs: Vec<Vec<Vec<f64>>> = blocks
-            .iter()
-            .map(|block| {
-                on_levels(&used, records, |im, record| {
-                    self.setup.demand(*block, record, im, scaling)
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        let adjusted_runs: Vec<Vec<Vec<f64>>> = (0..FREQUENCIES_RAD_S.len())
-            .map(|frequency| {
-                let block = blocks[position(frequency, REFERENCE)];
-                on_levels(&used, records, |im, record| {
-                    let method = Method::SlendernessAdjustment;
-                    self.setup.demand(block, record, im, method)
-                })
-            })
-            .collect::<Result<_, _>>()?;
-        let mut out = Vec::new();
-        for (arm, adjusted) in &results.adjusted {
-            let Some(curves) = results.curves(*arm) else { continue };
-            let apply = |runs: &[Vec<f64>], curves: &[ResponseCurve]| {
-                used.iter()
-                    .zip(runs)
-                    .map(|(im, row)| {
-                        row.iter()
-                            .zip(curves)
-                            .map(|(run, curve)| {
-                                on_stripe(*im, curve.overturning_im(), *run)
-                            })
-                            .collect::<Vec<f64>>()
-                    })
-                    .collect::<Vec<_>>()
-            };
-            let demands: Vec<Vec<Vec<f64>>> =
-                runs.iter().zip(curves).map(|(r, c)| apply(r, c)).collect();
-            let adjusted = adjusted_runs
-                .iter()
-                .zip(adjusted)
-                .map(|(r, c)| apply(r, c))
-                .collect();
-            // Overturned by the rule, yet finite by its own run.
-            let count = |which: fn(f64, f64) -> bool| {
-                demands
-                    .iter()
-                    .zip(&runs)
-                    .map(|(demands, runs)| {
-                        demands
-                            .iter()
-                            .zip(runs)
-                            .map(|(d, r)| {
-                                d.iter()
-                                    .zip(r)
-                                    .filter(|(d, r)| which(**d, **r))
-                                    .count()
-                            })
-                            .collect()
-                    })
-                    .collect()
-            };
-            out.push(StripeDemands {
-                arm: *arm,
-                stand_again: count(|d, r| d.is_infinite() && r.is_finite()),
-                overturned: count(|d, _| d.is_infinite()),
-                demands,
-                adjusted,
-            });
-        }
-        Ok(out)
-    }
-
-    /// Stripes at which at least ten records stand in the reference block
-    /// of some frequency parameter, in any arm drawn.
-    fn used_stripes(&self, results: &SuiteResults) -> Vec<f64> {
-        let stands = |im: f64| {
-            self.drawn().iter().any(|arm| {
-                let curves = results.curves(*arm).unwrap_or_default();
-                (0..FREQUENCIES_RAD_S.len()).any(|frequency| {
-                    let block = curves.get(position(frequency, REFERENCE));
-                    let standing = block.map_or(0, |records| {
-                        records
-                            .iter()
-                            .filter(|c| {
-                                c.overturning_im().is_none_or(|o| im < o)
-                            })
-                            .count()
-                    });
-                    standing >= LEAST_USABLE
-                })
-            })
-        };
-        STRIPES.iter().copied().filter(|im| stands(*im)).collect()
-    }
-}
-
-fn on_levels(
-    levels: &[f64],
-    records: &[NormalisedRecord],
-    run: impl Fn(f64, &NormalisedRecord) -> Result<f64, StudyError> + Sync,
-) -> Result<Vec<Vec<f64>>, StudyError> {
-    levels
-        .iter()
-        .map(|im| records.par_iter().map(|r| run(*im, r)).collect())
-        .collect()
 }
 
 fn apart(

@@ -5,6 +5,7 @@ mod basics;
 mod fragilities;
 mod lognormality;
 mod stages;
+mod stripes;
 
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
@@ -95,6 +96,18 @@ pub fn median(values: &[f64]) -> Measured {
         value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
         interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
     }
+}
+
+/// Distance of a median from 1, with the interval's.
+fn away(m: Measured) -> Measured {
+    let off = |x: f64| (x - 1.0).abs();
+    let interval = m.interval.map(|(a, b)| {
+        let (a_off, b_off) = (off(a), off(b));
+        let high = if a_off > b_off { a_off } else { b_off };
+        let low = if a_off > b_off { b_off } else { a_off };
+        (if a <= 1.0 && b >= 1.0 { 0.0 } else { low }, high)
+    });
+    Measured { value: off(m.value), interval }
 }
 
 fn middle(values: &[f64]) -> f64 {

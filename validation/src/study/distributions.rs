@@ -4,7 +4,7 @@ use super::StudyError;
 use super::analyses::SuiteResults;
 use super::capacities::{samples, scaled};
 use super::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
-use super::normality::{accepted_share, along};
+use super::normality::{accepted_share, along, null_band};
 use crate::figures::data::{Arm, Intensity};
 
 /// Capacities of one block, and the test along the demand.
@@ -22,6 +22,8 @@ pub struct BlockSamples {
     pub original: Vec<f64>,
     /// The same above the shift.
     pub shifted: Vec<f64>,
+    /// Null bands of the two accepted shares, in the plan's common arm.
+    pub bands: [Option<(f64, f64)>; 2],
 }
 
 impl BlockSamples {
@@ -45,12 +47,14 @@ pub struct Distributions {
     pub blocks: Vec<BlockSamples>,
 }
 
-/// The distributions of a suite: by arm, PGA then PGV.
+/// The distributions of a suite: by arm, PGA then PGV; null bands for the
+/// arm `banded`.
 ///
 /// # Errors
 /// None in practice: the levels are positive.
 pub fn of_suite(
     suite: &SuiteResults,
+    banded: Arm,
 ) -> Result<Vec<Distributions>, StudyError> {
     let levels = demands();
     let mut out = Vec::new();
@@ -64,7 +68,7 @@ pub fn of_suite(
             let blocks = by_block
                 .iter()
                 .enumerate()
-                .map(|(i, s)| block(suite, intensity, i, s))
+                .map(|(i, s)| block(suite, intensity, i, s, arm.arm == banded))
                 .collect();
             out.push(Distributions {
                 kind: suite.kind,
@@ -82,6 +86,7 @@ fn block(
     intensity: Intensity,
     position: usize,
     pga: &[Vec<f64>],
+    banded: bool,
 ) -> BlockSamples {
     let slendernesses = SLENDERNESSES_RAD.len();
     let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
@@ -90,7 +95,17 @@ fn block(
     let samples: Vec<Vec<f64>> =
         pga.iter().map(|sample| scaled(sample, &factors)).collect();
     let shift = least(&factors);
+    let band = |shift: f64| {
+        let kind = if shift > 0.0 { "shifted" } else { "original" };
+        let name = format!(
+            "study/band/{}/{}/{p_rad_s}/{alpha_rad}/{kind}",
+            suite.kind,
+            intensity.name()
+        );
+        banded.then(|| null_band(&samples, shift, &name)).flatten()
+    };
     BlockSamples {
+        bands: [band(0.0), band(shift)],
         p_rad_s,
         alpha_rad,
         shift,

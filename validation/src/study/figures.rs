@@ -9,7 +9,9 @@ mod single;
 pub(crate) use fragilities::{
     BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, usfl7,
 };
-pub(crate) use ratios::{adjusted_boxes, demand_boxes, of_arm, pairs};
+pub(crate) use ratios::{
+    adjusted_boxes, adjusted_split, demand_boxes, of_arm, pairs,
+};
 pub(crate) use single::median_of;
 
 use super::StudyError;

@@ -116,7 +116,7 @@ impl Claim {
             "arm": self.arm.map(Arm::letter),
             "measure": self.measure,
             "value": rounded(value),
-            "interval": interval.map(|(a, b)| [rounded(a), rounded(b)]),
+            "interval": ends(interval),
             "margin": self.margin,
             "verdict": self.verdict.name(),
             "note": self.note,
@@ -129,6 +129,12 @@ impl Claim {
 #[must_use]
 pub fn rounded(x: f64) -> Value {
     number(format!("{x:.8e}").parse().unwrap_or(x))
+}
+
+/// The two ends of an interval, or null.
+#[must_use]
+pub fn ends(interval: Option<(f64, f64)>) -> Value {
+    interval.map_or(Value::Null, |(a, b)| json!([rounded(a), rounded(b)]))
 }
 
 /// Everything that goes to `findings.json`, by name; keys are sorted.

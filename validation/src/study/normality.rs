@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use rocking::statistics::Sample;
+use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::lilliefors::{Statistic, Table};
 
 /// Level of the tests.
@@ -43,6 +44,39 @@ pub fn accepted_share(over_critical: &[f64]) -> f64 {
     accepted as f64 / over_critical.len() as f64
 }
 
+/// Every so many levels enter the null band, which a denser choice does not
+/// move.
+const BAND_STRIDE: usize = 8;
+
+/// Replicates of the null band.
+const BAND_REPLICATES: u64 = 200;
+
+/// Central 95 % band of the accepted share for capacities that are lognormal
+/// above `shift` and as dependent from level to level as these; none where
+/// a capacity is infinite or not above the shift.
+#[must_use]
+pub fn null_band(
+    samples: &[Vec<f64>],
+    shift: f64,
+    name: &str,
+) -> Option<(f64, f64)> {
+    let levels: Vec<Vec<f64>> = samples
+        .iter()
+        .skip(BAND_STRIDE - 1)
+        .step_by(BAND_STRIDE)
+        .map(|sample| sample.iter().map(|x| libm::log(x - shift)).collect())
+        .collect();
+    if levels.iter().flatten().any(|y| !y.is_finite()) {
+        return None;
+    }
+    let size = samples.first()?.len();
+    let (critical, _) = Table::embedded().critical_value(size, LEVEL).ok()?;
+    let band = NullBand::simulate(&levels, critical, BAND_REPLICATES, name, 0)
+        .ok()?;
+    let band = band.band(1.0 - LEVEL, 0.95)?;
+    Some((band.low, band.high))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,5 +98,17 @@ mod tests {
         assert!(ratios[0] < 0.2 && ratios[1] > 2.0, "{ratios:?}");
         assert!(ratios[2].is_nan());
         assert_eq!(accepted_share(&ratios), 1.0 / 3.0);
+    }
+
+    #[test]
+    fn null_band_of_one_level_in_copies_is_everything() {
+        let level: Vec<f64> =
+            (1..=44).map(|i| 1.0 + f64::from(i * i)).collect();
+        let copies = vec![level; 40];
+        // All levels are accepted together, 95 % of the time: the band
+        // reaches 1 and does not shrink to it.
+        let (low, high) = null_band(&copies, 1.0, "test").expect("band");
+        assert!(low < 1.0 && high == 1.0, "{low} {high}");
+        assert!(null_band(&copies, 2.0, "test").is_none());
     }
 }

@@ -25,11 +25,11 @@ pub struct Setup {
     pub tolerance: f64,
 }
 
-/// The curves of one block and record, arm by arm, and what they took.
+/// The curves of blocks under records, and what they took.
 #[derive(Clone, Debug)]
-pub struct Chain {
-    /// Curves in the order of the arms asked for.
-    pub curves: Vec<ResponseCurve>,
+pub struct Chains {
+    /// Curves by arm (in the order asked for), by block, by record.
+    pub curves: Vec<Vec<Vec<ResponseCurve>>>,
     /// Analyses made.
     pub analyses: u64,
     /// Analyses whose fate double precision cannot tell.
@@ -54,62 +54,59 @@ impl Setup {
         }
     }
 
-    /// The curves of one chain in the arms asked for; A and B are one scan.
+    /// The curves of every block and record in the arms asked for; A and B
+    /// are one scan. `done` is called after each chain.
     ///
     /// # Errors
-    /// [`StudyError`] where the record cannot be scaled.
-    pub fn chain(
+    /// [`StudyError`] where a record cannot be scaled, or there is no such
+    /// block.
+    pub fn chains(
         &self,
-        block: Block,
-        record: &NormalisedRecord,
+        blocks: &[Block],
+        records: &[NormalisedRecord],
         arms: &[Arm],
-    ) -> Result<Chain, StudyError> {
-        let mut scan: Option<IdaCurve> = None;
-        let mut chain =
-            Chain { curves: Vec::new(), analyses: 0, unresolved: 0 };
-        let refined = arms.contains(&Arm::B);
-        for arm in arms {
-            let run = match (arm, &scan) {
-                (Arm::B, Some(scan)) => scan.clone(),
-                (Arm::A, _) if refined => {
-                    self.scan(block, record, Arm::B, &mut chain)?
-                }
-                _ => self.scan(block, record, *arm, &mut chain)?,
-            };
-            chain.curves.push(response_curve(&run, *arm)?);
-            scan = Some(run).filter(|_| *arm == Arm::A);
-        }
-        Ok(chain)
+        method: Method,
+        done: impl Fn() + Sync,
+    ) -> Result<Chains, StudyError> {
+        let scans = Self::scans(arms);
+        let analyses: Vec<Analysis> = scans
+            .iter()
+            .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
+            .map(|(block, arm)| self.analysis(block, arm, method))
+            .collect();
+        let runs = ida::curves(records, &analyses, done)?;
+        let all = || runs.iter().flatten();
+        let points = all().flat_map(|run| &run.points);
+        let curves = arms
+            .iter()
+            .map(|arm| {
+                let own = |scan: &Arm| (*scan == Arm::C) == (*arm == Arm::C);
+                let first = scans.iter().position(own).unwrap_or(0);
+                let first = first * blocks.len();
+                runs[first..first + blocks.len()]
+                    .iter()
+                    .map(|runs| {
+                        runs.iter().map(|r| response_curve(r, *arm)).collect()
+                    })
+                    .collect()
+            })
+            .collect::<Result<_, StudyError>>()?;
+        Ok(Chains {
+            curves,
+            analyses: all().map(|run| run.analyses).sum(),
+            unresolved: points.filter(|point| !point.resolved).count(),
+        })
     }
 
-    fn scan(
-        &self,
-        block: Block,
-        record: &NormalisedRecord,
-        arm: Arm,
-        chain: &mut Chain,
-    ) -> Result<IdaCurve, StudyError> {
-        let analysis = self.analysis(block, arm, Method::RecordScaling);
-        let run = ida::curve(record, &analysis)?;
-        chain.analyses += run.analyses;
-        chain.unresolved += run.points.iter().filter(|p| !p.resolved).count();
-        Ok(run)
-    }
-
-    /// The curve of one record by slenderness adjustment, on the levels of
-    /// the reference block.
-    ///
-    /// # Errors
-    /// [`StudyError`] where there is no such block.
-    pub fn chain_adjusted(
-        &self,
-        reference: Block,
-        record: &NormalisedRecord,
-        arm: Arm,
-    ) -> Result<ResponseCurve, StudyError> {
-        let method = Method::SlendernessAdjustment;
-        let analysis = self.analysis(reference, arm, method);
-        response_curve(&ida::curve(record, &analysis)?, arm)
+    /// Arms as they are scanned: A and B once, bisected if B is asked for.
+    pub(super) fn scans(arms: &[Arm]) -> Vec<Arm> {
+        let hundredths = if arms.contains(&Arm::B) { Arm::B } else { Arm::A };
+        let mut scans: Vec<Arm> = arms
+            .iter()
+            .map(|arm| if *arm == Arm::C { Arm::C } else { hundredths })
+            .collect();
+        scans.dedup();
+        scans
     }
 
     /// Demand of `block` at dimensionless intensity `im`: by scaling the

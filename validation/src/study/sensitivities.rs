@@ -1,10 +1,10 @@
 //! What other choices would do to the capacities: restitution, criterion,
 //! component.
 
-use rayon::prelude::*;
 use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
+use rocking::ida::Method;
 use rocking::integrator::Overturning;
 
 use super::StudyError;
@@ -125,15 +125,22 @@ impl Plan {
                     )?;
                     let setup = choice.setup(self.setup, &block)?;
                     let arm = [self.common()];
+                    let present: Vec<NormalisedRecord> =
+                        records.iter().flatten().cloned().collect();
+                    let method = Method::RecordScaling;
+                    let chains = setup.chains(
+                        &[block],
+                        &present,
+                        &arm,
+                        method,
+                        || {},
+                    )?;
+                    let mut found =
+                        chains.curves.into_iter().flatten().flatten();
                     let curves = records
-                        .par_iter()
-                        .map(|record| {
-                            let Some(record) = record else { return Ok(None) };
-                            let mut chain =
-                                setup.chain(block, record, &arm)?;
-                            Ok(chain.curves.pop())
-                        })
-                        .collect::<Result<_, StudyError>>()?;
+                        .iter()
+                        .map(|r| r.as_ref().and_then(|_| found.next()))
+                        .collect();
                     out.push(Varied {
                         choice,
                         frequency,

@@ -10,14 +10,18 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::claims;
 use super::distributions::of_suite;
-use super::figures::{Figure, Results, adjusted_boxes};
-use super::findings::{Claim, Findings, rounded, text};
-use super::grid::{blocks, demands};
+use super::figures::{
+    Figure, Results, adjusted_boxes, adjusted_split, of_arm,
+};
+use super::findings::{Claim, Findings, ends, rounded, text};
+use super::grid::{
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, demands,
+};
 use super::output::Files;
 use super::page;
 use super::sensitivities::Varied;
 use super::suites::StudySuite;
-use crate::figures::data::{Arm, Table};
+use crate::figures::data::{Arm, Table, number};
 use crate::report;
 
 /// A finished study.
@@ -43,8 +47,9 @@ impl Study {
         let [first, second] = suites;
         let ordinary = plan.run(first, true, progress)?;
         let pulse = plan.run(second, false, progress)?;
-        let mut distributions = of_suite(&ordinary)?;
-        distributions.extend(of_suite(&pulse)?);
+        let common = plan.common();
+        let mut distributions = of_suite(&ordinary, common)?;
+        distributions.extend(of_suite(&pulse, common)?);
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
         let figures = results.figures()?;
@@ -106,6 +111,8 @@ impl Study {
             files.insert(format!("{name}.csv"), csv.into_bytes());
         }
         files.insert("table-01.csv".into(), table_1()?.into_bytes());
+        let single = single_csv(&self.results);
+        files.insert("single-records.csv".into(), single.into_bytes());
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
         let input = page::input(&self.results, &self.figures, &self.claims)?;
@@ -130,6 +137,43 @@ fn table_1() -> Result<String, StudyError> {
         table.row(row);
     }
     Ok(table.finish())
+}
+
+/// Every record's histories and curves against those of alpha = 0.10.
+fn single_csv(results: &Results) -> String {
+    let mut table = Table::new(&[
+        "suite",
+        "record",
+        "p_rad_s",
+        "im_pga",
+        "alpha_rad",
+        "normalized_l2_distance",
+        "peak_ratio",
+        "mean_abs_ln_im_ratio",
+    ]);
+    let others: Vec<f64> = (0..SLENDERNESSES_RAD.len())
+        .filter(|s| *s != REFERENCE)
+        .map(|s| SLENDERNESSES_RAD[s])
+        .collect();
+    for suite in [&results.ordinary, &results.pulse] {
+        for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
+            for (record, apart) in suite.records.iter().zip(&single.apart) {
+                for (alpha, a) in others.iter().zip(apart) {
+                    table.row([
+                        suite.kind.into(),
+                        record.name.clone(),
+                        number(p),
+                        number(single.im),
+                        number(*alpha),
+                        number(a.distance),
+                        number(a.peak_ratio),
+                        number(a.mean_ln_im),
+                    ]);
+                }
+            }
+        }
+    }
+    table.finish()
 }
 
 fn findings(
@@ -184,26 +228,39 @@ fn suite(suite: &SuiteResults) -> Value {
     })
 }
 
-/// Figure 9, a row a box: usable share, count and median.
+/// Figure 9, a row a box: usable share, count and median; the same apart by
+/// whether the adjusted slenderness is within the paper's.
 fn figure_09(results: &Results) -> Result<Value, StudyError> {
+    let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
-        for (p_rad_s, stripes) in adjusted_boxes(&results.ordinary, arm)? {
-            for stripe in stripes {
+        let Some(demands) = of_arm(suite, arm) else { continue };
+        for (frequency, (p_rad_s, stripes)) in
+            adjusted_boxes(suite, arm)?.into_iter().enumerate()
+        {
+            let splits = adjusted_split(suite, demands, frequency)?;
+            for (stripe, split) in stripes.iter().zip(splits) {
                 let median = stripe.summary.as_ref().map(|b| b.median);
                 rows.push(json!({
                     "arm": arm.letter(),
                     "p_rad_s": rounded(p_rad_s),
-                    "im_pga": rounded(stripe.level),
+                    "im_pga": rounded(split.im),
                     "records": stripe.records,
                     "usable": stripe.usable,
                     "usable_share": rounded(stripe.usable_share()),
                     "median": median.map(rounded),
+                    "alpha_to_0.25": part(&split.within),
+                    "alpha_above_0.25": part(&split.above),
                 }));
             }
         }
     }
     Ok(json!({ "row_count": rows.len(), "rows": rows }))
+}
+
+fn part(ratios: &[f64]) -> Value {
+    let median = claims::median(ratios);
+    json!({ "usable": ratios.len(), "median": rounded(median.value) })
 }
 
 /// How many records uplift each block without being scaled.
@@ -235,7 +292,9 @@ fn shares(results: &Results) -> Value {
                 "alpha_rad": rounded(block.alpha_rad),
                 "im_r": rounded(block.shift),
                 "original": rounded(original),
+                "original_null_band": ends(block.bands[0]),
                 "shifted": rounded(shifted),
+                "shifted_null_band": ends(block.bands[1]),
             }));
         }
     }
@@ -288,15 +347,13 @@ fn varied(results: &Results) -> Result<Value, StudyError> {
             let measured = claims::median(&pairs.ratios);
             Ok(json!({
                 "choice": v.choice.name(),
-                "p_rad_s": rounded(super::grid::FREQUENCIES_RAD_S[v.frequency]),
+                "p_rad_s": rounded(FREQUENCIES_RAD_S[v.frequency]),
                 "alpha_rad":
-                    rounded(super::grid::SLENDERNESSES_RAD[v.slenderness]),
+                    rounded(SLENDERNESSES_RAD[v.slenderness]),
                 "edp": 1.0,
                 "usable": pairs.ratios.len(),
                 "median_ratio": rounded(measured.value),
-                "interval": measured
-                    .interval
-                    .map(|(a, b)| [rounded(a), rounded(b)]),
+                "interval": ends(measured.interval),
             }))
         })
         .collect::<Result<Vec<Value>, StudyError>>()?;

@@ -2,20 +2,16 @@
 
 use std::f64::consts::PI;
 
-use rand::rngs::ChaCha8Rng;
-use rand::{RngExt as _, SeedableRng as _};
-use sha2::{Digest as _, Sha256};
+use rand::RngExt as _;
+use rocking::streams::{self, Streams};
 
 /// A stream of random numbers, found by name and index alone.
-pub(super) struct Stream(ChaCha8Rng);
+pub(super) struct Stream(streams::Stream);
 
 impl Stream {
-    /// Stream number `index` of the suite `name`: ChaCha8 whose key is the
-    /// SHA-256 of the name.
+    /// Stream number `index` of the suite `name`.
     pub(super) fn new(name: &str, index: u64) -> Self {
-        let mut rng = ChaCha8Rng::from_seed(Sha256::digest(name).into());
-        rng.set_stream(index);
-        Self(rng)
+        Self(Streams::new(name, 0).stream(index))
     }
 
     /// Uniform on [low, high).

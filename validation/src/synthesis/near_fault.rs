@@ -7,13 +7,13 @@ use std::f64::consts::PI;
 
 use coefficients::{CORRELATION, DEVIATION, REGRESSION};
 
+use rocking::statistics::normal;
+
 use super::draws::{Stream, cholesky, correlate, dot};
 use super::noise::{
     DT_S, Filter, corner_hz, energy, filtered_noise, high_pass,
 };
-use super::special::{
-    beta_quantile, normal_cdf, two_sided_exponential_quantile,
-};
+use super::special::{beta_quantile, two_sided_exponential_quantile};
 use super::{Role, Scenario};
 
 /// The modified Mavroeidis-Papageorgiou velocity pulse (Dabaghi and Der
@@ -169,7 +169,7 @@ impl Residual {
         }
         let ln_damping = -4.7
             + 4.7
-                * beta_quantile(normal_cdf(u[6]), 5.335_519_36, 3.829_548_44);
+                * beta_quantile(normal::cdf(u[6]), 5.335_519_36, 3.829_548_44);
         let damping = libm::exp(ln_damping);
         let modulation = Modulation::fit([t5, t30, t95]);
         // The model's intensity is in cm/s.
@@ -178,7 +178,7 @@ impl Residual {
             modulation,
             mid_hz: libm::exp(u[4]),
             slope_hz_s: two_sided_exponential_quantile(
-                normal_cdf(u[5]),
+                normal::cdf(u[5]),
                 (14.293_553_72, 6.402_423_76, 4.421_795_88),
                 (-3.5, 1.5),
             ),
@@ -248,12 +248,12 @@ pub(super) fn pair(
         .map(|((mean, e), sd)| sd.mul_add(*e, *mean))
         .collect();
     let gamma = 2.0
-        + 1.2 * beta_quantile(normal_cdf(u[2]), 1.303_261_78, 3.968_580_84);
+        + 1.2 * beta_quantile(normal::cdf(u[2]), 1.303_261_78, 3.968_580_84);
     let pulse = Pulse {
         amplitude_m_s: libm::exp(u[0]) / 100.0,
         period_s: libm::exp(u[1]),
         gamma,
-        phase_rad: 2.0 * PI * normal_cdf(u[3]),
+        phase_rad: 2.0 * PI * normal::cdf(u[3]),
         peak_s: libm::exp(u[4]),
     };
     let half = 0.5 * pulse.gamma * pulse.period_s;

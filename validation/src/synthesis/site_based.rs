@@ -1,10 +1,11 @@
 //! Ordinary motions: the site-based model of Rezaeian and Der Kiureghian.
 
+use rocking::statistics::normal;
+
 use super::draws::{Stream, cholesky, correlate};
 use super::noise::{DT_S, Filter, corner_hz, filtered_noise, high_pass};
 use super::special::{
-    beta_quantile, bisect, gamma_quantile, normal_cdf,
-    two_sided_exponential_quantile,
+    beta_quantile, bisect, gamma_quantile, two_sided_exponential_quantile,
 };
 use super::{Role, Scenario};
 
@@ -88,7 +89,7 @@ fn mean(scenario: &Scenario) -> [f64; 6] {
 /// From the space of normals to physical units, by the marginal
 /// distributions of the same source.
 fn physical(u: &[f64; 6]) -> Parameters {
-    let p = u.map(normal_cdf);
+    let p = u.map(normal::cdf);
     Parameters {
         intensity_s: libm::exp(-4.8255 + 1.4318 * u[0]),
         d5_95_s: 5.0 + 40.0 * beta_quantile(p[1], 1.1314, 2.4474),
@@ -210,7 +211,7 @@ mod tests {
         let n = 400;
         for i in 0..n {
             let u = super::super::special::bisect(-8.0, 8.0, |z| {
-                normal_cdf(z) - (f64::from(i) + 0.5) / f64::from(n)
+                normal::cdf(z) - (f64::from(i) + 0.5) / f64::from(n)
             });
             let p = physical(&[u; 6]);
             sums[0] += p.mid_hz / f64::from(n);

@@ -3,9 +3,11 @@
 use serde::Serialize;
 
 use super::table::point;
+use super::thin::{largest, thin};
 use super::{Heading, Intensity, Table, number};
-use crate::drawing::geometry::kept;
-use crate::drawing::scene::TOLERANCES_PX;
+
+/// Size of a panel for [`Capacities::thinned`].
+const PX: f64 = 440.0;
 
 /// Capacity curves, intensity given demand, as inverted and shifted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,15 +46,15 @@ pub struct CapacityCurve {
 
 impl Capacities {
     /// The same with only the points that a drawing keeps: none that is
-    /// left out lies farther than a twentieth of a pixel from the line. Of
+    /// left out lies farther than a tenth of a pixel from the line. Of
     /// a curve's levels without a capacity the first one stays.
     #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
-            let largest = panel.curves.iter().flat_map(|c| &c.im);
-            let largest = largest.copied().filter(|im| im.is_finite());
-            let top = largest.fold(0.0, f64::max);
-            panel.curves.iter_mut().for_each(|c| c.thin(top));
+            let top = largest(panel.curves.iter().flat_map(|c| &c.im));
+            for curve in &mut panel.curves {
+                thin(&mut curve.edp, &mut curve.im, (PX, PX / top));
+            }
         }
         self
     }
@@ -77,23 +79,5 @@ impl Capacities {
             }
         }
         table.finish()
-    }
-}
-
-impl CapacityCurve {
-    /// Keeps what a drawing some 440 px square needs.
-    fn thin(&mut self, top: f64) {
-        const PX: f64 = 440.0;
-        let points = self.edp.iter().zip(&self.im);
-        let points: Vec<_> = points
-            .take_while(|(_, im)| im.is_finite())
-            .map(|(edp, im)| (PX * edp, PX * im / top))
-            .collect();
-        let mut keep = kept(&points, TOLERANCES_PX[0]);
-        keep.push(true);
-        for values in [&mut self.edp, &mut self.im] {
-            let mut keep = keep.iter();
-            values.retain(|_| keep.next() == Some(&true));
-        }
     }
 }

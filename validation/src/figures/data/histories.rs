@@ -3,9 +3,8 @@
 use serde::Serialize;
 
 use super::table::point;
+use super::thin::{largest, thin};
 use super::{Heading, Intensity, Table, number};
-use crate::drawing::geometry::kept;
-use crate::drawing::scene::TOLERANCES_PX;
 
 /// Size of a panel for [`Histories::thinned`].
 const WIDTH_PX: f64 = 288.0;
@@ -57,20 +56,13 @@ impl Histories {
     /// left out lies farther than a tenth of a pixel from the line.
     #[must_use]
     pub fn thinned(mut self) -> Self {
-        let largest = |values: &mut dyn Iterator<Item = f64>| {
-            values.filter(|x| x.is_finite()).fold(0.0, f64::max)
-        };
         for panel in &mut self.panels {
             let curves = || panel.curves.iter();
-            let until_s =
-                largest(&mut curves().flat_map(|c| c.time_s.iter().copied()));
-            let peak = largest(
-                &mut curves().flat_map(|c| c.ratio.iter().map(|y| y.abs())),
-            );
-            if until_s > 0.0 && peak > 0.0 {
-                for curve in &mut panel.curves {
-                    curve.thin(WIDTH_PX / until_s, HALF_PX / peak);
-                }
+            let until_s = largest(curves().flat_map(|c| &c.time_s));
+            let peak = largest(curves().flat_map(|c| &c.ratio));
+            let px = (WIDTH_PX / until_s, HALF_PX / peak);
+            for curve in &mut panel.curves {
+                thin(&mut curve.time_s, &mut curve.ratio, px);
             }
         }
         self
@@ -106,22 +98,5 @@ impl Histories {
             }
         }
         table.finish()
-    }
-}
-
-impl History {
-    /// Keeps what a drawing of this many px a second and px a unit needs.
-    fn thin(&mut self, px_per_s: f64, px_per_unit: f64) {
-        let points = self.time_s.iter().zip(&self.ratio);
-        let points: Vec<_> =
-            points.map(|(t, y)| (px_per_s * t, px_per_unit * y)).collect();
-        if points.iter().any(|(x, y)| !x.is_finite() || !y.is_finite()) {
-            return;
-        }
-        let keep = kept(&points, TOLERANCES_PX[1]);
-        for values in [&mut self.time_s, &mut self.ratio] {
-            let mut keep = keep.iter();
-            values.retain(|_| keep.next() == Some(&true));
-        }
     }
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::table::point;
+use super::thin::{largest, thin};
 use super::{Heading, Intensity, Table, number};
 
 /// Single-record IDA curves.
@@ -43,7 +44,23 @@ pub struct IdaCurve {
     pub overturning_im: Option<f64>,
 }
 
+/// Size of a panel for [`IdaCurves::thinned`].
+const PX: f64 = 288.0;
+
 impl IdaCurves {
+    /// The same with only the points that a drawing keeps: none that is
+    /// left out lies farther than a tenth of a pixel from the line.
+    #[must_use]
+    pub fn thinned(mut self) -> Self {
+        for panel in &mut self.panels {
+            let top = largest(panel.curves.iter().flat_map(|c| &c.im));
+            for curve in &mut panel.curves {
+                thin(&mut curve.edp, &mut curve.im, (PX, PX / top));
+            }
+        }
+        self
+    }
+
     /// `panel,p_rad_s,record,im_kind,alpha_rad,im,edp`.
     #[must_use]
     pub fn csv(&self) -> String {

@@ -7,9 +7,9 @@ use super::{median, middle};
 use crate::figures::data::{Arm, Intensity};
 use crate::study::analyses::SuiteResults;
 use crate::study::capacities::scaled;
-use crate::study::distributions::{Distributions, least};
+use crate::study::distributions::{Distributions, factors, least};
 use crate::study::figures::range;
-use crate::study::grid::position;
+use crate::study::grid::{FREQUENCIES_RAD_S, position};
 use crate::study::normality::{accepted_share, along};
 
 pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
@@ -43,31 +43,35 @@ fn onset(results: &Results, arm: Arm) -> Result<Vec<Claim>, StudyError> {
         blocks: "p = 1, alpha = 0.20",
         arm: Some(arm),
     };
-    let lowest = |intensity| -> Result<&Vec<f64>, StudyError> {
-        let d = of(results, suite, arm, intensity)?;
-        Ok(&d.blocks[position(0, 3)].samples[0])
+    // The onset of a curve is its first vertex, IM 1 in PGA.
+    let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
+    let onsets: Vec<f64> =
+        curves[position(0, 3)].iter().map(|c| c.onset_im()).collect();
+    let spread = |onsets: &[f64]| -> Result<f64, StudyError> {
+        let sample = ExtendedSample::try_new(onsets)?;
+        let at = |p| QuantileType::default().of_extended(&sample, p);
+        Ok(at(0.84)? / at(0.16)?)
     };
-    let (_, high) = range(lowest(Intensity::Pga)?.iter().copied());
-    let sharp = Measured::exact(high);
-    let pgv = ExtendedSample::try_new(lowest(Intensity::Pgv)?)?;
-    let at = |p| QuantileType::default().of_extended(&pgv, p);
-    let hazy = Measured::exact(at(0.84)? / at(0.16)?);
+    let sharp = Measured::exact(spread(&onsets)?);
+    let velocities = factors(suite, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
+    let hazy = Measured::exact(spread(&scaled(&onsets, &velocities))?);
+    let measure = "84 over 16 % quantile of the intensities of onset";
     Ok(vec![
         context.claim(
             "onset-sharp-pga",
             "the onset of rocking is clearly demarcated for the \
              dimensionless PGA",
-            "largest capacity at demand 0.005",
+            measure,
             sharp,
-            "below 1.05",
-            sharp.below(1.05),
+            "1",
+            sharp.within(1.0, 1.0),
             String::new(),
         ),
         context.claim(
             "onset-hazy-pgv",
             "for the case of the dimensionless PGV there is no such clear \
              uplift criterion",
-            "84 over 16 % quantile of the capacities at demand 0.005",
+            measure,
             hazy,
             "above 1.5",
             hazy.above(1.5),

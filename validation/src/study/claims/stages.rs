@@ -3,14 +3,15 @@
 use rocking::capacity::InversionRule;
 use rocking::statistics::paired::Pairs;
 
-use super::{Cells, Claim, Context, Measured, Results, SAME, StudyError};
-use super::{all_one, difference, median, middle, varied_ratios};
+use super::varied_ratios;
+use super::{Claim, Context, Measured, Results, SAME, StudyError};
+use super::{all_one, away, difference, median, middle, stripes};
 use crate::figures::data::Arm;
 use crate::study::analyses::{Apart, SuiteResults};
 use crate::study::capacities::by_rule;
-use crate::study::figures::{demand_boxes, of_arm, pairs};
+use crate::study::figures::of_arm;
 use crate::study::grid::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, position,
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::study::sensitivities::Choice;
 
@@ -20,7 +21,7 @@ const DEMANDS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
     let mut out = single_records(results);
     for arm in results.plan.drawn() {
-        out.extend(stripes(results, arm)?);
+        out.extend(stripes::all(results, arm)?);
         out.push(at_equal_demand(results, arm)?);
         out.extend(quantile_curves(results, arm)?);
         out.push(resurrections(results, arm)?);
@@ -112,149 +113,6 @@ fn single_records(results: &Results) -> Vec<Claim> {
     ]
 }
 
-/// Ratios of the stripes with enough of them, from the lowest on.
-fn usable(
-    results: &Results,
-    arm: Arm,
-    frequency: usize,
-    slenderness: Option<usize>,
-) -> Result<Vec<Pairs>, StudyError> {
-    let Some(stripes) = of_arm(&results.ordinary, arm) else {
-        return Ok(Vec::new());
-    };
-    Ok(pairs(stripes, frequency, slenderness)?
-        .into_iter()
-        .map(|(_, pairs)| pairs)
-        .take_while(|pairs| pairs.ratios.len() >= LEAST_USABLE)
-        .collect())
-}
-
-fn stripes(results: &Results, arm: Arm) -> Result<Vec<Claim>, StudyError> {
-    let suite = results.ordinary.kind;
-    let mut lowest = Vec::new();
-    let mut cells = [Vec::new(), Vec::new()];
-    let mut rises = 0_usize;
-    let (mut beyond, mut all) = (0_usize, 0_usize);
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        for slenderness in 0..SLENDERNESSES_RAD.len() {
-            if slenderness == REFERENCE {
-                continue;
-            }
-            let pairs = usable(results, arm, frequency, Some(slenderness))?;
-            rises += pairs
-                .windows(2)
-                .filter(|w| w[1].ratios.len() > w[0].ratios.len())
-                .count();
-            for (i, pairs) in pairs.into_iter().enumerate() {
-                if frequency == 0 && slenderness == 4 && i == 0 {
-                    lowest = pairs.ratios;
-                } else {
-                    cells[frequency.min(1)].push(pairs.ratios);
-                }
-            }
-            for stripe in
-                demand_boxes(&results.ordinary, arm, frequency, slenderness)?
-            {
-                all += stripe.usable;
-                beyond += stripe.summary.map_or(0, |b| b.outliers.len());
-            }
-        }
-    }
-    let context =
-        |section, blocks| Context { section, suite, blocks, arm: Some(arm) };
-    let cell = |id: &str, section, blocks, quote: &str, cells: Cells| {
-        context(section, blocks).claim(
-            id,
-            quote,
-            "median paired ratio of demands to alpha = 0.10 on a stripe",
-            cells.measured,
-            "all within 5 % of 1",
-            cells.verdict,
-            cells.note(),
-        )
-    };
-    let lowest = median(&lowest);
-    let outliers = Measured::exact(beyond as f64 / all as f64);
-    let falling = Measured::exact(rises as f64);
-    let mut adjusted = Vec::new();
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        for pairs in usable(results, arm, frequency, None)? {
-            adjusted.push(pairs.ratios);
-        }
-    }
-    let adjusted = all_one(&adjusted, SAME);
-    let [first, others] = cells;
-    Ok(vec![
-        cell(
-            "ratios-p1",
-            "4, Figure 6",
-            "p = 1, all but alpha = 0.25 on the lowest stripe",
-            "the median conforms to 1.0 with 95% confidence for most of the \
-             blocks and IM levels",
-            all_one(&first, SAME),
-        ),
-        context("4, Figure 6", "p = 1, alpha = 0.25").claim(
-            "ratios-p1-exception",
-            "The only exception regards the block with alpha = 0.25 rad in \
-             the lowest IM-stripe",
-            "|median ratio - 1| on the lowest stripe",
-            away(lowest),
-            "above 0",
-            away(lowest).above(0.0),
-            String::new(),
-        ),
-        cell(
-            "ratios-p3-p4",
-            "4, Figure 7",
-            "p = 3 and 4",
-            "The same tendency is observed for the blocks with p = 3 or 4",
-            all_one(&others, SAME),
-        ),
-        context("4, Figures 6 and 7", "all 15").claim(
-            "few-outliers",
-            "these are clearly the exception and not the rule",
-            "share of the ratios beyond the whiskers",
-            outliers,
-            "below 10 %",
-            outliers.below(0.10),
-            String::new(),
-        ),
-        context("4, Figures 6 and 7", "all 15").claim(
-            "usable-falls",
-            "the decreasing percentage of usable ratios with increasing \
-             intensity",
-            "stripes with more usable ratios than the one below",
-            falling,
-            "none",
-            falling.within(0.0, 0.0),
-            String::new(),
-        ),
-        context("4, Figure 9", "alpha = 0.10").claim(
-            "adjustment-ratios",
-            "for all the values of p the two approaches yield practically \
-             identical results",
-            "median paired ratio of demands, adjusted over scaled, on a \
-             stripe",
-            adjusted.measured,
-            "all within 5 % of 1",
-            adjusted.verdict,
-            adjusted.note(),
-        ),
-    ])
-}
-
-/// Distance of a median from 1, with the interval's.
-fn away(m: Measured) -> Measured {
-    let off = |x: f64| (x - 1.0).abs();
-    let interval = m.interval.map(|(a, b)| {
-        let (a_off, b_off) = (off(a), off(b));
-        let high = if a_off > b_off { a_off } else { b_off };
-        let low = if a_off > b_off { b_off } else { a_off };
-        (if a <= 1.0 && b >= 1.0 { 0.0 } else { low }, high)
-    });
-    Measured { value: off(m.value), interval }
-}
-
 fn capacity_ratios(
     results: &Results,
     arm: Arm,
@@ -338,7 +196,7 @@ fn quantile_curves(
 ) -> Result<Vec<Claim>, StudyError> {
     let curves = results.ordinary.curves(arm).ok_or(StudyError::NoArm)?;
     let (mut slender, mut adjusted): (f64, f64) = (0.0, 0.0);
-    let by_frequency = results.ordinary.adjusted.iter().find(|a| a.0 == arm);
+    let by_frequency = results.ordinary.adjusted.iter().find(|a| a.arm == arm);
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         let reference = medians(&curves[position(frequency, REFERENCE)])?;
         for slenderness in 0..SLENDERNESSES_RAD.len() {
@@ -346,8 +204,8 @@ fn quantile_curves(
             let off = worst_off(&own, &reference);
             slender = if off > slender { off } else { slender };
         }
-        if let Some((_, by_frequency)) = by_frequency {
-            let own = medians(&by_frequency[frequency])?;
+        if let Some(by_frequency) = by_frequency {
+            let own = medians(&by_frequency.curves[frequency])?;
             let off = worst_off(&own, &reference);
             adjusted = if off > adjusted { off } else { adjusted };
         }

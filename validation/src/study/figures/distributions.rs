@@ -78,20 +78,25 @@ pub(super) fn inverted(
     }
     let (pga, pgv) = (onsets[0], onsets[1]);
     Ok(Figure {
-        drawing: Box::new(Capacities {
-            heading: Heading {
-                name: name(11, None),
-                title: "Intensity given demand, original and shifted".into(),
-                description: "A curve for each record of the intensity that \
+        drawing: Box::new(
+            Capacities {
+                heading: Heading {
+                    name: name(11, None),
+                    title: "Intensity given demand, original and shifted"
+                        .into(),
+                    description:
+                        "A curve for each record of the intensity that \
                               reaches a demand, by median point; PGA and \
                               PGV, as inverted and above IM_R."
-                    .into(),
-                arm: Some(arm),
-            },
-            alpha_rad: SLENDERNESSES_RAD[3],
-            p_rad_s: FREQUENCIES_RAD_S[0],
-            panels,
-        }),
+                            .into(),
+                    arm: Some(arm),
+                },
+                alpha_rad: SLENDERNESSES_RAD[3],
+                p_rad_s: FREQUENCIES_RAD_S[0],
+                panels,
+            }
+            .thinned(),
+        ),
         reading: format!(
             "At the lowest demand all capacities lie between {:.3} and \
              {:.3} for PGA, but between {:.3} and {:.3} for PGV: the onset \
@@ -122,7 +127,7 @@ pub(super) fn shares(
                         alpha_rad: block.alpha_rad,
                         arm: *arm,
                         share: if shifted { above } else { original },
-                        null_band: None,
+                        null_band: block.bands[usize::from(shifted)],
                     });
                 }
             }

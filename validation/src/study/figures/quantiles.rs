@@ -61,14 +61,14 @@ pub(super) fn adjusted(
     arm: Arm,
 ) -> Result<Figure, StudyError> {
     let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
-    let adjusted = suite.adjusted.iter().find(|(a, _)| *a == arm);
+    let adjusted = suite.adjusted.iter().find(|a| a.arm == arm);
     let panels = panels(|frequency| {
         let scaled = &curves[position(frequency, REFERENCE)];
         let mut groups = vec![group("scaled records".into(), scaled)?];
-        if let Some((_, by_frequency)) = adjusted {
+        if let Some(adjusted) = adjusted {
             groups.push(group(
                 "adjusted slenderness".into(),
-                &by_frequency[frequency],
+                &adjusted.curves[frequency],
             )?);
         }
         Ok(groups)

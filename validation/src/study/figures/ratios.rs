@@ -25,11 +25,13 @@ pub(super) fn slendernesses(
     let frequencies: &[usize] = if number == 6 { &[0] } else { &[1, 2] };
     let mut panels = Vec::new();
     for frequency in frequencies {
-        for slenderness in 0..SLENDERNESSES_RAD.len() {
+        for (slenderness, alpha_rad) in
+            SLENDERNESSES_RAD.into_iter().enumerate()
+        {
             if slenderness != REFERENCE {
                 panels.push(BoxPanel {
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
-                    alpha_rad: SLENDERNESSES_RAD[slenderness],
+                    alpha_rad,
                     note: String::new(),
                     stripes: boxes(stripes, *frequency, Some(slenderness))?,
                 });
@@ -154,6 +156,46 @@ pub(crate) fn adjusted_boxes(
         .into_iter()
         .enumerate()
         .map(|(frequency, p)| Ok((p, boxes(stripes, frequency, None)?)))
+        .collect()
+}
+
+/// Ratios of Figure 9 on a stripe, apart by the adjusted slenderness: up to
+/// the paper's largest, and above.
+pub(crate) struct Split {
+    /// Level of the stripe.
+    pub im: f64,
+    /// Ratios of the records whose adjusted slenderness is at most 0.25.
+    pub within: Vec<f64>,
+    /// Ratios of the others.
+    pub above: Vec<f64>,
+}
+
+/// Ratios of Figure 9 by frequency parameter, apart by slenderness.
+pub(crate) fn adjusted_split(
+    suite: &SuiteResults,
+    stripes: &StripeDemands,
+    frequency: usize,
+) -> Result<Vec<Split>, StudyError> {
+    let steepest = libm::tan(SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1]);
+    let reference = &stripes.demands[position(frequency, REFERENCE)];
+    STRIPES
+        .iter()
+        .zip(stripes.adjusted[frequency].iter().zip(reference))
+        .map(|(im, (adjusted, scaled))| {
+            let ratios = |wanted: bool| {
+                let (mut a, mut b) = (Vec::new(), Vec::new());
+                for ((x, y), record) in
+                    adjusted.iter().zip(scaled).zip(&suite.records)
+                {
+                    if (record.pga_g <= im * steepest) == wanted {
+                        a.push(*x);
+                        b.push(*y);
+                    }
+                }
+                Ok::<_, StudyError>(Pairs::try_new(&a, &b)?.ratios)
+            };
+            Ok(Split { im: *im, within: ratios(true)?, above: ratios(false)? })
+        })
         .collect()
 }
 

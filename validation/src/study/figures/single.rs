@@ -10,10 +10,6 @@ use crate::study::analyses::{
     Apart, HISTORY_INTERVAL_S, SingleRecords, SuiteResults,
 };
 use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
-use crate::study::histories::simplified;
-
-/// How closely the lines drawn follow the numbers computed, in theta/alpha.
-const FAITHFUL: f64 = 0.003;
 
 pub(super) fn sketch() -> Figure {
     Figure {
@@ -68,37 +64,34 @@ pub(super) fn histories(suite: &SuiteResults, arm: Arm) -> Figure {
         suite.kind
     );
     Figure {
-        drawing: Box::new(Histories {
-            heading: Heading {
-                name: name(number, None),
-                title,
-                description: "Rotation over slenderness against time, five \
+        drawing: Box::new(
+            Histories {
+                heading: Heading {
+                    name: name(number, None),
+                    title,
+                    description:
+                        "Rotation over slenderness against time, five \
                               slendernesses in each panel; rows by frequency \
                               parameter, columns by record."
-                    .into(),
-                arm: Some(arm),
-            },
-            panels,
-            columns: 3,
-        }),
+                            .into(),
+                    arm: Some(arm),
+                },
+                panels,
+                columns: 3,
+            }
+            .thinned(),
+        ),
         reading: apart_in_words(suite),
     }
 }
 
-/// Points enough to draw the history, from shortly before the first motion
-/// to rest.
+/// The history to rest.
 fn history(alpha_rad: f64, ratio: &[f64], overturned: bool) -> History {
     let end = ratio.iter().rposition(|y| *y != 0.0).map_or(2, |i| i + 2);
-    let end = end.min(ratio.len());
-    let x: Vec<f64> =
-        (0..end).map(|i| i as f64 * HISTORY_INTERVAL_S).collect();
-    let kept = simplified(&x, &ratio[..end], FAITHFUL);
-    History {
-        alpha_rad,
-        time_s: kept.iter().map(|i| x[*i]).collect(),
-        ratio: kept.iter().map(|i| ratio[*i]).collect(),
-        overturned,
-    }
+    let ratio = ratio[..end.min(ratio.len())].to_vec();
+    let time_s =
+        (0..ratio.len()).map(|i| i as f64 * HISTORY_INTERVAL_S).collect();
+    History { alpha_rad, time_s, ratio, overturned }
 }
 
 fn apart_in_words(suite: &SuiteResults) -> String {
@@ -155,11 +148,10 @@ pub(super) fn curves(
                     let curve = &all[block][record];
                     let (im, edp): (Vec<f64>, Vec<f64>) =
                         curve.vertices().unzip();
-                    let kept = simplified(&im, &edp, FAITHFUL);
                     IdaCurve {
                         alpha_rad: *alpha_rad,
-                        im: kept.iter().map(|i| im[*i]).collect(),
-                        edp: kept.iter().map(|i| edp[*i]).collect(),
+                        im,
+                        edp,
                         overturning_im: curve.overturning_im(),
                     }
                 })
@@ -181,24 +173,27 @@ pub(super) fn curves(
         })
         .collect();
     Ok(Figure {
-        drawing: Box::new(IdaCurves {
-            heading: Heading {
-                name: name(number, None),
-                title: format!(
-                    "IDA curves of three {} motions, five slendernesses",
-                    suite.kind
-                ),
-                description: "Peak rotation over slenderness against \
+        drawing: Box::new(
+            IdaCurves {
+                heading: Heading {
+                    name: name(number, None),
+                    title: format!(
+                        "IDA curves of three {} motions, five slendernesses",
+                        suite.kind
+                    ),
+                    description: "Peak rotation over slenderness against \
                               dimensionless intensity up to first \
                               overturning; rows by frequency parameter, \
                               columns by record."
-                    .into(),
-                arm: Some(arm),
-            },
-            intensity: Intensity::Pga,
-            panels,
-            columns: 3,
-        }),
+                        .into(),
+                    arm: Some(arm),
+                },
+                intensity: Intensity::Pga,
+                panels,
+                columns: 3,
+            }
+            .thinned(),
+        ),
         reading: format!(
             "Over all {} records the intensity that reaches a given demand \
              differs from that of alpha = 0.10 by a median of {}.",

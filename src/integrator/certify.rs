@@ -1,0 +1,161 @@
+//! Fates told in the precision that they need.
+
+use crate::integrator::{
+    Observe, Outcome, Response, Scene, SceneError, respond, respond_precise,
+};
+use crate::number::Real;
+
+/// Arithmetic of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    /// Double precision.
+    Double,
+    /// Double-double, about 30 digits.
+    DoubleDouble,
+}
+
+/// A fate and the evidence for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certified {
+    /// What became of the block, by the engine named in `by`.
+    pub outcome: Outcome,
+    /// Distance from the other fate, in units of the slenderness angle.
+    pub margin: f64,
+    /// Bound on the error of that distance.
+    pub error: f64,
+    /// False where the error reaches the margin in double-double too.
+    pub decided: bool,
+    /// Which engine decided, or tried last.
+    pub by: Engine,
+    /// What double precision says.
+    pub double: Outcome,
+}
+
+impl Certified {
+    fn of<N: Real>(response: &Response<N>, by: Engine) -> Self {
+        let outcome = match response.outcome {
+            Outcome::NoUplift => Outcome::NoUplift,
+            Outcome::Rocked { peak_ratio } => {
+                Outcome::Rocked { peak_ratio: peak_ratio.to_f64() }
+            }
+            Outcome::Overturned { time_s, side } => {
+                Outcome::Overturned { time_s: time_s.to_f64(), side }
+            }
+        };
+        let margin = response.fate_margin;
+        let error = response.fate_error.unwrap_or(f64::INFINITY);
+        Self {
+            outcome,
+            margin,
+            error,
+            decided: margin > error,
+            by,
+            double: outcome,
+        }
+    }
+
+    /// True where the engines disagree about the fate.
+    #[must_use]
+    pub fn moved(&self) -> bool {
+        self.outcome.is_overturned() != self.double.is_overturned()
+    }
+}
+
+/// Tells a fate: in double precision where its margin clears its error, in
+/// double-double where it does not, undecided where that does not either.
+///
+/// # Errors
+/// As [`respond`].
+///
+/// ```
+/// use rocking::block::{Block, Restitution};
+/// use rocking::excitation::{Excitation, Pulse, PulseKind};
+/// use rocking::integrator::{
+///     Engine, Model, Overturning, Scene, certify,
+/// };
+/// // One unit in the last place above the critical amplitude.
+/// let kind = PulseKind::HalfSine {
+///     amplitude_g: 4.072395807424461,
+///     omega_rad_s: 5.0,
+/// };
+/// let pulse = Pulse::try_new_si(kind, 9.81)?;
+/// let fate = certify(&Scene {
+///     block: Block::try_new(0.2, 2.0)?,
+///     restitution: Restitution::constant(0.92)?,
+///     model: Model::Nonlinear,
+///     overturning: Overturning::HalfPi,
+///     excitation: Excitation::Pulse(&pulse),
+///     initial_ratio: 0.0,
+/// })?;
+/// assert_eq!(fate.by, Engine::DoubleDouble);
+/// assert!(fate.decided && fate.outcome.is_overturned());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn certify(scene: &Scene<'_>) -> Result<Certified, SceneError> {
+    let observe = Observe { accuracy: true, ..Observe::default() };
+    let quick = Certified::of(&respond(scene, &observe)?, Engine::Double);
+    if quick.decided {
+        return Ok(quick);
+    }
+    let careful = respond_precise(scene, &observe)?;
+    let careful = Certified::of(&careful, Engine::DoubleDouble);
+    Ok(Certified { double: quick.outcome, ..careful })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Engine, certify};
+    use crate::block::{Block, Restitution};
+    use crate::excitation::{Excitation, Pulse, PulseKind};
+    use crate::integrator::{Model, Overturning, Scene};
+
+    /// Fate of the reference `hs-near-ulp-above` at another amplitude.
+    fn fate(amplitude_m_s2: f64) -> super::Certified {
+        let kind = PulseKind::HalfSine {
+            amplitude_g: amplitude_m_s2,
+            omega_rad_s: 5.0,
+        };
+        let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
+        let scene = Scene {
+            block: Block::try_new(0.2, 2.0).unwrap(),
+            restitution: Restitution::constant(0.92).unwrap(),
+            model: Model::Nonlinear,
+            overturning: Overturning::HalfPi,
+            excitation: Excitation::Pulse(&pulse),
+            initial_ratio: 0.0,
+        };
+        certify(&scene).unwrap()
+    }
+
+    #[test]
+    fn the_doubles_around_a_critical_amplitude_are_told() {
+        // The reference names the first double above the critical amplitude.
+        let first = 4.072_395_807_424_461_f64;
+        let mut below = first;
+        let mut above = first;
+        for _ in 0..4 {
+            below = below.next_down();
+            for (amplitude, overturns) in [(below, false), (above, true)] {
+                let fate = fate(amplitude);
+                assert!(fate.decided, "{amplitude}: {fate:?}");
+                assert_eq!(
+                    fate.outcome.is_overturned(),
+                    overturns,
+                    "{fate:?}"
+                );
+            }
+            above = above.next_up();
+        }
+        assert_eq!(fate(first).by, Engine::DoubleDouble);
+    }
+
+    #[test]
+    fn a_clear_fate_is_told_in_double_precision() {
+        for amplitude in [3.0, 5.0] {
+            let fate = fate(amplitude);
+            assert!(
+                fate.decided && fate.by == Engine::Double && !fate.moved()
+            );
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! Double-double arithmetic: an unevaluated sum of two doubles, about 31
+//! digits.
+//!
+//! Error-free transformations with fused operations; sums, products and
+//! quotients as in Joldes, Muller and Popescu, "Tight and rigorous error
+//! bounds for basic building blocks of double-word arithmetic" (ACM TOMS 44,
+//! 2017): a few times 2^-106 each. Constants are given to three doubles,
+//! coefficients are quotients of integers: nothing here is rounded to one
+//! double. The range is that of a double; below 1e-290 the second part
+//! underflows and precision falls to a double's.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Number, Real};
+
+/// A number hi + lo with |lo| at most half a unit in the last place of hi.
+///
+/// ```
+/// use rocking::number::{Number, double::DoubleDouble};
+/// let third = DoubleDouble::ratio(1, 3);
+/// assert_eq!(third.hi(), 1.0 / 3.0);
+/// assert_eq!(third.lo(), 1.850371707708594e-17);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct DoubleDouble {
+    // The order of the fields is the order of comparison.
+    hi: f64,
+    lo: f64,
+}
+
+/// pi/2 = 1.57079632679489661923132169163975144209858469968755...
+const RIGHT_ANGLE: [f64; 3] = [
+    std::f64::consts::FRAC_PI_2,
+    6.123_233_995_736_766e-17,
+    -1.497_384_904_859_169_8e-33,
+];
+
+/// ln 2 = 0.69314718055994530941723212145817656807550013436025...
+const LN_2: [f64; 3] = [
+    std::f64::consts::LN_2,
+    2.319_046_813_846_299_6e-17,
+    5.707_708_438_416_212e-34,
+];
+
+/// Terms of the series on [-pi/4, pi/4] and [-ln 2/2, ln 2/2]: the next is
+/// below 1e-34 of the sum.
+const TERMS: i32 = 30;
+
+/// The sum of two doubles and its rounding error.
+#[inline]
+fn two_sum(a: f64, b: f64) -> DoubleDouble {
+    let hi = a + b;
+    if !hi.is_finite() {
+        return DoubleDouble { hi, lo: 0.0 };
+    }
+    let part = hi - a;
+    DoubleDouble { hi, lo: (a - (hi - part)) + (b - part) }
+}
+
+/// The same where |a| is at least |b|, or a is zero.
+#[inline]
+fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
+    let hi = a + b;
+    if !hi.is_finite() {
+        return DoubleDouble { hi, lo: 0.0 };
+    }
+    DoubleDouble { hi, lo: b - (hi - a) }
+}
+
+/// The product of two doubles and its rounding error.
+#[inline]
+fn two_product(a: f64, b: f64) -> DoubleDouble {
+    let hi = a * b;
+    if !hi.is_finite() {
+        return DoubleDouble { hi, lo: 0.0 };
+    }
+    DoubleDouble { hi, lo: a.mul_add(b, -hi) }
+}
+
+impl DoubleDouble {
+    /// The double nearest to the number.
+    #[must_use]
+    pub fn hi(self) -> f64 {
+        self.hi
+    }
+
+    /// What the nearest double leaves.
+    #[must_use]
+    pub fn lo(self) -> f64 {
+        self.lo
+    }
+
+    /// The sum of two doubles, exactly.
+    ///
+    /// ```
+    /// use rocking::number::double::DoubleDouble;
+    /// let sum = DoubleDouble::sum(1.0, 1e-20);
+    /// assert_eq!((sum.hi(), sum.lo()), (1.0, 1e-20));
+    /// ```
+    #[must_use]
+    pub fn sum(a: f64, b: f64) -> Self {
+        two_sum(a, b)
+    }
+
+    /// Product with a power of two, exactly.
+    fn scaled(self, exponent: i32) -> Self {
+        let times = |x| libm::scalbn(x, exponent);
+        Self { hi: times(self.hi), lo: times(self.lo) }
+    }
+
+    /// Remainder after subtracting `count` times a constant of three parts.
+    fn less(self, count: f64, parts: [f64; 3]) -> Self {
+        parts.iter().fold(self, |rest, x| rest - two_product(count, *x))
+    }
+
+    /// Sum of x^k / ((first + 1) ... (first + k)) over k, by nested products.
+    fn series(x: Self, first: i32, step: i32) -> Self {
+        let mut sum = Self::one();
+        for k in (1..=TERMS / step).rev() {
+            let last = first + step * k;
+            let factor = if step == 2 { (last - 1) * last } else { last };
+            sum = Self::one() + x * sum * Self::ratio(1, factor);
+        }
+        sum
+    }
+
+    /// exp(x) - 1 for |x| below about a half, by its series.
+    fn exp_m1_small(self) -> Self {
+        self * Self::series(self, 1, 1)
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+
+    #[inline]
+    fn neg(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        let s = two_sum(self.hi, other.hi);
+        let t = two_sum(self.lo, other.lo);
+        let v = quick_two_sum(s.hi, s.lo + t.hi);
+        quick_two_sum(v.hi, t.lo + v.lo)
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        let p = two_product(self.hi, other.hi);
+        if !p.hi.is_finite() {
+            return p;
+        }
+        let low = self.lo * other.lo;
+        let cross = self.hi.mul_add(other.lo, low);
+        let cross = self.lo.mul_add(other.hi, cross);
+        quick_two_sum(p.hi, p.lo + cross)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        let first = self.hi / other.hi;
+        if !first.is_finite() || other.hi.is_infinite() {
+            return Self { hi: first, lo: 0.0 };
+        }
+        // Long division: three quotients.
+        let rest = self - other * Self::from_f64(first);
+        let second = rest.hi / other.hi;
+        let rest = rest - other * Self::from_f64(second);
+        let third = rest.hi / other.hi;
+        quick_two_sum(first, second) + Self::from_f64(third)
+    }
+}
+
+impl Number for DoubleDouble {
+    #[inline]
+    fn from_f64(x: f64) -> Self {
+        Self { hi: x, lo: 0.0 }
+    }
+
+    #[inline]
+    fn ratio(i: i32, j: i32) -> Self {
+        Self::from_f64(f64::from(i)) / Self::from_f64(f64::from(j))
+    }
+
+    #[inline]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+
+    /// sin x = x (1 - x^2/(2 3) (1 - x^2/(4 5) (...))), and the cosine alike.
+    fn sin_cos_small(self) -> (Self, Self) {
+        let z = -(self * self);
+        (self * Self::series(z, 1, 2), Self::series(z, 0, 2))
+    }
+}
+
+impl Real for DoubleDouble {
+    const ROUNDOFF: f64 = 0.5 * f64::EPSILON * f64::EPSILON;
+    // Its square is far below the roundoff: a root close to another one,
+    // where Newton's iteration squares with a large factor, is met too.
+    const NEWTON_STEP: f64 = 1e-20;
+
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.hi
+    }
+
+    fn sqrt(self) -> Self {
+        let root = self.hi.sqrt();
+        if !(root > 0.0 && root.is_finite()) {
+            return Self { hi: root, lo: 0.0 };
+        }
+        // Two corrections (a - x^2)/(2 x), the first by an exact square.
+        let rest = self - two_product(root, root);
+        let near = quick_two_sum(root, 0.5 * rest.hi / root);
+        let rest = self - near * near;
+        near + Self::from_f64(0.5 * rest.hi / root)
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        if self.hi < 0.0 { -self } else { self }
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        if !self.hi.is_finite() {
+            return (Self::from_f64(f64::NAN), Self::from_f64(f64::NAN));
+        }
+        let turns = (self.hi / RIGHT_ANGLE[0]).round();
+        let (s, c) = self.less(turns, RIGHT_ANGLE).sin_cos_small();
+        // The angles of the model are a few turns at most.
+        match turns.rem_euclid(4.0) {
+            1.0 => (c, -s),
+            2.0 => (-s, -c),
+            3.0 => (-c, s),
+            _ => (s, c),
+        }
+    }
+
+    fn exp(self) -> Self {
+        if !(self.hi.abs() < 800.0) {
+            return Self::from_f64(libm::exp(self.hi));
+        }
+        let count = (self.hi / LN_2[0]).round();
+        let rest = self.less(count, LN_2);
+        (Self::one() + rest.exp_m1_small()).scaled(count as i32)
+    }
+
+    /// Newton's iteration on exp(y) - 1 = x from a double, to second order.
+    fn ln_1p(self) -> Self {
+        let y = libm::log1p(self.hi);
+        if !y.is_finite() || y == 0.0 {
+            return Self::from_f64(y);
+        }
+        let start = Self::from_f64(y);
+        let value = if y.abs() < 0.35 {
+            start.exp_m1_small()
+        } else {
+            start.exp() - Self::one()
+        };
+        let step = (self - value) / (Self::one() + value);
+        start + step - step * step * Self::from_f64(0.5)
+    }
+
+    /// From a double y near it: sin(asin x - y) = x cos y - sqrt(1 - x^2)
+    /// sin y, and the arc of that small sine.
+    fn asin(self) -> Self {
+        let y = Self::from_f64(libm::asin(self.hi));
+        let (s, c) = y.sin_cos();
+        let room = (Self::one() - self) * (Self::one() + self);
+        let step = self * c - room.sqrt() * s;
+        y + step + step * step * step * Self::ratio(1, 6)
+    }
+
+    fn right_angle() -> Self {
+        Self { hi: RIGHT_ANGLE[0], lo: RIGHT_ANGLE[1] }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,370 @@
+//! The command line on bad input, at the edge of uplift, and as a program
+//! among others: exit status, messages, files, pipes, threads.
+
+use std::fs;
+use std::io;
+use std::process::Stdio;
+
+use serde_json::Value;
+
+#[path = "cli/support.rs"]
+mod support;
+
+use support::{
+    answer, at2, folder, json, motion, refused, refused_for, rocking,
+};
+
+const BLOCK: &str = "--alpha 0.1 --p 3";
+
+#[test]
+fn broken_records_give_one_message_and_no_file() {
+    let whole = motion(9.0);
+    let good = at2("0.02", whole.len(), &whole);
+    let cut = &good[..good.len() - 7];
+    let missing = at2("0.02", whole.len(), &whole[..140]);
+    let with_nan = "0.1\n0.2\nNaN\n0.1\n";
+    let backwards = at2("-0.02", whole.len(), &whole);
+    let cases: [(&str, &str, &[&str]); 6] = [
+        ("cut.at2", cut, &["cut.at2", ":34:"]),
+        ("missing.at2", &missing, &["missing.at2", "140", "150"]),
+        ("empty.at2", "", &["empty.at2", "empty"]),
+        ("blank.at2", "\n \n", &["blank.at2"]),
+        ("backwards.at2", &backwards, &["backwards.at2", "-0.02"]),
+        ("nan.txt", with_nan, &["nan.txt", ":3:", "NaN"]),
+    ];
+    for (name, text, mentions) in cases {
+        let place = folder(name, &[("one.at2", &good), (name, text)]);
+        let dt = if name == "nan.txt" { "--dt 0.01 --units g" } else { "" };
+        let respond = format!(
+            "respond {BLOCK} --record {name} {dt} --history history.csv --json"
+        );
+        refused_for(&place, &respond, mentions);
+        if name == "nan.txt" {
+            // A folder takes only files that say their own interval.
+            continue;
+        }
+        let ida = format!("ida {BLOCK} --suite . --out ida.csv");
+        refused_for(&place, &ida, &mentions[..1]);
+        let study = "study --ordinary . --pulse . --out report";
+        refused_for(&place, study, &mentions[..1]);
+    }
+}
+
+#[test]
+fn paths_without_records_are_refused() {
+    let place = folder("no-records", &[("sub/notes.md", "# Notes\n")]);
+    fs::create_dir(place.join("nothing")).unwrap();
+    for path in ["nothing", "sub", "absent", "sub/notes.md"] {
+        refused_for(
+            &place,
+            &format!("ida {BLOCK} --suite {path} --out o.csv"),
+            &[path],
+        );
+        refused_for(
+            &place,
+            &format!("study --ordinary {path} --pulse {path} --out report"),
+            &[path],
+        );
+        refused_for(
+            &place,
+            &format!("respond {BLOCK} --record {path} --history h.csv"),
+            &[path],
+        );
+    }
+}
+
+#[test]
+fn bad_numbers_are_refused_with_their_flag() {
+    let text = at2("0.02", 150, &motion(9.0));
+    let place = folder("numbers", &[("s/a.at2", &text), ("c.txt", "1\n2\n")]);
+    let sine = "--pulse one-sine --amplitude-m-s2 1.5 --omega-rad-s 12";
+    for (arguments, name) in [
+        ("respond --alpha -0.1 --p 3 --free --initial-ratio 0.5", "-0.1"),
+        ("respond --alpha NaN --p 3 --free --initial-ratio 0.5", "NaN"),
+        ("respond --alpha 0.1 --p 0 --free --initial-ratio 0.5", "0"),
+        ("respond --alpha 0.1 --p 3 --free --initial-ratio 1", "ratio 1"),
+        ("respond --alpha 0.1 --p 3 --free --initial-ratio inf", "ratio inf"),
+        ("respond --alpha 0.1 --p 3 --record c.txt --dt -0.01", "-0.01"),
+        ("respond --alpha 0.1 --p 3 --record c.txt", "c.txt"),
+        ("ida --alpha 0.1 --p 3 --suite s --step-g 0 --out o.csv", "0"),
+        ("ida --alpha 0.1 --p 3 --suite s --step-im NaN --out o.csv", "NaN"),
+        ("ida --alpha 0.1 --p 3 --suite s --threads 0 --out o.csv", "0"),
+        ("study --eta 1.1 --out report", "1.1"),
+        ("study --refine -1 --out report", "-1"),
+    ] {
+        refused_for(&place, arguments, &[name]);
+    }
+    for (flag, value) in [
+        ("--eta", "0"),
+        ("--eta", "1.01"),
+        ("--gravity", "-9.81"),
+        ("--im", "0"),
+        ("--im", "NaN"),
+        ("--pga", "-0.2"),
+        ("--scale", "inf"),
+        ("--until", "-1"),
+    ] {
+        let arguments = format!("respond {BLOCK} {sine} {flag} {value}");
+        refused_for(&place, &arguments, &[value]);
+    }
+}
+
+#[test]
+fn unknown_flags_are_refused_by_every_command() {
+    let place = folder("flags", &[]);
+    let help = answer(&place, "--help");
+    let list = help.split("Commands:").nth(1).unwrap();
+    let list = list.split("Options:").next().unwrap();
+    let commands: Vec<&str> = list
+        .lines()
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(commands.len() >= 11, "{commands:?}");
+    for command in commands {
+        if command != "help" {
+            let error = refused(&place, &format!("{command} --no-such 1"));
+            assert!(error.contains("--no-such"), "{command}: {error}");
+        }
+        if command != "help" {
+            let text = answer(&place, &format!("{command} --help"));
+            assert!(text.contains("Usage: rocking"), "{command}");
+        }
+    }
+    assert!(refused(&place, "no-such-command").contains("no-such-command"));
+}
+
+/// The flags that each pulse takes, all required but the last of Ricker's.
+const PULSES: &[(&str, &[&str])] = &[
+    ("one-sine", &["--amplitude-m-s2", "--omega-rad-s"]),
+    ("half-sine", &["--amplitude-m-s2", "--omega-rad-s"]),
+    ("one-cosine", &["--amplitude-m-s2", "--omega-rad-s"]),
+    ("rectangle", &["--amplitude-m-s2", "--duration-s"]),
+    ("triangle", &["--amplitude-m-s2", "--duration-s"]),
+    ("ricker-symmetric", &["--amplitude-m-s2", "--period-s"]),
+    ("ricker-antisymmetric", &["--amplitude-m-s2", "--period-s"]),
+    (
+        "mavroeidis-papageorgiou",
+        &["--velocity-m-s", "--frequency-hz", "--gamma", "--phase-rad"],
+    ),
+];
+
+#[test]
+fn a_flag_that_the_pulse_does_not_use_is_refused() {
+    let place = folder("pulses", &[]);
+    let flags = || PULSES.iter().flat_map(|(_, flags)| flags.iter().copied());
+    for (pulse, used) in PULSES {
+        let chosen = format!("respond {BLOCK} --pulse {pulse}");
+        let given: String =
+            used.iter().map(|flag| format!(" {flag} 1.5")).collect();
+        let response = json(&place, &format!("{chosen}{given} --json"));
+        assert!(response["outcome"].is_string(), "{pulse}");
+        for flag in flags().chain(["--cycles"]) {
+            let ricker = pulse.starts_with("ricker") && flag == "--cycles";
+            if !used.contains(&flag) && !ricker {
+                let arguments = format!("{chosen}{given} {flag} 1.5");
+                refused_for(&place, &arguments, &[flag, pulse]);
+            }
+        }
+        for missing in *used {
+            let without = given.replace(&format!(" {missing} 1.5"), "");
+            refused_for(&place, &format!("{chosen}{without}"), &[missing]);
+        }
+    }
+    for (arguments, flag) in [
+        ("--free --initial-ratio 0.5 --gamma 2", "--gamma"),
+        ("--free --initial-ratio 0.5 --im 2", "--im"),
+        ("--free --initial-ratio 0.5 --dt 0.01", "--dt"),
+        ("--pulse triangle --duration-s 1 --units g", "--units"),
+        ("--free --initial-ratio 0.5 --im-kind pgv", "--im"),
+        ("--record x.at2 --scale 2 --im-kind pgv", "--im"),
+        ("--pulse triangle --duration-s 1 --initial-ratio 0.5", "--initial"),
+        ("--pulse triangle --duration-s 1 --record x.at2", "--record"),
+    ] {
+        let error = refused(&place, &format!("respond {BLOCK} {arguments}"));
+        assert!(error.contains(flag), "{arguments}: {error}");
+    }
+}
+
+#[test]
+fn uplift_begins_just_above_intensity_one() {
+    // The record peaks at one sample, t = 0.4 s.
+    let peak: Vec<f64> =
+        (0..60).map(|i| 0.03 * f64::from(20 - (i - 20_i32).abs())).collect();
+    let text = at2("0.02", peak.len(), &peak);
+    let place = folder("uplift", &[("peak.at2", &text)]);
+    // Half a period of the sine is over at t = 0.5 s, its peak at half.
+    let sine = "--pulse half-sine --amplitude-m-s2 3 --omega-rad-s \
+                6.283185307179586";
+    for (excitation, peak_s) in [("--record peak.at2", 0.4), (sine, 0.25)] {
+        for alpha in ["0.05", "0.1", "0.2500001", "0.7"] {
+            for model in ["nonlinear", "linearized"] {
+                let at = |im: &str| {
+                    let arguments = format!(
+                        "respond --alpha {alpha} --p 2.1 --model {model} \
+                         {excitation} --im {im} --json"
+                    );
+                    json(&place, &arguments)
+                };
+                let still = at("1");
+                assert_eq!(still["outcome"], "no-uplift", "{excitation}");
+                assert_eq!(still["peak_ratio"], 0.0);
+                assert_eq!(still["uplift_time_s"], Value::Null);
+                let moved = at("1.000000001");
+                let uplift_s = moved["uplift_time_s"].as_f64().unwrap();
+                assert!((uplift_s - peak_s).abs() < 1e-4, "{uplift_s}");
+                assert!(uplift_s < peak_s + 1e-12, "{uplift_s}");
+                assert!(moved["peak_ratio"].as_f64().unwrap() > 0.0);
+            }
+        }
+    }
+}
+
+#[test]
+fn size_and_parameters_are_the_same_block() {
+    let place = folder("size", &[]);
+    let sine = "--pulse one-sine --amplitude-m-s2 3 --omega-rad-s 12 --json";
+    let by_size =
+        json(&place, &format!("respond --width-m 0.3 --height-m 1.5 {sine}"));
+    let alpha_rad = libm::atan(0.2);
+    let half_diagonal_m = (0.15_f64 * 0.15 + 0.75 * 0.75).sqrt();
+    let p_rad_s = (3.0 * 9.80665 / (4.0 * half_diagonal_m)).sqrt();
+    let by_parameters = json(
+        &place,
+        &format!("respond --alpha {alpha_rad} --p {p_rad_s} {sine}"),
+    );
+    for (value, expected) in [
+        (&by_size["scene"]["alpha_rad"], alpha_rad),
+        (&by_size["scene"]["p_rad_s"], p_rad_s),
+        (
+            &by_size["peak_ratio"],
+            by_parameters["peak_ratio"].as_f64().unwrap(),
+        ),
+    ] {
+        let value = value.as_f64().unwrap();
+        assert!((value / expected - 1.0).abs() < 1e-11, "{value} {expected}");
+    }
+    for half in ["--width-m 0.3", "--height-m 1.5", "--alpha 0.2 --width-m 1"]
+    {
+        let _ = refused(&place, &format!("respond {half} {sine}"));
+    }
+}
+
+#[test]
+fn json_is_json_and_missing_values_have_reasons() {
+    let text = at2("0.02", 150, &motion(9.0));
+    let samples = "1.2\n1.5\n1.31\n2.2\n1.9\n1.05\n3.1\n1.44\n1.6\n2.6\n";
+    let other = "1.3\n1.4\n1.3\n2.4\n1.8\n1.15\n3.3\n1.4\n1.7\ninf\n";
+    let place = folder(
+        "json",
+        &[("s/a.at2", &text), ("a.txt", samples), ("b.txt", other)],
+    );
+    let sine = "--pulse one-sine --omega-rad-s 12 --amplitude-m-s2";
+    for scene in [
+        format!("{BLOCK} {sine} 0.5"),
+        format!("{BLOCK} {sine} 1.5"),
+        format!("{BLOCK} {sine} 1.5 --until 0.3"),
+        format!("{BLOCK} {sine} 1.5 --certify"),
+        format!("{BLOCK} {sine} 9"),
+        format!("{BLOCK} {sine} 9 --overturn half-pi --model linearized"),
+        format!("{BLOCK} --free --initial-ratio 0.9 --eta 1 --until 9"),
+        format!("{BLOCK} --free --initial-ratio 0.9 --eta housner"),
+        format!("{BLOCK} --record s/a.at2 --im 3 --im-kind pgv"),
+    ] {
+        let response = json(&place, &format!("respond {scene} --json"));
+        let reasons = response["reasons"].as_object().unwrap();
+        for (key, value) in response.as_object().unwrap() {
+            let missing = value.is_null();
+            assert_eq!(missing, reasons.contains_key(key), "{scene}: {key}");
+        }
+    }
+    for arguments in [
+        "ida --alpha 0.1 --p 3 --suite s --out ida.csv",
+        "capacities --curve 1:0,1.1:0.2,1.2:0.5 --overturning 1.7",
+        "fragility --sample a.txt --shift 1",
+        "fragility --transform --im50 2 --beta 0.5 --shift 1 --c 1",
+        "fragility --transform --im50 1.05 --beta 0.5 --shift 1 --c 1",
+        "lilliefors --sample a.txt --log",
+        "lilliefors --critical-values --n 10 --replicates 500",
+        "boxplot --sample b.txt",
+        "quantile --sample b.txt --at 0.5,1",
+        "compare --a a.txt --b b.txt",
+        "records s",
+    ] {
+        let text = answer(&place, &format!("{arguments} --json"));
+        let _: Value = serde_json::from_str(&text).unwrap();
+        assert!(!text.contains("NaN") && !text.contains("nan"), "{arguments}");
+        let people = answer(&place, arguments);
+        assert!(!people.contains("NaN"), "{arguments}: {people}");
+    }
+}
+
+#[test]
+fn threads_do_not_change_a_byte() {
+    let motions: Vec<(String, String)> = (0..9)
+        .map(|i| {
+            let name = format!("suite/{i}.at2");
+            (name, at2("0.02", 150, &motion(4.0 + f64::from(i))))
+        })
+        .collect();
+    let files: Vec<(&str, &str)> =
+        motions.iter().map(|(n, t)| (n.as_str(), t.as_str())).collect();
+    let place = folder("threads", &files);
+    let ida = |threads: u32| {
+        let out = answer(
+            &place,
+            &format!(
+                "ida --alpha 0.15 --p 4 --suite suite --step-im 0.1 \
+                 --threads {threads} --out {threads}.csv --json"
+            ),
+        );
+        let table = fs::read(place.join(format!("{threads}.csv"))).unwrap();
+        (out, table)
+    };
+    let (summary, table) = ida(1);
+    assert!(table.len() > 2_000, "{summary}");
+    for threads in [2, 5] {
+        let (other, same) = ida(threads);
+        let name = format!("{threads}.csv");
+        assert_eq!(other.replace(&name, "1.csv"), summary);
+        assert!(same == table, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_closed_pipe_ends_quietly() {
+    let place = folder("pipe", &[]);
+    let sine = "--pulse one-sine --amplitude-m-s2 1.5 --omega-rad-s 12";
+    for arguments in [
+        format!("respond {BLOCK} {sine} --json"),
+        format!("respond {BLOCK} {sine}"),
+        "capacities --curve 1:0,1.1:0.2 --json".to_owned(),
+        "--help".to_owned(),
+    ] {
+        let (reader, writer) = io::pipe().unwrap();
+        drop(reader);
+        let child = rocking(&place, &arguments)
+            .stdout(writer)
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments}");
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(error, "", "{arguments}");
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_said_and_leaves_nothing() {
+    let text = at2("0.02", 150, &motion(9.0));
+    let place = folder("unwritable", &[("s/a.at2", &text)]);
+    fs::create_dir(place.join("taken.csv")).unwrap();
+    for out in ["absent/ida.csv", "taken.csv"] {
+        let ida = format!("ida {BLOCK} --suite s --out {out}");
+        refused_for(&place, &ida, &[out]);
+        let history =
+            format!("respond {BLOCK} --record s/a.at2 --im 2 --history {out}");
+        refused_for(&place, &history, &[out]);
+    }
+}

@@ -1,0 +1,111 @@
+//! Running the binary in a folder of its own.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// A command of the binary under test, in a folder.
+pub fn rocking(folder: &Path, arguments: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rocking"));
+    command.args(arguments.split_whitespace()).current_dir(folder);
+    command
+}
+
+/// Exit status, standard output and standard error.
+pub fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
+    let output = rocking(folder, arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    let status = output.status.code().unwrap();
+    (status, text(output.stdout), text(output.stderr))
+}
+
+/// Standard output of a command that must succeed.
+pub fn answer(folder: &Path, arguments: &str) -> String {
+    let (status, out, error) = run(folder, arguments);
+    assert_eq!((status, error.as_str()), (0, ""), "{arguments}");
+    out
+}
+
+pub fn json(folder: &Path, arguments: &str) -> Value {
+    serde_json::from_str(&answer(folder, arguments)).unwrap()
+}
+
+/// Standard error of a command that must be refused and leave no trace.
+pub fn refused(folder: &Path, arguments: &str) -> String {
+    let before = tree(folder);
+    let (status, out, error) = run(folder, arguments);
+    assert_eq!((status, out.as_str()), (2, ""), "{arguments}\n{error}");
+    assert_eq!(tree(folder), before, "{arguments}");
+    error
+}
+
+/// A refusal is one message of one line and names this.
+pub fn refused_for(folder: &Path, arguments: &str, names: &[&str]) {
+    let error = refused(folder, arguments);
+    assert!(error.starts_with("rocking: "), "{arguments}: {error}");
+    assert_eq!(error.lines().count(), 1, "{arguments}: {error}");
+    for name in names {
+        assert!(error.contains(name), "{arguments}: no {name} in {error}");
+    }
+}
+
+/// All files below a folder with their content, hidden ones too.
+fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.push((path.clone(), Vec::new()));
+            found.extend(tree(&path));
+        } else {
+            found.push((path.clone(), fs::read(&path).unwrap()));
+        }
+    }
+    found.sort();
+    found
+}
+
+/// A fresh folder with the given files.
+pub fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    for (file, text) in files {
+        let path = folder.join(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    folder
+}
+
+/// An AT2 file with these samples, five a line.
+pub fn at2(dt_s: &str, npts: usize, samples: &[f64]) -> String {
+    let mut text = format!(
+        "PEER STRONG MOTION DATABASE RECORD\nNowhere, 1900, Station, 0\n\
+         ACCELERATION TIME SERIES IN UNITS OF G\n\
+         NPTS= {npts}, DT= {dt_s} SEC\n"
+    );
+    for line in samples.chunks(5) {
+        for sample in line {
+            // As Fortran writes it: an exponent with a sign and two digits.
+            let number = format!("{sample:.7E}");
+            let (digits, exponent) = number.split_once('E').unwrap();
+            let exponent: i32 = exponent.parse().unwrap();
+            write!(text, "{digits:>11}E{exponent:+03}").unwrap();
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A smooth motion of about 3 s with its own rhythm.
+pub fn motion(rhythm_rad_s: f64) -> Vec<f64> {
+    let sample = |i: i32| {
+        let t = 0.02 * f64::from(i);
+        0.4 * t * libm::exp(-t) * libm::sin(rhythm_rad_s * t)
+    };
+    (0..150).map(sample).collect()
+}

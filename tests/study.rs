@@ -1,0 +1,80 @@
+//! What `rocking study` refuses, and that it then leaves nothing behind.
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn study(folder: &PathBuf, args: &[&str]) -> Output {
+    std::fs::create_dir_all(folder).expect("folder");
+    Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .arg("study")
+        .args(args)
+        .current_dir(folder)
+        .output()
+        .expect("run")
+}
+
+fn folder(name: &str) -> PathBuf {
+    let own = format!("rocking-study-{name}-{}", std::process::id());
+    std::env::temp_dir().join(own)
+}
+
+#[track_caller]
+fn refused(name: &str, args: &[&str], words: &[&str]) {
+    let folder = folder(name);
+    let output = study(&folder, args);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for word in words {
+        assert!(message.contains(word), "{word:?} not in {message:?}");
+    }
+    assert!(output.stdout.is_empty());
+    let left: Vec<_> = std::fs::read_dir(&folder)
+        .expect("folder")
+        .map(|entry| entry.expect("entry").file_name())
+        .filter(|file| file != "input")
+        .collect();
+    assert!(left.is_empty(), "left behind: {left:?}");
+    std::fs::remove_dir_all(&folder).expect("clean");
+}
+
+#[test]
+fn options_out_of_range() {
+    refused("eta", &["--eta", "1.2"], &["1.2"]);
+    refused("negative", &["--eta", "-0.5"], &["-0.5"]);
+    refused("refine", &["--refine", "-1"], &["--refine -1", "positive"]);
+    refused("arms", &["--arms", "B"], &["A or C"]);
+    refused("threads", &["--threads", "0"], &["0"]);
+    refused("unknown", &["--colour"], &["--colour"]);
+    refused("criterion", &["--overturn", "beta"], &["beta"]);
+}
+
+#[test]
+fn one_suite_without_the_other() {
+    refused("one", &["--ordinary", "x"], &["--pulse"]);
+}
+
+#[test]
+fn suites_that_cannot_be_read() {
+    let args = ["--ordinary", "absent", "--pulse", "absent"];
+    refused("absent", &args, &["absent"]);
+    let folder = folder("cut");
+    let input = folder.join("input");
+    std::fs::create_dir_all(&input).expect("folder");
+    std::fs::write(
+        input.join("cut.AT2"),
+        "PEER\nEVENT\nACCELERATION IN UNITS OF G\nNPTS= 4, DT= .01 SEC\n \
+         .1 .2 .3\n",
+    )
+    .expect("file");
+    let args = ["--ordinary", "input", "--pulse", "input"];
+    refused("cut", &args, &["cut.AT2", "4"]);
+}
+
+#[test]
+fn a_file_in_the_way_of_the_report() {
+    let args = ["--out", "input"];
+    let folder = folder("way");
+    std::fs::create_dir_all(&folder).expect("folder");
+    std::fs::write(folder.join("input"), "mine").expect("file");
+    refused("way", &args, &["input"]);
+}

@@ -1,0 +1,130 @@
+//! Runs at the stripes' levels.
+
+use rayon::prelude::*;
+use rocking::block::Block;
+use rocking::capacity::ResponseCurve;
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::Method;
+
+use super::{ArmCurves, Plan, StripeDemands, SuiteResults};
+use crate::study::StudyError;
+use crate::study::grid::{
+    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
+};
+use crate::study::stripes::on_stripe;
+
+impl Plan {
+    /// One run a block, stripe and record; what an arm's scan makes of it
+    /// is a matter of its first overturning.
+    pub(super) fn stripes(
+        &self,
+        blocks: &[Block],
+        records: &[NormalisedRecord],
+        results: &SuiteResults,
+    ) -> Result<Vec<StripeDemands>, StudyError> {
+        let used = self.used_stripes(results);
+        let scaling = Method::RecordScaling;
+        let runs: Vec<Vec<Vec<f64>>> = blocks
+            .iter()
+            .map(|block| {
+                on_levels(&used, records, |im, record| {
+                    self.setup.demand(*block, record, im, scaling)
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let adjusted_runs: Vec<Vec<Vec<f64>>> = (0..FREQUENCIES_RAD_S.len())
+            .map(|frequency| {
+                let block = blocks[position(frequency, REFERENCE)];
+                on_levels(&used, records, |im, record| {
+                    let method = Method::SlendernessAdjustment;
+                    self.setup.demand(block, record, im, method)
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let mut out = Vec::new();
+        for ArmCurves { arm, curves: adjusted } in &results.adjusted {
+            let Some(curves) = results.curves(*arm) else { continue };
+            let apply = |runs: &[Vec<f64>], curves: &[ResponseCurve]| {
+                used.iter()
+                    .zip(runs)
+                    .map(|(im, row)| {
+                        row.iter()
+                            .zip(curves)
+                            .map(|(run, curve)| {
+                                on_stripe(*im, curve.overturning_im(), *run)
+                            })
+                            .collect::<Vec<f64>>()
+                    })
+                    .collect::<Vec<_>>()
+            };
+            let demands: Vec<Vec<Vec<f64>>> =
+                runs.iter().zip(curves).map(|(r, c)| apply(r, c)).collect();
+            let adjusted = adjusted_runs
+                .iter()
+                .zip(adjusted)
+                .map(|(r, c)| apply(r, c))
+                .collect();
+            // Overturned by the rule, yet finite by its own run.
+            let count = |which: fn(f64, f64) -> bool| {
+                demands
+                    .iter()
+                    .zip(&runs)
+                    .map(|(demands, runs)| {
+                        demands
+                            .iter()
+                            .zip(runs)
+                            .map(|(d, r)| {
+                                d.iter()
+                                    .zip(r)
+                                    .filter(|(d, r)| which(**d, **r))
+                                    .count()
+                            })
+                            .collect()
+                    })
+                    .collect()
+            };
+            out.push(StripeDemands {
+                arm: *arm,
+                stand_again: count(|d, r| d.is_infinite() && r.is_finite()),
+                overturned: count(|d, _| d.is_infinite()),
+                demands,
+                adjusted,
+            });
+        }
+        Ok(out)
+    }
+
+    /// Stripes at which at least ten records stand in the reference block
+    /// of some frequency parameter, in any arm drawn.
+    fn used_stripes(&self, results: &SuiteResults) -> Vec<f64> {
+        let stands = |im: f64| {
+            self.drawn().iter().any(|arm| {
+                let curves = results.curves(*arm).unwrap_or_default();
+                (0..FREQUENCIES_RAD_S.len()).any(|frequency| {
+                    let block = curves.get(position(frequency, REFERENCE));
+                    let standing = block.map_or(0, |records| {
+                        records
+                            .iter()
+                            .filter(|c| {
+                                c.overturning_im().is_none_or(|o| im < o)
+                            })
+                            .count()
+                    });
+                    standing >= LEAST_USABLE
+                })
+            })
+        };
+        STRIPES.iter().copied().filter(|im| stands(*im)).collect()
+    }
+}
+
+fn on_levels(
+    levels: &[f64],
+    records: &[NormalisedRecord],
+    run: impl Fn(f64, &NormalisedRecord) -> Result<f64, StudyError> + Sync,
+) -> Result<Vec<Vec<f64>>, StudyError> {
+    levels
+        .iter()
+        .map(|im| records.par_iter().map(|r| run(*im, r)).collect())
+        .collect()
+}

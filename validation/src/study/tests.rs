@@ -1,0 +1,67 @@
+//! Tests of the study as a whole, on the first motions of the embedded
+//! suites.
+
+use indicatif::ProgressBar;
+use rocking::block::Restitution;
+use rocking::integrator::Overturning;
+
+use super::Study;
+use super::analyses::Plan;
+use super::output::Files;
+use super::runs::Setup;
+use super::suites::StudySuite;
+use crate::figures::data::Arm;
+
+fn small(threads: usize) -> Files {
+    let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
+    ordinary.motions.truncate(10);
+    pulse.motions.truncate(4);
+    let setup = Setup {
+        restitution: Restitution::constant(0.92).expect("restitution"),
+        overturning: Overturning::Alpha,
+        tolerance: 1e-3,
+    };
+    let plan = Plan { setup, arms: vec![Arm::A, Arm::B] };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("pool").install(|| {
+        let progress = ProgressBar::hidden();
+        Study::run(plan, &[ordinary, pulse], false, &progress)
+            .and_then(|study| study.files())
+            .expect("study")
+    })
+}
+
+#[test]
+fn the_same_bytes_with_one_thread_and_with_two() {
+    let (one, two) = (small(1), small(2));
+    assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
+    for (name, content) in &one {
+        assert!(*content == two[name], "{name} differs");
+    }
+    // Every figure with its numbers, the findings, Table 1 and the page.
+    for number in 1..=18 {
+        let stem = format!("figure-{number:02}");
+        for suffix in ["svg", "csv"] {
+            let found = one
+                .keys()
+                .any(|name| name.starts_with(&stem) && name.ends_with(suffix));
+            assert!(found, "{stem}: no {suffix}");
+        }
+    }
+    for name in ["findings.json", "table-01.csv", "index.html"] {
+        assert!(one.contains_key(name), "{name}");
+    }
+    let text = String::from_utf8(one["findings.json"].clone()).expect("text");
+    let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    // The onset of rocking is exact for every record.
+    let onset = json["claims"].as_array().expect("claims").iter();
+    let onset: Vec<_> = onset
+        .filter(|c| c["measure"].as_str().is_some_and(|m| m.contains("1e-9")))
+        .collect();
+    assert_eq!(onset.len(), 2);
+    assert!(onset.iter().all(|c| c["verdict"] == "confirmed"));
+    // Ten records, all above 0.14 g: none fails to lift alpha = 0.10.
+    assert_eq!(json["uplift_unscaled"][1]["ordinary"], 10);
+    let names: Vec<_> = json.as_object().expect("object").keys().collect();
+    assert!(names.is_sorted(), "{names:?}");
+}

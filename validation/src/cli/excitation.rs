@@ -334,6 +334,19 @@ impl ExcitationArgs {
     }
 }
 
+impl ExcitationArgs {
+    /// What moves the ground, in a word.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let file = self.record.as_deref().and_then(|path| path.file_stem());
+        match (file, self.pulse) {
+            (Some(stem), _) => stem.to_string_lossy().into_owned(),
+            (None, Some(pulse)) => pulse.name(),
+            (None, None) => "free motion".to_owned(),
+        }
+    }
+}
+
 impl PulseName {
     fn name(self) -> String {
         self.to_possible_value()

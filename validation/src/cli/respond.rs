@@ -5,14 +5,18 @@ use std::path::PathBuf;
 
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{
-    Certified, Engine, Observe, Outcome, Response, Scene, Side, certify,
-    respond, uplift_threshold,
+    Certified, Engine, HistoryPoint, Observe, Outcome, Response, Scene, Side,
+    certify, respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
 
 use super::excitation::{ExcitationArgs, Ground};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print};
+use crate::figures::Figure as _;
+use crate::figures::data::{
+    Heading, Histories, History, HistoryPanel, Intensity,
+};
 use crate::files::write_atomically;
 use crate::json::{number, optional};
 
@@ -31,6 +35,9 @@ pub struct Args {
     /// Write the history theta(t) as CSV.
     #[arg(long, value_name = "FILE.csv")]
     history: Option<PathBuf>,
+    /// Draw the history theta/alpha as SVG.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
     /// Tell the fate in the precision that it needs: double-double where
     /// double precision cannot.
     #[arg(long, conflicts_with = "until")]
@@ -82,7 +89,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let observe = Observe {
         events: true,
         accuracy: true,
-        history_interval_s: args.history.is_some().then_some(interval_s),
+        history_interval_s: (args.history.is_some() || args.plot.is_some())
+            .then_some(interval_s),
         until_s: args.until,
     };
     let response = respond(&scene, &observe)?;
@@ -95,6 +103,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Ground::Pulse(pulse) => pulse.pga_g(),
         Ground::Free(_) => 0.0,
     };
+    if let Some(path) = &args.plot {
+        let name = args.excitation.name();
+        write_atomically(path, drawing(&scene, &response, name, pga_g)?)?;
+    }
     let certified = if args.certify { Some(certify(&scene)?) } else { None };
     let scene = &scene;
     let setting = Setting { args, scene, certified, gravity_m_s2, pga_g };
@@ -104,6 +116,42 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else {
         print(&setting.table(&response))
     }
+}
+
+/// The history, drawn.
+fn drawing(
+    scene: &Scene<'_>,
+    response: &Response,
+    name: String,
+    pga_g: f64,
+) -> Result<String, Failure> {
+    let alpha_rad = scene.block.slenderness_rad();
+    let of = |f: fn(&HistoryPoint) -> f64| {
+        response.history.iter().map(f).collect::<Vec<f64>>()
+    };
+    let rotation = of(|point| point.rotation_rad);
+    let history = History {
+        alpha_rad,
+        time_s: of(|point| point.time_s),
+        ratio: rotation.iter().map(|theta| theta / alpha_rad).collect(),
+        overturned: response.outcome.is_overturned(),
+    };
+    let panel = HistoryPanel {
+        p_rad_s: scene.block.frequency_rad_s(),
+        record: name,
+        intensity: Intensity::Pga,
+        im: pga_g / uplift_threshold(&scene.block, scene.model),
+        until_s: f64::NAN,
+        curves: vec![history],
+    };
+    let heading = Heading {
+        name: "history".to_owned(),
+        title: "Response history".to_owned(),
+        description: "Rotation over slenderness against time.".to_owned(),
+        arm: None,
+    };
+    let figure = Histories { heading, panels: vec![panel], columns: 1 };
+    Ok(figure.thinned().svg()?)
 }
 
 fn history_csv(scene: &Scene<'_>, response: &Response) -> String {

@@ -165,7 +165,7 @@ pub fn eq7(
 /// ```
 /// use rocking::fragility::transform;
 /// use rocking::statistics::Lognormal;
-/// let usfl = Lognormal::try_new(0.0, 2.0_f64.ln(), 0.3)?;
+/// let usfl = Lognormal::try_new(0.0, std::f64::consts::LN_2, 0.3)?;
 /// let usfl7 = transform(&usfl, 1.0, 1.0)?;
 /// assert!((usfl7.median() - 2.0).abs() < 1e-15);
 /// assert!(usfl7.dispersion() > 0.6);

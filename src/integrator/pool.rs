@@ -94,18 +94,12 @@ pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
 
 /// Lanes that wait for others of their kind.
 struct Waiting {
+    /// For the longest series, clear of events.
+    hard: Line,
     /// For the roots of the class' own series.
     events: Line,
-    /// For the longest series.
-    hard: Line,
-}
-
-impl Waiting {
-    #[inline(always)]
-    fn push(&mut self, hard: bool, lane: Lane) {
-        let line = if hard { &mut self.hard } else { &mut self.events };
-        line.push(lane);
-    }
+    /// For the roots of the longest series.
+    both: Line,
 }
 
 /// Lanes in a line: there is room for all of them.
@@ -179,7 +173,13 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
         let (model, isa) = (self.model, self.isa);
         let mut groups: Vec<Group<'a>> =
             (0..GROUPS).map(|_| Group::idle()).collect();
-        let mut waiting = Waiting { events: Line::EMPTY, hard: Line::EMPTY };
+        let mut waiting = Waiting {
+            hard: Line::EMPTY,
+            events: Line::EMPTY,
+            both: Line::EMPTY,
+        };
+        let mut batch = Batch::empty();
+        let mut solved = Solved::nothing();
         // A response may give the source something to do.
         let mut fresh = true;
         loop {
@@ -189,25 +189,30 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             if self.busy == 0 {
                 return;
             }
-            let (all, waiting_) = (&mut groups, &mut waiting);
-            let sweep = Sweep::<LEN> { model, groups: all, waiting: waiting_ };
+            let sweep = Sweep::<LEN> {
+                model,
+                groups: &mut groups,
+                waiting: &mut waiting,
+            };
             let Some(moved) = isa.run_wide(sweep) else { return };
             // Few runs do not wait for eight of a kind.
             let enough =
                 if moved { (self.busy / 4).clamp(1, WIDTH) } else { 1 };
-            while waiting.hard.count >= enough {
-                let batch =
-                    Batch::gather(&mut waiting.hard, &groups, &self.slots);
-                let solve = Solve::<LEN, SMOOTH> { model, batch: &batch };
-                let Some(solved) = isa.run_wide(solve) else { return };
-                fresh |= self.scatter(&mut groups, &mut waiting, &solved);
-            }
-            while waiting.events.count >= enough {
-                let batch =
-                    Batch::gather(&mut waiting.events, &groups, &self.slots);
-                let solve = Solve::<LEN, LEN> { model, batch: &batch };
-                let Some(solved) = isa.run_wide(solve) else { return };
-                fresh |= self.scatter(&mut groups, &mut waiting, &solved);
+            for kind in [Kind::Hard, Kind::Events, Kind::Both] {
+                while kind.line(&mut waiting).count >= enough {
+                    let line = kind.line(&mut waiting);
+                    batch.gather(line, &groups, &self.slots);
+                    let done = isa.run_wide(Solve::<LEN> {
+                        model,
+                        kind,
+                        batch: &batch,
+                        solved: &mut solved,
+                    });
+                    if done.is_none() {
+                        return;
+                    }
+                    fresh |= self.scatter(&mut groups, &mut waiting, &solved);
+                }
             }
         }
     }
@@ -298,7 +303,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 continue;
             }
             if solved.hard.at(i) {
-                waiting.hard.push(id);
+                waiting.both.push(id);
                 continue;
             }
             if solved.turned.at(i) {
@@ -353,18 +358,49 @@ impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
     }
 }
 
-/// The steps of a batch.
-struct Solve<'b, const LEN: usize, const SIZE: usize> {
-    model: Model,
-    batch: &'b Batch,
+/// What the lanes of a batch have in common.
+#[derive(Clone, Copy)]
+enum Kind {
+    Hard,
+    Events,
+    Both,
 }
 
-impl<const LEN: usize, const SIZE: usize> Work for Solve<'_, LEN, SIZE> {
-    type Output = Solved;
+impl Kind {
+    fn line(self, waiting: &mut Waiting) -> &mut Line {
+        match self {
+            Self::Hard => &mut waiting.hard,
+            Self::Events => &mut waiting.events,
+            Self::Both => &mut waiting.both,
+        }
+    }
+}
+
+/// The steps of a batch.
+struct Solve<'b, const LEN: usize> {
+    model: Model,
+    kind: Kind,
+    batch: &'b Batch,
+    solved: &'b mut Solved,
+}
+
+impl<const LEN: usize> Work for Solve<'_, LEN> {
+    type Output = ();
 
     #[inline(always)]
-    fn run(self) -> Solved {
-        self.batch.solve::<LEN, SIZE>(self.model)
+    fn run(self) {
+        let Self { model, kind, batch, solved } = self;
+        match kind {
+            Kind::Hard => {
+                batch.solve::<LEN, SMOOTH, true>(model, solved);
+            }
+            Kind::Events => {
+                batch.solve::<LEN, LEN, false>(model, solved);
+            }
+            Kind::Both => {
+                batch.solve::<LEN, SMOOTH, false>(model, solved);
+            }
+        }
     }
 }
 

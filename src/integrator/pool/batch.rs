@@ -64,6 +64,29 @@ pub(super) struct Solved {
     pub amplitude: Eight,
 }
 
+impl Solved {
+    pub fn nothing() -> Self {
+        let (zero, none) = (Lanes::splat(0.0), Mask::splat(false));
+        Self {
+            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            count: 0,
+            left: none,
+            hard: none,
+            impact: none,
+            again: none,
+            turned: none,
+            turn: zero,
+            top: zero,
+            u: zero,
+            w: zero,
+            here: zero,
+            offset: zero,
+            length: zero,
+            amplitude: zero,
+        }
+    }
+}
+
 /// Coefficients of rotation and velocity.
 type Series<const SIZE: usize> = ([Eight; SIZE], [Eight; SIZE]);
 
@@ -86,18 +109,11 @@ struct FirstImpact {
 }
 
 impl Batch {
-    /// Takes up to eight lanes out of a line.
-    #[inline(always)]
-    pub fn gather<T, const LEN: usize>(
-        line: &mut Line,
-        groups: &[Group<'_>],
-        slots: &[Option<Slot<'_, T, LEN>>],
-    ) -> Self {
+    pub fn empty() -> Self {
         let zero = Lanes::splat(0.0);
-        let (lanes, count) = line.take();
-        let mut out = Self {
-            lanes,
-            count,
+        Self {
+            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            count: 0,
             u: zero,
             w: zero,
             here: zero,
@@ -114,8 +130,20 @@ impl Batch {
             limit: zero,
             eta: zero,
             tolerance: zero,
-        };
-        for (i, id) in lanes.iter().take(count).enumerate() {
+        }
+    }
+
+    /// Takes up to eight lanes out of a line; those beyond have no meaning.
+    pub fn gather<T, const LEN: usize>(
+        &mut self,
+        line: &mut Line,
+        groups: &[Group<'_>],
+        slots: &[Option<Slot<'_, T, LEN>>],
+    ) {
+        (self.lanes, self.count) = line.take();
+        let out = self;
+        let lanes = out.lanes;
+        for (i, id) in lanes.iter().take(out.count).enumerate() {
             let (group, lane) = (&groups[id.group], id.lane);
             out.u[i] = group.u[lane];
             out.w[i] = group.w[lane];
@@ -137,16 +165,16 @@ impl Batch {
                 out.tolerance[i] = slot.driver.tolerance();
             }
         }
-        out
     }
 
     /// Solves the steps by series of `SIZE` coefficients, the class' own
-    /// being `LEN`.
+    /// being `LEN`; nothing happens in them if they are `FREE`.
     #[inline(always)]
-    pub fn solve<const LEN: usize, const SIZE: usize>(
+    pub fn solve<const LEN: usize, const SIZE: usize, const FREE: bool>(
         &self,
         model: Model,
-    ) -> Solved {
+        out: &mut Solved,
+    ) {
         let zero = Eight::zero();
         let (all, none) = (Mask::splat(true), Mask::splat(false));
         let (h, offset) = (self.length, self.offset);
@@ -182,6 +210,19 @@ impl Batch {
         } else {
             left = left.or(again);
         }
+        out.lanes = self.lanes;
+        out.count = self.count;
+        out.again = if SIZE > LEN { again } else { none };
+        out.hard = hard.but_not(large);
+        if FREE {
+            out.left = left.but_not(out.hard);
+            (out.impact, out.turned) = (none, none);
+            (out.u, out.w) = (value(&c, h), value(&v, h));
+            (out.here, out.amplitude) = (self.ahead, self.amplitude);
+            (out.offset, out.length) = (zero, self.whole);
+            return;
+        }
+
         let first = self.first_impact(&c);
         left = left.or(first.unsure);
         let impact = first.found;
@@ -209,25 +250,17 @@ impl Batch {
         let settled = chatter.or(all.but_not(short));
         left = left.or(impact.and(settled));
 
-        let hard = hard.but_not(large);
-        let left = left.but_not(hard);
-        Solved {
-            lanes: self.lanes,
-            count: self.count,
-            left,
-            hard,
-            impact,
-            again: if SIZE > LEN { again } else { none },
-            turned: turning.found,
-            turn: turning.turn,
-            top: value(&c, turning.turn),
-            u: impact.select(zero, end_u),
-            w: impact.select(w, end_w),
-            here: impact.select(-self.here, self.ahead),
-            offset: impact.select(there, zero),
-            length: impact.select(self.whole - there, self.whole),
-            amplitude: impact.select(-self.amplitude, self.amplitude),
-        }
+        out.left = left.but_not(out.hard);
+        out.impact = impact;
+        out.turned = turning.found;
+        out.turn = turning.turn;
+        out.top = value(&c, turning.turn);
+        out.u = impact.select(zero, end_u);
+        out.w = impact.select(w, end_w);
+        out.here = impact.select(-self.here, self.ahead);
+        out.offset = impact.select(there, zero);
+        out.length = impact.select(self.whole - there, self.whole);
+        out.amplitude = impact.select(-self.amplitude, self.amplitude);
     }
 
     /// The first impact, as the driver and its root finder see it.

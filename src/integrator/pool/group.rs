@@ -63,8 +63,12 @@ impl Parked {
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            let hard = (self.hard >> lane) & 1 == 1;
-            waiting.push(hard, Lane { group, lane });
+            let line = if (self.hard >> lane) & 1 == 1 {
+                &mut waiting.hard
+            } else {
+                &mut waiting.events
+            };
+            line.push(Lane { group, lane });
         }
     }
 }

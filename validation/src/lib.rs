@@ -15,6 +15,7 @@ pub mod naive;
 pub mod oracles;
 pub mod report;
 pub mod scene;
+pub mod speed;
 pub mod study;
 pub mod synthesis;
 pub mod verdict;

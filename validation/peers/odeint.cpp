@@ -105,16 +105,27 @@ Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
     };
 }
 
+// `odeint singles FOLDER` or `odeint chains FOLDER`.
 int main(int, char** argv) {
-    header();
+    const bool singles = std::string(argv[1]) == "singles";
     const std::string version = std::to_string(BOOST_VERSION / 100000) + "." +
                                 std::to_string(BOOST_VERSION / 100 % 1000);
+    if (singles) header();
     for (bool stops : {false, true})
         for (const char* rtol : {"1e-06", "1e-09", "1e-12"}) {
-            std::string method = stops ? "dopri5 sample by sample" : "dopri5";
-            measure("Boost.odeint," + version + "," + method + ",rtol " + rtol,
-                    argv[1], [&](const Scene& scene, long& work) {
-                        return flights(scene, work, std::stod(rtol), stops);
-                    });
+            const double relative = std::stod(rtol);
+            auto own = [&](const Scene& scene, long& work) {
+                return flights(scene, work, relative, stops);
+            };
+            const std::string method =
+                stops ? "dopri5 sample by sample" : "dopri5";
+            if (singles)
+                measure("Boost.odeint," + version + "," + method + ",rtol " +
+                            rtol,
+                        argv[2], own);
+            else
+                measure_chains("\"p = 3, alpha = 0.15, Boost.odeint " + method +
+                                   ", rtol " + rtol + "\"",
+                               argv[2], own);
         }
 }

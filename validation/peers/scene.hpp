@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,20 +21,31 @@ struct Scene {
     double alpha, p, eta, dt, end, threshold, cosine;
     std::vector<double> f, slope;
 
+    std::vector<double> levels, samples;
+
     explicit Scene(const std::string& path) {
         std::ifstream in(path);
-        std::string key;
+        std::string key, list;
         size_t n = 0;
         in >> key >> name >> key >> alpha >> key >> p >> key >> eta >> key >>
-            dt >> key >> n;
-        f.resize(n);
-        for (double& x : f) in >> x;
+            dt >> key >> list >> key >> n;
+        samples.resize(n);
+        for (double& x : samples) in >> x;
         if (!in) throw std::runtime_error(path + ": not a case");
-        for (size_t k = 0; k + 1 < n; k++)
-            slope.push_back((f[k + 1] - f[k]) / dt);
+        std::stringstream text(list);
+        while (std::getline(text, list, ','))
+            levels.push_back(std::stod(list));
         end = double(n - 1) * dt;
         threshold = std::tan(alpha);
         cosine = std::cos(alpha);
+        scale(levels.front());
+    }
+
+    void scale(double level) {
+        f.clear(), slope.clear();
+        for (double x : samples) f.push_back(level * x);
+        for (size_t k = 0; k + 1 < f.size(); k++)
+            slope.push_back((f[k + 1] - f[k]) / dt);
     }
 
     double force(double t) const {
@@ -142,15 +154,49 @@ inline double cpu_s() {
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
-// Runs all cases and prints a line for each; the time is the least of five.
-inline void measure(
-    const std::string& label, const std::string& folder,
-    const std::function<Flight(const Scene&, long&)>& flights) {
+using Flights = std::function<Flight(const Scene&, long&)>;
+
+inline std::vector<std::string> files(const std::string& folder) {
     std::vector<std::string> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
         if (entry.path().extension() == ".txt") paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
-    for (const auto& path : paths) {
+    return paths;
+}
+
+// Runs all levels of all chains and prints one line: time, analyses, and
+// chains whose first overturning is not at the last level.
+inline void measure_chains(const std::string& label, const std::string& folder,
+                           const Flights& flights) {
+    double total = 0;
+    long count = 0, moved = 0, work = 0;
+    for (const auto& path : files(folder)) {
+        Scene scene(path);
+        bool same = true;
+        double begin = cpu_s();
+        for (double level : scene.levels) {
+            scene.scale(level);
+            bool overturned = false;
+            try {
+                overturned = std::isinf(run(scene, flights(scene, work)).peak);
+            } catch (const std::exception& error) {
+                std::fprintf(stderr, "%s\n", error.what());
+                same = false;
+            }
+            count++;
+            same = same && overturned == (level == scene.levels.back());
+            if (overturned) break;
+        }
+        total += cpu_s() - begin;
+        moved += !same;
+    }
+    std::printf("%s,1,%.4g,%ld,,%ld\n", label.c_str(), total, count, moved);
+}
+
+// Runs all cases and prints a line for each; the time is the least of five.
+inline void measure(const std::string& label, const std::string& folder,
+                    const Flights& flights) {
+    for (const auto& path : files(folder)) {
         Scene scene(path);
         double least = 1e300;
         long work = 0;

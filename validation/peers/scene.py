@@ -20,14 +20,15 @@ import time
 class Scene:
     def __init__(self, path):
         lines = open(path).read().split("\n")
-        head = dict(line.split() for line in lines[:6])
+        head = dict(line.split() for line in lines[:7])
         self.name = head["name"]
         self.alpha = float(head["alpha_rad"])
         self.p = float(head["p_rad_s"])
         self.eta = float(head["eta"])
         self.dt = float(head["dt_s"])
         n = int(head["samples"])
-        self.f = [float(x) for x in lines[6:6 + n]]
+        level = float(head["levels_g"])
+        self.f = [float(x) * level for x in lines[7:7 + n]]
         self.slope = [(b - a) / self.dt for a, b in zip(self.f, self.f[1:])]
         self.end = (n - 1) * self.dt
         self.threshold = math.tan(self.alpha)

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::integrator::Model;
 use rocking::number::dispatch::Isa;
@@ -19,8 +20,8 @@ use crate::speed::clock::peak_memory_mib;
 use crate::speed::measured::{Total, read_answers, text, totals};
 use crate::speed::singles::{BASE, ORDERS};
 use crate::speed::throughput::{
-    Throughput, analyses, in_lanes, kernel, lilliefors, on_threads,
-    one_by_one, samples,
+    self, Throughput, analyses, at_order, in_lanes, kernel, lilliefors,
+    on_threads, one_by_one, samples_of,
 };
 use crate::speed::{export, singles};
 use crate::study::grid::blocks;
@@ -30,7 +31,7 @@ use crate::study::suites::StudySuite;
 /// double-double, and the paper's whole analysis of a suite, in lanes and
 /// one analysis at a time.
 ///
-/// Times are processor time; they differ from run to run and from machine to
+/// It takes some minutes. Times are processor time; they differ from run to run and from machine to
 /// machine, errors and work do not.
 #[derive(clap::Args)]
 pub struct Args {
@@ -44,12 +45,15 @@ pub struct Args {
     /// Write one row for each method and case.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
+    /// Write the throughput.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "singles")]
+    throughput: Option<PathBuf>,
     /// Write the cases for other tools, and measure nothing.
     #[arg(
         long,
         value_name = "DIR",
         hide = true,
-        conflicts_with_all = ["suite", "singles", "out", "answers", "json"]
+        conflicts_with_all = ["suite", "singles", "out", "throughput", "answers", "json"]
     )]
     export: Option<PathBuf>,
     /// Judge the answers of other tools beside our own.
@@ -68,7 +72,14 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let cases = cases::all()?;
     if let Some(folder) = &args.export {
-        export::write(folder, &cases)?;
+        export::singles(&folder.join("singles"), &cases)?;
+        let (block, records) = (middle()?, records(args)?);
+        let analyses = analyses(&[block], Model::Nonlinear)?;
+        let (_, found) = in_lanes("", 1, &records, &analyses)?;
+        for (analysis, found) in analyses.iter().zip(&found) {
+            let folder = folder.join("chains");
+            export::chains(&folder, analysis, &records, found)?;
+        }
         return Ok(());
     }
     let cases = with_references(cases)?;
@@ -83,7 +94,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         write_atomically(path, text(&rows)?)?;
     }
     let singles = totals(&rows, BASE);
-    let many = if args.singles { Vec::new() } else { throughput(args)? };
+    let many = if args.singles { Vec::new() } else { many(args)? };
+    if let Some(path) = &args.throughput {
+        write_atomically(path, throughput::text(&many)?)?;
+    }
     let memory = peak_memory_mib();
     if args.json {
         print(&format!("{}\n", machine(&singles, &many, memory)))
@@ -117,17 +131,28 @@ fn records(args: &Args) -> Result<Vec<NormalisedRecord>, Failure> {
         .collect())
 }
 
+/// The block in the middle of the fifteen, for comparisons with tools that
+/// would take hours for all.
+fn middle() -> Result<Block, Failure> {
+    Ok(Block::try_new(0.15, 3.0)?)
+}
+
 /// Everything that takes many analyses.
-fn throughput(args: &Args) -> Result<Vec<Throughput>, Failure> {
+fn many(args: &Args) -> Result<Vec<Throughput>, Failure> {
     let records = records(args)?;
     let blocks = blocks()?;
-    let bar = progress(10);
+    let bar = progress(16);
     let mut all = vec![
         kernel("kernel in lanes, Eq. 1, order 8", Model::Nonlinear, 1e-3)?,
         kernel("kernel in lanes, Eq. 1, order 10", Model::Nonlinear, 0.021)?,
         kernel("kernel in lanes, Eq. 2", Model::Linearized, 1e-3)?,
     ];
     bar.inc(3);
+    let one = analyses(&[middle()?], Model::Nonlinear)?;
+    let name = |how: &str| format!("p = 3, alpha = 0.15, {how}");
+    all.push(in_lanes(&name("in lanes"), 1, &records, &one)?.0);
+    all.push(one_by_one(&name("one by one"), &records, &one)?);
+    bar.inc(2);
     let threads = rayon::current_num_threads();
     for (model, words) in
         [(Model::Nonlinear, "Eq. 1"), (Model::Linearized, "Eq. 2")]
@@ -137,13 +162,20 @@ fn throughput(args: &Args) -> Result<Vec<Throughput>, Failure> {
         let (mut lanes, found) =
             in_lanes(&name("in lanes"), 1, &records, &analyses)?;
         bar.inc(1);
-        let steps = Some(samples(&records, &analyses, &found)?);
+        let steps = Some(samples_of(&records, &analyses, &found)?);
         let mut each = one_by_one(&name("one by one"), &records, &analyses)?;
         bar.inc(1);
         lanes.samples = steps;
         each.samples = steps;
         all.push(lanes);
         all.push(each);
+        let orders = ORDERS.iter().filter(|_| model == Model::Nonlinear);
+        for (setting, order) in orders {
+            let Some(order) = *order else { continue };
+            let name = name(&format!("one by one, {setting}"));
+            all.push(at_order(&name, &records, &analyses, &found, order)?);
+            bar.inc(1);
+        }
         if threads > 1 {
             let name = name("in lanes");
             let (mut own, _) = in_lanes(&name, threads, &records, &analyses)?;
@@ -182,13 +214,14 @@ fn machine(
             "other_impacts": t.other_impacts,
         })).collect::<Vec<_>>(),
         "throughput": many.iter().map(|t| json!({
-            "name": t.name,
+            "work": t.work,
             "threads": t.threads,
             "cpu_s": number(t.cpu_s),
             "count": t.count,
             "rate_per_cpu_s": number(t.rate_per_s()),
             "samples": t.samples,
             "sample_ns": optional(t.sample_ns()),
+            "moved_chains": t.moved,
         })).collect::<Vec<_>>(),
         "peak_memory_mib": optional(memory),
     })
@@ -236,25 +269,33 @@ fn people(
     }
     let _ = writeln!(
         out,
-        "\nfates: wrong ones; impacts: cases with another number of them"
+        "\nfates: wrong ones; impacts: cases with another number of them; \
+         moved: chains\nwith another first overturning level"
     );
     if !many.is_empty() {
         let _ = writeln!(
             out,
-            "\n{:<44} {:>7} {:>9} {:>9} {:>12} {:>9}",
-            "work", "threads", "CPU s", "number", "per CPU s", "ns/sample"
+            "\n{:<44} {:>7} {:>9} {:>9} {:>12} {:>9} {:>6}",
+            "work",
+            "threads",
+            "CPU s",
+            "number",
+            "per CPU s",
+            "ns/sample",
+            "moved"
         );
     }
     for t in many {
         let _ = writeln!(
             out,
-            "{:<44} {:>7} {:>9.3} {:>9} {:>12.0} {:>9}",
-            t.name,
+            "{:<44} {:>7} {:>9.3} {:>9} {:>12.0} {:>9} {:>6}",
+            t.work,
             t.threads,
             t.cpu_s,
             t.count,
             t.rate_per_s(),
-            t.sample_ns().map_or(String::new(), |ns| format!("{ns:.2}"))
+            t.sample_ns().map_or(String::new(), |ns| format!("{ns:.2}")),
+            t.moved.map_or(String::new(), |n| n.to_string())
         );
     }
     if let Some(memory) = memory {

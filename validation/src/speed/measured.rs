@@ -177,7 +177,9 @@ pub fn text(rows: &[Row]) -> Result<Vec<u8>, csv::Error> {
     writer.into_inner().map_err(|e| e.into_error().into())
 }
 
-fn rounded(x: f64, digits: usize) -> f64 {
+/// A number to so many significant digits.
+#[must_use]
+pub fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
 }
 

@@ -5,19 +5,25 @@ use rayon::prelude::*;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Grid, IdaCurve, curve, curves};
-use rocking::integrator::{Model, Observe, Overturning, Scene, respond};
+use rocking::integrator::{
+    Model, Observe, Order, Overturning, Scene, SceneError, respond,
+    respond_at_order,
+};
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
+use serde::{Deserialize, Serialize};
 
+use super::SpeedError;
 use super::cases::ETA;
 use super::clock::process_s;
-use crate::cli::Failure;
+use super::measured::rounded;
 
 /// A piece of work and what it took.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Throughput {
     /// What was done.
-    pub name: String,
+    pub work: String,
     /// Threads that did it.
     pub threads: usize,
     /// Processor time of all threads, in s.
@@ -26,6 +32,9 @@ pub struct Throughput {
     pub count: u64,
     /// Samples in flight (one step each), where there are such.
     pub samples: Option<u64>,
+    /// Chains whose first overturning is at another level than by the
+    /// default, where that was looked at.
+    pub moved: Option<u64>,
 }
 
 impl Throughput {
@@ -58,11 +67,11 @@ pub fn analyses(
 /// Processor time of `work` on a pool of that many threads.
 ///
 /// # Errors
-/// [`Failure`] where threads cannot be started.
+/// [`SpeedError`] where threads cannot be started.
 pub fn on_threads<T: Send>(
     threads: usize,
     work: impl FnOnce() -> T + Send,
-) -> Result<(f64, T), Failure> {
+) -> Result<(f64, T), SpeedError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(|| {
         let begin = process_s();
@@ -74,32 +83,33 @@ pub fn on_threads<T: Send>(
 /// Curves in lanes.
 ///
 /// # Errors
-/// [`Failure`] for a record that cannot be analysed.
+/// [`SpeedError`] for a record that cannot be analysed.
 pub fn in_lanes(
-    name: &str,
+    work: &str,
     threads: usize,
     records: &[NormalisedRecord],
     analyses: &[Analysis],
-) -> Result<(Throughput, Vec<Vec<IdaCurve>>), Failure> {
+) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
     let (cpu_s, found) =
         on_threads(threads, || curves(records, analyses, || ()))?;
     let found = found?;
     let all = found.iter().flatten();
     let count = all.map(|c| c.analyses).fold(0, u64::saturating_add);
-    let name = name.into();
-    let measure = Throughput { name, threads, cpu_s, count, samples: None };
+    let work = work.into();
+    let measure =
+        Throughput { work, threads, cpu_s, count, samples: None, moved: None };
     Ok((measure, found))
 }
 
 /// The same curves one analysis at a time, on one thread.
 ///
 /// # Errors
-/// [`Failure`] for a record that cannot be analysed.
+/// [`SpeedError`] for a record that cannot be analysed.
 pub fn one_by_one(
-    name: &str,
+    work: &str,
     records: &[NormalisedRecord],
     analyses: &[Analysis],
-) -> Result<Throughput, Failure> {
+) -> Result<Throughput, SpeedError> {
     let chains =
         analyses.iter().flat_map(|a| records.iter().map(move |r| (r, a)));
     let (cpu_s, found) = on_threads(1, || {
@@ -108,19 +118,26 @@ pub fn one_by_one(
             .collect::<Result<Vec<u64>, _>>()
     })?;
     let count = found?.into_iter().fold(0, u64::saturating_add);
-    let name = name.into();
-    Ok(Throughput { name, threads: 1, cpu_s, count, samples: None })
+    let work = work.into();
+    Ok(Throughput {
+        work,
+        threads: 1,
+        cpu_s,
+        count,
+        samples: None,
+        moved: None,
+    })
 }
 
 /// Steps that the analyses of some curves took.
 ///
 /// # Errors
-/// [`Failure`] for a record that cannot be analysed.
-pub fn samples(
+/// [`SpeedError`] for a record that cannot be analysed.
+pub fn samples_of(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
     found: &[Vec<IdaCurve>],
-) -> Result<u64, Failure> {
+) -> Result<u64, SpeedError> {
     let chains: Vec<_> = analyses
         .iter()
         .zip(found)
@@ -128,20 +145,12 @@ pub fn samples(
             records.iter().zip(curves).map(move |(r, c)| (a, r, c))
         })
         .collect();
-    let steps: Vec<Result<u64, Failure>> = chains
+    let steps: Vec<Result<u64, SpeedError>> = chains
         .par_iter()
         .map(|(analysis, record, curve)| {
             let mut steps = 0;
             for point in &curve.points {
-                let scaled = ScaledRecord::to_pga(record, point.pga_g);
-                let scene = Scene {
-                    block: analysis.block,
-                    restitution: analysis.restitution,
-                    model: analysis.model,
-                    overturning: Overturning::Alpha,
-                    excitation: Excitation::Record(scaled),
-                    initial_ratio: 0.0,
-                };
+                let scene = scene(analysis, record, point.pga_g);
                 steps += respond(&scene, &Observe::default())?.work.steps;
             }
             Ok(steps)
@@ -150,60 +159,140 @@ pub fn samples(
     steps.into_iter().try_fold(0, |sum, own| Ok(sum + own?))
 }
 
-/// The kernel of the lanes with hardly anything else: slow sines with very
-/// many samples, so that impacts are rare; steps of `step` in 1/p.
+fn scene<'a>(
+    analysis: &Analysis,
+    record: &'a NormalisedRecord,
+    pga_g: f64,
+) -> Scene<'a> {
+    Scene {
+        block: analysis.block,
+        restitution: analysis.restitution,
+        model: analysis.model,
+        overturning: Overturning::Alpha,
+        excitation: Excitation::Record(ScaledRecord::to_pga(record, pga_g)),
+        initial_ratio: 0.0,
+    }
+}
+
+/// The levels of some curves one by one at an order, up to the first that
+/// overturns at that order.
+///
+/// # Errors
+/// [`SpeedError`] for a record that cannot be analysed.
+pub fn at_order(
+    work: &str,
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    found: &[Vec<IdaCurve>],
+    order: Order,
+) -> Result<Throughput, SpeedError> {
+    let climb = || -> Result<(u64, u64), SceneError> {
+        let (mut count, mut moved) = (0, 0);
+        for (analysis, curves) in analyses.iter().zip(found) {
+            for (record, curve) in records.iter().zip(curves) {
+                let mut same = true;
+                for point in &curve.points {
+                    let scene = scene(analysis, record, point.pga_g);
+                    let seen = Observe::default();
+                    let own = respond_at_order(&scene, &seen, order)?;
+                    count += 1;
+                    let overturned = own.outcome.is_overturned();
+                    same = overturned == point.outcome.is_overturned();
+                    if overturned {
+                        break;
+                    }
+                }
+                moved += u64::from(!same);
+            }
+        }
+        Ok((count, moved))
+    };
+    let (cpu_s, done) = on_threads(1, climb)?;
+    let (count, moved) = done?;
+    Ok(Throughput {
+        work: work.into(),
+        threads: 1,
+        cpu_s,
+        count,
+        samples: None,
+        moved: Some(moved),
+    })
+}
+
+/// The measurements as CSV.
+///
+/// # Errors
+/// None in practice: memory can be written to.
+pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        let cpu_s = rounded(row.cpu_s, 4);
+        writer.serialize(Throughput { cpu_s, ..row.clone() })?;
+    }
+    writer.into_inner().map_err(|e| e.into_error().into())
+}
+
+/// Rows of a table as [`text`] writes it.
+///
+/// # Errors
+/// The reader's word on what was wrong.
+pub fn parse(text: &str) -> Result<Vec<Throughput>, csv::Error> {
+    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
+}
+
+/// The kernel of the lanes with hardly anything else: blocks rock freely
+/// after a push, in long flights with many samples of `step` in 1/p.
 ///
 /// # Errors
 /// None in practice: block and record are in range.
 pub fn kernel(
-    name: &str,
+    work: &str,
     model: Model,
     step: f64,
-) -> Result<Throughput, Failure> {
-    const CHAINS: usize = 32;
-    let p = 2.0;
-    let block = Block::try_new(0.2, p)?;
-    let dt_s = step / p;
-    // Twelve periods of two radians in 1/p each second.
-    let count = (12.0 * std::f64::consts::PI / step) as usize;
-    let sine = (0..count).map(|i| libm::sin(2.0 * step * i as f64));
-    let record = Accelerogram::try_new("sine", dt_s, sine.collect())?;
+) -> Result<Throughput, SpeedError> {
+    const CHAINS: usize = 64;
+    let block = Block::try_new(0.2, 1.0)?;
+    let push = (1.0 / step) as usize;
+    let samples = (0..200 * push).map(|i| {
+        let turn = std::f64::consts::PI * step * i as f64;
+        if i < push { libm::sin(turn) } else { 0.0 }
+    });
+    let record = Accelerogram::try_new("push", step, samples.collect())?;
     let records = vec![NormalisedRecord::new(&record); CHAINS];
-    let grid = Grid::Im { step: 0.1 };
-    let few = |a: Analysis| Analysis { grid, highest_im: 1.55, ..a };
-    let analyses: Vec<Analysis> =
-        analyses(&[block], model)?.into_iter().map(few).collect();
-    let steps = {
-        let one = &records[..1];
-        let (_, found) = in_lanes(name, 1, one, &analyses)?;
-        samples(one, &analyses, &found)? * CHAINS as u64
-    };
-    let mut best: Option<Throughput> = None;
-    for _ in 0..3 {
-        let (mut own, _) = in_lanes(name, 1, &records, &analyses)?;
-        own.samples = Some(steps);
-        let better = |b: &Throughput| own.cpu_s < b.cpu_s;
-        if best.as_ref().is_none_or(better) {
-            best = Some(own);
-        }
+    let restitution = Restitution::constant(0.9995)?;
+    let paper = Analysis { model, ..Analysis::paper(block, restitution) };
+    // The one level a little below overturning.
+    let grid = Grid::Im { step: 0.01 };
+    let tried = curve(&records[0], &Analysis { grid, ..paper })?;
+    let first = tried.overturning.map_or(2.0, |first| first.scanned_im);
+    let level = 0.98 * (first - 1.0);
+    let grid = Grid::Im { step: level };
+    let highest_im = 1.0 + 1.5 * level;
+    let one = [Analysis { grid, highest_im, ..paper }];
+    let (mut least, found) = in_lanes(work, 1, &records, &one)?;
+    for _ in 0..2 {
+        let (again, _) = in_lanes(work, 1, &records, &one)?;
+        least.cpu_s = least.cpu_s.min(again.cpu_s);
     }
-    best.ok_or_else(|| Failure::input("no measurement"))
+    let samples = Some(samples_of(&records, &one, &found)?);
+    Ok(Throughput { samples, ..least })
 }
 
 /// Replicates of the Lilliefors statistic of 86 values.
 ///
 /// # Errors
 /// None in practice: the number of replicates is in range.
-pub fn lilliefors() -> Result<Throughput, Failure> {
+pub fn lilliefors() -> Result<Throughput, SpeedError> {
     const REPLICATES: u64 = 200_000;
     let (cpu_s, found) =
         on_threads(1, || NullDistribution::simulate(86, REPLICATES, 0))?;
     found?;
     Ok(Throughput {
-        name: "Lilliefors replicates, n = 86".into(),
+        work: "Lilliefors replicates, n = 86".into(),
         threads: 1,
         cpu_s,
         count: REPLICATES,
         samples: None,
+        moved: None,
     })
 }

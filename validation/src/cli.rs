@@ -21,6 +21,7 @@ pub mod samples;
 pub mod scene;
 pub mod speed;
 pub mod study;
+pub mod way;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]

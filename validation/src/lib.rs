@@ -4,6 +4,7 @@
 
 pub mod cases;
 pub mod cli;
+pub mod curves;
 pub mod drawing;
 pub mod engine;
 pub mod figures;

@@ -8,7 +8,7 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
     Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaError, IdaPoint,
-    Method, REFINEMENT, Resurrections, certified_curves, curves,
+    Method, REFINEMENT, Resurrections, certified_curves,
 };
 use rocking::integrator::uplift_threshold;
 use rocking::record::{ReadOptions, Suite};
@@ -16,7 +16,9 @@ use serde_json::json;
 
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
+use super::way::WayArgs;
 use super::{Failure, print, progress, with_threads};
+use crate::curves::Way;
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};
@@ -69,6 +71,8 @@ pub struct Args {
     /// Threads [default: all].
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+    #[command(flatten)]
+    way: WayArgs,
     /// Where the table goes.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
@@ -133,12 +137,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2()?;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
+    let way = args.way.way()?;
+    if args.certify && args.way.is_given() {
+        return Err(Failure::input(
+            "--certify runs one analysis at a time: no --isa, no --engine",
+        ));
+    }
     let read = ReadOptions { gravity_m_s2, ..ReadOptions::default() };
     let suite = read_suite(&args.suite, read)?;
     let records = args.records(&suite)?;
     let bar = progress(records.len() as u64);
     let (table, certified) = with_threads(args.threads, || {
-        args.curves(&records, &analysis, || bar.inc(1))
+        args.curves(way, &records, &analysis, || bar.inc(1))
     })??;
     bar.finish_and_clear();
     write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
@@ -180,13 +190,14 @@ impl Args {
     /// asked for.
     fn curves(
         &self,
+        way: Way,
         records: &[NormalisedRecord],
         analysis: &Analysis,
         done: impl Fn() + Sync,
     ) -> Result<(Vec<IdaCurve>, Option<Certification>), IdaError> {
         let only = std::slice::from_ref(analysis);
         if !self.certify {
-            let found = curves(records, only, done)?;
+            let found = way.curves(records, only, done)?;
             return Ok((found.into_iter().flatten().collect(), None));
         }
         let found = certified_curves(records, only, done)?;

@@ -128,7 +128,7 @@ impl Timings {
         let error = "median error of peak |*θ*|/*α*";
         let share =
             |t: &Total| 100.0 * t.other_impacts as f64 / t.cases as f64;
-        let panels = vec![
+        let mut panels = vec![
             panel(
                 "peak, by time",
                 logarithmic(time),
@@ -137,7 +137,7 @@ impl Timings {
             ),
             panel(
                 "peak, by work",
-                logarithmic("polynomials, or derivatives evaluated"),
+                logarithmic("Taylor polynomials, or derivatives evaluated"),
                 logarithmic(error),
                 series(|t| t.work, |t| t.peak_error),
             ),
@@ -153,12 +153,13 @@ impl Timings {
                 Axis {
                     label: "cases with another number of them (%)".into(),
                     scale: Scale::Linear,
-                    range: Some((0.0, 100.0)),
+                    range: Some((-4.0, 104.0)),
                     categories: Vec::new(),
                 },
                 series(|t| t.ratio, share),
             ),
         ];
+        panels.iter_mut().for_each(widen);
         let drawing = Chart {
             heading: Heading {
                 name: "speed-and-error".into(),
@@ -374,6 +375,32 @@ fn logarithmic(label: &str) -> Axis {
         scale: Scale::Logarithmic,
         range: None,
         categories: Vec::new(),
+    }
+}
+
+/// Room for the marks within the axes.
+fn widen(panel: &mut ChartPanel) {
+    for (axis, values, by) in [
+        (
+            &mut panel.x,
+            panel
+                .series
+                .iter()
+                .flat_map(|s| &s.x)
+                .copied()
+                .collect::<Vec<f64>>(),
+            1.6,
+        ),
+        (
+            &mut panel.y,
+            panel.series.iter().flat_map(|s| &s.y).copied().collect(),
+            8.0,
+        ),
+    ] {
+        if axis.range.is_none() {
+            let (low, high) = range(values.into_iter().filter(|v| *v > 0.0));
+            axis.range = Some((low / by, high * by));
+        }
     }
 }
 

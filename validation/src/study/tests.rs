@@ -20,6 +20,7 @@ fn small(threads: usize) -> Files {
         restitution: Restitution::constant(0.92).expect("restitution"),
         overturning: Overturning::Alpha,
         tolerance: 1e-3,
+        way: Way::default(),
     };
     let plan = Plan { setup, arms: vec![Arm::A, Arm::B] };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();

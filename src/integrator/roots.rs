@@ -16,6 +16,16 @@ fn depth<N: Real>() -> u32 {
     (-libm::ilogb(N::ROUNDOFF) - 5).unsigned_abs()
 }
 
+/// A polynomial surely falls where its slope at the start is below this many
+/// times what the other terms can add to it.
+pub(crate) const FALLING: f64 = -1.01;
+
+/// Share of its size below which the sign of an end is not told.
+pub(crate) const NEAR_END: f64 = 1e-11;
+
+/// Newton's iterations at most.
+pub(crate) const NEWTON_LIMIT: usize = 200;
+
 /// Largest degree plus one of a polynomial here.
 const MOST: usize = 40;
 
@@ -120,12 +130,12 @@ fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
     for k in (2..c.len()).rev() {
         rest = rest.mul_add(length, c[k].abs() * N::ratio(k as i32, 1));
     }
-    if !(c[1] < rest * length * N::ratio(-101, 100)) {
+    if !(c[1] < rest * length * N::from_f64(FALLING)) {
         return None;
     }
     let end = value(c, length);
     let size = c[0].abs() + c[1].abs() * length;
-    if !(end.abs() > size * N::from_f64(1e-11)) {
+    if !(end.abs() > size * N::from_f64(NEAR_END)) {
         return None;
     }
     Some(end < N::zero())
@@ -185,7 +195,7 @@ fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
         return None;
     }
     let mut tau = half * (low + high);
-    for _ in 0..200 {
+    for _ in 0..NEWTON_LIMIT {
         let here = value(c, tau);
         if here > N::zero() {
             low = tau;

@@ -44,3 +44,6 @@ pub enum SpeedError {
     #[error(transparent)]
     Threads(#[from] ThreadPoolBuildError),
 }
+
+#[cfg(test)]
+mod tests;

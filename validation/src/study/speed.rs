@@ -436,6 +436,17 @@ mod tests {
         assert!(based.count() > 8);
     }
 
+    /// An integrator that shares nothing with ours agrees with the reference
+    /// to rounding: what was measured vouches for the reference, too.
+    #[test]
+    fn heyoka_agreed_with_the_reference() {
+        let kept = Timings::kept().expect("tables");
+        for total in kept.of("heyoka", "Taylor sample by sample", &[]) {
+            assert_eq!((total.wrong_fates, total.other_impacts), (0, 0));
+            assert!(total.peak_error < 1e-12 && total.impact_error_s < 1e-11);
+        }
+    }
+
     /// Writes the figure where `ROCKING_FIGURES` says, to be looked at.
     #[test]
     fn draws_the_same_bytes_twice() {

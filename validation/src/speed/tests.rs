@@ -84,12 +84,12 @@ fn answers_of_other_tools_are_judged_or_refused() {
     let (name, all) = (case.name.as_str(), times.join(" "));
     let peak = reference.peak_ratio;
     let rows = judge(line(name, peak + 0.25, &all)).expect("rows");
-    assert_eq!(
-        (rows[0].peak_error, rows[0].impact_error_s),
-        (Some(0.25), 0.0)
-    );
+    assert_eq!(rows[0].impact_error_s, 0.0);
     assert!(rows[0].right_fate && rows[0].same_impacts);
-    assert_eq!(parse(str(&text(&rows).expect("CSV"))).expect("rows"), rows);
+    // Kept to three digits.
+    let back = parse(str(&text(&rows).expect("CSV"))).expect("rows");
+    assert_eq!(back[0].peak_error, Some(0.25));
+    assert_eq!((back.len(), &back[0].case), (1, &case.name));
     // One impact less, the other fate, no answer at all.
     let fewer = judge(line(name, peak, &times[1..].join(" "))).expect("rows");
     assert_eq!(fewer[0].impact_error_s, f64::INFINITY);

@@ -10,12 +10,13 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Grid, curve, curves};
+use rocking::ida::{Analysis, Grid, curve};
 use rocking::integrator::{
     Model, Observe, Order, respond, respond_at_order, respond_precise,
 };
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
+use rocking_validation::curves::Way;
 use rocking_validation::speed::cases::{self, Case};
 use rocking_validation::speed::throughput::{analyses, samples_of};
 use rocking_validation::study::grid::blocks;
@@ -49,7 +50,8 @@ fn ida(
 ) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.expect("threads");
-    let run = || pool.install(|| curves(records, analyses, || ()));
+    let run =
+        || pool.install(|| Way::default().curves(records, analyses, &|| ()));
     let once = run().expect("curves");
     let count: u64 =
         once.iter().flatten().map(|c| c.analyses).fold(0, u64::saturating_add);
@@ -128,12 +130,13 @@ fn kernel(bencher: Bencher, equation: &str) {
         )
     };
     let one = [analysis];
-    let once = curves(&records, &one, || ()).expect("curves");
+    let lanes = Way::default();
+    let once = lanes.curves(&records, &one, &|| ()).expect("curves");
     let steps = samples_of(&records, &one, &once).expect("steps");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.expect("threads");
     bencher.counter(ItemsCount::new(steps)).bench_local(|| {
-        pool.install(|| black_box(curves(&records, &one, || ())))
+        pool.install(|| black_box(lanes.curves(&records, &one, &|| ())))
     });
 }
 

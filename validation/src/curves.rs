@@ -23,7 +23,7 @@ impl Default for Way {
 
 impl Way {
     /// The curves of every record under every analysis, as
-    /// [`rocking::ida::curves`] gives them.
+    /// [`rocking::ida::curves`] gives them; `done` is called after each.
     ///
     /// # Errors
     /// As [`rocking::ida::curves`].
@@ -31,10 +31,10 @@ impl Way {
         self,
         records: &[NormalisedRecord],
         analyses: &[Analysis],
-        done: impl Fn() + Sync,
+        done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
         if let Self::Lanes(isa) = self {
-            return curves_with(records, analyses, isa, done);
+            return curves_with(records, analyses, isa, || done());
         }
         analyses
             .iter()

@@ -197,7 +197,7 @@ impl Args {
     ) -> Result<(Vec<IdaCurve>, Option<Certification>), IdaError> {
         let only = std::slice::from_ref(analysis);
         if !self.certify {
-            let found = way.curves(records, only, done)?;
+            let found = way.curves(records, only, &done)?;
             return Ok((found.into_iter().flatten().collect(), None));
         }
         let found = certified_curves(records, only, done)?;

@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use rocking::ida::{Analysis, Grid, IdaCurve, curve, curves};
+use rocking::ida::{Analysis, Grid, IdaCurve, curve};
 use rocking::integrator::{
     Model, Observe, Order, Overturning, Scene, SceneError, respond,
     respond_at_order,
@@ -17,6 +17,7 @@ use super::SpeedError;
 use super::cases::ETA;
 use super::clock::process_s;
 use super::measured::rounded;
+use crate::curves::Way;
 
 /// A piece of work and what it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,8 +91,9 @@ pub fn in_lanes(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
 ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
-    let (cpu_s, found) =
-        on_threads(threads, || curves(records, analyses, || ()))?;
+    let (cpu_s, found) = on_threads(threads, || {
+        Way::default().curves(records, analyses, &|| ())
+    })?;
     let found = found?;
     let all = found.iter().flatten();
     let count = all.map(|c| c.analyses).fold(0, u64::saturating_add);

@@ -77,7 +77,7 @@ impl Setup {
             .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
             .map(|(block, arm)| self.analysis(block, arm, method))
             .collect();
-        let runs = self.way.curves(records, &analyses, done)?;
+        let runs = self.way.curves(records, &analyses, &done)?;
         let all = || runs.iter().flatten();
         let points = all().flat_map(|run| &run.points);
         let curves = arms

@@ -16,7 +16,7 @@ use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::integrator::{
     Certified, Engine, Model, Observe, Outcome, Overturning, SceneError,
-    certify, respond,
+    certify, respond, respond_with,
 };
 use crate::number::dispatch::Isa;
 use climb::Climb;
@@ -251,9 +251,18 @@ pub fn curve(
     record: &NormalisedRecord,
     analysis: &Analysis,
 ) -> Result<IdaCurve, IdaError> {
+    curve_with(record, analysis, Isa::best())
+}
+
+/// [`curve`] at an instruction-set level.
+fn curve_with(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+    isa: Isa,
+) -> Result<IdaCurve, IdaError> {
     let mut climb = Climb::start(record, analysis)?;
     while let Some((aim, level)) = climb.next(false)? {
-        let response = respond(&level.scene, &Observe::default())?;
+        let response = respond_with(&level.scene, &Observe::default(), isa)?;
         climb.accept(aim, level.point(&response)?);
     }
     Ok(climb.finish())

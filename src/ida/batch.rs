@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use crate::excitation::NormalisedRecord;
 use crate::ida::climb::{Aim, Climb};
 use crate::ida::levels::Level;
-use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve};
+use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_with};
 use crate::integrator::pool::{self, Class};
 use crate::integrator::{Response, Scene, uplift_threshold};
 use crate::number::dispatch::Isa;
@@ -58,7 +58,7 @@ pub(super) fn curves(
     isa: Isa,
     done: &(impl Fn() + Sync),
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    let queues = queues(records, analyses);
+    let queues = queues(records, analyses, isa);
     rayon::scope(|scope| {
         for _ in 0..rayon::current_num_threads() {
             scope.spawn(|_| {
@@ -91,7 +91,7 @@ impl<'a> Queue<'a> {
             // Not within the loop's condition: it would hold the book.
             let job = self.open().jobs.pop();
             let Some(job) = job else { return };
-            let result = curve(job.record, job.analysis);
+            let result = curve_with(job.record, job.analysis, isa);
             self.open().results.push((job.index, result));
             done();
         }
@@ -235,13 +235,15 @@ impl<'a, D: Fn()> pool::Source<'a> for Desk<'_, 'a, D> {
 fn queues<'a>(
     records: &'a [NormalisedRecord],
     analyses: &'a [Analysis],
+    isa: Isa,
 ) -> Vec<Queue<'a>> {
     let mut classes: BTreeMap<Option<Class>, Vec<Job<'a>>> = BTreeMap::new();
     let mut index = 0;
     for analysis in analyses {
         for record in records {
             let p = analysis.block.frequency_rad_s();
-            let class = Class::of(analysis.model, record.dt_s() * p);
+            let class = Class::of(analysis.model, record.dt_s() * p)
+                .filter(|_| isa.is_wide());
             let work = work(record, analysis);
             let job = Job { index, analysis, record, work };
             classes.entry(class).or_default().push(job);

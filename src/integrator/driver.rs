@@ -577,7 +577,8 @@ where
         }
     }
 
-    fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
+    /// Counts a turning point at `u`, `tau` after a place.
+    pub fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
         self.record.work.turning_points += 1;
         if u > self.record.peak {
             self.record.peak = u;

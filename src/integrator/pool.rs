@@ -8,11 +8,12 @@
 
 mod batch;
 mod group;
+mod roots;
 
 use crate::excitation::Excitation;
-use crate::integrator::driver::{Driver, Stage};
+use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
-use crate::integrator::forcing::{RecordForcing, steps_of};
+use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{
     GUARD, LONG, LONG_STEP, Observe, Response, SHORT, SHORT_STEP, SMOOTH,
     Scene,
@@ -75,28 +76,58 @@ impl Class {
     }
 }
 
-/// Makes the analyses of one class that a source gives, until it gives none.
+/// Makes the analyses of one class that a source gives, until it gives none;
+/// needs a [wide](Isa::is_wide) level.
 pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
     let model = match class {
         Class::Linearized => Model::Linearized,
         Class::Short | Class::Long | Class::Smooth => Model::Nonlinear,
     };
     match class {
-        Class::Short => isa.run(Pool::<_, SHORT>::new(model, isa, source)),
-        Class::Long => isa.run(Pool::<_, LONG>::new(model, isa, source)),
+        Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
+        Class::Long => Pool::<_, LONG>::new(model, isa, source).run(),
         Class::Smooth | Class::Linearized => {
-            isa.run(Pool::<_, SMOOTH>::new(model, isa, source));
+            Pool::<_, SMOOTH>::new(model, isa, source).run();
         }
     }
 }
 
 /// Lanes that wait for others of their kind.
-#[derive(Default)]
 struct Waiting {
+    /// For the longest series, clear of events.
+    hard: Line,
     /// For the roots of the class' own series.
-    events: Vec<Lane>,
-    /// For the longest series.
-    hard: Vec<Lane>,
+    events: Line,
+    /// For the roots of the longest series.
+    both: Line,
+}
+
+/// Lanes in a line: there is room for all of them.
+struct Line {
+    lanes: [Lane; GROUPS * WIDTH],
+    count: usize,
+}
+
+impl Line {
+    const EMPTY: Self =
+        Self { lanes: [Lane { group: 0, lane: 0 }; GROUPS * WIDTH], count: 0 };
+
+    #[inline(always)]
+    fn push(&mut self, lane: Lane) {
+        self.lanes[self.count % (GROUPS * WIDTH)] = lane;
+        self.count += 1;
+    }
+
+    /// Takes up to eight out, those that wait longest first.
+    #[inline(always)]
+    fn take(&mut self) -> ([Lane; WIDTH], usize) {
+        let taken = self.count.min(WIDTH);
+        let mut lanes = [Lane { group: 0, lane: 0 }; WIDTH];
+        lanes[..taken].copy_from_slice(&self.lanes[..taken]);
+        self.lanes.copy_within(taken..self.count, 0);
+        self.count -= taken;
+        (lanes, taken)
+    }
 }
 
 /// A lane of a group.
@@ -112,7 +143,7 @@ impl Lane {
     }
 }
 
-/// Runs in their slots, compiled for each instruction-set level.
+/// Runs in their slots.
 struct Pool<'s, 'a, S: Source<'a>, const LEN: usize> {
     model: Model,
     isa: Isa,
@@ -137,16 +168,18 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
         let slots = (0..GROUPS * WIDTH).map(|_| None).collect();
         Self { model, isa, source, slots, busy: 0 }
     }
-}
 
-impl<'a, S: Source<'a>, const LEN: usize> Work for Pool<'_, 'a, S, LEN> {
-    type Output = ();
-
-    #[inline(always)]
     fn run(mut self) {
+        let (model, isa) = (self.model, self.isa);
         let mut groups: Vec<Group<'a>> =
             (0..GROUPS).map(|_| Group::idle()).collect();
-        let mut waiting = Waiting::default();
+        let mut waiting = Waiting {
+            hard: Line::EMPTY,
+            events: Line::EMPTY,
+            both: Line::EMPTY,
+        };
+        let mut batch = Batch::empty();
+        let mut solved = Solved::nothing();
         // A response may give the source something to do.
         let mut fresh = true;
         loop {
@@ -156,36 +189,35 @@ impl<'a, S: Source<'a>, const LEN: usize> Work for Pool<'_, 'a, S, LEN> {
             if self.busy == 0 {
                 return;
             }
-            let mut moved = false;
-            for (k, group) in groups.iter_mut().enumerate() {
-                if group.is_idle() {
-                    continue;
-                }
-                moved = true;
-                group.step::<LEN>(self.model).park(k, &mut waiting);
-            }
+            let sweep = Sweep::<LEN> {
+                model,
+                groups: &mut groups,
+                waiting: &mut waiting,
+            };
+            let Some(moved) = isa.run_wide(sweep) else { return };
             // Few runs do not wait for eight of a kind.
             let enough =
                 if moved { (self.busy / 4).clamp(1, WIDTH) } else { 1 };
-            while waiting.hard.len() >= enough {
-                let batch =
-                    Batch::gather(&mut waiting.hard, &groups, &self.slots);
-                let solved = batch.solve::<LEN, SMOOTH>(self.model);
-                fresh |= self.scatter(&mut groups, &mut waiting, &solved);
-            }
-            while waiting.events.len() >= enough {
-                let batch =
-                    Batch::gather(&mut waiting.events, &groups, &self.slots);
-                let solved = batch.solve::<LEN, LEN>(self.model);
-                fresh |= self.scatter(&mut groups, &mut waiting, &solved);
+            for kind in [Kind::Hard, Kind::Events, Kind::Both] {
+                while kind.line(&mut waiting).count >= enough {
+                    let line = kind.line(&mut waiting);
+                    batch.gather(line, &groups, &self.slots);
+                    let done = isa.run_wide(Solve::<LEN> {
+                        model,
+                        kind,
+                        batch: &batch,
+                        solved: &mut solved,
+                    });
+                    if done.is_none() {
+                        return;
+                    }
+                    fresh |= self.scatter(&mut groups, &mut waiting, &solved);
+                }
             }
         }
     }
-}
 
-impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
     /// Gives empty slots something to do; true if something was settled.
-    #[inline(always)]
     fn fill(&mut self, groups: &mut [Group<'a>]) -> bool {
         let mut settled = false;
         for slot in 0..self.slots.len() {
@@ -204,7 +236,6 @@ impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
     }
 
     /// A run at its first step.
-    #[inline(always)]
     fn begin(&mut self) -> Option<Slot<'a, S::Task, LEN>> {
         let (task, scene) = self.source.take()?;
         let Excitation::Record(record) = scene.excitation else { return None };
@@ -220,7 +251,6 @@ impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
 
     /// Goes on, by the scalar driver, until the run is in free flight or
     /// nothing is left for its slot; true if something was settled.
-    #[inline(always)]
     fn proceed(&mut self, lane: Lane, groups: &mut [Group<'a>]) -> bool {
         let mut settled = false;
         let k = lane.slot();
@@ -234,9 +264,7 @@ impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
                     groups[lane.group].load(lane.lane, slot);
                     break;
                 }
-                Stage::Flying(step) => {
-                    slot.stage = slot.driver.proceed(step);
-                }
+                Stage::Flying(step) => slot.advance(step, self.isa),
                 Stage::Landed(ref flight) => {
                     let response = slot.driver.conclude(flight);
                     settled = true;
@@ -269,14 +297,23 @@ impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
             if solved.left.at(i) {
                 group.release(lane, slot);
                 if let Stage::Flying(step) = slot.stage {
-                    slot.stage = slot.driver.proceed(step);
+                    slot.advance(step, self.isa);
                 }
                 settled |= self.proceed(id, groups);
                 continue;
             }
             if solved.hard.at(i) {
-                waiting.hard.push(id);
+                waiting.both.push(id);
                 continue;
+            }
+            if solved.turned.at(i) {
+                let place = Place {
+                    piece: group.next[lane] as usize - 1,
+                    offset: group.offset[lane],
+                };
+                let (u, tau) = (solved.top[i], solved.turn[i]);
+                slot.driver.raise_peak(u, place, tau);
+                group.peak[lane] = slot.driver.peak();
             }
             group.u[lane] = solved.u[i];
             group.w[lane] = solved.w[i];
@@ -284,8 +321,9 @@ impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
             group.offset[lane] = solved.offset[i];
             group.length[lane] = solved.length[i];
             group.amplitude[lane] = solved.amplitude[i];
-            group.steps[lane] += 1 + u64::from(solved.again.at(i));
+            group.extra[lane] += u64::from(solved.again.at(i));
             if solved.impact.at(i) {
+                group.extra[lane] += 1;
                 group.side[lane] = group.side[lane].flipped();
                 slot.driver.count_impact();
             } else {
@@ -294,5 +332,96 @@ impl<'a, S: Source<'a>, const LEN: usize> Pool<'_, 'a, S, LEN> {
             group.resume(lane);
         }
         settled
+    }
+}
+
+/// One step of the groups in which something flies; true if any does.
+struct Sweep<'g, 'a, const LEN: usize> {
+    model: Model,
+    groups: &'g mut [Group<'a>],
+    waiting: &'g mut Waiting,
+}
+
+impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let mut moved = false;
+        for (k, group) in self.groups.iter_mut().enumerate() {
+            if !group.is_idle() {
+                moved = true;
+                group.step::<LEN>(self.model).park(k, self.waiting);
+            }
+        }
+        moved
+    }
+}
+
+/// What the lanes of a batch have in common.
+#[derive(Clone, Copy)]
+enum Kind {
+    Hard,
+    Events,
+    Both,
+}
+
+impl Kind {
+    fn line(self, waiting: &mut Waiting) -> &mut Line {
+        match self {
+            Self::Hard => &mut waiting.hard,
+            Self::Events => &mut waiting.events,
+            Self::Both => &mut waiting.both,
+        }
+    }
+}
+
+/// The steps of a batch.
+struct Solve<'b, const LEN: usize> {
+    model: Model,
+    kind: Kind,
+    batch: &'b Batch,
+    solved: &'b mut Solved,
+}
+
+impl<const LEN: usize> Work for Solve<'_, LEN> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { model, kind, batch, solved } = self;
+        match kind {
+            Kind::Hard => {
+                batch.solve::<LEN, SMOOTH, true>(model, solved);
+            }
+            Kind::Events => {
+                batch.solve::<LEN, LEN, false>(model, solved);
+            }
+            Kind::Both => {
+                batch.solve::<LEN, SMOOTH, false>(model, solved);
+            }
+        }
+    }
+}
+
+/// A step by the scalar driver.
+struct Alone<'r, 'a, const LEN: usize> {
+    driver: &'r mut Run<'a, LEN>,
+    step: Step<f64>,
+}
+
+impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
+    type Output = Stage<f64>;
+
+    #[inline(always)]
+    fn run(self) -> Stage<f64> {
+        self.driver.proceed(self.step)
+    }
+}
+
+impl<T, const LEN: usize> Slot<'_, T, LEN> {
+    /// A step by the scalar driver.
+    fn advance(&mut self, step: Step<f64>, isa: Isa) {
+        self.stage = isa.run(Alone { driver: &mut self.driver, step });
     }
 }

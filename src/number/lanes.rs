@@ -97,6 +97,26 @@ impl<const W: usize> Mask<W> {
         any != 0
     }
 
+    /// Bit k set where lane k is true.
+    #[inline(always)]
+    pub fn bits(self) -> u64 {
+        let mut bits = 0;
+        for (lane, x) in self.0.iter().enumerate() {
+            bits |= x & (1 << lane);
+        }
+        bits
+    }
+
+    /// Where it is false.
+    #[inline(always)]
+    pub fn not(self) -> Self {
+        let mut out = self.0;
+        for x in &mut out {
+            *x = !*x;
+        }
+        Self(out)
+    }
+
     /// Where both are true.
     #[inline(always)]
     pub fn and(self, other: Self) -> Self {
@@ -205,6 +225,8 @@ impl<const W: usize> Neg for Lanes<W> {
 }
 
 impl<const W: usize> Number for Lanes<W> {
+    const LANES: bool = true;
+
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
         Self::splat(x)

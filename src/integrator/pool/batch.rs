@@ -8,11 +8,11 @@ use crate::integrator::SMOOTH;
 use crate::integrator::driver::last_term;
 use crate::integrator::dynamics::{Model, drive};
 use crate::integrator::pool::group::{Group, WIDTH};
-use crate::integrator::pool::{Lane, SMALL, Slot};
-use crate::integrator::roots::{FALLING, NEAR_END, NEWTON_LIMIT};
-use crate::integrator::taylor::{expand, slope, value};
+use crate::integrator::pool::roots::{descent, refine};
+use crate::integrator::pool::{Lane, Line, SMALL, Slot};
+use crate::integrator::taylor::{expand, value};
+use crate::number::Number;
 use crate::number::lanes::{Lanes, Mask};
-use crate::number::{Number, Real};
 
 type Eight = Lanes<WIDTH>;
 type Which = Mask<WIDTH>;
@@ -52,6 +52,10 @@ pub(super) struct Solved {
     pub impact: Which,
     /// The short series was tried before the longest.
     pub again: Which,
+    /// The block turned, at `top` after `turn`.
+    pub turned: Which,
+    pub turn: Eight,
+    pub top: Eight,
     pub u: Eight,
     pub w: Eight,
     pub here: Eight,
@@ -60,8 +64,40 @@ pub(super) struct Solved {
     pub amplitude: Eight,
 }
 
+impl Solved {
+    pub fn nothing() -> Self {
+        let (zero, none) = (Lanes::splat(0.0), Mask::splat(false));
+        Self {
+            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            count: 0,
+            left: none,
+            hard: none,
+            impact: none,
+            again: none,
+            turned: none,
+            turn: zero,
+            top: zero,
+            u: zero,
+            w: zero,
+            here: zero,
+            offset: zero,
+            length: zero,
+            amplitude: zero,
+        }
+    }
+}
+
 /// Coefficients of rotation and velocity.
 type Series<const SIZE: usize> = ([Eight; SIZE], [Eight; SIZE]);
+
+/// A turning point of a step.
+struct Turning {
+    /// There surely is one, at `turn`.
+    found: Which,
+    turn: Eight,
+    /// It takes more to tell.
+    unsure: Which,
+}
 
 /// The first impact of a step.
 struct FirstImpact {
@@ -73,17 +109,11 @@ struct FirstImpact {
 }
 
 impl Batch {
-    /// Takes up to eight lanes off a list, the longest waiting first.
-    #[inline(always)]
-    pub fn gather<T, const LEN: usize>(
-        list: &mut Vec<Lane>,
-        groups: &[Group<'_>],
-        slots: &[Option<Slot<'_, T, LEN>>],
-    ) -> Self {
+    pub fn empty() -> Self {
         let zero = Lanes::splat(0.0);
-        let mut out = Self {
+        Self {
             lanes: [Lane { group: 0, lane: 0 }; WIDTH],
-            count: list.len().min(WIDTH),
+            count: 0,
             u: zero,
             w: zero,
             here: zero,
@@ -100,9 +130,20 @@ impl Batch {
             limit: zero,
             eta: zero,
             tolerance: zero,
-        };
-        for (i, id) in list.drain(..out.count).enumerate() {
-            out.lanes[i] = id;
+        }
+    }
+
+    /// Takes up to eight lanes out of a line; those beyond have no meaning.
+    pub fn gather<T, const LEN: usize>(
+        &mut self,
+        line: &mut Line,
+        groups: &[Group<'_>],
+        slots: &[Option<Slot<'_, T, LEN>>],
+    ) {
+        (self.lanes, self.count) = line.take();
+        let out = self;
+        let lanes = out.lanes;
+        for (i, id) in lanes.iter().take(out.count).enumerate() {
             let (group, lane) = (&groups[id.group], id.lane);
             out.u[i] = group.u[lane];
             out.w[i] = group.w[lane];
@@ -124,16 +165,16 @@ impl Batch {
                 out.tolerance[i] = slot.driver.tolerance();
             }
         }
-        out
     }
 
     /// Solves the steps by series of `SIZE` coefficients, the class' own
-    /// being `LEN`.
+    /// being `LEN`; nothing happens in them if they are `FREE`.
     #[inline(always)]
-    pub fn solve<const LEN: usize, const SIZE: usize>(
+    pub fn solve<const LEN: usize, const SIZE: usize, const FREE: bool>(
         &self,
         model: Model,
-    ) -> Solved {
+        out: &mut Solved,
+    ) {
         let zero = Eight::zero();
         let (all, none) = (Mask::splat(true), Mask::splat(false));
         let (h, offset) = (self.length, self.offset);
@@ -169,11 +210,25 @@ impl Batch {
         } else {
             left = left.or(again);
         }
+        out.lanes = self.lanes;
+        out.count = self.count;
+        out.again = if SIZE > LEN { again } else { none };
+        out.hard = hard.but_not(large);
+        if FREE {
+            out.left = left.but_not(out.hard);
+            (out.impact, out.turned) = (none, none);
+            (out.u, out.w) = (value(&c, h), value(&v, h));
+            (out.here, out.amplitude) = (self.ahead, self.amplitude);
+            (out.offset, out.length) = (zero, self.whole);
+            return;
+        }
+
         let first = self.first_impact(&c);
         left = left.or(first.unsure);
         let impact = first.found;
         let tau = impact.select(first.tau, h);
-        left = left.or(self.may_turn(&c, &v, tau));
+        let turning = self.turning(&c, &v, tau);
+        left = left.or(turning.unsure);
         let (end_u, end_w) = (value(&c, tau), value(&v, tau));
 
         // The impact, and whether the motion may come to rest after it.
@@ -195,22 +250,17 @@ impl Batch {
         let settled = chatter.or(all.but_not(short));
         left = left.or(impact.and(settled));
 
-        let hard = hard.but_not(large);
-        let left = left.but_not(hard);
-        Solved {
-            lanes: self.lanes,
-            count: self.count,
-            left,
-            hard,
-            impact,
-            again: if SIZE > LEN { again } else { none },
-            u: impact.select(zero, end_u),
-            w: impact.select(w, end_w),
-            here: impact.select(-self.here, self.ahead),
-            offset: impact.select(there, zero),
-            length: impact.select(self.whole - there, self.whole),
-            amplitude: impact.select(-self.amplitude, self.amplitude),
-        }
+        out.left = left.but_not(out.hard);
+        out.impact = impact;
+        out.turned = turning.found;
+        out.turn = turning.turn;
+        out.top = value(&c, turning.turn);
+        out.u = impact.select(zero, end_u);
+        out.w = impact.select(w, end_w);
+        out.here = impact.select(-self.here, self.ahead);
+        out.offset = impact.select(there, zero);
+        out.length = impact.select(self.whole - there, self.whole);
+        out.amplitude = impact.select(-self.amplitude, self.amplitude);
     }
 
     /// The first impact, as the driver and its root finder see it.
@@ -242,41 +292,24 @@ impl Batch {
             let next = if k + 1 < SIZE { c[k + 1] } else { zero };
             q[k] = at_base.select(next, c[k]);
         }
-        let mut rest = zero;
-        let mut steep = zero;
-        for k in (2..SIZE).rev() {
-            let size = q[k].abs();
-            rest = rest.mul_add(h, size);
-            steep = steep.mul_add(h, size * Eight::ratio(k as i32, 1));
-        }
-        let low = q[1].below(zero).select(q[1], zero).mul_add(h, q[0]);
-        let positive = zero.below(low - rest * h * h);
-        let falls = q[1].below(steep * h * Lanes::splat(FALLING));
-        let end = value(&q, h);
-        let size = q[0].abs() + q[1].abs() * h;
-        let told = falls.and((size * Lanes::splat(NEAR_END)).below(end.abs()));
-        let below = told.and(end.below(zero));
-
-        let none = clear_of_base.or(positive).or(told.but_not(below));
-        let found = below.but_not(clear_of_base.or(positive));
-        let known = zero.below(q[0]).and(none.or(found));
-        let sure = clear_of_limit.and(known.or(clear_of_base));
-        let found = found.and(sure);
+        let descent = descent(&q, h);
+        let none = clear_of_base.or(descent.none);
+        let sure = clear_of_limit.and(none.or(descent.one));
+        let found = sure.but_not(none);
         let tau = refine(&q, h, found);
-        FirstImpact { found, tau, unsure: Mask::splat(true).but_not(sure) }
+        FirstImpact { found, tau, unsure: sure.not() }
     }
 
-    /// Lanes in which the block may turn above its peak before `tau`.
+    /// A turning point before `tau` that may be above the peak.
     #[inline(always)]
-    fn may_turn<const SIZE: usize>(
+    fn turning<const SIZE: usize>(
         &self,
         c: &[Eight; SIZE],
         v: &[Eight; SIZE],
         tau: Eight,
-    ) -> Which {
+    ) -> Turning {
         let zero = Eight::zero();
-        let mut rest = zero;
-        let mut variation = zero;
+        let (mut rest, mut variation) = (zero, zero);
         for k in (1..SIZE).rev() {
             if k > 1 {
                 rest = rest.mul_add(tau, c[k].abs());
@@ -285,47 +318,17 @@ impl Batch {
         }
         let rise = zero.below(c[1]).select(c[1] * tau, zero);
         let high = c[0] + rise + rest * tau * tau;
-        self.peak.below(high).but_not((variation * tau).below(v[0].abs()))
-    }
-}
-
-/// The roots in (0, high) of polynomials that fall from above zero to below
-/// it, by the scalar root finder's iteration.
-#[inline(always)]
-fn refine<const SIZE: usize>(
-    q: &[Eight; SIZE],
-    high: Eight,
-    which: Which,
-) -> Eight {
-    let half = Eight::ratio(1, 2);
-    let zero = Eight::zero();
-    let (mut low, mut high) = (zero, high);
-    let mut tau = half * (low + high);
-    let mut open = which;
-    for _ in 0..NEWTON_LIMIT {
-        if !open.any() {
-            break;
+        let may =
+            self.peak.below(high).but_not((variation * tau).below(v[0].abs()));
+        if !may.any() {
+            return Turning { found: may, turn: zero, unsure: may };
         }
-        let here = value(q, tau);
-        let above = zero.below(here);
-        let under = here.below(zero);
-        low = open.and(above).select(tau, low);
-        high = open.and(under).select(tau, high);
-        open = open.and(above.or(under));
-        let step = here / slope(q, tau);
-        let next = tau - step;
-        let inside = low.below(next).and(next.below(high));
-        let bound = tau.abs() * Lanes::splat(f64::NEWTON_STEP);
-        let done = open.and(inside).but_not(bound.below(step.abs()));
-        tau = done.select(next, tau);
-        open = open.but_not(done);
-        let wide =
-            (high * Lanes::splat(2.0 * f64::ROUNDOFF)).below(high - low);
-        let narrow = open.but_not(wide);
-        tau = narrow.select(high, tau);
-        open = open.and(wide);
-        let next = inside.select(next, half * (low + high));
-        tau = open.select(next, tau);
+        // Only a velocity that falls all the way turns just once.
+        let descent = descent(v, tau);
+        let found = may.and(descent.one);
+        let turn = refine(v, tau, found);
+        let found = found.and(turn.below(tau));
+        let none = descent.none.or(found);
+        Turning { found, turn, unsure: may.but_not(none) }
     }
-    tau
 }

@@ -38,34 +38,37 @@ pub(super) struct Group<'a> {
     pub side: [Side; WIDTH],
     pub samples: [&'a [f64]; WIDTH],
     /// Sample at the end of the step.
-    pub next: [usize; WIDTH],
-    /// Steps taken here since the run was loaded.
-    pub steps: [u64; WIDTH],
+    pub next: [u64; WIDTH],
+    /// Sample at the end of the first step here.
+    first: [u64; WIDTH],
+    /// Steps taken here beside one for each sample.
+    pub extra: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
     active: Mask<WIDTH>,
 }
 
-/// Lanes that did not take a step.
+/// Lanes that did not take a step, a bit each.
 pub(super) struct Parked {
-    /// Something may happen within it.
-    events: Mask<WIDTH>,
-    /// The series leaves too much.
-    hard: Mask<WIDTH>,
+    /// All of them.
+    stopped: u64,
+    /// Those in which the series leaves too much and nothing happens.
+    hard: u64,
 }
 
 impl Parked {
     /// Lets them wait for others.
     #[inline(always)]
     pub fn park(&self, group: usize, waiting: &mut Waiting) {
-        if !self.events.or(self.hard).any() {
-            return;
-        }
-        for lane in 0..WIDTH {
-            if self.events.at(lane) {
-                waiting.events.push(Lane { group, lane });
-            } else if self.hard.at(lane) {
-                waiting.hard.push(Lane { group, lane });
-            }
+        let mut left = self.stopped;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let line = if (self.hard >> lane) & 1 == 1 {
+                &mut waiting.hard
+            } else {
+                &mut waiting.events
+            };
+            line.push(Lane { group, lane });
         }
     }
 }
@@ -91,7 +94,8 @@ impl<'a> Group<'a> {
             side: [Side::Positive; WIDTH],
             samples: [&[]; WIDTH],
             next: [0; WIDTH],
-            steps: [0; WIDTH],
+            first: [0; WIDTH],
+            extra: [0; WIDTH],
             active: Mask::splat(false),
         }
     }
@@ -111,7 +115,7 @@ impl<'a> Group<'a> {
     /// Sample ahead of a lane, scaled; not a number beyond the record.
     #[inline(always)]
     pub fn ahead(&self, lane: usize) -> f64 {
-        let sample = self.samples[lane].get(self.next[lane]);
+        let sample = self.samples[lane].get(self.next[lane] as usize);
         sample.map_or(f64::NAN, |sample| *sample * self.amplitude[lane])
     }
 
@@ -122,12 +126,12 @@ impl<'a> Group<'a> {
         lane: usize,
         slot: &mut Slot<'a, T, LEN>,
     ) {
-        slot.driver.count_steps(self.steps[lane]);
-        self.steps[lane] = 0;
+        let steps = self.next[lane] - self.first[lane] + self.extra[lane];
+        slot.driver.count_steps(steps);
         self.samples[lane] = &[];
         self.active.set(lane, false);
         let Stage::Flying(step) = &mut slot.stage else { return };
-        step.place.piece = self.next[lane] - 1;
+        step.place.piece = self.next[lane] as usize - 1;
         step.place.offset = self.offset[lane];
         step.motion.u = self.u[lane];
         step.motion.w = self.w[lane];
@@ -161,8 +165,9 @@ impl<'a> Group<'a> {
         self.threshold[lane] = dynamics.threshold;
         (self.sine[lane], self.cosine[lane]) = dynamics.sine_cosine();
         self.samples[lane] = samples;
-        self.next[lane] = piece + 1;
-        self.steps[lane] = 0;
+        self.next[lane] = piece as u64 + 1;
+        self.first[lane] = piece as u64 + 1;
+        self.extra[lane] = 0;
         self.last[lane] = driver.last_allowed::<LEN>(h) / SAFETY;
         self.ceiling[lane] = dynamics.limit.min(SMALL);
         self.peak[lane] = driver.peak();
@@ -175,7 +180,9 @@ impl<'a> Group<'a> {
     pub fn step<const LEN: usize>(&mut self, model: Model) -> Parked {
         let mut ahead = Lanes::splat(f64::NAN);
         for lane in 0..WIDTH {
-            if let Some(sample) = self.samples[lane].get(self.next[lane]) {
+            if let Some(sample) =
+                self.samples[lane].get(self.next[lane] as usize)
+            {
                 ahead[lane] = *sample;
             }
         }
@@ -201,12 +208,11 @@ impl<'a> Group<'a> {
         self.length = clear.select(self.whole, self.length);
         let count = clear.count();
         for lane in 0..WIDTH {
-            self.next[lane] += count[lane] as usize;
-            self.steps[lane] += count[lane];
+            self.next[lane] += count[lane];
         }
         let stopped = self.active.but_not(clear);
         self.active = clear;
-        Parked { events: stopped.but_not(free), hard: stopped.and(free) }
+        Parked { stopped: stopped.bits(), hard: free.bits() }
     }
 
     /// Lanes in which the step meets no base, no limit, and no turning point

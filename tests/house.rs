@@ -42,7 +42,6 @@ const SOFT_LIMIT: usize = 400;
 /// Files above the limit, how long they may be, and why.
 const LONG_FILES: &[(&str, usize, &str)] = &[
     ("src/excitation/pulse.rs", 600, "eight pulses, one formula set each"),
-    ("src/ida.rs", 700, "levels, chain and bisection share one state"),
     ("src/integrator.rs", 500, "the public types of a scene, documented"),
     ("src/integrator/coast.rs", 500, "one closed form with its cases"),
     ("src/integrator/driver.rs", 1110, "one state machine of the motion"),

@@ -34,7 +34,7 @@ impl Way {
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
         if let Self::Lanes(isa) = self {
-            return curves_with(records, analyses, isa, || done());
+            return curves_with(records, analyses, isa, done);
         }
         analyses
             .iter()

@@ -1,5 +1,7 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
+mod refine;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -13,6 +15,8 @@ use rocking::ida::{
 use rocking::integrator::uplift_threshold;
 use rocking::record::{ReadOptions, Suite};
 use serde_json::json;
+
+use refine::Refine;
 
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
@@ -81,34 +85,6 @@ pub struct Args {
     json: bool,
 }
 
-/// Bisection of the first overturning bracket.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refine(Option<f64>);
-
-impl std::str::FromStr for Refine {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" {
-            return Ok(Self(None));
-        }
-        match text.parse() {
-            Ok(width) if width > 0.0 && f64::is_finite(width) => {
-                Ok(Self(Some(width)))
-            }
-            _ => Err("expected a positive number, or none".to_owned()),
-        }
-    }
-}
-
-impl Refine {
-    /// The width, if any.
-    #[must_use]
-    pub fn width(self) -> Option<f64> {
-        self.0
-    }
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum By {
     /// Scale the record.
@@ -137,12 +113,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2()?;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
-    let way = args.way.way()?;
-    if args.certify && args.way.is_given() {
-        return Err(Failure::input(
-            "--certify runs one analysis at a time: no --isa, no --engine",
-        ));
-    }
+    let way = args.way.way_unless_certified(args.certify)?;
     let read = ReadOptions { gravity_m_s2, ..ReadOptions::default() };
     let suite = read_suite(&args.suite, read)?;
     let records = args.records(&suite)?;

@@ -4,6 +4,7 @@
 
 pub mod cases;
 pub mod cli;
+pub mod curves;
 pub mod drawing;
 pub mod engine;
 pub mod figures;
@@ -15,6 +16,7 @@ pub mod naive;
 pub mod oracles;
 pub mod report;
 pub mod scene;
+pub mod speed;
 pub mod study;
 pub mod synthesis;
 pub mod verdict;

@@ -9,6 +9,7 @@ use super::claims::PAPER_GRAVITY_M_S2;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
+use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
 use crate::report::{
     self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
@@ -23,6 +24,13 @@ pub fn input(
     figures: &[Figure],
     claims: &[Claim],
 ) -> Result<ReportInput, StudyError> {
+    let timings = Timings::kept()?;
+    let mut drawn: Vec<ShownFigure> =
+        figures.iter().map(shown).collect::<Result<_, StudyError>>()?;
+    drawn.push(ShownFigure {
+        number: "Speed".into(),
+        ..shown(&timings.figure())?
+    });
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -32,13 +40,10 @@ pub fn input(
         findings: claims.iter().map(finding).collect(),
         families: Vec::new(),
         tables: vec![table_1()?],
-        figures: figures
-            .iter()
-            .map(shown)
-            .collect::<Result<_, StudyError>>()?,
+        figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
-        credibility: Vec::new(),
+        credibility: timings.tables(),
     })
 }
 

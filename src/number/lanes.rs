@@ -41,8 +41,8 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn below(self, other: Self) -> Mask<W> {
         let mut out = [0; W];
-        for lane in 0..W {
-            out[lane] = ones(self.0[lane] < other.0[lane]);
+        for (truth, (x, y)) in out.iter_mut().zip(self.0.iter().zip(other.0)) {
+            *truth = ones(*x < y);
         }
         Mask(out)
     }
@@ -51,8 +51,8 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn equals(self, other: Self) -> Mask<W> {
         let mut out = [0; W];
-        for lane in 0..W {
-            out[lane] = ones(self.0[lane] == other.0[lane]);
+        for (truth, (x, y)) in out.iter_mut().zip(self.0.iter().zip(other.0)) {
+            *truth = ones(*x == y);
         }
         Mask(out)
     }
@@ -161,11 +161,9 @@ impl<const W: usize> Mask<W> {
     #[inline(always)]
     pub fn select(self, yes: Lanes<W>, no: Lanes<W>) -> Lanes<W> {
         let mut out = no.0;
-        for lane in 0..W {
-            let mask = self.0[lane];
-            let bits = (yes.0[lane].to_bits() & mask)
-                | (no.0[lane].to_bits() & !mask);
-            out[lane] = f64::from_bits(bits);
+        for (x, (yes, mask)) in out.iter_mut().zip(yes.0.iter().zip(self.0)) {
+            let bits = (yes.to_bits() & mask) | (x.to_bits() & !mask);
+            *x = f64::from_bits(bits);
         }
         Lanes(out)
     }

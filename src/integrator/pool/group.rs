@@ -204,9 +204,8 @@ impl<'a> Group<'a> {
         self.here = clear.select(ahead, self.here);
         self.offset = clear.select(Number::zero(), self.offset);
         self.length = clear.select(self.whole, self.length);
-        let count = clear.count();
-        for lane in 0..WIDTH {
-            self.next[lane] += count[lane];
+        for (next, count) in self.next.iter_mut().zip(clear.count()) {
+            *next += count;
         }
         let stopped = self.active.but_not(clear);
         self.active = clear;

@@ -1,4 +1,8 @@
 //! Several numbers at once, operation by operation as one.
+#![expect(
+    clippy::needless_range_loop,
+    reason = "comparisons by index become one instruction, by iterator not"
+)]
 
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
@@ -41,8 +45,8 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn below(self, other: Self) -> Mask<W> {
         let mut out = [0; W];
-        for (truth, (x, y)) in out.iter_mut().zip(self.0.iter().zip(other.0)) {
-            *truth = ones(*x < y);
+        for lane in 0..W {
+            out[lane] = ones(self.0[lane] < other.0[lane]);
         }
         Mask(out)
     }
@@ -51,8 +55,8 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn equals(self, other: Self) -> Mask<W> {
         let mut out = [0; W];
-        for (truth, (x, y)) in out.iter_mut().zip(self.0.iter().zip(other.0)) {
-            *truth = ones(*x == y);
+        for lane in 0..W {
+            out[lane] = ones(self.0[lane] == other.0[lane]);
         }
         Mask(out)
     }
@@ -161,9 +165,11 @@ impl<const W: usize> Mask<W> {
     #[inline(always)]
     pub fn select(self, yes: Lanes<W>, no: Lanes<W>) -> Lanes<W> {
         let mut out = no.0;
-        for (x, (yes, mask)) in out.iter_mut().zip(yes.0.iter().zip(self.0)) {
-            let bits = (yes.to_bits() & mask) | (x.to_bits() & !mask);
-            *x = f64::from_bits(bits);
+        for lane in 0..W {
+            let mask = self.0[lane];
+            let bits = (yes.0[lane].to_bits() & mask)
+                | (no.0[lane].to_bits() & !mask);
+            out[lane] = f64::from_bits(bits);
         }
         Lanes(out)
     }

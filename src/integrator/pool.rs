@@ -16,8 +16,7 @@ use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{
-    GUARD, LONG, LONG_STEP, Observe, Response, SHORT, SHORT_STEP, SMOOTH,
-    Scene,
+    GUARD, Observe, Response, SHORT, SHORT_STEP, SMOOTH, Scene,
 };
 use crate::number::dispatch::{Isa, Work};
 use batch::{Batch, Solved};
@@ -52,8 +51,6 @@ pub(crate) trait Source<'a> {
 pub(crate) enum Class {
     /// Eq. 1, steps to [`SHORT_STEP`].
     Short,
-    /// Eq. 1, steps to [`LONG_STEP`].
-    Long,
     /// Eq. 1, longer steps.
     Smooth,
     /// Eq. 2.
@@ -70,9 +67,6 @@ impl Class {
             Model::Nonlinear if length <= SHORT_STEP * GUARD => {
                 Some(Self::Short)
             }
-            Model::Nonlinear if length <= LONG_STEP * GUARD => {
-                Some(Self::Long)
-            }
             Model::Nonlinear => Some(Self::Smooth),
         }
     }
@@ -83,11 +77,10 @@ impl Class {
 pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
     let model = match class {
         Class::Linearized => Model::Linearized,
-        Class::Short | Class::Long | Class::Smooth => Model::Nonlinear,
+        Class::Short | Class::Smooth => Model::Nonlinear,
     };
     match class {
         Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
-        Class::Long => Pool::<_, LONG>::new(model, isa, source).run(),
         Class::Smooth | Class::Linearized => {
             Pool::<_, SMOOTH>::new(model, isa, source).run();
         }

@@ -143,8 +143,8 @@ fn many(args: &Args) -> Result<Vec<Throughput>, Failure> {
     let blocks = blocks()?;
     let bar = progress(16);
     let mut all = vec![
-        kernel("kernel in lanes, Eq. 1, order 8", Model::Nonlinear, 1e-3)?,
-        kernel("kernel in lanes, Eq. 1, order 10", Model::Nonlinear, 0.021)?,
+        kernel("kernel in lanes, Eq. 1, order 10", Model::Nonlinear, 1e-3)?,
+        kernel("kernel in lanes, Eq. 1, order 13", Model::Nonlinear, 0.061)?,
         kernel("kernel in lanes, Eq. 2", Model::Linearized, 1e-3)?,
     ];
     bar.inc(3);

@@ -49,7 +49,6 @@ const LONG_FILES: &[(&str, usize, &str)] = &[
     ("src/integrator/forcing.rs", 475, "one step shape for each excitation"),
     ("src/integrator/pool.rs", 475, "one loop over the lanes"),
     ("src/record/tests.rs", 500, "one small file for each format"),
-    ("tests/double.rs", 450, "one family of checks on one set of scenes"),
 ];
 
 /// Folders of the root that people see in a clone.

@@ -2,6 +2,7 @@
 //!
 //! Everything here stands on the core's public interface alone.
 
+pub mod arithmetic;
 pub mod cases;
 pub mod cli;
 pub mod drawing;

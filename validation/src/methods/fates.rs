@@ -34,14 +34,14 @@ struct Sine {
 /// A record written as runs of straight lines.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Samples {
+pub(super) struct Samples {
     dt_s: f64,
     /// Corner points: sample number and acceleration in m/s2.
     corners: Vec<(usize, f64)>,
 }
 
 impl Samples {
-    fn forcing(&self) -> Result<Forcing, MethodError> {
+    pub(super) fn forcing(&self) -> Result<Forcing, MethodError> {
         let mut samples = Vec::new();
         for pair in self.corners.windows(2) {
             let [(from, a), (to, b)] = pair else { continue };

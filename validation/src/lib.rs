@@ -7,6 +7,7 @@ pub mod cases;
 pub mod cli;
 pub mod drawing;
 pub mod engine;
+pub mod evidence;
 pub mod figures;
 pub mod files;
 pub mod inputs;

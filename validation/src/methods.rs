@@ -2,6 +2,7 @@
 
 mod closed_forms;
 mod convergence;
+mod digits;
 mod edges;
 mod estimate;
 mod fates;
@@ -15,6 +16,7 @@ mod solution;
 mod spectrum;
 mod wrong;
 
+pub use digits::{DigitsError, Reach, Row, digits, digits_csv};
 pub use wrong::{RIGHT_NAIVE, WRONG_MODELS, WrongModel, wrong_model};
 
 use std::collections::BTreeMap;
@@ -91,8 +93,7 @@ impl Context<'_> {
     /// # Errors
     /// [`MethodError::Input`] for missing, unknown or malformed keys.
     pub fn input<T: DeserializeOwned>(&self) -> Result<T, MethodError> {
-        let table = toml::Value::Table(self.case.input.clone());
-        table.try_into().map_err(|e| MethodError::Input(e.to_string()))
+        input_of(self.case)
     }
 
     /// The scene as the wrong model sees it, where that changes the input;
@@ -105,6 +106,11 @@ impl Context<'_> {
         }
         scene
     }
+}
+
+fn input_of<T: DeserializeOwned>(case: &Case) -> Result<T, MethodError> {
+    let table = toml::Value::Table(case.input.clone());
+    table.try_into().map_err(|e| MethodError::Input(e.to_string()))
 }
 
 type Run = fn(&Context) -> Result<Answer, MethodError>;

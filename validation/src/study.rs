@@ -33,6 +33,7 @@ use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
 use crate::drawing::DrawError;
+use crate::evidence::EvidenceError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -68,6 +69,9 @@ pub enum StudyError {
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),
+    /// Evidence that cannot be shown.
+    #[error(transparent)]
+    Evidence(#[from] EvidenceError),
     /// A drawing that grew too large.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -8,7 +8,8 @@ use super::closed_forms::{equation, extend};
 use super::fates::Samples;
 use super::references;
 use super::wrong::scale;
-use super::{Answer, Context, MethodError};
+use super::{Answer, Context, MethodError, input_of};
+use crate::cases::Case;
 use crate::engine::{Arithmetic, WideTrace};
 use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
@@ -203,6 +204,13 @@ pub(super) fn twin(context: &Context) -> Result<Answer, MethodError> {
         }
     }
     Ok(answer)
+}
+
+/// The first scene of such a case.
+pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
+    let input: TwinInput = input_of(case)?;
+    let first = twins(&input)?.into_iter().next();
+    first.ok_or_else(|| MethodError::Input("no scene".to_owned()))
 }
 
 fn twins(input: &TwinInput) -> Result<Vec<Scene>, MethodError> {

@@ -10,6 +10,8 @@ use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
 use super::whole::{arm_words, rounded_text};
+use crate::evidence::{self, ShownChart};
+use crate::figures::Figure as _;
 use crate::report::{
     self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
 };
@@ -21,6 +23,7 @@ use crate::report::{
 pub fn input(
     results: &Results,
     figures: &[Figure],
+    charts: &[ShownChart],
     claims: &[Claim],
 ) -> Result<ReportInput, StudyError> {
     Ok(ReportInput {
@@ -30,11 +33,12 @@ pub fn input(
             .into(),
         summary: summary(results),
         findings: claims.iter().map(finding).collect(),
-        families: Vec::new(),
-        tables: vec![table_1()?],
+        families: evidence::committed_families()?,
+        tables: vec![table_1()?, evidence::digits_table()],
         figures: figures
             .iter()
             .map(shown)
+            .chain(charts.iter().map(shown_chart))
             .collect::<Result<_, StudyError>>()?,
         provenance: provenance(results),
         limits: limits(results),
@@ -150,6 +154,19 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
         reading: figure.reading.clone(),
         svg: figure.drawing.svg()?,
         csv: figure.drawing.csv(),
+        csv_path: format!("{}.csv", heading.name),
+    })
+}
+
+fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, StudyError> {
+    let heading = &shown.chart.heading;
+    Ok(ShownFigure {
+        name: heading.name.clone(),
+        number: shown.number.clone(),
+        title: heading.title.clone(),
+        reading: shown.reading.clone(),
+        svg: shown.chart.svg()?,
+        csv: shown.chart.csv(),
         csv_path: format!("{}.csv", heading.name),
     })
 }

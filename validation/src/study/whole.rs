@@ -23,6 +23,7 @@ use super::sensitivities::Varied;
 use super::suites::StudySuite;
 use crate::figures::data::{Arm, Table, number};
 use crate::report;
+use crate::{evidence, figures::Figure as _};
 
 /// A finished study.
 pub struct Study {
@@ -115,7 +116,16 @@ impl Study {
         files.insert("single-records.csv".into(), single.into_bytes());
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
-        let input = page::input(&self.results, &self.figures, &self.claims)?;
+        let charts = evidence::charts()?;
+        for shown in &charts {
+            let name = &shown.chart.heading.name;
+            let svg = shown.chart.svg()?;
+            files.insert(format!("{name}.svg"), svg.into_bytes());
+            let csv = shown.chart.csv();
+            files.insert(format!("{name}.csv"), csv.into_bytes());
+        }
+        let input =
+            page::input(&self.results, &self.figures, &charts, &self.claims)?;
         files.insert("index.html".into(), report::page(&input).into_bytes());
         Ok(files)
     }

@@ -3,6 +3,7 @@
 
 pub mod analyses;
 pub mod capacities;
+pub mod certainty;
 pub mod choice;
 pub mod claims;
 pub mod distributions;

@@ -48,13 +48,19 @@ pub fn input(
 
 fn summary(results: &Results) -> Summary {
     let found = |suite: &SuiteResults| {
+        let certainty = suite.work.certainty;
         format!(
-            "{} {} records, {} analyses, {} of them with a fate that double \
-             precision cannot tell.",
+            "{} {} records, {} analyses; {} levels whose fate needed \
+             double-double, {} of them told wrongly in double precision, {} \
+             left open. If all of those flipped, the 16, 50 and 84 % \
+             overturning intensities would move by {} at most.",
             suite.records.len(),
             suite.kind,
             suite.work.analyses,
-            suite.work.unresolved
+            certainty.needed,
+            certainty.moved,
+            certainty.undecided,
+            rounded_text(certainty.largest_shift)
         )
     };
     Summary {

@@ -11,6 +11,7 @@ use rocking::integrator::{
 };
 
 use super::StudyError;
+use super::certainty::{Certainty, certainty};
 use crate::figures::data::Arm;
 
 /// What holds for every analysis of a study.
@@ -32,8 +33,8 @@ pub struct Chains {
     pub curves: Vec<Vec<Vec<ResponseCurve>>>,
     /// Analyses made.
     pub analyses: u64,
-    /// Analyses whose fate double precision cannot tell.
-    pub unresolved: usize,
+    /// Levels whose fate double precision cannot tell.
+    pub certainty: Certainty,
 }
 
 impl Setup {
@@ -76,7 +77,6 @@ impl Setup {
             .collect();
         let runs = ida::curves(records, &analyses, done)?;
         let all = || runs.iter().flatten();
-        let points = all().flat_map(|run| &run.points);
         let curves = arms
             .iter()
             .map(|arm| {
@@ -94,7 +94,7 @@ impl Setup {
         Ok(Chains {
             curves,
             analyses: all().map(|run| run.analyses).sum(),
-            unresolved: points.filter(|point| !point.resolved).count(),
+            certainty: certainty(&analyses, records, &runs)?,
         })
     }
 

@@ -233,7 +233,11 @@ fn suite(suite: &SuiteResults) -> Value {
         "records": suite.records.len(),
         "sha256": suite.sha256,
         "analyses": suite.work.analyses,
-        "unresolved": suite.work.unresolved,
+        "needed_double_double": suite.work.certainty.needed,
+        "told_wrongly_in_double": suite.work.certainty.moved,
+        "unresolved": suite.work.certainty.undecided,
+        "largest_shift_if_flipped":
+            rounded(suite.work.certainty.largest_shift),
         "shown_alone": chosen,
     })
 }

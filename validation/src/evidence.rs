@@ -92,3 +92,29 @@ pub fn digits_table() -> PlainTable {
 pub fn charts() -> Result<Vec<ShownChart>, EvidenceError> {
     Ok(vec![defect::chart()?, spectrum::chart()?])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figures::Figure as _;
+
+    #[test]
+    fn charts_have_something_in_every_series() {
+        for shown in charts().unwrap() {
+            assert!(shown.chart.svg().unwrap().starts_with("<svg"));
+            assert!(!shown.reading.contains("NaN"), "{}", shown.reading);
+            for series in shown.chart.panels.iter().flat_map(|p| &p.series) {
+                let drawn = series.y.iter().filter(|y| y.is_finite()).count();
+                assert!(drawn >= 2, "{}: {drawn}", series.label);
+            }
+        }
+    }
+
+    #[test]
+    fn committed_results_fit_the_cases() {
+        let families = committed_families().unwrap();
+        let cases: usize = families.iter().map(|f| f.cases.len()).sum();
+        assert_eq!(cases, load_all().unwrap().len());
+        assert!(digits_table().rows.len() > 30);
+    }
+}

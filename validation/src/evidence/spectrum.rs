@@ -46,13 +46,13 @@ fn fate(
 }
 
 /// The edge between `low`, where `above` is false, and `high`, where it is
-/// true; not a number where they are alike.
+/// true; not a number where they are alike or no interval.
 fn edge(
     mut low: f64,
     mut high: f64,
     above: impl Fn(f64) -> Result<bool, EngineError>,
 ) -> Result<f64, EngineError> {
-    if above(low)? || !above(high)? {
+    if !(low < high) || above(low)? || !above(high)? {
         return Ok(f64::NAN);
     }
     while high - low > 1e-6 * high {

@@ -5,14 +5,18 @@ use serde_json::Value;
 use crate::cases::{Bound, Case, Cost, FAMILIES};
 use crate::report::{Family, ShownCase};
 
-/// Declared cases with their results, as the snapshot has them; cases that
-/// are run only with `--full` are listed as such.
+/// Declared cases with their results, as the snapshot has them: all but those
+/// that are run only with `--full`.
 #[must_use]
 pub fn families(cases: &[Case], results: &Value) -> Vec<Family> {
     FAMILIES
         .iter()
         .map(|(name, _)| {
-            let own = || cases.iter().filter(|case| case.family == *name);
+            let own = || {
+                cases.iter().filter(|case| {
+                    case.family == *name && case.cost == Cost::Quick
+                })
+            };
             let kinds: BTreeSet<&str> =
                 own().map(|case| case.kind.name()).collect();
             let kinds: Vec<&str> = kinds.into_iter().collect();
@@ -28,12 +32,11 @@ pub fn families(cases: &[Case], results: &Value) -> Vec<Family> {
 fn shown(case: &Case, results: &Value) -> ShownCase {
     let result = &results[&case.id];
     let worst = worst(result);
-    let (error, margin) = match (case.cost, &worst) {
-        (Cost::Full, _) => ("run with --full alone".to_owned(), String::new()),
-        (Cost::Quick, Some((quantity, margin))) => {
+    let (error, margin) = match &worst {
+        Some((quantity, margin)) => {
             (format!("largest in {quantity}"), format!("{margin:.0e}"))
         }
-        (Cost::Quick, None) => ("no result".to_owned(), String::new()),
+        None => ("no result".to_owned(), String::new()),
     };
     let source = &case.source;
     let note = if source.note.is_empty() {
@@ -50,10 +53,7 @@ fn shown(case: &Case, results: &Value) -> ShownCase {
         error,
         margin,
         rejects: rejects(case, result),
-        passed: match case.cost {
-            Cost::Full => true,
-            Cost::Quick => result["verdict"] == "pass",
-        },
+        passed: result["verdict"] == "pass",
     }
 }
 
@@ -130,14 +130,14 @@ mod tests {
         let shown = families(&cases, &results);
         let all: Vec<&ShownCase> =
             shown.iter().flat_map(|f| &f.cases).collect();
-        assert_eq!(all.len(), cases.len());
+        let quick = cases.iter().filter(|c| c.cost == Cost::Quick).count();
+        assert_eq!(all.len(), quick);
         assert!(all.iter().all(|c| !c.tolerance.is_empty()));
         assert!(all.iter().all(|c| !c.rejects.is_empty()));
         let first = all.iter().find(|c| c.id == cases[0].id).unwrap();
         assert!(first.passed && first.margin == "5e-1");
         assert_eq!(first.error, "largest in a");
         // What has no result has not passed.
-        let quick = cases.iter().filter(|c| c.cost == Cost::Quick).count();
         let failed = all.iter().filter(|c| !c.passed).count();
         assert_eq!(failed, quick - 1);
     }

@@ -16,6 +16,8 @@ const ETA: f64 = 0.92;
 const STOCKY_RAD: f64 = 0.25;
 /// Top of the panels.
 const TOP: f64 = 30.0;
+/// Frequencies up to the fold.
+const POINTS: u32 = 88;
 /// Lowest frequency over p of the whole spectrum, and of the bands.
 const LOWEST: f64 = 0.4;
 
@@ -143,12 +145,13 @@ fn band(label: &str, rows: &[(f64, f64, f64)]) -> Series {
     }
 }
 
-fn dashed(label: &str, x: &[f64], y: Vec<f64>) -> Series {
+/// An edge of Eq. 1: grey and without legend, explained in the reading.
+fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
     Series {
-        label: label.into(),
+        label: String::new(),
         mark: Mark::Dashed,
         x: x.into(),
-        y,
+        y: y.collect(),
         interval: Vec::new(),
     }
 }
@@ -167,9 +170,13 @@ fn axis(label: &str, scale: Scale, range: (f64, f64)) -> Axis {
 pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
     let (fold, at_fold) = overturning::fold(ETA);
     // Up to the fold, which is one of the frequencies, and beyond.
-    let mut omegas: Vec<f64> = (0..44)
+    let mut omegas: Vec<f64> = (0..POINTS)
         .map(|k| {
-            LOWEST * libm::exp(f64::from(k) / 43.0 * libm::log(fold / LOWEST))
+            LOWEST
+                * libm::exp(
+                    f64::from(k) / f64::from(POINTS - 1)
+                        * libm::log(fold / LOWEST),
+                )
         })
         .collect();
     omegas.extend((1..=8).map(|k| {
@@ -208,16 +215,8 @@ pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
             series: vec![
                 band("after one impact (mode 1)", &with_impact),
                 band("without impact (mode 2)", &rows),
-                dashed(
-                    "Eq. 1, *α* = 0.25",
-                    &x,
-                    all.iter().map(|e| e.stocky[0]).collect(),
-                ),
-                dashed(
-                    "Eq. 1, *α* = 0.25",
-                    &x,
-                    all.iter().map(|e| e.stocky[stocky]).collect(),
-                ),
+                stocky_edge(&x, all.iter().map(|e| e.stocky[0])),
+                stocky_edge(&x, all.iter().map(|e| e.stocky[stocky])),
             ],
         });
     }
@@ -245,7 +244,8 @@ pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
             "Mode 1 folds back at omega/p = {fold:.3} and leaves a safe bay \
              below mode 2; by |theta| >= alpha the bay opens at 6.999 only. \
              At omega/p = 0.5 a pulse {:.1} % above the threshold overturns \
-             after {} impacts, less than mode 1 needs.",
+             after {} impacts, less than mode 1 needs. Regions are of Eq. 2; \
+             dashed, the lower edges of Eq. 1 at alpha = 0.25.",
             100.0 * (lowest.1 - 1.0),
             lowest.0
         ),
@@ -267,7 +267,7 @@ fn low_frequencies(
     let mode_1: Vec<_> = with_impact
         .iter()
         .filter(|row| row.0 < highest + 0.1)
-        .copied()
+        .map(|row| (row.0, row.1, row.2.min(1.2)))
         .collect();
     series.push(band("after one impact (mode 1)", &mode_1));
     for n in [3, 5, 7, 9] {

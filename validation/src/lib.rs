@@ -5,6 +5,7 @@
 pub mod arithmetic;
 pub mod cases;
 pub mod cli;
+pub mod curves;
 pub mod drawing;
 pub mod engine;
 pub mod evidence;
@@ -17,6 +18,7 @@ pub mod naive;
 pub mod oracles;
 pub mod report;
 pub mod scene;
+pub mod speed;
 pub mod study;
 pub mod synthesis;
 pub mod verdict;

@@ -16,6 +16,7 @@ pub mod output;
 pub mod page;
 pub mod runs;
 pub mod sensitivities;
+pub mod speed;
 pub mod stripes;
 pub mod suites;
 pub mod whole;
@@ -76,6 +77,9 @@ pub enum StudyError {
     /// A drawing that grew too large.
     #[error(transparent)]
     Draw(#[from] DrawError),
+    /// A table of timings that cannot be read.
+    #[error("timings: {0}")]
+    Timings(#[from] csv::Error),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,

@@ -3,7 +3,8 @@
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Model, drive};
-use crate::integrator::pool::{Lane, SAFETY, SMALL, Slot, Waiting};
+use crate::integrator::pool::waiting::{Lane, Waiting};
+use crate::integrator::pool::{SAFETY, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
 use crate::number::Number;
 use crate::number::lanes::{Lanes, Mask};

@@ -9,6 +9,7 @@ use super::claims::PAPER_GRAVITY_M_S2;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
+use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
 use crate::evidence::{self, ShownChart};
 use crate::figures::Figure as _;
@@ -26,6 +27,16 @@ pub fn input(
     charts: &[ShownChart],
     claims: &[Claim],
 ) -> Result<ReportInput, StudyError> {
+    let timings = Timings::kept()?;
+    let mut drawn: Vec<ShownFigure> =
+        figures.iter().map(shown).collect::<Result<_, StudyError>>()?;
+    for chart in charts {
+        drawn.push(shown_chart(chart)?);
+    }
+    drawn.push(ShownFigure {
+        number: "Speed".into(),
+        ..shown(&timings.figure())?
+    });
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -35,14 +46,10 @@ pub fn input(
         findings: claims.iter().map(finding).collect(),
         families: evidence::committed_families()?,
         tables: vec![table_1()?, evidence::digits_table()],
-        figures: figures
-            .iter()
-            .map(shown)
-            .chain(charts.iter().map(shown_chart))
-            .collect::<Result<_, StudyError>>()?,
+        figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
-        credibility: Vec::new(),
+        credibility: timings.tables(),
     })
 }
 

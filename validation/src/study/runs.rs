@@ -12,6 +12,7 @@ use rocking::integrator::{
 
 use super::StudyError;
 use super::certainty::{Certainty, certainty};
+use crate::curves::Way;
 use crate::figures::data::Arm;
 
 /// What holds for every analysis of a study.
@@ -24,6 +25,8 @@ pub struct Setup {
     /// Width to which arms B and C bisect the first overturning, in
     /// dimensionless intensity.
     pub tolerance: f64,
+    /// How curves are made.
+    pub way: Way,
 }
 
 /// The curves of blocks under records, and what they took.
@@ -75,7 +78,7 @@ impl Setup {
             .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
             .map(|(block, arm)| self.analysis(block, arm, method))
             .collect();
-        let runs = ida::curves(records, &analyses, done)?;
+        let runs = self.way.curves(records, &analyses, &done)?;
         let all = || runs.iter().flatten();
         let curves = arms
             .iter()

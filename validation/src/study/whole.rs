@@ -20,6 +20,7 @@ use super::grid::{
 use super::output::Files;
 use super::page;
 use super::sensitivities::Varied;
+use super::speed::Timings;
 use super::suites::StudySuite;
 use crate::figures::data::{Arm, Table, number};
 use crate::report;
@@ -104,7 +105,8 @@ impl Study {
     /// [`StudyError`] where a figure cannot be drawn.
     pub fn files(&self) -> Result<Files, StudyError> {
         let mut files = Files::new();
-        for figure in &self.figures {
+        let timed = Timings::kept()?.figure();
+        for figure in self.figures.iter().chain([&timed]) {
             let name = &figure.drawing.heading().name;
             let svg = figure.drawing.svg()?;
             files.insert(format!("{name}.svg"), svg.into_bytes());

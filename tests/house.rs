@@ -46,7 +46,6 @@ const LONG_FILES: &[(&str, usize, &str)] = &[
     ("src/integrator/coast.rs", 500, "one closed form with its cases"),
     ("src/integrator/forcing.rs", 475, "one step shape for each excitation"),
     ("src/record/tests.rs", 500, "one small file for each format"),
-    ("tests/double.rs", 450, "one family of checks on one set of scenes"),
 ];
 
 /// Folders of the root that people see in a clone.

@@ -285,6 +285,8 @@ pub struct Case {
 
 /// The case files, by family, embedded.
 pub const FAMILIES: &[(&str, &str)] = &[
+    ("block-geometry", include_str!("../cases/block-geometry.toml")),
+    ("double-double", include_str!("../cases/double-double.toml")),
     ("fates", include_str!("../cases/fates.toml")),
     ("free-rocking", include_str!("../cases/free-rocking.toml")),
     ("hard-cases", include_str!("../cases/hard-cases.toml")),
@@ -305,4 +307,5 @@ pub const FAMILIES: &[(&str, &str)] = &[
         "solution-verification",
         include_str!("../cases/solution-verification.toml"),
     ),
+    ("work-counters", include_str!("../cases/work-counters.toml")),
 ];

@@ -2,11 +2,13 @@
 //!
 //! Everything here stands on the core's public interface alone.
 
+pub mod arithmetic;
 pub mod cases;
 pub mod cli;
 pub mod curves;
 pub mod drawing;
 pub mod engine;
+pub mod evidence;
 pub mod figures;
 pub mod files;
 pub mod inputs;

@@ -3,6 +3,7 @@
 
 pub mod analyses;
 pub mod capacities;
+pub mod certainty;
 pub mod choice;
 pub mod claims;
 pub mod distributions;
@@ -34,6 +35,7 @@ use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
 use crate::drawing::DrawError;
+use crate::evidence::EvidenceError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -69,6 +71,9 @@ pub enum StudyError {
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),
+    /// Evidence that cannot be shown.
+    #[error(transparent)]
+    Evidence(#[from] EvidenceError),
     /// A drawing that grew too large.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -11,6 +11,7 @@ use rocking::integrator::{
 };
 
 use super::StudyError;
+use super::certainty::{Certainty, certainty};
 use crate::curves::Way;
 use crate::figures::data::Arm;
 
@@ -35,8 +36,8 @@ pub struct Chains {
     pub curves: Vec<Vec<Vec<ResponseCurve>>>,
     /// Analyses made.
     pub analyses: u64,
-    /// Analyses whose fate double precision cannot tell.
-    pub unresolved: usize,
+    /// Levels whose fate double precision cannot tell.
+    pub certainty: Certainty,
 }
 
 impl Setup {
@@ -79,7 +80,6 @@ impl Setup {
             .collect();
         let runs = self.way.curves(records, &analyses, &done)?;
         let all = || runs.iter().flatten();
-        let points = all().flat_map(|run| &run.points);
         let curves = arms
             .iter()
             .map(|arm| {
@@ -97,7 +97,7 @@ impl Setup {
         Ok(Chains {
             curves,
             analyses: all().map(|run| run.analyses).sum(),
-            unresolved: points.filter(|point| !point.resolved).count(),
+            certainty: certainty(&analyses, records, &runs)?,
         })
     }
 

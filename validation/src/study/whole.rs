@@ -24,6 +24,7 @@ use super::speed::Timings;
 use super::suites::StudySuite;
 use crate::figures::data::{Arm, Table, number};
 use crate::report;
+use crate::{evidence, figures::Figure as _};
 
 /// A finished study.
 pub struct Study {
@@ -117,7 +118,16 @@ impl Study {
         files.insert("single-records.csv".into(), single.into_bytes());
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
-        let input = page::input(&self.results, &self.figures, &self.claims)?;
+        let charts = evidence::charts()?;
+        for shown in &charts {
+            let name = &shown.chart.heading.name;
+            let svg = shown.chart.svg()?;
+            files.insert(format!("{name}.svg"), svg.into_bytes());
+            let csv = shown.chart.csv();
+            files.insert(format!("{name}.csv"), csv.into_bytes());
+        }
+        let input =
+            page::input(&self.results, &self.figures, &charts, &self.claims)?;
         files.insert("index.html".into(), report::page(&input).into_bytes());
         Ok(files)
     }
@@ -225,7 +235,11 @@ fn suite(suite: &SuiteResults) -> Value {
         "records": suite.records.len(),
         "sha256": suite.sha256,
         "analyses": suite.work.analyses,
-        "unresolved": suite.work.unresolved,
+        "needed_double_double": suite.work.certainty.needed,
+        "told_wrongly_in_double": suite.work.certainty.moved,
+        "unresolved": suite.work.certainty.undecided,
+        "largest_shift_if_flipped":
+            rounded(suite.work.certainty.largest_shift),
         "shown_alone": chosen,
     })
 }

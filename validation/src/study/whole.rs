@@ -17,6 +17,7 @@ use super::findings::{Claim, Findings, ends, rounded, text};
 use super::grid::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, demands,
 };
+use super::normality::ends as band_ends;
 use super::output::Files;
 use super::page;
 use super::sensitivities::Varied;
@@ -292,9 +293,9 @@ fn shares(results: &Results) -> Value {
                 "alpha_rad": rounded(block.alpha_rad),
                 "im_r": rounded(block.shift),
                 "original": rounded(original),
-                "original_null_band": ends(block.bands[0]),
+                "original_null_band": ends(block.bands[0].as_ref().and_then(band_ends)),
                 "shifted": rounded(shifted),
-                "shifted_null_band": ends(block.bands[1]),
+                "shifted_null_band": ends(block.bands[1].as_ref().and_then(band_ends)),
             }));
         }
     }

@@ -1,10 +1,9 @@
 //! The bootstrap: records drawn with replacement, one stream a replicate.
 
-use rand::Rng as _;
 use rayon::prelude::*;
 
 use super::{QuantileType, Sample};
-use crate::streams::Streams;
+use crate::streams::{Streams, below};
 
 /// A point estimate with its standard error and interval.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,8 +28,7 @@ pub struct Estimate {
 /// Draws of n records out of n with replacement, the same for every
 /// statistic that uses them: blocks and levels stay paired.
 ///
-/// Draw i comes from stream i of the family of that name and seed; a place is
-/// the high word of the product of a 64-bit number and n (bias below n/2^64).
+/// Draw i comes from stream i of the family of that name and seed.
 ///
 /// ```
 /// use rocking::statistics::bootstrap::Bootstrap;
@@ -70,10 +68,7 @@ impl Bootstrap {
     #[must_use]
     pub fn draw(&self, index: u64) -> Vec<usize> {
         let mut stream = self.streams.stream(index);
-        let n = self.n as u128;
-        let mut place =
-            || ((u128::from(stream.next_u64()) * n) >> 64) as usize;
-        (0..self.n).map(|_| place()).collect()
+        (0..self.n).map(|_| below(&mut stream, self.n)).collect()
     }
 }
 

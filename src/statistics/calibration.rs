@@ -7,7 +7,6 @@
 //! rounded to the digits given.
 
 use libm::{exp, log, log1p};
-use rand_distr::{Distribution as _, StandardNormal};
 use rayon::prelude::*;
 
 use super::boxplot::median_interval;
@@ -17,7 +16,7 @@ use super::normality::{anderson_darling, cramer_von_mises, shapiro_wilk};
 use super::paired::{equivalence, hodges_lehmann};
 use super::sample::{mean, sum_of_squares};
 use super::{Boxplot, ExtendedSample, QuantileType, Sample};
-use crate::streams::Streams;
+use crate::streams::{Streams, standard_normal};
 
 const SIGMAS: f64 = 4.0;
 
@@ -34,7 +33,7 @@ fn simulate<T: Send>(
         .map(|index| {
             let mut stream = streams.stream(index);
             let z: Vec<f64> =
-                (0..n).map(|_| StandardNormal.sample(&mut stream)).collect();
+                (0..n).map(|_| standard_normal(&mut stream)).collect();
             f(&z)
         })
         .collect()

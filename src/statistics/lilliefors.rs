@@ -31,6 +31,14 @@ pub enum LillieforsError {
     /// The values don't vary (to 1e-12 of their mean).
     #[error("the values do not vary: expected a positive standard deviation")]
     Degenerate,
+    /// A null distribution holds for one size.
+    #[error("{found} values: expected {expected}, the size simulated")]
+    Size {
+        /// Size of the sample.
+        found: usize,
+        /// Size simulated.
+        expected: usize,
+    },
     /// Sizes of the table.
     #[error(
         "{0} values: expected 4 to 1000, the sizes of the table; simulate beyond"

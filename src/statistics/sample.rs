@@ -59,6 +59,12 @@ impl Sample {
         Ok(Self { sorted: sort(values)? })
     }
 
+    /// A sample of values that are known to be finite, at least one.
+    pub(super) fn of(mut values: Vec<f64>) -> Self {
+        values.sort_unstable_by(f64::total_cmp);
+        Self { sorted: values }
+    }
+
     /// The values in ascending order.
     #[must_use]
     pub fn sorted(&self) -> &[f64] {

@@ -13,6 +13,7 @@ pub mod histories;
 pub mod normality;
 pub mod output;
 pub mod page;
+pub mod questions;
 pub mod runs;
 pub mod sensitivities;
 pub mod stripes;

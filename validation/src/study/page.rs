@@ -9,6 +9,7 @@ use super::claims::PAPER_GRAVITY_M_S2;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
+use super::questions::Answer;
 use super::whole::{arm_words, rounded_text};
 use crate::report::{
     self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
@@ -22,6 +23,7 @@ pub fn input(
     results: &Results,
     figures: &[Figure],
     claims: &[Claim],
+    answers: &[Answer],
 ) -> Result<ReportInput, StudyError> {
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
@@ -31,7 +33,7 @@ pub fn input(
         summary: summary(results),
         findings: claims.iter().map(finding).collect(),
         families: Vec::new(),
-        tables: vec![table_1()?],
+        tables: tables(answers)?,
         figures: figures
             .iter()
             .map(shown)
@@ -40,6 +42,14 @@ pub fn input(
         limits: limits(results),
         credibility: Vec::new(),
     })
+}
+
+fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
+    let mut tables = vec![table_1()?];
+    for answer in answers {
+        tables.extend(answer.tables.iter().cloned());
+    }
+    Ok(tables)
 }
 
 fn summary(results: &Results) -> Summary {
@@ -145,7 +155,11 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
     Ok(ShownFigure {
         name: heading.name.clone(),
-        number: format!("Figure {number}{arm}"),
+        number: if number.is_empty() {
+            "Beyond the paper".into()
+        } else {
+            format!("Figure {number}{arm}")
+        },
         title: heading.title.clone(),
         reading: figure.reading.clone(),
         svg: figure.drawing.svg()?,

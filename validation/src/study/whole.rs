@@ -20,6 +20,7 @@ use super::grid::{
 use super::normality::ends as band_ends;
 use super::output::Files;
 use super::page;
+use super::questions::{self, Answer};
 use super::sensitivities::Varied;
 use super::suites::StudySuite;
 use crate::figures::data::{Arm, Table, number};
@@ -31,6 +32,7 @@ pub struct Study {
     figures: Vec<Figure>,
     claims: Vec<Claim>,
     findings: Findings,
+    answers: Vec<Answer>,
 }
 
 impl Study {
@@ -53,10 +55,14 @@ impl Study {
         distributions.extend(of_suite(&pulse, common)?);
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
-        let figures = results.figures()?;
+        let mut figures = results.figures()?;
+        let mut answers = questions::all(&results, full)?;
+        for answer in &mut answers {
+            figures.append(&mut answer.figures);
+        }
         let claims = claims::all(&results)?;
-        let findings = findings(&results, &claims)?;
-        Ok(Self { results, figures, claims, findings })
+        let findings = findings(&results, &claims, &answers)?;
+        Ok(Self { results, figures, claims, findings, answers })
     }
 
     /// The claims and what was found about them.
@@ -116,7 +122,19 @@ impl Study {
         files.insert("single-records.csv".into(), single.into_bytes());
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
-        let input = page::input(&self.results, &self.figures, &self.claims)?;
+        for answer in &self.answers {
+            let csv = answer.csv.clone().into_bytes();
+            files.insert(format!("{}.csv", answer.id), csv);
+            for (name, csv) in &answer.files {
+                files.insert(name.clone(), csv.clone().into_bytes());
+            }
+        }
+        let input = page::input(
+            &self.results,
+            &self.figures,
+            &self.claims,
+            &self.answers,
+        )?;
         files.insert("index.html".into(), report::page(&input).into_bytes());
         Ok(files)
     }
@@ -180,11 +198,13 @@ fn single_csv(results: &Results) -> String {
 fn findings(
     results: &Results,
     claims: &[Claim],
+    answers: &[Answer],
 ) -> Result<Findings, StudyError> {
     let mut out = Findings::new();
     let claims = claims.iter().map(Claim::json).collect();
     out.insert("claims".into(), Value::Array(claims));
     out.insert("options".into(), options(&results.plan));
+    out.insert("questions".into(), asked(answers));
     let suites = [&results.ordinary, &results.pulse].map(suite);
     out.insert("suites".into(), Value::Array(suites.into()));
     out.insert("figure_09".into(), figure_09(results)?);
@@ -194,6 +214,18 @@ fn findings(
     out.insert("single_records".into(), single(results));
     out.insert("sensitivities".into(), varied(results)?);
     Ok(out)
+}
+
+fn asked(answers: &[Answer]) -> Value {
+    let one = |answer: &Answer| {
+        json!({
+            "id": answer.id,
+            "question": answer.question,
+            "answer": answer.answer,
+            "data": format!("{}.csv", answer.id),
+        })
+    };
+    Value::Array(answers.iter().map(one).collect())
 }
 
 fn options(plan: &Plan) -> Value {

@@ -10,6 +10,8 @@ mod options;
 mod robustness;
 mod trimming;
 
+use serde_json::{Value, json};
+
 use super::StudyError;
 use super::analyses::SuiteResults;
 use super::figures::{Figure, Results};
@@ -63,6 +65,20 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         options::answer(results, full)?,
         trimming::answer(results)?,
     ])
+}
+
+/// Questions and answers for `findings.json`.
+#[must_use]
+pub fn json(answers: &[Answer]) -> Value {
+    let one = |answer: &Answer| {
+        json!({
+            "id": answer.id,
+            "question": answer.question,
+            "answer": answer.answer,
+            "data": format!("{}.csv", answer.id),
+        })
+    };
+    Value::Array(answers.iter().map(one).collect())
 }
 
 /// Rows for a CSV and a table of the page at once.

@@ -204,7 +204,7 @@ fn findings(
     let claims = claims.iter().map(Claim::json).collect();
     out.insert("claims".into(), Value::Array(claims));
     out.insert("options".into(), options(&results.plan));
-    out.insert("questions".into(), asked(answers));
+    out.insert("questions".into(), questions::json(answers));
     let suites = [&results.ordinary, &results.pulse].map(suite);
     out.insert("suites".into(), Value::Array(suites.into()));
     out.insert("figure_09".into(), figure_09(results)?);
@@ -214,18 +214,6 @@ fn findings(
     out.insert("single_records".into(), single(results));
     out.insert("sensitivities".into(), varied(results)?);
     Ok(out)
-}
-
-fn asked(answers: &[Answer]) -> Value {
-    let one = |answer: &Answer| {
-        json!({
-            "id": answer.id,
-            "question": answer.question,
-            "answer": answer.answer,
-            "data": format!("{}.csv", answer.id),
-        })
-    };
-    Value::Array(answers.iter().map(one).collect())
 }
 
 fn options(plan: &Plan) -> Value {

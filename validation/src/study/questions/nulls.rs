@@ -224,3 +224,20 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             .into(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_places_the_ratio_is_linear() {
+        let mut ratios = vec![1.0; PLACES.len()];
+        ratios[3] = 1.2;
+        assert_eq!(between(&ratios, 0.2), 1.2);
+        assert!((between(&ratios, 0.15) - 1.1).abs() < 1e-12);
+        assert!((between(&ratios, 0.275) - 1.05).abs() < 1e-12);
+        assert_eq!(between(&ratios, 1.0), 1.0);
+        ratios[0] = f64::NAN;
+        assert!(between(&ratios, 0.01).is_nan());
+    }
+}

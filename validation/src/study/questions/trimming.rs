@@ -266,3 +266,39 @@ fn class_words(class: usize) -> String {
         k => format!("{} to {}", EDGES[k - 1], EDGES[k]),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn skewness_is_the_textbook_s() {
+        let logs: [f64; 4] = [0.0, 1.0, 2.0, 7.0];
+        let values = logs.map(|y| 3.0 + libm::exp(y));
+        let found = skewness(&values, 3.0).expect("skewness");
+        // Deviations -2.5, -1.5, -0.5, 4.5: squares 29/4, cubes 72/4.
+        let expected = 18.0 / (7.25 * 7.25_f64.sqrt());
+        assert!((found - expected).abs() < 1e-12, "{found}");
+        assert!(skewness(&values, 4.0).is_none());
+        assert!(skewness(&[5.0, 5.0], 3.0).is_none());
+        assert_eq!([-1.0, 0.0, 0.5, 2.0].map(class), [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn trimming_helps_a_contaminated_sample_and_harms_a_clean_one() {
+        let z = rocking::statistics::normal::quantile;
+        let clean: Vec<f64> = (0..86)
+            .map(|i| 1.0 + libm::exp(0.6 * z((f64::from(i) + 0.5) / 86.0)))
+            .collect();
+        let mut tail = clean.clone();
+        for x in &mut tail[82..] {
+            *x = 1.0 + 4.0 * (*x - 1.0);
+        }
+        let of = |values: &[f64]| {
+            let sample = ExtendedSample::try_new(values).expect("sample");
+            outcomes(&sample, 1.0, None)
+        };
+        assert!(matches!(of(&tail)[3], Outcome::Helps | Outcome::OnlyTrimmed));
+        assert!(matches!(of(&clean)[0], Outcome::Harms));
+    }
+}

@@ -6,17 +6,21 @@
 //! p PGV/PGA.
 
 mod batch;
+mod climb;
+mod levels;
 
 use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
-use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use crate::excitation::NormalisedRecord;
 use crate::integrator::{
-    Certified, Engine, Model, Observe, Outcome, Overturning, Response, Scene,
-    SceneError, certify, respond, uplift_threshold,
+    Certified, Engine, Model, Observe, Outcome, Overturning, SceneError,
+    certify, respond, respond_with,
 };
 use crate::number::dispatch::Isa;
+use climb::Climb;
+use levels::Levels;
 
 /// Intensities at which a curve is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -247,116 +251,21 @@ pub fn curve(
     record: &NormalisedRecord,
     analysis: &Analysis,
 ) -> Result<IdaCurve, IdaError> {
+    curve_with(record, analysis, Isa::best())
+}
+
+/// [`curve`] at an instruction-set level.
+fn curve_with(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+    isa: Isa,
+) -> Result<IdaCurve, IdaError> {
     let mut climb = Climb::start(record, analysis)?;
-    climb.ascend()?;
-    climb.finish()
-}
-
-/// An analysis about to be made.
-#[derive(Clone, Copy)]
-struct Level<'a> {
-    im: f64,
-    /// PGA applied, multiples of gravity.
-    pga_g: f64,
-    scene: Scene<'a>,
-}
-
-/// A curve in the making: rising levels up to the first overturning.
-struct Climb<'a> {
-    chain: Chain<'a>,
-    threshold: f64,
-    level: u64,
-    points: Vec<IdaPoint>,
-}
-
-impl<'a> Climb<'a> {
-    fn start(
-        record: &'a NormalisedRecord,
-        analysis: &'a Analysis,
-    ) -> Result<Self, IdaError> {
-        let chain = Chain::new(record, analysis)?;
-        let threshold = uplift_threshold(&analysis.block, analysis.model);
-        let level = chain.first_level(threshold);
-        Ok(Self { chain, threshold, level, points: Vec::new() })
+    while let Some((aim, level)) = climb.next(false)? {
+        let response = respond_with(&level.scene, &Observe::default(), isa)?;
+        climb.accept(aim, level.point(&response)?);
     }
-
-    /// The next level; none above the first overturning or the highest.
-    fn next_level(&self) -> Result<Option<Level<'a>>, IdaError> {
-        let im = self.chain.level_im(self.level, self.threshold);
-        let overturned = |point: &IdaPoint| point.outcome.is_overturned();
-        if self.points.last().is_some_and(overturned)
-            || im > self.chain.analysis.highest_im
-        {
-            return Ok(None);
-        }
-        let pga_g = self.chain.level_pga_g(self.level, self.threshold);
-        self.chain.level(im, pga_g).map(Some)
-    }
-
-    /// Makes every level, one after the other.
-    fn ascend(&mut self) -> Result<(), IdaError> {
-        while let Some(level) = self.next_level()? {
-            self.points.push(self.chain.run(&level)?);
-            self.level += 1;
-        }
-        Ok(())
-    }
-
-    /// Takes the response of that level.
-    fn settle(
-        &mut self,
-        level: &Level<'_>,
-        response: &Response,
-    ) -> Result<(), IdaError> {
-        self.points.push(self.chain.settle(level, response)?);
-        self.level += 1;
-        Ok(())
-    }
-
-    fn finish(self) -> Result<IdaCurve, IdaError> {
-        Ok(self.conclude()?.0)
-    }
-
-    /// Bisects the first overturning and looks above it, as asked.
-    fn conclude(self) -> Result<(IdaCurve, Option<Certification>), IdaError> {
-        let Self { mut chain, threshold, mut level, points } = self;
-        let (record, analysis) = (chain.record, chain.analysis);
-        let mut overturning = None;
-        if let Some((point, below)) = points.split_last()
-            && point.outcome.is_overturned()
-        {
-            let standing_im = below.last().map_or(1.0, |point| point.im);
-            let refined = chain.bisect(standing_im, *point)?;
-            overturning = Some(FirstOverturning {
-                scanned_im: point.im,
-                refined: refined.map(|(_, upper)| upper),
-                standing_im: refined.map_or(standing_im, |(low, _)| low),
-            });
-        }
-        let mut above = Vec::new();
-        if let (Some(first), Some(reach)) =
-            (overturning, analysis.resurrections)
-        {
-            let end = match reach {
-                Resurrections::Multiple(times) => times * first.scanned_im,
-                Resurrections::To(im) => im,
-            };
-            while chain.level_im(level, threshold) <= end {
-                above.push(chain.at_level(level, threshold)?);
-                level += 1;
-            }
-        }
-        let curve = IdaCurve {
-            record: record.name().to_owned(),
-            record_pga_g: record.pga_g(),
-            velocity_ratio_s: record.velocity_ratio_s(),
-            points,
-            overturning,
-            above,
-            analyses: chain.analyses,
-        };
-        Ok((curve, chain.certification))
-    }
+    Ok(climb.finish())
 }
 
 /// What certification did to a curve.
@@ -389,10 +298,13 @@ pub fn certified_curve(
     analysis: &Analysis,
 ) -> Result<(IdaCurve, Certification), IdaError> {
     let mut climb = Climb::start(record, analysis)?;
-    climb.chain.certification = Some(Certification::default());
-    climb.ascend()?;
-    let (curve, certification) = climb.conclude()?;
-    Ok((curve, certification.unwrap_or_default()))
+    let mut count = Certification::default();
+    while let Some((aim, level)) = climb.next(false)? {
+        let fate = certify(&level.scene)?;
+        count.add(&fate);
+        climb.accept(aim, level.certified(&fate));
+    }
+    Ok((climb.finish(), count))
 }
 
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
@@ -464,231 +376,13 @@ pub fn at(
     analysis: &Analysis,
     im: f64,
 ) -> Result<IdaPoint, IdaError> {
-    let mut chain = Chain::new(record, analysis)?;
+    let levels = Levels::new(record, analysis)?;
     if !(im > 0.0 && im.is_finite()) {
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
-    let threshold = uplift_threshold(&analysis.block, analysis.model);
-    chain.at_im(im, im * threshold)
-}
-
-fn check(
-    record: &NormalisedRecord,
-    analysis: &Analysis,
-) -> Result<(), IdaError> {
-    let positive = |what, found: f64| {
-        if found > 0.0 && found.is_finite() {
-            Ok(())
-        } else {
-            Err(IdaError::NotPositive { what, found })
-        }
-    };
-    match analysis.grid {
-        Grid::Pga { step_g } => positive("step in g", step_g)?,
-        Grid::Im { step } => positive("step in IM", step)?,
-    }
-    positive("highest IM", analysis.highest_im)?;
-    if let Some(tolerance) = analysis.refine {
-        positive("refinement", tolerance)?;
-    }
-    match analysis.resurrections {
-        Some(Resurrections::Multiple(x)) => positive("resurrections", x)?,
-        Some(Resurrections::To(x)) => positive("resurrections", x)?,
-        None => {}
-    }
-    if record.pga_g() > 0.0 {
-        Ok(())
-    } else {
-        Err(IdaError::Silent { record: record.name().to_owned() })
-    }
-}
-
-/// One record under one analysis, counting runs.
-struct Chain<'a> {
-    record: &'a NormalisedRecord,
-    analysis: &'a Analysis,
-    analyses: u64,
-    /// Counted where fates are certified.
-    certification: Option<Certification>,
-}
-
-/// Margins below this are worth an error estimate.
-const NEAR: f64 = 1e-6;
-
-impl<'a> Chain<'a> {
-    fn new(
-        record: &'a NormalisedRecord,
-        analysis: &'a Analysis,
-    ) -> Result<Self, IdaError> {
-        check(record, analysis)?;
-        Ok(Self { record, analysis, analyses: 0, certification: None })
-    }
-
-    /// PGA of a level in multiples of gravity.
-    fn level_pga_g(&self, level: u64, threshold: f64) -> f64 {
-        let k = level as f64;
-        match self.analysis.grid {
-            Grid::Pga { step_g } => {
-                // k/100 is the nearest double to the level, k 0.01 is not.
-                let parts = (1.0 / step_g).round();
-                if (parts * step_g - 1.0).abs() < 1e-12 {
-                    k / parts
-                } else {
-                    k * step_g
-                }
-            }
-            Grid::Im { .. } => self.level_im(level, threshold) * threshold,
-        }
-    }
-
-    fn level_im(&self, level: u64, threshold: f64) -> f64 {
-        match self.analysis.grid {
-            Grid::Pga { .. } => self.level_pga_g(level, threshold) / threshold,
-            Grid::Im { step } => {
-                let parts = (1.0 / step).round();
-                if (parts * step - 1.0).abs() < 1e-12 {
-                    1.0 + level as f64 / parts
-                } else {
-                    (level as f64).mul_add(step, 1.0)
-                }
-            }
-        }
-    }
-
-    /// First level above the uplift threshold.
-    fn first_level(&self, threshold: f64) -> u64 {
-        match self.analysis.grid {
-            Grid::Im { .. } => 1,
-            Grid::Pga { step_g } => {
-                let mut level = (threshold / step_g) as u64;
-                while !(self.level_pga_g(level, threshold) > threshold) {
-                    level += 1;
-                }
-                level
-            }
-        }
-    }
-
-    fn at_level(
-        &mut self,
-        level: u64,
-        threshold: f64,
-    ) -> Result<IdaPoint, IdaError> {
-        let im = self.level_im(level, threshold);
-        self.at_im(im, self.level_pga_g(level, threshold))
-    }
-
-    /// One analysis at an intensity, which is `pga_g` for the block of the
-    /// grid.
-    fn at_im(&mut self, im: f64, pga_g: f64) -> Result<IdaPoint, IdaError> {
-        let level = self.level(im, pga_g)?;
-        self.run(&level)
-    }
-
-    /// Makes the analysis of a level.
-    fn run(&mut self, level: &Level<'_>) -> Result<IdaPoint, IdaError> {
-        let Some(count) = &mut self.certification else {
-            let response = respond(&level.scene, &Observe::default())?;
-            return self.settle(level, &response);
-        };
-        self.analyses += 1;
-        let fate = certify(&level.scene)?;
-        count.add(&fate);
-        Ok(IdaPoint {
-            im: level.im,
-            pga_g: level.pga_g,
-            slenderness_rad: level.scene.block.slenderness_rad(),
-            outcome: fate.outcome,
-            fate_margin: fate.margin,
-            resolved: fate.decided,
-        })
-    }
-
-    /// The analysis at an intensity, which is `pga_g` for the block of the
-    /// grid.
-    fn level(&self, im: f64, pga_g: f64) -> Result<Level<'a>, IdaError> {
-        let analysis = self.analysis;
-        let (block, amplitude) = match analysis.method {
-            Method::RecordScaling => (analysis.block, pga_g),
-            Method::SlendernessAdjustment => {
-                let own = self.record.pga_g();
-                let slenderness_rad = match analysis.model {
-                    Model::Nonlinear => libm::atan(own / im),
-                    Model::Linearized => own / im,
-                };
-                let block = Block::try_new(
-                    slenderness_rad,
-                    analysis.block.frequency_rad_s(),
-                )
-                .map_err(|source| IdaError::Slenderness {
-                    record: self.record.name().to_owned(),
-                    im,
-                    source,
-                })?;
-                (block, own)
-            }
-        };
-        let record = ScaledRecord::to_pga(self.record, amplitude);
-        let scene = Scene {
-            block,
-            restitution: analysis.restitution,
-            model: analysis.model,
-            overturning: analysis.overturning,
-            excitation: Excitation::Record(record),
-            initial_ratio: 0.0,
-        };
-        Ok(Level { im, pga_g: amplitude, scene })
-    }
-
-    /// The point that the response of a level makes.
-    fn settle(
-        &mut self,
-        level: &Level<'_>,
-        response: &Response,
-    ) -> Result<IdaPoint, IdaError> {
-        let Level { im, pga_g, scene } = level;
-        self.analyses += 1;
-        let resolved = response.fate_margin > NEAR || {
-            let careful = Observe { accuracy: true, ..Observe::default() };
-            respond(scene, &careful)?.is_resolved()
-        };
-        Ok(IdaPoint {
-            im: *im,
-            pga_g: *pga_g,
-            slenderness_rad: scene.block.slenderness_rad(),
-            outcome: response.outcome,
-            fate_margin: response.fate_margin,
-            resolved,
-        })
-    }
-
-    /// Bisects between a standing intensity and the first overturned level:
-    /// the highest standing intensity and the lowest overturned analysis.
-    fn bisect(
-        &mut self,
-        standing_im: f64,
-        overturned: IdaPoint,
-    ) -> Result<Option<(f64, IdaPoint)>, IdaError> {
-        let Some(tolerance) = self.analysis.refine else {
-            return Ok(None);
-        };
-        let threshold =
-            uplift_threshold(&self.analysis.block, self.analysis.model);
-        let (mut low, mut high) = (standing_im, overturned);
-        while high.im - low > tolerance {
-            let middle = 0.5 * (low + high.im);
-            if !(middle > low && middle < high.im) {
-                break;
-            }
-            let point = self.at_im(middle, middle * threshold)?;
-            if point.outcome.is_overturned() {
-                high = point;
-            } else {
-                low = middle;
-            }
-        }
-        Ok(Some((low, high)))
-    }
+    let level = levels.at(im)?;
+    let response = respond(&level.scene, &Observe::default())?;
+    level.point(&response)
 }
 
 #[cfg(test)]

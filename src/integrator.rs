@@ -337,7 +337,6 @@ fn run(
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    let isa = isa.scalar();
     Ok(isa.run(Run { scene, observe, index, order, isa }))
 }
 

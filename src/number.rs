@@ -21,6 +21,9 @@ pub trait Number:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// True for several numbers at once.
+    const LANES: bool = false;
+
     /// The number that `x` is, exactly.
     fn from_f64(x: f64) -> Self;
 

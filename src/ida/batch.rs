@@ -1,37 +1,54 @@
-//! Many curves at once: chains in the lanes of the pool, on all threads.
+//! Many curves at once: their analyses in the slots of the pool, on all
+//! threads.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::excitation::NormalisedRecord;
-use crate::ida::{Analysis, Climb, Grid, IdaCurve, IdaError, Level, curve};
+use crate::ida::climb::{Aim, Climb};
+use crate::ida::levels::Level;
+use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_with};
 use crate::integrator::pool::{self, Class};
-use crate::integrator::{Observe, Response, Scene, check, uplift_threshold};
+use crate::integrator::{Response, Scene, uplift_threshold};
 use crate::number::dispatch::Isa;
 
 /// One curve to be made.
 #[derive(Clone, Copy)]
-struct Job {
+struct Job<'a> {
     /// Place among the results.
     index: usize,
-    analysis: usize,
-    record: usize,
-    /// Guess of the work, to start long chains first.
+    analysis: &'a Analysis,
+    record: &'a NormalisedRecord,
+    /// Guess of the work, to start long curves first.
     work: f64,
 }
 
-/// Chains that share a pool; without a class, each runs alone.
-struct Queue {
+/// The curves of a class; without a class, each is made alone.
+struct Queue<'a> {
     class: Option<Class>,
-    jobs: Vec<Job>,
-    taken: AtomicUsize,
+    book: Mutex<Book<'a>>,
 }
 
-impl Queue {
-    fn take(&self) -> Option<Job> {
-        let place = self.taken.fetch_add(1, Ordering::Relaxed);
-        self.jobs.get(place).copied()
-    }
+/// What is to be made, what is being made, and what was.
+struct Book<'a> {
+    /// In the order of their start, the next one last.
+    jobs: Vec<Job<'a>>,
+    climbs: BTreeMap<usize, Active<'a>>,
+    results: Vec<(usize, Result<IdaCurve, IdaError>)>,
+}
+
+/// A curve in the making, and how many of its analyses are being made.
+struct Active<'a> {
+    climb: Climb<'a>,
+    out: u64,
+}
+
+/// An analysis in a slot.
+struct Task<'a> {
+    /// Place of its curve.
+    index: usize,
+    aim: Aim,
+    level: Level<'a>,
 }
 
 /// [`crate::ida::curves`] at an instruction-set level.
@@ -41,47 +58,20 @@ pub(super) fn curves(
     isa: Isa,
     done: &(impl Fn() + Sync),
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    let queues = queues(records, analyses);
-    let results = Mutex::new(Vec::new());
-    let work = || {
-        let mut own = Vec::new();
-        for queue in &queues {
-            let mut keep = |index: usize, result| {
-                own.push((index, result));
-                done();
-            };
-            let Some(class) = queue.class else {
-                while let Some(job) = queue.take() {
-                    let (record, analysis) =
-                        (&records[job.record], &analyses[job.analysis]);
-                    keep(job.index, curve(record, analysis));
-                }
-                continue;
-            };
-            let take = || {
-                let job = queue.take()?;
-                let (record, analysis) =
-                    (&records[job.record], &analyses[job.analysis]);
-                Some(Chain {
-                    index: job.index,
-                    climb: Climb::start(record, analysis),
-                    level: None,
-                })
-            };
-            pool::run(class, isa, take, |chain: Chain<'_>| {
-                keep(chain.index, chain.climb.and_then(Climb::finish));
-            });
-        }
-        if let Ok(mut results) = results.lock() {
-            results.append(&mut own);
-        }
-    };
+    let queues = queues(records, analyses, isa);
     rayon::scope(|scope| {
         for _ in 0..rayon::current_num_threads() {
-            scope.spawn(|_| work());
+            scope.spawn(|_| {
+                for queue in &queues {
+                    queue.work(isa, done);
+                }
+            });
         }
     });
-    let mut flat = results.into_inner().unwrap_or_default();
+    let mut flat: Vec<_> = queues
+        .into_iter()
+        .flat_map(|queue| queue.open().results.split_off(0))
+        .collect();
     flat.sort_by_key(|(index, _)| *index);
     let mut flat = flat.into_iter().map(|(_, result)| result);
     (0..analyses.len())
@@ -89,31 +79,184 @@ pub(super) fn curves(
         .collect()
 }
 
-/// Chains by class, the longest first.
-fn queues(records: &[NormalisedRecord], analyses: &[Analysis]) -> Vec<Queue> {
-    let mut jobs = Vec::new();
-    for (a, analysis) in analyses.iter().enumerate() {
-        for (r, record) in records.iter().enumerate() {
-            let p = analysis.block.frequency_rad_s();
-            let class = Class::of(analysis.model, record.dt_s() * p);
-            let (index, work) = (jobs.len(), work(record, analysis));
-            jobs.push((class, Job { index, analysis: a, record: r, work }));
+impl<'a> Queue<'a> {
+    /// Makes curves until none is left to start.
+    fn work(&self, isa: Isa, done: &impl Fn()) {
+        if let Some(class) = self.class {
+            let mut desk = Desk { queue: self, last: None, done };
+            pool::run(class, isa, &mut desk);
+            return;
+        }
+        loop {
+            // Not within the loop's condition: it would hold the book.
+            let job = self.open().jobs.pop();
+            let Some(job) = job else { return };
+            let result = curve_with(job.record, job.analysis, isa);
+            self.open().results.push((job.index, result));
+            done();
         }
     }
-    let mut classes: Vec<Option<Class>> =
-        jobs.iter().map(|(class, _)| *class).collect();
-    classes.sort();
-    classes.dedup();
+
+    fn open(&self) -> MutexGuard<'_, Book<'a>> {
+        self.book.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A thread at a queue.
+struct Desk<'q, 'a, D> {
+    queue: &'q Queue<'a>,
+    /// Curve of which it settled an analysis last.
+    last: Option<usize>,
+    done: &'q D,
+}
+
+impl<'a> Book<'a> {
+    /// The next analysis of a curve in the making, if it has one now.
+    fn next(&mut self, index: usize, ahead: bool) -> Option<Task<'a>> {
+        let active = self.climbs.get_mut(&index)?;
+        match active.climb.next(ahead) {
+            Ok(None) => None,
+            Ok(Some((aim, level))) => {
+                active.out += 1;
+                Some(Task { index, aim, level })
+            }
+            Err(error) => {
+                self.end(index, Err(error));
+                None
+            }
+        }
+    }
+
+    /// The next analysis of whatever curve: of this one, of a new one, or
+    /// ahead of those being made.
+    fn take(
+        &mut self,
+        last: Option<usize>,
+        ended: &mut u64,
+    ) -> Option<Task<'a>> {
+        let before = self.results.len();
+        let found = last
+            .and_then(|index| self.next(index, false))
+            .or_else(|| self.start())
+            .or_else(|| self.ahead());
+        *ended = (self.results.len() - before) as u64;
+        found
+    }
+
+    fn start(&mut self) -> Option<Task<'a>> {
+        while let Some(Job { index, analysis, record, .. }) = self.jobs.pop() {
+            let climb = match Climb::start(record, analysis) {
+                Ok(climb) => climb,
+                Err(error) => {
+                    self.results.push((index, Err(error)));
+                    continue;
+                }
+            };
+            if climb.is_done() {
+                self.results.push((index, Ok(climb.finish())));
+                continue;
+            }
+            self.climbs.insert(index, Active { climb, out: 0 });
+            let task = self.next(index, false);
+            if task.is_some() {
+                return task;
+            }
+        }
+        None
+    }
+
+    /// An analysis of the curve that is furthest from being filled.
+    fn ahead(&mut self) -> Option<Task<'a>> {
+        let mut order: Vec<(u64, usize)> = self
+            .climbs
+            .iter()
+            .filter(|(_, active)| active.out < active.climb.reach())
+            .map(|(index, active)| (active.out, *index))
+            .collect();
+        order.sort_unstable();
+        order.into_iter().find_map(|(_, index)| self.next(index, true))
+    }
+
+    fn settle(
+        &mut self,
+        Task { index, aim, .. }: &Task<'_>,
+        point: Result<IdaPoint, IdaError>,
+    ) -> bool {
+        // Ahead of an overturning that has ended the curve.
+        let Some(active) = self.climbs.get_mut(index) else { return false };
+        active.out -= 1;
+        match point {
+            Ok(point) => active.climb.accept(*aim, point),
+            Err(error) => {
+                self.end(*index, Err(error));
+                return true;
+            }
+        }
+        if !active.climb.is_done() {
+            return false;
+        }
+        if let Some(active) = self.climbs.remove(index) {
+            self.results.push((*index, Ok(active.climb.finish())));
+        }
+        true
+    }
+
+    fn end(&mut self, index: usize, result: Result<IdaCurve, IdaError>) {
+        self.climbs.remove(&index);
+        self.results.push((index, result));
+    }
+}
+
+impl<'a, D: Fn()> pool::Source<'a> for Desk<'_, 'a, D> {
+    type Task = Task<'a>;
+
+    fn take(&mut self) -> Option<(Task<'a>, Scene<'a>)> {
+        let mut ended = 0;
+        let task = self.queue.open().take(self.last, &mut ended);
+        for _ in 0..ended {
+            (self.done)();
+        }
+        task.map(|task| {
+            let scene = task.level.scene;
+            (task, scene)
+        })
+    }
+
+    fn settle(&mut self, task: Task<'a>, response: &Response) {
+        self.last = Some(task.index);
+        let point = task.level.point(response);
+        if self.queue.open().settle(&task, point) {
+            (self.done)();
+        }
+    }
+}
+
+/// Curves by class, the longest started first.
+fn queues<'a>(
+    records: &'a [NormalisedRecord],
+    analyses: &'a [Analysis],
+    isa: Isa,
+) -> Vec<Queue<'a>> {
+    let mut classes: BTreeMap<Option<Class>, Vec<Job<'a>>> = BTreeMap::new();
+    let mut index = 0;
+    for analysis in analyses {
+        for record in records {
+            let p = analysis.block.frequency_rad_s();
+            let class = Class::of(analysis.model, record.dt_s() * p)
+                .filter(|_| isa.is_wide());
+            let work = work(record, analysis);
+            let job = Job { index, analysis, record, work };
+            classes.entry(class).or_default().push(job);
+            index += 1;
+        }
+    }
     classes
         .into_iter()
-        .map(|class| {
-            let mut jobs: Vec<Job> = jobs
-                .iter()
-                .filter(|(other, _)| *other == class)
-                .map(|(_, job)| *job)
-                .collect();
-            jobs.sort_by(|a, b| b.work.total_cmp(&a.work));
-            Queue { class, jobs, taken: AtomicUsize::new(0) }
+        .map(|(class, mut jobs)| {
+            jobs.sort_by(|a, b| a.work.total_cmp(&b.work));
+            let (climbs, results) = (BTreeMap::new(), Vec::new());
+            let book = Mutex::new(Book { jobs, climbs, results });
+            Queue { class, book }
         })
         .collect()
 }
@@ -130,42 +273,4 @@ fn work(record: &NormalisedRecord, analysis: &Analysis) -> f64 {
     };
     let reach = 1.0 / (p * record.velocity_ratio_s());
     record.samples().len() as f64 * levels * reach
-}
-
-/// A curve climbing in a lane.
-struct Chain<'a> {
-    index: usize,
-    climb: Result<Climb<'a>, IdaError>,
-    level: Option<Level<'a>>,
-}
-
-impl<'a> Chain<'a> {
-    fn advance(&self) -> Result<Option<Level<'a>>, IdaError> {
-        let Ok(climb) = &self.climb else { return Ok(None) };
-        let Some(level) = climb.next_level()? else { return Ok(None) };
-        check(&level.scene, &Observe::default())?;
-        Ok(Some(level))
-    }
-}
-
-impl<'a> pool::Chain<'a> for Chain<'a> {
-    fn next(&mut self) -> Option<Scene<'a>> {
-        match self.advance() {
-            Ok(level) => self.level = level,
-            Err(error) => {
-                self.climb = Err(error);
-                return None;
-            }
-        }
-        self.level.map(|level| level.scene)
-    }
-
-    fn settle(&mut self, response: &Response) {
-        let (Ok(climb), Some(level)) = (&mut self.climb, &self.level) else {
-            return;
-        };
-        if let Err(error) = climb.settle(level, response) {
-            self.climb = Err(error);
-        }
-    }
 }

@@ -10,8 +10,8 @@ use crate::integrator::taylor::{expand, slope, value};
 use crate::integrator::{
     HistoryPoint, Impact, Observe, Outcome, Response, Scene, Side, Work,
 };
-use crate::number::Real;
 use crate::number::dispatch::{Isa, Work as Dispatched};
+use crate::number::{Number, Real};
 
 /// Post-impact speed over alpha p below which an observer of events lets the
 /// geometric tail of the impacts stand for the rest of them: the tail's own
@@ -94,9 +94,6 @@ pub(crate) struct Step<N> {
     pub at_threshold: bool,
 }
 
-/// Coefficients of a step's rotation and velocity.
-type Series<'c, N, const LEN: usize> = (&'c [N; LEN], &'c [N; LEN]);
-
 /// Where a run stands between steps.
 pub(crate) enum Stage<N> {
     /// In flight, about to enter a step.
@@ -166,7 +163,7 @@ where
         let mut stage = self.begin(scene, observe);
         loop {
             match stage {
-                Stage::Flying(step) => stage = self.proceed(step, None),
+                Stage::Flying(step) => stage = self.proceed(step),
                 Stage::Landed(flight) => return self.conclude(&flight),
             }
         }
@@ -213,6 +210,18 @@ where
         self.record.peak
     }
 
+    /// Counts steps taken elsewhere.
+    #[inline(always)]
+    pub fn count_steps(&mut self, steps: u64) {
+        self.record.work.steps += steps;
+    }
+
+    /// Counts an impact solved elsewhere.
+    #[inline(always)]
+    pub fn count_impact(&mut self) {
+        self.record.work.impacts += 1;
+    }
+
     /// Truncation allowed per unit of p-time.
     #[inline(always)]
     pub fn tolerance(&self) -> N {
@@ -223,9 +232,7 @@ where
     /// allowed over a step of `length`.
     #[inline(always)]
     pub fn last_allowed<const LEN: usize>(&self, length: N) -> N {
-        let mut unit = [N::zero(); LEN];
-        unit[LEN - 1] = N::one();
-        self.tolerance * length / last_term(&unit, length)
+        self.tolerance * length / last_term(N::one(), LEN, length)
     }
 
     fn observe(&mut self, observe: &Observe) {
@@ -268,12 +275,8 @@ where
 
     /// One step, or a part of it, and the rest that may follow.
     #[inline(always)]
-    pub fn proceed(
-        &mut self,
-        mut step: Step<N>,
-        known: Option<Series<'_, N, SIZE>>,
-    ) -> Stage<N> {
-        match self.next(&mut step, known) {
+    pub fn proceed(&mut self, mut step: Step<N>) -> Stage<N> {
+        match self.next(&mut step) {
             None => Stage::Flying(step),
             Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
             Some(flight) => Stage::Landed(flight),
@@ -282,11 +285,7 @@ where
 
     /// One step, or the part of it up to an impact.
     #[inline(always)]
-    fn next(
-        &mut self,
-        step: &mut Step<N>,
-        known: Option<Series<'_, N, SIZE>>,
-    ) -> Option<Flight<N>> {
+    fn next(&mut self, step: &mut Step<N>) -> Option<Flight<N>> {
         let piece = step.place.piece;
         if piece >= self.forcing.pieces() {
             return Some(Flight::End(step.motion));
@@ -308,7 +307,7 @@ where
         }
         let length = boundary - step.place.offset;
         if length > N::zero() {
-            match self.advance(step, length, known) {
+            match self.advance(step, length) {
                 Advance::Reached => {}
                 Advance::Bounced => return None,
                 Advance::Ended(flight) => return Some(flight),
@@ -329,20 +328,9 @@ where
 
     /// One step: to its end, or to the first event in it.
     #[inline(always)]
-    fn advance(
-        &mut self,
-        step: &mut Step<N>,
-        length: N,
-        known: Option<Series<'_, N, SIZE>>,
-    ) -> Advance<N> {
-        let done = match known {
-            Some(series) => self.take(step, length, series),
-            None => self.attempt::<SIZE>(step, length),
-        };
-        if let Some(done) = done {
-            return done;
-        }
-        self.advance_hard(step, length)
+    fn advance(&mut self, step: &mut Step<N>, length: N) -> Advance<N> {
+        self.attempt::<SIZE>(step, length)
+            .unwrap_or_else(|| self.advance_hard(step, length))
     }
 
     /// A step of which the short series leaves too much: a longer series,
@@ -387,20 +375,9 @@ where
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let (a, b) = self.dynamics.drive(&oriented);
         let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, (&a, &b));
-        self.take(step, length, (&c, &v))
-    }
-
-    /// A step by a series already expanded, unless it leaves too much.
-    #[inline(always)]
-    fn take<const LEN: usize>(
-        &mut self,
-        step: &mut Step<N>,
-        length: N,
-        (c, v): Series<'_, N, LEN>,
-    ) -> Option<Advance<N>> {
-        let side = step.motion.side;
+        let (c, v) = (&c, &v);
         self.record.work.steps += 1;
-        if last_term(v, length) > self.tolerance * length {
+        if left_by(v, length) > self.tolerance * length {
             return None;
         }
         let event = self.first_event(c, length);
@@ -600,7 +577,8 @@ where
         }
     }
 
-    fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
+    /// Counts a turning point at `u`, `tau` after a place.
+    pub fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
         self.record.work.turning_points += 1;
         if u > self.record.peak {
             self.record.peak = u;
@@ -773,7 +751,7 @@ where
         let Some(accuracy) = &mut self.record.accuracy else { return };
         let (a, b) = (drive.0.to_f64(), drive.1.to_f64());
         let u0 = c[0].to_f64();
-        let last = last_term(v, tau).to_f64();
+        let last = left_by(v, tau).to_f64();
         let tau = tau.to_f64();
         let (j, force) = match model {
             Model::Nonlinear => {
@@ -942,7 +920,7 @@ where
             at_threshold: false,
         });
         while let Stage::Flying(step) = stage {
-            stage = free.proceed(step, None);
+            stage = free.proceed(step);
         }
         if let Stage::Landed(Flight::Rest(_, time_s)) = stage {
             let end = free.until_s.unwrap_or(time_s);
@@ -1078,10 +1056,16 @@ where
 /// coefficient of the velocity is at most about a quarter of its last one
 /// (1/`LEN` for the motion alone; the rest allows for strong forcing).
 #[inline(always)]
-pub(crate) fn last_term<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
-    let mut power = N::ratio(1, 4) * v[LEN - 1].abs();
+fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
+    last_term(v[LEN - 1].abs(), LEN, tau)
+}
+
+/// That estimate from the size of the last of `count` coefficients.
+#[inline(always)]
+pub(crate) fn last_term<N: Number>(last: N, count: usize, tau: N) -> N {
+    let mut power = N::ratio(1, 4) * last;
     let mut base = tau;
-    let mut left = LEN;
+    let mut left = count;
     while left > 0 {
         if left % 2 == 1 {
             power = power * base;

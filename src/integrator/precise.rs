@@ -65,7 +65,7 @@ pub fn respond_in<N: Real>(
     let p = block.frequency_rad_s();
     let dynamics = Dynamics::new(&block, restitution, model, overturning);
     let own = own_index(scene);
-    let isa = Isa::best().scalar();
+    let isa = Isa::best();
     Ok(match (scene.excitation, index_of(scene, own.as_ref())) {
         (Excitation::Record(record), Some(index)) => {
             let forcing = RecordForcing::new(record, index, p);

@@ -16,6 +16,16 @@ fn depth<N: Real>() -> u32 {
     (-libm::ilogb(N::ROUNDOFF) - 5).unsigned_abs()
 }
 
+/// A derivative surely keeps its sign where its value at the start is below
+/// this many times what the other terms can add to it.
+pub(crate) const SURELY: f64 = -1.01;
+
+/// Share of its size below which the sign of an end is not told.
+pub(crate) const NEAR_END: f64 = 1e-11;
+
+/// Newton's iterations at most.
+pub(crate) const NEWTON_LIMIT: usize = 200;
+
 /// Largest degree plus one of a polynomial here.
 const MOST: usize = 40;
 
@@ -81,7 +91,7 @@ impl<N: Real> Work for Isolation<'_, N> {
 #[inline(always)]
 fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
     if let Some(below) = ends_below(c, length) {
-        return if below { refine(c, N::zero(), length) } else { None };
+        return below.then(|| refine(c, N::zero(), length, parabola(c)));
     }
     let n = c.len() - 1;
     // Bernstein coefficients on [0, length]:
@@ -103,29 +113,51 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
     }
     let b = &mut b[..=n];
     let (low, high) = search(b, N::zero(), N::one(), depth::<N>())?;
-    refine(c, length * low, length * high)
-}
-
-/// Whether a polynomial that surely falls all the way ends below zero;
-/// nothing where it may not fall, or ends too near to zero to tell.
-///
-/// Its Bernstein coefficients fall too, so that isolation would find the
-/// whole interval or nothing.
-#[inline(always)]
-fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
-    if c.len() < 2 {
+    let (low, high) = (length * low, length * high);
+    if value(c, high) > N::zero() {
+        // Isolation saw a contact that is none.
         return None;
     }
-    let mut rest = N::zero();
-    for k in (2..c.len()).rev() {
-        rest = rest.mul_add(length, c[k].abs() * N::ratio(k as i32, 1));
+    Some(refine(c, low, high, parabola(c)))
+}
+
+/// First zero of the polynomial's first three terms, where it has one.
+#[inline(always)]
+fn parabola<N: Real>(c: &[N]) -> N {
+    if c.len() < 3 {
+        return N::zero();
     }
-    if !(c[1] < rest * length * N::ratio(-101, 100)) {
+    let four = N::from_f64(4.0);
+    let root = (c[1] * c[1] - four * c[0] * c[2]).sqrt();
+    (c[0] + c[0]) / (root - c[1])
+}
+
+/// Whether a polynomial that is positive at its start, and surely falls or
+/// is concave all the way, ends below zero; nothing where it may not be
+/// either, or ends too near to zero to tell.
+///
+/// Below zero it has one root, and its ends enclose it.
+#[inline(always)]
+fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
+    if c.len() < 3 {
+        return None;
+    }
+    let (mut steep, mut bent) = (N::zero(), N::zero());
+    for k in (2..c.len()).rev() {
+        let slope = c[k].abs() * N::ratio(k as i32, 1);
+        steep = steep.mul_add(length, slope);
+        if k > 2 {
+            bent = bent.mul_add(length, slope * N::ratio(k as i32 - 1, 1));
+        }
+    }
+    let falls = c[1] < steep * length * N::from_f64(SURELY);
+    let twice = c[2] + c[2];
+    if !(falls || twice < bent * length * N::from_f64(SURELY)) {
         return None;
     }
     let end = value(c, length);
     let size = c[0].abs() + c[1].abs() * length;
-    if !(end.abs() > size * N::from_f64(1e-11)) {
+    if !(end.abs() > size * N::from_f64(NEAR_END)) {
         return None;
     }
     Some(end < N::zero())
@@ -175,39 +207,36 @@ fn search<N: Real>(b: &[N], low: N, high: N, depth: u32) -> Option<(N, N)> {
     search(&right[..=n], middle, high, depth - 1)
 }
 
-/// The root in [low, high] by Newton's iteration inside a bracket whose left
-/// end is positive.
+/// The root in [low, high] by Newton's iteration from a guess, inside a
+/// bracket whose left end is positive and whose right end is not.
 #[inline(always)]
-fn refine<N: Real>(c: &[N], mut low: N, mut high: N) -> Option<N> {
+fn refine<N: Real>(c: &[N], mut low: N, mut high: N, guess: N) -> N {
     let half = N::ratio(1, 2);
-    if value(c, high) > N::zero() {
-        // Isolation saw a contact that is none.
-        return None;
-    }
-    let mut tau = half * (low + high);
-    for _ in 0..200 {
+    let inside = guess > low && guess < high;
+    let mut tau = if inside { guess } else { half * (low + high) };
+    for _ in 0..NEWTON_LIMIT {
         let here = value(c, tau);
         if here > N::zero() {
             low = tau;
         } else if here < N::zero() {
             high = tau;
         } else {
-            return Some(tau);
+            return tau;
         }
         let step = here / slope(c, tau);
         let next = tau - step;
         let inside = next > low && next < high;
         if inside && step.abs() <= tau.abs() * N::from_f64(N::NEWTON_STEP) {
-            return Some(next);
+            return next;
         }
         let width = high - low;
         let next = if inside { next } else { half * (low + high) };
         if !(width > high * N::from_f64(2.0 * N::ROUNDOFF)) {
-            return Some(high);
+            return high;
         }
         tau = next;
     }
-    Some(tau)
+    tau
 }
 
 #[cfg(test)]

@@ -26,18 +26,50 @@ pub(crate) fn expand<N: Number, const LEN: usize, const F: usize>(
 fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     u: N,
     w: N,
-    (a, b): (&[N; F], &[N; F]),
-    sine_cosine: (N, N),
+    drive: (&[N; F], &[N; F]),
+    (sine, cosine): (N, N),
 ) -> ([N; LEN], [N; LEN]) {
-    let mut c = [N::zero(); LEN];
-    let mut velocity = [N::zero(); LEN];
-    let mut sine = [N::zero(); LEN];
-    let mut cosine = [N::zero(); LEN];
-    c[0] = u;
-    c[1] = w;
-    velocity[0] = w;
-    (sine[0], cosine[0]) = sine_cosine;
-    for k in 0..LEN - 1 {
+    let mut series = Series {
+        c: [N::zero(); LEN],
+        velocity: [N::zero(); LEN],
+        sine: [N::zero(); LEN],
+        cosine: [N::zero(); LEN],
+    };
+    series.c[0] = u;
+    series.c[1] = w;
+    series.velocity[0] = w;
+    series.sine[0] = sine;
+    series.cosine[0] = cosine;
+    // Written out for lanes: loops in loops of this length are not unrolled.
+    macro_rules! first {
+        ($($k:literal)*) => {
+            $(if N::LANES && $k < LEN - 1 { series.extend($k, drive); })*
+        };
+    }
+    first!(0 1 2 3 4 5 6 7 8 9 10 11 12);
+    for k in if N::LANES { 13 } else { 0 }..LEN - 1 {
+        series.extend(k, drive);
+    }
+    (series.c, series.velocity)
+}
+
+/// Series of u, u', sin u and cos u.
+struct Series<N, const LEN: usize> {
+    c: [N; LEN],
+    velocity: [N; LEN],
+    sine: [N; LEN],
+    cosine: [N; LEN],
+}
+
+impl<N: Number, const LEN: usize> Series<N, LEN> {
+    /// Sine and cosine of order `k`, velocity of the next one.
+    #[inline(always)]
+    fn extend<const F: usize>(
+        &mut self,
+        k: usize,
+        (a, b): (&[N; F], &[N; F]),
+    ) {
+        let Self { c, velocity, sine, cosine } = self;
         if k > 0 {
             let mut s = velocity[0] * cosine[k - 1];
             let mut t = velocity[0] * sine[k - 1];
@@ -45,9 +77,8 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
                 s = velocity[j].mul_add(cosine[k - 1 - j], s);
                 t = velocity[j].mul_add(sine[k - 1 - j], t);
             }
-            let share = N::ratio(1, k as i32);
-            sine[k] = s * share;
-            cosine[k] = -(t * share);
+            sine[k] = s * N::ratio(1, k as i32);
+            cosine[k] = t * N::ratio(-1, k as i32);
         }
         let mut force = a[0] * sine[k];
         force = (-b[0]).mul_add(cosine[k], force);
@@ -60,7 +91,6 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
             c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
         }
     }
-    (c, velocity)
 }
 
 #[inline(always)]

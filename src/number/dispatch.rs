@@ -23,7 +23,8 @@ enum Level {
     Avx512,
 }
 
-/// A piece of work that [`Isa::run`] compiles once for each level.
+/// A piece of work that [`Isa::run`] or [`Isa::run_wide`] compiles once for
+/// each level.
 ///
 /// Everything that `run` calls on its hot path must be `#[inline(always)]`:
 /// code that is not inlined keeps the baseline instruction set.
@@ -81,28 +82,41 @@ impl Isa {
         }
     }
 
-    /// The level at which one number at a time is as fast as at this one.
+    /// True where several numbers at once are faster than one by one.
     #[must_use]
-    pub fn scalar(self) -> Isa {
-        match self.0 {
-            Level::Baseline => self,
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2 | Level::Avx512 => Isa(Level::Avx2),
-        }
+    pub fn is_wide(self) -> bool {
+        // Without fused operations nothing is gained by lanes.
+        cfg!(not(target_arch = "x86_64")) || self.0 != Level::Baseline
     }
 
-    /// Runs `work` with this level's instructions.
+    /// Runs `work` on one number at a time with this level's instructions.
     #[inline]
     pub fn run<W: Work>(self, work: W) -> W::Output {
         match self.0 {
             Level::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]
+            // SAFETY: an `Isa` of either level exists only where detection
+            // found the features. The wider one gains nothing here.
+            Level::Avx2 | Level::Avx512 => unsafe { avx2(work) },
+        }
+    }
+
+    /// Runs `work` on several numbers at once with this level's
+    /// instructions; none where that [is not faster](Self::is_wide).
+    #[inline]
+    pub fn run_wide<W: Work>(self, work: W) -> Option<W::Output> {
+        match self.0 {
+            #[cfg(not(target_arch = "x86_64"))]
+            Level::Baseline => Some(work.run()),
+            #[cfg(target_arch = "x86_64")]
+            Level::Baseline => None,
+            #[cfg(target_arch = "x86_64")]
             // SAFETY: an `Isa` of this level exists only where detection
             // found the features.
-            Level::Avx2 => unsafe { avx2(work) },
+            Level::Avx2 => Some(unsafe { avx2(work) }),
             #[cfg(target_arch = "x86_64")]
             // SAFETY: as above.
-            Level::Avx512 => unsafe { avx512(work) },
+            Level::Avx512 => Some(unsafe { avx512(work) }),
         }
     }
 }

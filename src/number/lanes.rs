@@ -26,6 +26,149 @@ impl<const W: usize> Lanes<W> {
         }
         Self(out)
     }
+
+    /// Square roots.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        let mut out = self.0;
+        for x in &mut out {
+            *x = x.sqrt();
+        }
+        Self(out)
+    }
+
+    /// Lanes in which this is less than `other`.
+    #[inline(always)]
+    pub fn below(self, other: Self) -> Mask<W> {
+        let mut out = [0; W];
+        for lane in 0..W {
+            out[lane] = ones(self.0[lane] < other.0[lane]);
+        }
+        Mask(out)
+    }
+
+    /// Lanes in which this equals `other`.
+    #[inline(always)]
+    pub fn equals(self, other: Self) -> Mask<W> {
+        let mut out = [0; W];
+        for lane in 0..W {
+            out[lane] = ones(self.0[lane] == other.0[lane]);
+        }
+        Mask(out)
+    }
+}
+
+#[inline(always)]
+fn ones(truth: bool) -> u64 {
+    if truth { u64::MAX } else { 0 }
+}
+
+/// A truth in every lane, as all its bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(align(64))]
+pub(crate) struct Mask<const W: usize>([u64; W]);
+
+impl<const W: usize> Mask<W> {
+    /// The same truth in every lane.
+    #[inline(always)]
+    pub fn splat(truth: bool) -> Self {
+        Self([ones(truth); W])
+    }
+
+    /// Sets the truth of a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, truth: bool) {
+        self.0[lane] = ones(truth);
+    }
+
+    /// The truth of a lane.
+    #[inline(always)]
+    pub fn at(self, lane: usize) -> bool {
+        self.0[lane] != 0
+    }
+
+    /// True if any lane's is.
+    #[inline(always)]
+    pub fn any(self) -> bool {
+        let mut any = 0;
+        for x in self.0 {
+            any |= x;
+        }
+        any != 0
+    }
+
+    /// Bit k set where lane k is true.
+    #[inline(always)]
+    pub fn bits(self) -> u64 {
+        let mut bits = 0;
+        for (lane, x) in self.0.iter().enumerate() {
+            bits |= x & (1 << lane);
+        }
+        bits
+    }
+
+    /// Where it is false.
+    #[inline(always)]
+    pub fn not(self) -> Self {
+        let mut out = self.0;
+        for x in &mut out {
+            *x = !*x;
+        }
+        Self(out)
+    }
+
+    /// Where both are true.
+    #[inline(always)]
+    pub fn and(self, other: Self) -> Self {
+        let mut out = self.0;
+        for (x, y) in out.iter_mut().zip(other.0) {
+            *x &= y;
+        }
+        Self(out)
+    }
+
+    /// Where either is true.
+    #[inline(always)]
+    pub fn or(self, other: Self) -> Self {
+        let mut out = self.0;
+        for (x, y) in out.iter_mut().zip(other.0) {
+            *x |= y;
+        }
+        Self(out)
+    }
+
+    /// Where this is true and `other` is not.
+    #[inline(always)]
+    pub fn but_not(self, other: Self) -> Self {
+        let mut out = self.0;
+        for (x, y) in out.iter_mut().zip(other.0) {
+            *x &= !y;
+        }
+        Self(out)
+    }
+
+    /// One where it is true, zero where it is not.
+    #[inline(always)]
+    pub fn count(self) -> [u64; W] {
+        let mut out = self.0;
+        for x in &mut out {
+            *x &= 1;
+        }
+        out
+    }
+
+    /// `yes` where it is true, `no` where it is not.
+    #[inline(always)]
+    pub fn select(self, yes: Lanes<W>, no: Lanes<W>) -> Lanes<W> {
+        let mut out = no.0;
+        for lane in 0..W {
+            let mask = self.0[lane];
+            let bits = (yes.0[lane].to_bits() & mask)
+                | (no.0[lane].to_bits() & !mask);
+            out[lane] = f64::from_bits(bits);
+        }
+        Lanes(out)
+    }
 }
 
 impl<const W: usize> Index<usize> for Lanes<W> {
@@ -82,6 +225,8 @@ impl<const W: usize> Neg for Lanes<W> {
 }
 
 impl<const W: usize> Number for Lanes<W> {
+    const LANES: bool = true;
+
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
         Self::splat(x)

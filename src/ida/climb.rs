@@ -1,0 +1,248 @@
+//! A curve in the making: which analyses it still needs, in which order.
+//!
+//! Levels rise to the first overturning; its bracket is bisected and levels
+//! above it are looked at, as asked. Rising levels may be made ahead of the
+//! ones below them: what lies above the first overturning is dropped, so
+//! that the curve is the same.
+
+use std::collections::BTreeMap;
+
+use crate::excitation::NormalisedRecord;
+use crate::ida::levels::{Level, Levels};
+use crate::ida::{
+    Analysis, FirstOverturning, IdaCurve, IdaError, IdaPoint, Resurrections,
+};
+
+/// What an analysis is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Aim {
+    /// A rising level.
+    Rising(u64),
+    /// The middle of the bracket.
+    Middle,
+    /// A level above the first overturning.
+    Above(u64),
+}
+
+/// A curve in the making.
+pub(super) struct Climb<'a> {
+    levels: Levels<'a>,
+    stage: Stage,
+    points: Vec<IdaPoint>,
+    overturning: Option<FirstOverturning>,
+    middles: u64,
+    above: BTreeMap<u64, IdaPoint>,
+}
+
+enum Stage {
+    /// Levels below `given` are handed out, those below `due` are settled;
+    /// `early` waits for the ones below it.
+    Rising {
+        given: u64,
+        due: u64,
+        early: BTreeMap<u64, IdaPoint>,
+    },
+    /// The bracket; `asked` while its middle is being made.
+    Bisecting {
+        low: f64,
+        high: IdaPoint,
+        asked: bool,
+    },
+    /// Levels from `given` to the intensity `end` are to be made; `due` is
+    /// how many of those handed out are not settled.
+    Above {
+        given: u64,
+        end: f64,
+        due: u64,
+    },
+    Done,
+}
+
+impl<'a> Climb<'a> {
+    pub fn start(
+        record: &'a NormalisedRecord,
+        analysis: &'a Analysis,
+    ) -> Result<Self, IdaError> {
+        let levels = Levels::new(record, analysis)?;
+        let first = levels.first();
+        let early = BTreeMap::new();
+        let mut climb = Self {
+            levels,
+            stage: Stage::Rising { given: first, due: first, early },
+            points: Vec::new(),
+            overturning: None,
+            middles: 0,
+            above: BTreeMap::new(),
+        };
+        climb.rise();
+        Ok(climb)
+    }
+
+    /// True when nothing is left to make.
+    pub fn is_done(&self) -> bool {
+        matches!(self.stage, Stage::Done)
+    }
+
+    /// The next analysis that is surely part of the curve, if none is being
+    /// made; with `ahead`, a rising level above those being made too.
+    pub fn next(
+        &mut self,
+        ahead: bool,
+    ) -> Result<Option<(Aim, Level<'a>)>, IdaError> {
+        let highest = self.levels.analysis.highest_im;
+        match &mut self.stage {
+            Stage::Rising { given, due, .. } => {
+                let level = *given;
+                let sure = level == *due;
+                if !(sure || ahead) || self.levels.im(level) > highest {
+                    return Ok(None);
+                }
+                let found = match self.levels.level(level) {
+                    Ok(found) => found,
+                    Err(error) if sure => return Err(error),
+                    // Perhaps it is never reached.
+                    Err(_) => return Ok(None),
+                };
+                *given += 1;
+                Ok(Some((Aim::Rising(level), found)))
+            }
+            Stage::Bisecting { low, high, asked } => {
+                if *asked {
+                    return Ok(None);
+                }
+                *asked = true;
+                let middle = 0.5 * (*low + high.im);
+                Ok(Some((Aim::Middle, self.levels.at(middle)?)))
+            }
+            Stage::Above { given, end, due } => {
+                let level = *given;
+                if !(self.levels.im(level) <= *end) {
+                    return Ok(None);
+                }
+                *given += 1;
+                *due += 1;
+                let found = self.levels.level(level)?;
+                Ok(Some((Aim::Above(level), found)))
+            }
+            Stage::Done => Ok(None),
+        }
+    }
+
+    /// How many levels may be made ahead of the lowest one not settled: few
+    /// at first, for most of them may lie above the first overturning.
+    pub fn reach(&self) -> u64 {
+        match self.stage {
+            Stage::Rising { .. } => 2 + self.points.len() as u64 / 4,
+            Stage::Above { .. } => u64::MAX,
+            Stage::Bisecting { .. } | Stage::Done => 0,
+        }
+    }
+
+    /// Takes what was made.
+    pub fn accept(&mut self, aim: Aim, point: IdaPoint) {
+        match (&mut self.stage, aim) {
+            (Stage::Rising { early, .. }, Aim::Rising(level)) => {
+                early.insert(level, point);
+                self.rise();
+            }
+            (Stage::Bisecting { low, high, asked }, Aim::Middle) => {
+                *asked = false;
+                self.middles += 1;
+                if point.outcome.is_overturned() {
+                    *high = point;
+                } else {
+                    *low = point.im;
+                }
+                let (low, high) = (*low, *high);
+                self.bisect(low, high);
+            }
+            (Stage::Above { due, .. }, Aim::Above(level)) => {
+                *due -= 1;
+                self.above.insert(level, point);
+                self.look_above();
+            }
+            // Made ahead, above the first overturning.
+            _ => {}
+        }
+    }
+
+    /// Takes the levels that are due, up to the first overturning.
+    fn rise(&mut self) {
+        let Stage::Rising { due, early, .. } = &mut self.stage else {
+            return;
+        };
+        while let Some(point) = early.remove(due) {
+            *due += 1;
+            let below = self.points.last().map_or(1.0, |point| point.im);
+            self.points.push(point);
+            if point.outcome.is_overturned() {
+                self.overturning = Some(FirstOverturning {
+                    scanned_im: point.im,
+                    refined: None,
+                    standing_im: below,
+                });
+                self.bisect(below, point);
+                return;
+            }
+        }
+        if self.levels.im(*due) > self.levels.analysis.highest_im {
+            self.stage = Stage::Done;
+        }
+    }
+
+    /// Goes on with a bracket: a standing intensity and an overturned
+    /// analysis.
+    fn bisect(&mut self, low: f64, high: IdaPoint) {
+        if let Some(tolerance) = self.levels.analysis.refine {
+            let middle = 0.5 * (low + high.im);
+            let inside = middle > low && middle < high.im;
+            if high.im - low > tolerance && inside {
+                self.stage = Stage::Bisecting { low, high, asked: false };
+                return;
+            }
+            if let Some(overturning) = &mut self.overturning {
+                overturning.refined = Some(high);
+                overturning.standing_im = low;
+            }
+        }
+        self.stage = match (self.overturning, self.reach_above()) {
+            (Some(first), Some(reach)) => Stage::Above {
+                given: self.levels.first() + self.points.len() as u64,
+                end: match reach {
+                    Resurrections::Multiple(times) => times * first.scanned_im,
+                    Resurrections::To(im) => im,
+                },
+                due: 0,
+            },
+            _ => Stage::Done,
+        };
+        self.look_above();
+    }
+
+    fn reach_above(&self) -> Option<Resurrections> {
+        self.levels.analysis.resurrections
+    }
+
+    fn look_above(&mut self) {
+        if let Stage::Above { given, end, due: 0 } = self.stage
+            && !(self.levels.im(given) <= end)
+        {
+            self.stage = Stage::Done;
+        }
+    }
+
+    /// The curve.
+    pub fn finish(self) -> IdaCurve {
+        let record = self.levels.record;
+        let analyses = self.points.len() + self.above.len();
+        IdaCurve {
+            record: record.name().to_owned(),
+            record_pga_g: record.pga_g(),
+            velocity_ratio_s: record.velocity_ratio_s(),
+            points: self.points,
+            overturning: self.overturning,
+            above: self.above.into_values().collect(),
+            analyses: analyses as u64 + self.middles,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Levels of a curve: their intensities, their scenes, what a response
+//! makes of them.
+
+use crate::block::Block;
+use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use crate::ida::{Analysis, Grid, IdaError, IdaPoint, Method, Resurrections};
+use crate::integrator::{
+    self, Certified, Model, Observe, Response, Scene, respond,
+    uplift_threshold,
+};
+
+/// Margins below this are worth an error estimate.
+const NEAR: f64 = 1e-6;
+
+/// One record under one analysis.
+#[derive(Clone, Copy)]
+pub(super) struct Levels<'a> {
+    pub record: &'a NormalisedRecord,
+    pub analysis: &'a Analysis,
+    threshold: f64,
+}
+
+/// An analysis about to be made.
+#[derive(Clone, Copy)]
+pub(super) struct Level<'a> {
+    pub im: f64,
+    /// PGA applied, multiples of gravity.
+    pga_g: f64,
+    pub scene: Scene<'a>,
+}
+
+impl<'a> Levels<'a> {
+    pub fn new(
+        record: &'a NormalisedRecord,
+        analysis: &'a Analysis,
+    ) -> Result<Self, IdaError> {
+        check(record, analysis)?;
+        let threshold = uplift_threshold(&analysis.block, analysis.model);
+        Ok(Self { record, analysis, threshold })
+    }
+
+    /// PGA of a level in multiples of gravity.
+    fn pga_g(&self, level: u64) -> f64 {
+        let k = level as f64;
+        match self.analysis.grid {
+            Grid::Pga { step_g } => {
+                // k/100 is the nearest double to the level, k 0.01 is not.
+                let parts = (1.0 / step_g).round();
+                if (parts * step_g - 1.0).abs() < 1e-12 {
+                    k / parts
+                } else {
+                    k * step_g
+                }
+            }
+            Grid::Im { .. } => self.im(level) * self.threshold,
+        }
+    }
+
+    /// Intensity of a level.
+    pub fn im(&self, level: u64) -> f64 {
+        match self.analysis.grid {
+            Grid::Pga { .. } => self.pga_g(level) / self.threshold,
+            Grid::Im { step } => {
+                let parts = (1.0 / step).round();
+                if (parts * step - 1.0).abs() < 1e-12 {
+                    1.0 + level as f64 / parts
+                } else {
+                    (level as f64).mul_add(step, 1.0)
+                }
+            }
+        }
+    }
+
+    /// First level above the uplift threshold.
+    pub fn first(&self) -> u64 {
+        match self.analysis.grid {
+            Grid::Im { .. } => 1,
+            Grid::Pga { step_g } => {
+                let mut level = (self.threshold / step_g) as u64;
+                while !(self.pga_g(level) > self.threshold) {
+                    level += 1;
+                }
+                level
+            }
+        }
+    }
+
+    /// The analysis of a level.
+    pub fn level(&self, level: u64) -> Result<Level<'a>, IdaError> {
+        self.scaled(self.im(level), self.pga_g(level))
+    }
+
+    /// The analysis at an intensity.
+    pub fn at(&self, im: f64) -> Result<Level<'a>, IdaError> {
+        self.scaled(im, im * self.threshold)
+    }
+
+    /// The analysis at an intensity, which is `pga_g` for the block of the
+    /// grid.
+    fn scaled(&self, im: f64, pga_g: f64) -> Result<Level<'a>, IdaError> {
+        let analysis = self.analysis;
+        let (block, amplitude) = match analysis.method {
+            Method::RecordScaling => (analysis.block, pga_g),
+            Method::SlendernessAdjustment => {
+                let own = self.record.pga_g();
+                let slenderness_rad = match analysis.model {
+                    Model::Nonlinear => libm::atan(own / im),
+                    Model::Linearized => own / im,
+                };
+                let block = Block::try_new(
+                    slenderness_rad,
+                    analysis.block.frequency_rad_s(),
+                )
+                .map_err(|source| IdaError::Slenderness {
+                    record: self.record.name().to_owned(),
+                    im,
+                    source,
+                })?;
+                (block, own)
+            }
+        };
+        let record = ScaledRecord::to_pga(self.record, amplitude);
+        let scene = Scene {
+            block,
+            restitution: analysis.restitution,
+            model: analysis.model,
+            overturning: analysis.overturning,
+            excitation: Excitation::Record(record),
+            initial_ratio: 0.0,
+        };
+        integrator::check(&scene, &Observe::default())?;
+        Ok(Level { im, pga_g: amplitude, scene })
+    }
+}
+
+impl Level<'_> {
+    /// The point that the level's response makes.
+    pub fn point(&self, response: &Response) -> Result<IdaPoint, IdaError> {
+        let resolved = response.fate_margin > NEAR || {
+            let careful = Observe { accuracy: true, ..Observe::default() };
+            respond(&self.scene, &careful)?.is_resolved()
+        };
+        Ok(IdaPoint {
+            im: self.im,
+            pga_g: self.pga_g,
+            slenderness_rad: self.scene.block.slenderness_rad(),
+            outcome: response.outcome,
+            fate_margin: response.fate_margin,
+            resolved,
+        })
+    }
+
+    /// The point that the level's certified fate makes.
+    pub fn certified(&self, fate: &Certified) -> IdaPoint {
+        IdaPoint {
+            im: self.im,
+            pga_g: self.pga_g,
+            slenderness_rad: self.scene.block.slenderness_rad(),
+            outcome: fate.outcome,
+            fate_margin: fate.margin,
+            resolved: fate.decided,
+        }
+    }
+}
+
+fn check(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+) -> Result<(), IdaError> {
+    let positive = |what, found: f64| {
+        if found > 0.0 && found.is_finite() {
+            Ok(())
+        } else {
+            Err(IdaError::NotPositive { what, found })
+        }
+    };
+    match analysis.grid {
+        Grid::Pga { step_g } => positive("step in g", step_g)?,
+        Grid::Im { step } => positive("step in IM", step)?,
+    }
+    positive("highest IM", analysis.highest_im)?;
+    if let Some(tolerance) = analysis.refine {
+        positive("refinement", tolerance)?;
+    }
+    match analysis.resurrections {
+        Some(Resurrections::Multiple(x)) => positive("resurrections", x)?,
+        Some(Resurrections::To(x)) => positive("resurrections", x)?,
+        None => {}
+    }
+    if record.pga_g() > 0.0 {
+        Ok(())
+    } else {
+        Err(IdaError::Silent { record: record.name().to_owned() })
+    }
+}

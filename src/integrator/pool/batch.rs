@@ -1,0 +1,334 @@
+//! Eight lanes in whose steps something may happen, solved together.
+//!
+//! The decisions are those of the scalar driver and its root finder, by the
+//! same operations in the same order; a lane whose step needs more than one
+//! plain impact is left to them.
+
+use crate::integrator::SMOOTH;
+use crate::integrator::driver::last_term;
+use crate::integrator::dynamics::{Model, drive};
+use crate::integrator::pool::group::{Group, WIDTH};
+use crate::integrator::pool::roots::{descent, refine};
+use crate::integrator::pool::{Lane, Line, SMALL, Slot};
+use crate::integrator::taylor::{expand, value};
+use crate::number::Number;
+use crate::number::lanes::{Lanes, Mask};
+
+type Eight = Lanes<WIDTH>;
+type Which = Mask<WIDTH>;
+
+/// Lanes gathered from the groups.
+pub(super) struct Batch {
+    pub lanes: [Lane; WIDTH],
+    pub count: usize,
+    u: Eight,
+    w: Eight,
+    here: Eight,
+    ahead: Eight,
+    offset: Eight,
+    length: Eight,
+    amplitude: Eight,
+    whole: Eight,
+    inverse: Eight,
+    threshold: Eight,
+    sine: Eight,
+    cosine: Eight,
+    peak: Eight,
+    limit: Eight,
+    eta: Eight,
+    /// Truncation allowed per unit of p-time.
+    tolerance: Eight,
+}
+
+/// What became of the lanes of a batch.
+pub(super) struct Solved {
+    pub lanes: [Lane; WIDTH],
+    pub count: usize,
+    /// Not solved: left to the scalar driver.
+    pub left: Which,
+    /// Not solved: for the longest series.
+    pub hard: Which,
+    /// An impact; the others reach the end of the sample.
+    pub impact: Which,
+    /// The short series was tried before the longest.
+    pub again: Which,
+    /// The block turned, at `top` after `turn`.
+    pub turned: Which,
+    pub turn: Eight,
+    pub top: Eight,
+    pub u: Eight,
+    pub w: Eight,
+    pub here: Eight,
+    pub offset: Eight,
+    pub length: Eight,
+    pub amplitude: Eight,
+}
+
+impl Solved {
+    pub fn nothing() -> Self {
+        let (zero, none) = (Lanes::splat(0.0), Mask::splat(false));
+        Self {
+            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            count: 0,
+            left: none,
+            hard: none,
+            impact: none,
+            again: none,
+            turned: none,
+            turn: zero,
+            top: zero,
+            u: zero,
+            w: zero,
+            here: zero,
+            offset: zero,
+            length: zero,
+            amplitude: zero,
+        }
+    }
+}
+
+/// Coefficients of rotation and velocity.
+type Series<const SIZE: usize> = ([Eight; SIZE], [Eight; SIZE]);
+
+/// A turning point of a step.
+struct Turning {
+    /// There surely is one, at `turn`.
+    found: Which,
+    turn: Eight,
+    /// It takes more to tell.
+    unsure: Which,
+}
+
+/// The first impact of a step.
+struct FirstImpact {
+    /// There surely is one, at `tau`.
+    found: Which,
+    tau: Eight,
+    /// It takes more to tell.
+    unsure: Which,
+}
+
+impl Batch {
+    pub fn empty() -> Self {
+        let zero = Lanes::splat(0.0);
+        Self {
+            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            count: 0,
+            u: zero,
+            w: zero,
+            here: zero,
+            ahead: zero,
+            offset: zero,
+            length: zero,
+            amplitude: zero,
+            whole: zero,
+            inverse: zero,
+            threshold: zero,
+            sine: zero,
+            cosine: zero,
+            peak: zero,
+            limit: zero,
+            eta: zero,
+            tolerance: zero,
+        }
+    }
+
+    /// Takes up to eight lanes out of a line; those beyond have no meaning.
+    pub fn gather<T, const LEN: usize>(
+        &mut self,
+        line: &mut Line,
+        groups: &[Group<'_>],
+        slots: &[Option<Slot<'_, T, LEN>>],
+    ) {
+        (self.lanes, self.count) = line.take();
+        let out = self;
+        let lanes = out.lanes;
+        for (i, id) in lanes.iter().take(out.count).enumerate() {
+            let (group, lane) = (&groups[id.group], id.lane);
+            out.u[i] = group.u[lane];
+            out.w[i] = group.w[lane];
+            out.here[i] = group.here[lane];
+            out.ahead[i] = group.ahead(lane);
+            out.offset[i] = group.offset[lane];
+            out.length[i] = group.length[lane];
+            out.amplitude[i] = group.amplitude[lane];
+            out.whole[i] = group.whole[lane];
+            out.inverse[i] = group.inverse[lane];
+            out.threshold[i] = group.threshold[lane];
+            out.sine[i] = group.sine[lane];
+            out.cosine[i] = group.cosine[lane];
+            out.peak[i] = group.peak[lane];
+            if let Some(slot) = &slots[id.slot()] {
+                let dynamics = slot.driver.dynamics();
+                out.limit[i] = dynamics.limit;
+                out.eta[i] = dynamics.eta;
+                out.tolerance[i] = slot.driver.tolerance();
+            }
+        }
+    }
+
+    /// Solves the steps by series of `SIZE` coefficients, the class' own
+    /// being `LEN`; nothing happens in them if they are `FREE`.
+    #[inline(always)]
+    pub fn solve<const LEN: usize, const SIZE: usize, const FREE: bool>(
+        &self,
+        model: Model,
+        out: &mut Solved,
+    ) {
+        let zero = Eight::zero();
+        let (all, none) = (Mask::splat(true), Mask::splat(false));
+        let (h, offset) = (self.length, self.offset);
+        let rate = (self.ahead - self.here) * self.inverse;
+        let series = [rate.mul_add(offset, self.here), rate];
+        let constants = (self.threshold, self.sine, self.cosine);
+        let (a, b) = drive(model, constants, &series);
+        let small = match model {
+            Model::Nonlinear => self.u.sin_cos_small(),
+            Model::Linearized => (self.u, Number::one()),
+        };
+        let (mut c, mut v): Series<SIZE> =
+            expand(model, self.u, self.w, (&a, &b), small);
+        // Beyond it the driver takes other functions.
+        let large = match model {
+            Model::Nonlinear => all.but_not(self.u.below(Lanes::splat(SMALL))),
+            Model::Linearized => none,
+        };
+        let mut left = large;
+        let allowed = self.tolerance * h;
+        let again = allowed.below(last_term(v[LEN - 1].abs(), LEN, h));
+        let mut hard = none;
+        if SIZE > LEN {
+            // Where the class' own series is enough, it is it.
+            for k in LEN..SIZE {
+                c[k] = again.select(c[k], zero);
+                v[k] = again.select(v[k], zero);
+            }
+            let last = last_term(v[SIZE - 1].abs(), SIZE, h);
+            left = left.or(allowed.below(last));
+        } else if LEN < SMOOTH {
+            hard = again;
+        } else {
+            left = left.or(again);
+        }
+        out.lanes = self.lanes;
+        out.count = self.count;
+        out.again = if SIZE > LEN { again } else { none };
+        out.hard = hard.but_not(large);
+        if FREE {
+            out.left = left.but_not(out.hard);
+            (out.impact, out.turned) = (none, none);
+            (out.u, out.w) = (value(&c, h), value(&v, h));
+            (out.here, out.amplitude) = (self.ahead, self.amplitude);
+            (out.offset, out.length) = (zero, self.whole);
+            return;
+        }
+
+        let first = self.first_impact(&c);
+        left = left.or(first.unsure);
+        let impact = first.found;
+        let tau = impact.select(first.tau, h);
+        let turning = self.turning(&c, &v, tau);
+        left = left.or(turning.unsure);
+        let (end_u, end_w) = (value(&c, tau), value(&v, tau));
+
+        // The impact, and whether the motion may come to rest after it.
+        let fall = zero.below(-end_w);
+        let w = self.eta * fall.select(-end_w, zero);
+        let there = offset + tau;
+        let f = rate.mul_add(there, self.here).abs();
+        let margin = self.threshold - f;
+        let scale = match model {
+            Model::Nonlinear => (self.threshold - f) * self.cosine,
+            Model::Linearized => self.threshold - f,
+        };
+        let guess = (w + w) / (scale * (Eight::one() - self.eta));
+        let chatter = w
+            .equals(zero)
+            .or(zero.below(margin).and(guess.below(self.whole - there)));
+        // A step of no length is none.
+        let short = there.below(self.whole);
+        let settled = chatter.or(all.but_not(short));
+        left = left.or(impact.and(settled));
+
+        out.left = left.but_not(out.hard);
+        out.impact = impact;
+        out.turned = turning.found;
+        out.turn = turning.turn;
+        out.top = value(&c, turning.turn);
+        out.u = impact.select(zero, end_u);
+        out.w = impact.select(w, end_w);
+        out.here = impact.select(-self.here, self.ahead);
+        out.offset = impact.select(there, zero);
+        out.length = impact.select(self.whole - there, self.whole);
+        out.amplitude = impact.select(-self.amplitude, self.amplitude);
+    }
+
+    /// The first impact, as the driver and its root finder see it.
+    #[inline(always)]
+    fn first_impact<const SIZE: usize>(
+        &self,
+        c: &[Eight; SIZE],
+    ) -> FirstImpact {
+        let zero = Eight::zero();
+        let h = self.length;
+        let mut rest = zero;
+        for k in (2..SIZE).rev() {
+            rest = rest.mul_add(h, c[k].abs());
+        }
+        let rest = rest * h;
+        let linear = c[1] * h;
+        let spread = rest * h;
+        let falling = c[1].below(zero);
+        let down = falling.select(linear, zero);
+        let up = falling.select(zero, linear);
+        let at_base = c[0].equals(zero);
+        let clear_of_base =
+            spread.below(c[0] + down).or(at_base.and(rest.below(c[1])));
+        let clear_of_limit = (c[0] + up + spread).below(self.limit);
+
+        // A start on the base is divided out.
+        let mut q = *c;
+        for k in 0..SIZE {
+            let next = if k + 1 < SIZE { c[k + 1] } else { zero };
+            q[k] = at_base.select(next, c[k]);
+        }
+        let descent = descent(&q, h);
+        let none = clear_of_base.or(descent.none);
+        let sure = clear_of_limit.and(none.or(descent.one));
+        let found = sure.but_not(none);
+        let tau = refine(&q, h, found);
+        FirstImpact { found, tau, unsure: sure.not() }
+    }
+
+    /// A turning point before `tau` that may be above the peak.
+    #[inline(always)]
+    fn turning<const SIZE: usize>(
+        &self,
+        c: &[Eight; SIZE],
+        v: &[Eight; SIZE],
+        tau: Eight,
+    ) -> Turning {
+        let zero = Eight::zero();
+        let (mut rest, mut variation) = (zero, zero);
+        for k in (1..SIZE).rev() {
+            if k > 1 {
+                rest = rest.mul_add(tau, c[k].abs());
+            }
+            variation = variation.mul_add(tau, v[k].abs());
+        }
+        let rise = zero.below(c[1]).select(c[1] * tau, zero);
+        let high = c[0] + rise + rest * tau * tau;
+        let may =
+            self.peak.below(high).but_not((variation * tau).below(v[0].abs()));
+        if !may.any() {
+            return Turning { found: may, turn: zero, unsure: may };
+        }
+        // Only a velocity that falls all the way turns just once.
+        let descent = descent(v, tau);
+        let found = may.and(descent.one);
+        let turn = refine(v, tau, found);
+        let found = found.and(turn.below(tau));
+        let none = descent.none.or(found);
+        Turning { found, turn, unsure: may.but_not(none) }
+    }
+}

@@ -1,0 +1,243 @@
+//! A group of lanes in flight, stepped together.
+
+use crate::integrator::Side;
+use crate::integrator::driver::Stage;
+use crate::integrator::dynamics::{Model, drive};
+use crate::integrator::pool::{Lane, SAFETY, SMALL, Slot, Waiting};
+use crate::integrator::taylor::{expand, value};
+use crate::number::Number;
+use crate::number::lanes::{Lanes, Mask};
+
+/// Lanes stepped at once.
+pub(super) const WIDTH: usize = 8;
+
+/// Motion and constants of the runs in the lanes of a group.
+pub(super) struct Group<'a> {
+    pub u: Lanes<WIDTH>,
+    pub w: Lanes<WIDTH>,
+    /// Forcing at the start of the sample, on the side of the rotation.
+    pub here: Lanes<WIDTH>,
+    /// Start of the step within the sample.
+    pub offset: Lanes<WIDTH>,
+    /// Length of the step.
+    pub length: Lanes<WIDTH>,
+    /// Amplitude with the sign of the side.
+    pub amplitude: Lanes<WIDTH>,
+    /// Length of the sample, and one over it.
+    pub whole: Lanes<WIDTH>,
+    pub inverse: Lanes<WIDTH>,
+    pub threshold: Lanes<WIDTH>,
+    pub sine: Lanes<WIDTH>,
+    pub cosine: Lanes<WIDTH>,
+    /// Largest last coefficient of the velocity that leaves little enough.
+    last: Lanes<WIDTH>,
+    /// Rotation that nothing may reach.
+    ceiling: Lanes<WIDTH>,
+    /// Largest rotation at a turning point so far.
+    pub peak: Lanes<WIDTH>,
+    pub side: [Side; WIDTH],
+    pub samples: [&'a [f64]; WIDTH],
+    /// Sample at the end of the step.
+    pub next: [u64; WIDTH],
+    /// Sample at the end of the first step here.
+    first: [u64; WIDTH],
+    /// Steps taken here beside one for each sample.
+    pub extra: [u64; WIDTH],
+    /// Lanes that fly; the others are empty or wait.
+    active: Mask<WIDTH>,
+}
+
+/// Lanes that did not take a step, a bit each.
+pub(super) struct Parked {
+    /// All of them.
+    stopped: u64,
+    /// Those in which the series leaves too much and nothing happens.
+    hard: u64,
+}
+
+impl Parked {
+    /// Lets them wait for others.
+    #[inline(always)]
+    pub fn park(&self, group: usize, waiting: &mut Waiting) {
+        let mut left = self.stopped;
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let line = if (self.hard >> lane) & 1 == 1 {
+                &mut waiting.hard
+            } else {
+                &mut waiting.events
+            };
+            line.push(Lane { group, lane });
+        }
+    }
+}
+
+impl<'a> Group<'a> {
+    pub fn idle() -> Self {
+        let zero = Lanes::splat(0.0);
+        Self {
+            u: zero,
+            w: zero,
+            here: zero,
+            offset: zero,
+            length: zero,
+            amplitude: zero,
+            whole: zero,
+            inverse: zero,
+            threshold: zero,
+            sine: zero,
+            cosine: zero,
+            last: zero,
+            ceiling: zero,
+            peak: zero,
+            side: [Side::Positive; WIDTH],
+            samples: [&[]; WIDTH],
+            next: [0; WIDTH],
+            first: [0; WIDTH],
+            extra: [0; WIDTH],
+            active: Mask::splat(false),
+        }
+    }
+
+    /// True when no lane flies.
+    #[inline(always)]
+    pub fn is_idle(&self) -> bool {
+        !self.active.any()
+    }
+
+    /// Lets a lane fly.
+    #[inline(always)]
+    pub fn resume(&mut self, lane: usize) {
+        self.active.set(lane, true);
+    }
+
+    /// Sample ahead of a lane, scaled; not a number beyond the record.
+    #[inline(always)]
+    pub fn ahead(&self, lane: usize) -> f64 {
+        let sample = self.samples[lane].get(self.next[lane] as usize);
+        sample.map_or(f64::NAN, |sample| *sample * self.amplitude[lane])
+    }
+
+    /// Gives a lane's motion back to its run.
+    #[inline(always)]
+    pub fn release<T, const LEN: usize>(
+        &mut self,
+        lane: usize,
+        slot: &mut Slot<'a, T, LEN>,
+    ) {
+        let steps = self.next[lane] - self.first[lane] + self.extra[lane];
+        slot.driver.count_steps(steps);
+        self.samples[lane] = &[];
+        self.active.set(lane, false);
+        let Stage::Flying(step) = &mut slot.stage else { return };
+        step.place.piece = self.next[lane] as usize - 1;
+        step.place.offset = self.offset[lane];
+        step.motion.u = self.u[lane];
+        step.motion.w = self.w[lane];
+        step.motion.side = self.side[lane];
+    }
+
+    /// Takes a run in flight into a lane.
+    #[inline(always)]
+    pub fn load<T, const LEN: usize>(
+        &mut self,
+        lane: usize,
+        slot: &Slot<'a, T, LEN>,
+    ) {
+        let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
+            return;
+        };
+        let dynamics = driver.dynamics();
+        let forcing = driver.forcing();
+        let h = forcing.step();
+        let amplitude = forcing.amplitude() * step.motion.side.sign();
+        let samples = forcing.samples();
+        let piece = step.place.piece;
+        (self.u[lane], self.w[lane]) = (step.motion.u, step.motion.w);
+        self.side[lane] = step.motion.side;
+        self.here[lane] = samples[piece] * amplitude;
+        self.amplitude[lane] = amplitude;
+        self.offset[lane] = step.place.offset;
+        self.length[lane] = h - step.place.offset;
+        self.whole[lane] = h;
+        self.inverse[lane] = forcing.inverse();
+        self.threshold[lane] = dynamics.threshold;
+        (self.sine[lane], self.cosine[lane]) = dynamics.sine_cosine();
+        self.samples[lane] = samples;
+        self.next[lane] = piece as u64 + 1;
+        self.first[lane] = piece as u64 + 1;
+        self.extra[lane] = 0;
+        self.last[lane] = driver.last_allowed::<LEN>(h) / SAFETY;
+        self.ceiling[lane] = dynamics.limit.min(SMALL);
+        self.peak[lane] = driver.peak();
+        self.active.set(lane, true);
+    }
+
+    /// One step, to the end of the sample, in every lane that is clear of
+    /// events.
+    #[inline(always)]
+    pub fn step<const LEN: usize>(&mut self, model: Model) -> Parked {
+        let mut ahead = Lanes::splat(f64::NAN);
+        for lane in 0..WIDTH {
+            if let Some(sample) =
+                self.samples[lane].get(self.next[lane] as usize)
+            {
+                ahead[lane] = *sample;
+            }
+        }
+        let ahead = ahead * self.amplitude;
+        let rate = (ahead - self.here) * self.inverse;
+        let series = [rate.mul_add(self.offset, self.here), rate];
+        let constants = (self.threshold, self.sine, self.cosine);
+        let (a, b) = drive(model, constants, &series);
+        let small = match model {
+            Model::Nonlinear => self.u.sin_cos_small(),
+            Model::Linearized => (self.u, Number::one()),
+        };
+        let (c, v): ([_; LEN], [_; LEN]) =
+            expand(model, self.u, self.w, (&a, &b), small);
+        let free = self.free_of_events((&a, &b));
+        let enough = v[LEN - 1].abs().below(self.last);
+        let clear = self.active.and(free).and(enough);
+        let h = self.length;
+        self.u = clear.select(value(&c, h), self.u);
+        self.w = clear.select(value(&v, h), self.w);
+        self.here = clear.select(ahead, self.here);
+        self.offset = clear.select(Number::zero(), self.offset);
+        self.length = clear.select(self.whole, self.length);
+        let count = clear.count();
+        for lane in 0..WIDTH {
+            self.next[lane] += count[lane];
+        }
+        let stopped = self.active.but_not(clear);
+        self.active = clear;
+        Parked { stopped: stopped.bits(), hard: free.bits() }
+    }
+
+    /// Lanes in which the step meets no base, no limit, and no turning point
+    /// above the peak: with |u''| below a bound M, u(tau) lies within
+    /// M tau^2/2 of u_0 + w_0 tau, and the velocity within M tau of w_0.
+    #[inline(always)]
+    fn free_of_events(
+        &self,
+        (a, b): (&[Lanes<WIDTH>; 2], &[Lanes<WIDTH>; 2]),
+    ) -> Mask<WIDTH> {
+        let h = self.length;
+        let zero = Lanes::splat(0.0);
+        // |A| sin u + |B| below the ceiling.
+        let pull = a[1].abs().mul_add(h, a[0].abs()) * self.ceiling;
+        let bend = b[0].abs() + b[1].abs().mul_add(h, pull);
+        let turn = bend * h * Lanes::splat(SAFETY);
+        let spread = turn * h * Lanes::splat(0.5);
+        let linear = self.u + self.w * h;
+        let (low, high) = (linear - spread, linear + spread);
+        let outside = self.u.below(zero);
+        let above = high.below(self.ceiling).and(self.u.below(self.ceiling));
+        let turning = high
+            .below(self.peak)
+            .and(self.u.below(self.peak))
+            .or(turn.below(self.w.abs()));
+        zero.below(low).and(above).and(turning).but_not(outside)
+    }
+}

@@ -1,0 +1,98 @@
+//! The scalar root finder's plain cases, in lanes: the same operations in
+//! the same order.
+
+use crate::integrator::pool::group::WIDTH;
+use crate::integrator::roots::{NEAR_END, NEWTON_LIMIT, SURELY};
+use crate::integrator::taylor::{slope, value};
+use crate::number::lanes::{Lanes, Mask};
+use crate::number::{Number, Real};
+
+type Eight = Lanes<WIDTH>;
+type Which = Mask<WIDTH>;
+
+/// What is told of the first descent of polynomials over a length.
+pub(super) struct Descent {
+    /// There is none.
+    pub none: Which,
+    /// There is one, within.
+    pub one: Which,
+}
+
+/// First descents, where nothing need be isolated.
+#[inline(always)]
+pub(super) fn descent<const SIZE: usize>(
+    q: &[Eight; SIZE],
+    length: Eight,
+) -> Descent {
+    let zero = Eight::zero();
+    let (mut rest, mut steep, mut bent) = (zero, zero, zero);
+    for k in (2..SIZE).rev() {
+        let size = q[k].abs();
+        rest = rest.mul_add(length, size);
+        let slope = size * Eight::ratio(k as i32, 1);
+        steep = steep.mul_add(length, slope);
+        if k > 2 {
+            let bend = slope * Eight::ratio(k as i32 - 1, 1);
+            bent = bent.mul_add(length, bend);
+        }
+    }
+    let begins = zero.below(q[0]);
+    let falling = q[1].below(zero).select(q[1], zero);
+    let low = falling.mul_add(length, q[0]);
+    let positive = zero.below(low - rest * length * length);
+
+    let falls = q[1].below(steep * length * Lanes::splat(SURELY));
+    let twice = q[2] + q[2];
+    let concave = twice.below(bent * length * Lanes::splat(SURELY));
+    let end = value(q, length);
+    let size = q[0].abs() + q[1].abs() * length;
+    let clear = (size * Lanes::splat(NEAR_END)).below(end.abs());
+    let told = falls.or(concave).and(clear);
+    let below = told.and(end.below(zero));
+    Descent {
+        none: begins.and(positive.or(told.but_not(below))),
+        one: begins.and(below).but_not(positive),
+    }
+}
+
+/// The roots in (0, high) of polynomials that have one.
+#[inline(always)]
+pub(super) fn refine<const SIZE: usize>(
+    q: &[Eight; SIZE],
+    high: Eight,
+    which: Which,
+) -> Eight {
+    let half = Eight::ratio(1, 2);
+    let zero = Eight::zero();
+    let (mut low, mut high) = (zero, high);
+    let root = (q[1] * q[1] - Lanes::splat(4.0) * q[0] * q[2]).sqrt();
+    let guess = (q[0] + q[0]) / (root - q[1]);
+    let inside = low.below(guess).and(guess.below(high));
+    let mut tau = inside.select(guess, half * (low + high));
+    let mut open = which;
+    for _ in 0..NEWTON_LIMIT {
+        if !open.any() {
+            break;
+        }
+        let here = value(q, tau);
+        let above = zero.below(here);
+        let under = here.below(zero);
+        low = open.and(above).select(tau, low);
+        high = open.and(under).select(tau, high);
+        open = open.and(above.or(under));
+        let step = here / slope(q, tau);
+        let next = tau - step;
+        let inside = low.below(next).and(next.below(high));
+        let bound = tau.abs() * Lanes::splat(f64::NEWTON_STEP);
+        let done = open.and(inside).but_not(bound.below(step.abs()));
+        tau = done.select(next, tau);
+        open = open.but_not(done);
+        let wide =
+            (high * Lanes::splat(2.0 * f64::ROUNDOFF)).below(high - low);
+        tau = open.but_not(wide).select(high, tau);
+        open = open.and(wide);
+        let next = inside.select(next, half * (low + high));
+        tau = open.select(next, tau);
+    }
+    tau
+}

@@ -2,10 +2,11 @@
 
 use libm::{exp, log, tan};
 use rayon::prelude::*;
+use rocking::capacity::ResponseCurve;
 use rocking::statistics::lilliefors::{
     Assessment, Inapplicable, Null, Scale, Table,
 };
-use rocking::statistics::lognormal::{FitMethod, fit};
+use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 use rocking::statistics::{ExtendedSample, Lognormal};
 use rocking::streams::{Streams, standard_normal};
 
@@ -32,6 +33,10 @@ struct Row {
     distinct: [usize; 3],
     /// Levels at which ties decide, by arm.
     tied: [usize; 3],
+    /// Dispersion above the shift at first overturning: of arm A's levels
+    /// taken as they are, of its brackets by the interval likelihood, of arm
+    /// B's bisected ones.
+    dispersions: [f64; 3],
     /// Rejected share of samples that are shifted lognormal like the finest
     /// arm's first overturnings, put on the grid of 0.01 g.
     grid_alone: f64,
@@ -52,6 +57,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         "distinct_c",
         "levels_decided_by_ties_a",
         "rejected_by_the_grid_alone",
+        "dispersion_a",
+        "dispersion_a_by_intervals",
+        "dispersion_b",
     ]);
     let mut words = Vec::new();
     let mut figures = Vec::new();
@@ -77,6 +85,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     Cell::Count(row.distinct[2]),
                     Cell::Count(row.tied[0]),
                     share(row.grid_alone),
+                    share(row.dispersions[0]),
+                    share(row.dispersions[1]),
+                    share(row.dispersions[2]),
                 ],
             );
         }
@@ -118,7 +129,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         "Arm A is the paper's grid, B bisects the first overturning, C uses \
          the same dimensionless steps for every slenderness; by the grid \
          alone: rejected at overturning if the capacities were exactly \
-         shifted lognormal and put on the grid.",
+         shifted lognormal and put on the grid. Dispersions of ln(IM - 1) at \
+         overturning: the interval likelihood of the grid's brackets is the \
+         alternative to bisecting them.",
     );
     answer.figures = figures;
     Ok(answer)
@@ -133,6 +146,7 @@ fn rows(results: &Results, kind: &str) -> Result<Vec<Row>, StudyError> {
                 rejected: [f64::NAN; 3],
                 distinct: [0; 3],
                 tied: [0; 3],
+                dispersions: [f64::NAN; 3],
                 grid_alone: grid_alone(&finest.blocks[i]).unwrap_or(f64::NAN),
             };
             for (arm, found) in ARMS.into_iter().map(of).enumerate() {
@@ -142,13 +156,42 @@ fn rows(results: &Results, kind: &str) -> Result<Vec<Row>, StudyError> {
                 let overturning =
                     block.samples.last().ok_or(StudyError::NoArm)?;
                 row.rejected[arm] = 1.0 - block.shares().1;
+                let taken = dispersion(overturning, block.shift);
+                if arm < 2 {
+                    row.dispersions[2 * arm] = taken.unwrap_or(f64::NAN);
+                }
                 row.distinct[arm] = distinct(overturning);
                 row.tied[arm] =
                     block.shifted.iter().filter(|a| tied(a)).count();
             }
+            if let Some(curves) = results.suite(kind).curves(Arm::A) {
+                let intervals = by_intervals(&curves[i], 1.0);
+                row.dispersions[1] = intervals.unwrap_or(f64::NAN);
+            }
             Ok(row)
         })
         .collect()
+}
+
+/// Dispersion above a shift by maximum likelihood.
+fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
+    let sample = ExtendedSample::try_new(values).ok()?;
+    let fit = fit(&sample, shift, FitMethod::MaximumLikelihood).ok()?;
+    Some(fit.distribution.dispersion())
+}
+
+/// The same of first overturnings that are known by their brackets: above
+/// the last level that stood, up to the first that did not.
+fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
+    let intervals: Vec<(f64, f64)> = curves
+        .iter()
+        .map(|curve| {
+            let high = curve.overturning_im().unwrap_or(f64::INFINITY);
+            (curve.last_im(), high)
+        })
+        .collect();
+    let fit = fit_intervals(&intervals, shift).ok()?;
+    Some(fit.distribution.dispersion())
 }
 
 fn tied(assessment: &Assessment) -> bool {

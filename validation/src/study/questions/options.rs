@@ -15,8 +15,8 @@ use crate::figures::data::{Intensity, Table, number};
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::distributions::BlockSamples;
-use crate::study::figures::{Results, THRESHOLDS, range};
-use crate::study::grid::demand_index;
+use crate::study::figures::{BLOCK, Results, THRESHOLDS, range};
+use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index};
 
 /// Draws of the bootstrap, by default and with all blocks and choices.
 const REPLICATES: [usize; 2] = [100, 1000];
@@ -60,7 +60,9 @@ pub(super) fn answer(
     let entries: Vec<Entry> = cells
         .par_iter()
         .map(|(intensity, block, edp)| {
-            entries(*intensity, block, *edp, &draws)
+            let paper = block.p_rad_s == FREQUENCIES_RAD_S[BLOCK.0]
+                && block.alpha_rad == SLENDERNESSES_RAD[BLOCK.1];
+            entries(*intensity, block, *edp, &draws, full || paper)
         })
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
@@ -108,7 +110,9 @@ pub(super) fn answer(
              records: Kolmogorov and area distance to the empirical \
              fragility; option 0 is the unshifted lognormal that FEMA P-58 \
              takes. Every block with {replicates} bootstrap draws of the \
-             records: options-by-block.csv; for PACT: options-pact.csv."
+             records: options-by-block.csv (intervals of the area for the \
+             paper's block alone, or with --full); for PACT: \
+             options-pact.csv."
         ),
     );
     answer.files = vec![
@@ -128,6 +132,7 @@ fn entries(
     block: &BlockSamples,
     edp: f64,
     draws: &[Vec<usize>],
+    areas: bool,
 ) -> Result<Vec<Entry>, StudyError> {
     let values = &block.samples[demand_index(edp)];
     let sample = ExtendedSample::try_new(values)?;
@@ -143,7 +148,9 @@ fn entries(
         for (fragility, columns) in made.iter().zip(&mut drawn) {
             if let Ok(fragility) = fragility {
                 columns[0].push(fragility.kolmogorov_distance(&sample));
-                columns[1].extend(fragility.area_distance(&sample));
+                if areas {
+                    columns[1].extend(fragility.area_distance(&sample));
+                }
             }
         }
     }

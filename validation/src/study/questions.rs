@@ -7,6 +7,7 @@ mod inversion;
 mod levels;
 mod nulls;
 mod options;
+mod power;
 mod robustness;
 mod trimming;
 
@@ -59,6 +60,7 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         grid::answer(results)?,
         nulls::answer(results)?,
         levels::answer(results)?,
+        power::answer(results)?,
         robustness::answer(results)?,
         equivalence::answer(results)?,
         inversion::answer(results)?,

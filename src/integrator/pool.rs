@@ -92,14 +92,15 @@ pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
     }
 }
 
-/// Lanes that wait for others of their kind.
+/// Lanes that wait for others of their [`Kind`], in the order of kinds.
 struct Waiting {
-    /// For the longest series, clear of events.
-    hard: Line,
-    /// For the roots of the class' own series.
-    events: Line,
-    /// For the roots of the longest series.
-    both: Line,
+    lines: [Line; 3],
+}
+
+impl Waiting {
+    fn line(&mut self, kind: Kind) -> &mut Line {
+        &mut self.lines[kind as usize]
+    }
 }
 
 /// Lanes in a line: there is room for all of them.
@@ -173,11 +174,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
         let (model, isa) = (self.model, self.isa);
         let mut groups: Vec<Group<'a>> =
             (0..GROUPS).map(|_| Group::idle()).collect();
-        let mut waiting = Waiting {
-            hard: Line::EMPTY,
-            events: Line::EMPTY,
-            both: Line::EMPTY,
-        };
+        let mut waiting = Waiting { lines: [Line::EMPTY; 3] };
         let mut batch = Batch::empty();
         let mut solved = Solved::nothing();
         // A response may give the source something to do.
@@ -199,8 +196,8 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             let enough =
                 if moved { (self.busy / 4).clamp(1, WIDTH) } else { 1 };
             for kind in [Kind::Hard, Kind::Events, Kind::Both] {
-                while kind.line(&mut waiting).count >= enough {
-                    let line = kind.line(&mut waiting);
+                while waiting.line(kind).count >= enough {
+                    let line = waiting.line(kind);
                     batch.gather(line, &groups, &self.slots);
                     let done = isa.run_wide(Solve::<LEN> {
                         model,
@@ -303,7 +300,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 continue;
             }
             if solved.hard.at(i) {
-                waiting.both.push(id);
+                waiting.line(Kind::Both).push(id);
                 continue;
             }
             if solved.turned.at(i) {
@@ -358,22 +355,15 @@ impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
     }
 }
 
-/// What the lanes of a batch have in common.
+/// What lanes wait for.
 #[derive(Clone, Copy)]
 enum Kind {
+    /// The longest series, clear of events.
     Hard,
+    /// The roots of the class' own series.
     Events,
+    /// The roots of the longest series.
     Both,
-}
-
-impl Kind {
-    fn line(self, waiting: &mut Waiting) -> &mut Line {
-        match self {
-            Self::Hard => &mut waiting.hard,
-            Self::Events => &mut waiting.events,
-            Self::Both => &mut waiting.both,
-        }
-    }
 }
 
 /// The steps of a batch.

@@ -69,21 +69,32 @@ impl<N: Number, const LEN: usize> Series<N, LEN> {
         k: usize,
         (a, b): (&[N; F], &[N; F]),
     ) {
+        // In every sum the terms that are known last come last: the sums
+        // wait for nothing else.
         let Self { c, velocity, sine, cosine } = self;
         if k > 0 {
-            let mut s = velocity[0] * cosine[k - 1];
-            let mut t = velocity[0] * sine[k - 1];
-            for j in 1..k {
+            let start = usize::from(k > 1);
+            let mut s = velocity[start] * cosine[k - 1 - start];
+            let mut t = velocity[start] * sine[k - 1 - start];
+            for j in 2..k {
                 s = velocity[j].mul_add(cosine[k - 1 - j], s);
                 t = velocity[j].mul_add(sine[k - 1 - j], t);
+            }
+            if k > 1 {
+                s = velocity[0].mul_add(cosine[k - 1], s);
+                t = velocity[0].mul_add(sine[k - 1], t);
             }
             sine[k] = s * N::ratio(1, k as i32);
             cosine[k] = t * N::ratio(-1, k as i32);
         }
-        let mut force = a[0] * sine[k];
-        force = (-b[0]).mul_add(cosine[k], force);
-        for j in 1..F.min(k + 1) {
-            force = a[j].mul_add(sine[k - j], force);
+        let mut force = N::zero();
+        let most = F.min(k + 1) - 1;
+        for j in (0..=most).rev() {
+            force = if j == most {
+                a[j] * sine[k - j]
+            } else {
+                a[j].mul_add(sine[k - j], force)
+            };
             force = (-b[j]).mul_add(cosine[k - j], force);
         }
         velocity[k + 1] = force * N::ratio(1, k as i32 + 1);

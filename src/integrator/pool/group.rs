@@ -63,12 +63,9 @@ impl Parked {
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
-            let line = if (self.hard >> lane) & 1 == 1 {
-                &mut waiting.hard
-            } else {
-                &mut waiting.events
-            };
-            line.push(Lane { group, lane });
+            // An index, not a branch: nobody can predict it.
+            let kind = 1 - ((self.hard >> lane) & 1) as usize;
+            waiting.lines[kind].push(Lane { group, lane });
         }
     }
 }

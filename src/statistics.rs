@@ -21,6 +21,3 @@ pub use boxplot::Boxplot;
 pub use lognormal::Lognormal;
 pub use quantile::QuantileType;
 pub use sample::{ExtendedSample, Sample, SampleError};
-
-#[cfg(test)]
-mod calibration;

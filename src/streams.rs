@@ -5,8 +5,12 @@
 //! sample. The same address gives the same numbers on every machine and with
 //! any number of threads.
 
-use rand::SeedableRng as _;
+mod normal;
+
+pub use normal::standard_normal;
+
 use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
 
 /// The generator of one stream: `ChaCha` with 8 rounds.
 pub type Stream = ChaCha8Rng;
@@ -48,6 +52,18 @@ impl Streams {
     }
 }
 
+/// A whole number below n, from one word: the high half of its product with
+/// n (bias below n/2^64).
+///
+/// ```
+/// use rocking::streams::{Streams, below};
+/// assert!(below(&mut Streams::new("example", 0).stream(0), 7) < 7);
+/// ```
+#[must_use]
+pub fn below(stream: &mut Stream, n: usize) -> usize {
+    ((u128::from(stream.next_u64()) * n as u128) >> 64) as usize
+}
+
 fn key(name: &str, seed: u64) -> [u8; 32] {
     let mut state = name.bytes().chain(seed.to_le_bytes()).fold(
         0xcbf2_9ce4_8422_2325_u64,
@@ -68,9 +84,6 @@ fn key(name: &str, seed: u64) -> [u8; 32] {
 
 #[cfg(test)]
 mod tests {
-    use rand::Rng as _;
-    use rand_distr::{Distribution as _, StandardNormal};
-
     use super::*;
 
     #[test]
@@ -100,14 +113,14 @@ mod tests {
         let mut stream = Streams::new("golden", 0).stream(3);
         let words: Vec<u64> = (0..3).map(|_| stream.next_u64()).collect();
         let normals: Vec<f64> =
-            (0..3).map(|_| StandardNormal.sample(&mut stream)).collect();
+            (0..3).map(|_| standard_normal(&mut stream)).collect();
         assert_eq!(
             words,
             [14727504139145688472, 4717084770782290410, 5694641356309098044]
         );
         assert_eq!(
             normals,
-            [-0.14051956583797243, -0.3558943289462483, -0.9158325056685735]
+            [-0.14051956583916592, -0.3558943289466587, -0.915832505669598]
         );
     }
 }

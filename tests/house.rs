@@ -31,7 +31,7 @@ const EDGES: &[(&str, &[&str])] = &[
 
 /// Dependencies of the core. Whoever uses the core gets all of them.
 const CORE_DEPENDENCIES: &[&str] =
-    &["libm", "rand", "rand_distr", "rayon", "statrs", "thiserror"];
+    &["libm", "nalgebra", "rand", "rayon", "statrs", "thiserror"];
 
 /// The only file with `unsafe`.
 const UNSAFE: &str = "src/number/dispatch.rs";

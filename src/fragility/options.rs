@@ -40,6 +40,9 @@ pub enum Recipe {
     },
 }
 
+/// An unshifted fit.
+type Fitted = Result<Lognormal, FitError>;
+
 impl Recipe {
     /// Every recipe of the comparison: USFL and SSFL by each method, the
     /// quantiles, and Eq. 7 with each method, centre and constant.
@@ -87,6 +90,29 @@ impl Recipe {
         }
     }
 
+    /// The fragilities of several recipes for one sample, each fit made
+    /// once.
+    #[must_use]
+    pub fn fragilities(
+        recipes: &[Self],
+        sample: &ExtendedSample,
+        shift: f64,
+    ) -> Vec<Result<Lognormal, RecipeError>> {
+        let mut fits: Vec<(FitMethod, Fitted)> = Vec::new();
+        let mut unshifted = |method| {
+            if let Some((_, fit)) = fits.iter().find(|(m, _)| *m == method) {
+                return *fit;
+            }
+            let fit = fit(sample, 0.0, method).map(|fit| fit.distribution);
+            fits.push((method, fit));
+            fit
+        };
+        recipes
+            .iter()
+            .map(|recipe| recipe.made(sample, shift, &mut unshifted))
+            .collect()
+    }
+
     /// The fragility that the recipe makes of a sample above a shift.
     ///
     /// ```
@@ -106,14 +132,23 @@ impl Recipe {
         sample: &ExtendedSample,
         shift: f64,
     ) -> Result<Lognormal, RecipeError> {
+        self.made(sample, shift, &mut |method| {
+            Ok(fit(sample, 0.0, method)?.distribution)
+        })
+    }
+
+    fn made(
+        &self,
+        sample: &ExtendedSample,
+        shift: f64,
+        unshifted: &mut impl FnMut(FitMethod) -> Fitted,
+    ) -> Result<Lognormal, RecipeError> {
         let at = |quantile_type: QuantileType, p| {
             let value = quantile_type.of_extended(sample, p);
             value.unwrap_or(f64::NAN)
         };
         match *self {
-            Self::Unshifted(method) => {
-                Ok(fit(sample, 0.0, method)?.distribution)
-            }
+            Self::Unshifted(method) => Ok(unshifted(method)?),
             Self::Shifted(method) => {
                 Ok(fit(sample, shift, method)?.distribution)
             }
@@ -126,7 +161,7 @@ impl Recipe {
                     .map_err(FragilityError::from)?)
             }
             Self::Transformed { method, centre, c } => {
-                let usfl = fit(sample, 0.0, method)?.distribution;
+                let usfl = unshifted(method)?;
                 let median = match centre {
                     Centre::FittedMedian => usfl.median(),
                     Centre::SampleMedian => at(QuantileType::default(), 0.5),

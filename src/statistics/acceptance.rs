@@ -4,7 +4,7 @@
 //! its expectation even under the null. The Gaussian-score bootstrap gives
 //! that scatter for the correlation at hand.
 
-use rand_distr::{Distribution as _, StandardNormal};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -13,7 +13,7 @@ use super::bootstrap::{Estimate, estimate};
 use super::lilliefors::fast::Scratch;
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
-use crate::streams::Streams;
+use crate::streams::{Streams, standard_normal};
 
 /// Why a null band was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -86,6 +86,9 @@ pub struct NullBand {
     pub shares: Vec<f64>,
     /// Mean over the levels of D/critical value, of each replicate.
     pub mean_ratios: Vec<f64>,
+    /// How many independent levels would scatter as much: K^2/sum r_jk^2,
+    /// with r the correlations between the K levels.
+    pub effective_levels: f64,
 }
 
 impl NullBand {
@@ -119,27 +122,25 @@ impl NullBand {
         seed: u64,
     ) -> Result<Self, AcceptanceError> {
         let scores = scores(levels)?;
-        let (n, count) = (levels[0].len(), levels.len());
+        let (n, count) = (scores.nrows(), scores.ncols());
+        let correlations = scores.tr_mul(&scores);
+        let effective_levels =
+            (count * count) as f64 / correlations.norm_squared();
         let streams = Streams::new(name, seed);
         let rows: Vec<(f64, f64)> = (0..replicates)
             .into_par_iter()
             .map(|index| {
                 let mut stream = streams.stream(index);
-                let mut drawn = vec![0.0; n * count];
-                for row in drawn.chunks_exact_mut(count) {
-                    for score in scores.chunks_exact(count) {
-                        let g: f64 = StandardNormal.sample(&mut stream);
-                        for (z, s) in row.iter_mut().zip(score) {
-                            *z += g * s;
-                        }
-                    }
-                }
+                let weights = DMatrix::from_row_iterator(
+                    n,
+                    n,
+                    (0..n * n).map(|_| standard_normal(&mut stream)),
+                );
+                let drawn = weights * &scores;
                 let mut scratch = Scratch::new(n);
                 let (mut accepted, mut ratios) = (0.0, 0.0);
-                for level in 0..count {
-                    for (i, value) in scratch.values.iter_mut().enumerate() {
-                        *value = drawn[i * count + level];
-                    }
+                for level in drawn.column_iter() {
+                    scratch.values.copy_from_slice(level.as_slice());
                     let d = scratch.statistic();
                     accepted += f64::from(u8::from(d <= critical_value));
                     ratios += d / critical_value;
@@ -148,7 +149,7 @@ impl NullBand {
             })
             .collect();
         let (shares, mean_ratios) = rows.into_iter().unzip();
-        Ok(Self { shares, mean_ratios })
+        Ok(Self { shares, mean_ratios, effective_levels })
     }
 
     /// The band of the share at a level, about an observed one.
@@ -174,10 +175,11 @@ impl NullBand {
     }
 }
 
-/// Standardised values by record, then level.
-fn scores(levels: &[Vec<f64>]) -> Result<Vec<f64>, AcceptanceError> {
+/// Standardised values: a row a record, a column of length 1 a level, so
+/// that G S is standard normal.
+fn scores(levels: &[Vec<f64>]) -> Result<DMatrix<f64>, AcceptanceError> {
     let n = levels.first().ok_or(AcceptanceError::Empty)?.len();
-    let mut scores = vec![0.0; n * levels.len()];
+    let mut scores = DMatrix::zeros(n, levels.len());
     for (k, values) in levels.iter().enumerate() {
         let level = k + 1;
         if values.len() != n {
@@ -189,10 +191,9 @@ fn scores(levels: &[Vec<f64>]) -> Result<Vec<f64>, AcceptanceError> {
             Sample::try_new(values).map_err(|_| AcceptanceError::Empty)?;
         standardised(&sample)
             .map_err(|source| AcceptanceError::Scores { level, source })?;
-        // Their columns have length 1, so that G S is standard normal.
         let (centre, norm) = (mean(values), sum_of_squares(values).sqrt());
         for (i, value) in values.iter().enumerate() {
-            scores[i * levels.len() + k] = (value - centre) / norm;
+            scores[(i, k)] = (value - centre) / norm;
         }
     }
     Ok(scores)

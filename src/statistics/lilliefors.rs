@@ -31,6 +31,14 @@ pub enum LillieforsError {
     /// The values don't vary (to 1e-12 of their mean).
     #[error("the values do not vary: expected a positive standard deviation")]
     Degenerate,
+    /// A null distribution holds for one size.
+    #[error("{found} values: expected {expected}, the size simulated")]
+    Size {
+        /// Size of the sample.
+        found: usize,
+        /// Size simulated.
+        expected: usize,
+    },
     /// Sizes of the table.
     #[error(
         "{0} values: expected 4 to 1000, the sizes of the table; simulate beyond"
@@ -99,11 +107,11 @@ impl Statistic {
     /// ```
     ///
     /// # Errors
-    /// [`LillieforsError`] for fewer than 4 values or values that don't
-    /// vary.
+    /// [`LillieforsError`] for fewer than 3 values or values that don't
+    /// vary. The test itself needs 4.
     pub fn try_new(sample: &Sample) -> Result<Self, LillieforsError> {
         let n = sample.len();
-        let scores = standardised(sample)?;
+        let scores = scores(sample, 3)?;
         let count = n as f64;
         let (mut d_plus, mut d_minus) = (f64::MIN, f64::MIN);
         for (i, z) in scores.iter().enumerate() {
@@ -131,8 +139,12 @@ impl Statistic {
 pub(super) fn standardised(
     sample: &Sample,
 ) -> Result<Vec<f64>, LillieforsError> {
+    scores(sample, 4)
+}
+
+fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
     let n = sample.len();
-    if n < 4 {
+    if n < least {
         return Err(LillieforsError::TooFew(n));
     }
     let mean = sample.mean();

@@ -3,10 +3,12 @@
 //! Anderson-Darling and Cramer-von Mises for estimated mean and standard
 //! deviation (Stephens' case 3), and Shapiro-Wilk.
 
+mod battery;
 mod shapiro_wilk;
 
 use libm::exp;
 
+pub use battery::{Battery, Calibrated};
 pub use shapiro_wilk::shapiro_wilk;
 
 use super::lilliefors::{LillieforsError, standardised};
@@ -42,15 +44,7 @@ pub struct Test {
 pub fn anderson_darling(sample: &Sample) -> Result<Test, LillieforsError> {
     let scores = standardised(sample)?;
     let n = scores.len() as f64;
-    let sum = scores.iter().zip(scores.iter().rev()).enumerate().fold(
-        0.0,
-        |sum, (i, (low, high))| {
-            let weight = (2 * i + 1) as f64;
-            let logs = normal::ln_cdf(*low) + normal::ln_cdf(-high);
-            f64::mul_add(weight, logs, sum)
-        },
-    );
-    let statistic = -n - sum / n;
+    let statistic = a2(&scores);
     let a = statistic * (1.0 + 0.75 / n + 2.25 / (n * n));
     let p_value = if a < 0.2 {
         1.0 - exp(quadratic(-13.436, 101.14, -223.73, a))
@@ -75,11 +69,7 @@ pub fn anderson_darling(sample: &Sample) -> Result<Test, LillieforsError> {
 pub fn cramer_von_mises(sample: &Sample) -> Result<Test, LillieforsError> {
     let scores = standardised(sample)?;
     let n = scores.len() as f64;
-    let statistic =
-        scores.iter().enumerate().fold(1.0 / (12.0 * n), |sum, (i, z)| {
-            let gap = normal::cdf(*z) - (2 * i + 1) as f64 / (2.0 * n);
-            f64::mul_add(gap, gap, sum)
-        });
+    let statistic = w2(&scores);
     let w = statistic * (1.0 + 0.5 / n);
     let p_value = if w < 0.0275 {
         1.0 - exp(quadratic(-13.953, 775.5, -12542.61, w))
@@ -93,6 +83,29 @@ pub fn cramer_von_mises(sample: &Sample) -> Result<Test, LillieforsError> {
         7.37e-10
     };
     Ok(Test { statistic, p_value })
+}
+
+/// A^2 of ascending scores.
+fn a2(scores: &[f64]) -> f64 {
+    let n = scores.len() as f64;
+    let sum = scores.iter().zip(scores.iter().rev()).enumerate().fold(
+        0.0,
+        |sum, (i, (low, high))| {
+            let weight = (2 * i + 1) as f64;
+            let logs = normal::ln_cdf(*low) + normal::ln_cdf(-high);
+            f64::mul_add(weight, logs, sum)
+        },
+    );
+    -n - sum / n
+}
+
+/// W^2 of ascending scores.
+fn w2(scores: &[f64]) -> f64 {
+    let n = scores.len() as f64;
+    scores.iter().enumerate().fold(1.0 / (12.0 * n), |sum, (i, z)| {
+        let gap = normal::cdf(*z) - (2 * i + 1) as f64 / (2.0 * n);
+        f64::mul_add(gap, gap, sum)
+    })
 }
 
 fn quadratic(a: f64, b: f64, c: f64, x: f64) -> f64 {

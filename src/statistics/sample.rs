@@ -59,6 +59,12 @@ impl Sample {
         Ok(Self { sorted: sort(values)? })
     }
 
+    /// A sample of values that are known to be finite, at least one.
+    pub(super) fn of(mut values: Vec<f64>) -> Self {
+        values.sort_unstable_by(f64::total_cmp);
+        Self { sorted: values }
+    }
+
     /// The values in ascending order.
     #[must_use]
     pub fn sorted(&self) -> &[f64] {
@@ -87,8 +93,7 @@ impl Sample {
             .fold(0, usize::max)
     }
 
-    /// Arithmetic mean, by two passes (the second corrects the rounding of
-    /// the first).
+    /// Arithmetic mean, from a compensated sum.
     #[must_use]
     pub fn mean(&self) -> f64 {
         mean(&self.sorted)
@@ -184,12 +189,19 @@ fn sort(values: &[f64]) -> Result<Vec<f64>, SampleError> {
     Ok(sorted)
 }
 
-/// Mean of a non-empty slice, by two passes in order.
+/// Mean of a non-empty slice, from a compensated sum in order (Neumaier,
+/// ZAMM 54 (1974) 39).
 pub(crate) fn mean(values: &[f64]) -> f64 {
-    let n = values.len() as f64;
-    let first = values.iter().fold(0.0, |sum, x| sum + x) / n;
-    let rest = values.iter().fold(0.0, |sum, x| sum + (x - first));
-    first + rest / n
+    let (sum, rest) = values.iter().fold((0.0, 0.0), |(s, c), &x| {
+        let next: f64 = s + x;
+        let lost = if f64::abs(s) >= x.abs() {
+            (s - next) + x
+        } else {
+            (x - next) + s
+        };
+        (next, c + lost)
+    });
+    (sum + rest) / values.len() as f64
 }
 
 /// Sum of squared deviations from the mean, corrected for its rounding.

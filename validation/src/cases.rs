@@ -286,11 +286,20 @@ pub struct Case {
 /// The case files, by family, embedded.
 pub const FAMILIES: &[(&str, &str)] = &[
     ("block-geometry", include_str!("../cases/block-geometry.toml")),
+    ("calibration", include_str!("../cases/calibration.toml")),
     ("double-double", include_str!("../cases/double-double.toml")),
+    ("estimators", include_str!("../cases/estimators.toml")),
     ("fates", include_str!("../cases/fates.toml")),
+    (
+        "fragility-transforms",
+        include_str!("../cases/fragility-transforms.toml"),
+    ),
     ("free-rocking", include_str!("../cases/free-rocking.toml")),
     ("hard-cases", include_str!("../cases/hard-cases.toml")),
+    ("inversion", include_str!("../cases/inversion.toml")),
     ("invariants", include_str!("../cases/invariants.toml")),
+    ("lilliefors", include_str!("../cases/lilliefors.toml")),
+    ("nist-univariate", include_str!("../cases/nist-univariate.toml")),
     (
         "overturning-spectrum",
         include_str!("../cases/overturning-spectrum.toml"),

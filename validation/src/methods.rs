@@ -14,6 +14,7 @@ mod references;
 mod response;
 mod solution;
 mod spectrum;
+mod statistics;
 mod wrong;
 
 pub use digits::{DigitsError, Reach, Row, digits, digits_csv};
@@ -149,6 +150,22 @@ pub const METHODS: &[(&str, Run)] = &[
     ("precise-linear-pulse", precise::linear_pulse),
     ("precise-free-rocking", precise::free_rocking),
     ("precise-rectangular-pulse", precise::rectangular_pulse),
+    ("sample-moments", statistics::moments),
+    ("lilliefors-null", statistics::null),
+    ("lilliefors-largest", statistics::largest),
+    ("lilliefors-table", statistics::table),
+    ("lilliefors-published", statistics::published),
+    ("lilliefors-asymptotics", statistics::asymptotics),
+    ("normal-draws", statistics::draws),
+    ("fits", statistics::fits),
+    ("quantiles", statistics::quantiles),
+    ("tests-of-normality", statistics::tests),
+    ("paired-procedures", statistics::paired),
+    ("inversion", statistics::inversion),
+    ("equations-5-to-7", statistics::transforms),
+    ("rejected-share", statistics::rejection),
+    ("coverage", statistics::coverage),
+    ("bias", statistics::bias),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

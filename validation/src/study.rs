@@ -14,6 +14,7 @@ pub mod histories;
 pub mod normality;
 pub mod output;
 pub mod page;
+pub mod questions;
 pub mod runs;
 pub mod sensitivities;
 pub mod speed;

@@ -1,10 +1,10 @@
 use super::*;
 use crate::statistics::lilliefors::Table;
-use crate::streams::Streams;
+use crate::streams::{Streams, standard_normal};
 
 fn normals(n: usize, index: u64) -> Vec<f64> {
     let mut stream = Streams::new("acceptance, test", 0).stream(index);
-    (0..n).map(|_| StandardNormal.sample(&mut stream)).collect()
+    (0..n).map(|_| standard_normal(&mut stream)).collect()
 }
 
 #[test]

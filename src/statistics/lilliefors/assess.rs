@@ -130,6 +130,12 @@ impl Assessment {
         Some(self.statistic?.d > self.critical_value?)
     }
 
+    /// D over the critical value; none if there is no statistic.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        Some(self.statistic?.d / self.critical_value?)
+    }
+
     fn test(
         &mut self,
         sample: &ExtendedSample,

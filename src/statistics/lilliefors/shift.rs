@@ -5,14 +5,18 @@
 //! repeated.
 
 use libm::{exp, log};
-use rand_distr::{Distribution as _, StandardNormal};
 
 use super::{LillieforsError, NullDistribution};
 use crate::statistics::sample::{mean, sum_of_squares};
-use crate::streams::{Stream, Streams};
+use crate::streams::{Stream, Streams, standard_normal};
 
-/// Draws in a row that may fall below their shift.
-const REDRAWS: u64 = 1000;
+/// Draws in a row that may fall below their shift: a model that draws what
+/// it says has no more than some.
+const REDRAWS: u64 = 100;
+
+/// Replicates that show whether the model holds, before the others are
+/// drawn.
+const PILOTS: u64 = 128;
 
 /// Marks a draw that was given up, among counts that cannot reach it.
 const GIVEN_UP: u64 = 1 << 40;
@@ -74,11 +78,16 @@ impl ShiftedNull {
             }
             redrawn
         };
-        let (null, redrawn) =
-            NullDistribution::of_draws(n, replicates, &streams, draw)?;
-        if redrawn >= GIVEN_UP {
-            return Err(LillieforsError::Redraws(REDRAWS));
-        }
+        let run = |replicates| {
+            let drawn =
+                NullDistribution::of_draws(n, replicates, &streams, draw)?;
+            match drawn.1 {
+                GIVEN_UP.. => Err(LillieforsError::Redraws(REDRAWS)),
+                _ => Ok(drawn),
+            }
+        };
+        run(PILOTS)?;
+        let (null, redrawn) = run(replicates)?;
         Ok(Self { null, redrawn })
     }
 
@@ -105,7 +114,7 @@ impl ShiftedNull {
             Streams::new(&format!("lilliefors, smallest value, {n}"), seed);
         let draw = |stream: &mut Stream, values: &mut [f64]| {
             let one = |stream: &mut Stream| {
-                let z: f64 = StandardNormal.sample(stream);
+                let z = standard_normal(stream);
                 exp(dispersion * z)
             };
             let mut smallest = one(stream);
@@ -166,8 +175,8 @@ impl Joint {
         let rest = (1.0 - self.correlation * self.correlation).sqrt();
         let mut lowest = f64::INFINITY;
         for value in &mut *values {
-            let a: f64 = StandardNormal.sample(stream);
-            let b: f64 = StandardNormal.sample(stream);
+            let a = standard_normal(stream);
+            let b = standard_normal(stream);
             lowest = lowest.min(self.mean_u + self.sd_u * a);
             let z = self.correlation * a + rest * b;
             *value = shift + exp(self.mean_y + self.sd_y * z);

@@ -1,13 +1,12 @@
 //! The null distribution of D by simulation.
 
-use rand_distr::{Distribution as _, StandardNormal};
 use rayon::prelude::*;
 use statrs::distribution::{Beta, ContinuousCDF as _};
 
 use super::fast::Scratch;
 use super::{LillieforsError, PValue};
 use crate::statistics::normal;
-use crate::streams::{Stream, Streams};
+use crate::streams::{Stream, Streams, standard_normal};
 
 /// Replicates that share one scratch space.
 const CHUNK: u64 = 4096;
@@ -60,7 +59,7 @@ impl NullDistribution {
         let streams = Streams::new(&format!("lilliefors, {n}"), seed);
         let draw = |stream: &mut Stream, values: &mut [f64]| {
             for value in values {
-                *value = StandardNormal.sample(stream);
+                *value = standard_normal(stream);
             }
             0
         };
@@ -75,12 +74,7 @@ impl NullDistribution {
         streams: &Streams,
         draw: impl Fn(&mut Stream, &mut [f64]) -> u64 + Sync,
     ) -> Result<(Self, u64), LillieforsError> {
-        if n < 4 {
-            return Err(LillieforsError::TooFew(n));
-        }
-        if !(100..=100_000_000).contains(&replicates) {
-            return Err(LillieforsError::Replicates(replicates));
-        }
+        Self::check(n, replicates)?;
         let chunks: Vec<(Vec<f64>, u64)> = (0..replicates.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
@@ -98,14 +92,33 @@ impl NullDistribution {
                 (statistics, counted)
             })
             .collect();
-        let mut sorted = Vec::with_capacity(replicates as usize);
+        let mut all = Vec::with_capacity(replicates as usize);
         let mut counted = 0;
         for (statistics, count) in chunks {
-            sorted.extend(statistics);
+            all.extend(statistics);
             counted = u64::saturating_add(counted, count);
         }
+        Ok((Self::of(n, all), counted))
+    }
+
+    /// Refuses sizes and numbers of replicates that tell nothing.
+    pub(in crate::statistics) fn check(
+        n: usize,
+        replicates: u64,
+    ) -> Result<(), LillieforsError> {
+        if n < 4 {
+            return Err(LillieforsError::TooFew(n));
+        }
+        if !(100..=100_000_000).contains(&replicates) {
+            return Err(LillieforsError::Replicates(replicates));
+        }
+        Ok(())
+    }
+
+    /// The distribution of statistics that were simulated, in any order.
+    pub(in crate::statistics) fn of(n: usize, mut sorted: Vec<f64>) -> Self {
         sorted.par_sort_unstable_by(f64::total_cmp);
-        Ok((Self { n, sorted }, counted))
+        Self { n, sorted }
     }
 
     /// Size of the samples.

@@ -7,7 +7,7 @@ use crate::statistics::lilliefors::{LillieforsError, standardised};
 use crate::statistics::{Sample, normal};
 
 /// Largest size that the approximation was fitted for.
-const LARGEST: usize = 5000;
+pub(super) const LARGEST: usize = 5000;
 
 /// Shapiro and Wilk's W with its p-value: Royston, "Remark AS R94", Applied
 /// Statistics 44 (1995) 547.
@@ -27,8 +27,14 @@ pub fn shapiro_wilk(sample: &Sample) -> Result<Test, LillieforsError> {
     if scores.len() > LARGEST {
         return Err(LillieforsError::BeyondTable(scores.len()));
     }
+    let deficit = deficit(&weights(scores.len()), &scores);
+    let statistic = 1.0 - deficit;
+    Ok(Test { statistic, p_value: p_value(scores.len(), deficit) })
+}
+
+/// 1 - W of ascending scores.
+pub(super) fn deficit(weights: &[f64], scores: &[f64]) -> f64 {
     let n = scores.len() as f64;
-    let weights = weights(scores.len());
     let contrast = weights
         .iter()
         .zip(scores.iter().zip(scores.iter().rev()))
@@ -36,13 +42,11 @@ pub fn shapiro_wilk(sample: &Sample) -> Result<Test, LillieforsError> {
     // The scores' sum of squares is n - 1. The weights' is 1, to rounding.
     let norm = 2.0 * weights.iter().fold(0.0, |s, a| f64::mul_add(*a, *a, s));
     let root = (norm * (n - 1.0)).sqrt();
-    let deficit = (root - contrast) * (root + contrast) / (root * root);
-    let statistic = 1.0 - deficit;
-    Ok(Test { statistic, p_value: p_value(scores.len(), deficit) })
+    (root - contrast) * (root + contrast) / (root * root)
 }
 
 /// The positive half of the coefficients a_i, from the outermost.
-fn weights(n: usize) -> Vec<f64> {
+pub(super) fn weights(n: usize) -> Vec<f64> {
     let count = n as f64;
     let m: Vec<f64> = (1..=n / 2)
         .map(|i| -normal::quantile((i as f64 - 0.375) / (count + 0.25)))

@@ -11,7 +11,7 @@ use rocking::statistics::lilliefors::{
 };
 use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::normality::{
-    Test, anderson_darling, cramer_von_mises, shapiro_wilk,
+    Battery, Calibrated, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
 use rocking::statistics::{ExtendedSample, Sample};
 use serde_json::{Value, json};
@@ -29,7 +29,8 @@ const REPLICATES_BEYOND: u64 = 100_000;
 ///
 /// The p-value comes from the project's own Monte Carlo table (n = 4 to
 /// 1000), or from a direct simulation when --replicates is given or n is
-/// larger. A verdict is refused where the test does not apply: censored
+/// larger; then those of Anderson-Darling, Cramer-von Mises and Shapiro-Wilk
+/// are simulated too, else they come from published approximations. A verdict is refused where the test does not apply: censored
 /// values, values not above the shift, values that do not vary, fewer than
 /// 4 values, fewer than 80 % distinct ones.
 #[derive(ClapArgs)]
@@ -170,11 +171,12 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     {
         return Err(error.into());
     }
+    let others = others(args, &assessment)?;
     if args.json {
-        let out = to_json(&assessment, method, simulated.as_ref());
+        let out = to_json(&assessment, method, simulated.as_ref(), &others);
         return print(&format!("{out:#}\n"));
     }
-    print(&to_text(&assessment))
+    print(&to_text(&assessment, &others))
 }
 
 /// The null distribution to simulate, if the table is not used, and how the
@@ -209,18 +211,60 @@ fn simulated_null(
     Ok(("simulation", Some(null)))
 }
 
-/// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk of the tested values.
-fn others(assessment: &Assessment) -> [Option<Test>; 3] {
-    [anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
-        assessment.tested.as_ref().and_then(|sample| test(sample).ok())
-    })
+/// A test beside Lilliefors'.
+struct Other {
+    statistic: f64,
+    p_value: f64,
+    /// Interval of a simulated p-value, and the verdict.
+    simulated: Option<(f64, f64, Verdict)>,
+}
+
+impl Other {
+    fn simulated(test: Calibrated, level: f64) -> Self {
+        let p = test.p_value;
+        let verdict = p.verdict(level);
+        Self {
+            statistic: test.statistic,
+            p_value: p.value,
+            simulated: Some((p.low, p.high, verdict)),
+        }
+    }
+}
+
+/// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk of the tested values:
+/// simulated with --replicates, unless the shift is the sample's own.
+fn others(
+    args: &Args,
+    assessment: &Assessment,
+) -> Result<[Option<Other>; 3], Failure> {
+    let none = [None, None, None];
+    let Some(tested) = &assessment.tested else { return Ok(none) };
+    let given = args.shift != Some(Shift::Min) && tested.len() >= 4;
+    if let Some(replicates) = args.replicates.filter(|_| given) {
+        let seed = args.seed.unwrap_or(0);
+        let battery = Battery::simulate(tested.len(), replicates, seed)?;
+        return Ok(battery.assess(tested).map_or(none, |tests| {
+            tests.map(|test| Some(Other::simulated(test, args.level)))
+        }));
+    }
+    Ok([anderson_darling, cramer_von_mises, shapiro_wilk].map(|test| {
+        let test = test(tested).ok()?;
+        let (statistic, p_value) = (test.statistic, test.p_value);
+        Some(Other { statistic, p_value, simulated: None })
+    }))
+}
+
+fn name(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Rejected => "rejected",
+        Verdict::NotRejected => "not-rejected",
+        Verdict::Indeterminate => "indeterminate",
+    }
 }
 
 fn verdict(assessment: &Assessment) -> (&'static str, Option<String>) {
     match assessment.verdict {
-        Ok(Verdict::Rejected) => ("rejected", None),
-        Ok(Verdict::NotRejected) => ("not-rejected", None),
-        Ok(Verdict::Indeterminate) => ("indeterminate", None),
+        Ok(verdict) => (name(verdict), None),
         Err(reason) => ("not-applicable", Some(reason.to_string())),
     }
 }
@@ -229,13 +273,13 @@ fn to_json(
     assessment: &Assessment,
     method: &str,
     null: Option<&NullDistribution>,
+    others: &[Option<Other>; 3],
 ) -> Value {
     let (statistic, p) = (assessment.statistic, assessment.p_value);
     let tested = assessment.tested.as_ref();
     let (verdict, reason) = verdict(assessment);
-    let [ad, cvm, sw] = others(assessment);
     let number = json::optional;
-    json!({
+    let mut out = json!({
         "n": assessment.n,
         "distinct": tested.map(Sample::distinct),
         "largest_tie": tested.map(Sample::largest_tie),
@@ -251,16 +295,21 @@ fn to_json(
         "reason": reason,
         "method": p.map(|_| method),
         "replicates": p.and(null.map(|null| null.sorted().len())),
-        "anderson_darling": number(ad.map(|t| t.statistic)),
-        "anderson_darling_p_value": number(ad.map(|t| t.p_value)),
-        "cramer_von_mises": number(cvm.map(|t| t.statistic)),
-        "cramer_von_mises_p_value": number(cvm.map(|t| t.p_value)),
-        "shapiro_wilk": number(sw.map(|t| t.statistic)),
-        "shapiro_wilk_p_value": number(sw.map(|t| t.p_value)),
-    })
+    });
+    let keys = ["anderson_darling", "cramer_von_mises", "shapiro_wilk"];
+    for (key, test) in keys.into_iter().zip(others) {
+        let test = test.as_ref();
+        let simulated = test.and_then(|t| t.simulated);
+        out[key] = number(test.map(|t| t.statistic));
+        out[format!("{key}_p_value")] = number(test.map(|t| t.p_value));
+        out[format!("{key}_p_low")] = number(simulated.map(|s| s.0));
+        out[format!("{key}_p_high")] = number(simulated.map(|s| s.1));
+        out[format!("{key}_verdict")] = json!(simulated.map(|s| name(s.2)));
+    }
+    out
 }
 
-fn to_text(assessment: &Assessment) -> String {
+fn to_text(assessment: &Assessment, others: &[Option<Other>; 3]) -> String {
     let mut text = format!("values              {}", assessment.n);
     if let Some(tested) = &assessment.tested {
         text += &format!(", {} distinct", tested.distinct());
@@ -281,13 +330,15 @@ fn to_text(assessment: &Assessment) -> String {
     }
     let names =
         ["Anderson-Darling A2", "Cramer-von Mises W2", "Shapiro-Wilk W"];
-    for (name, test) in names.into_iter().zip(others(assessment)) {
-        if let Some(t) = test {
-            text += &format!(
-                "{name:<20}{:.6} (p {:.5})\n",
-                t.statistic, t.p_value
-            );
-        }
+    for (title, test) in names.into_iter().zip(others) {
+        let Some(t) = test else { continue };
+        let p = t.simulated.map_or(String::new(), |(low, high, verdict)| {
+            format!(", {low:.5} .. {high:.5}: {}", name(verdict))
+        });
+        text += &format!(
+            "{title:<20}{:.6} (p {:.5}{p})\n",
+            t.statistic, t.p_value
+        );
     }
     let (verdict, reason) = verdict(assessment);
     text += &format!("verdict             {verdict}");

@@ -6,6 +6,8 @@ use super::capacities::{samples, scaled};
 use super::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
 use super::normality::{accepted_share, along, null_band};
 use crate::figures::data::{Arm, Intensity};
+use rocking::statistics::acceptance::NullBand;
+use rocking::statistics::lilliefors::Assessment;
 
 /// Capacities of one block, and the test along the demand.
 #[derive(Clone, Debug)]
@@ -18,12 +20,12 @@ pub struct BlockSamples {
     pub shift: f64,
     /// Capacities by level of [`demands`], then by record.
     pub samples: Vec<Vec<f64>>,
-    /// D over its critical value by level, as they are.
-    pub original: Vec<f64>,
-    /// The same above the shift.
-    pub shifted: Vec<f64>,
+    /// The test of ln x by level.
+    pub original: Vec<Assessment>,
+    /// The test of ln(x - shift) by level.
+    pub shifted: Vec<Assessment>,
     /// Null bands of the two accepted shares, in the plan's common arm.
-    pub bands: [Option<(f64, f64)>; 2],
+    pub bands: [Option<NullBand>; 2],
 }
 
 impl BlockSamples {
@@ -69,7 +71,7 @@ pub fn of_suite(
                 .iter()
                 .enumerate()
                 .map(|(i, s)| block(suite, intensity, i, s, arm.arm == banded))
-                .collect();
+                .collect::<Result<_, _>>()?;
             out.push(Distributions {
                 kind: suite.kind,
                 arm: arm.arm,
@@ -87,7 +89,7 @@ fn block(
     position: usize,
     pga: &[Vec<f64>],
     banded: bool,
-) -> BlockSamples {
+) -> Result<BlockSamples, StudyError> {
     let slendernesses = SLENDERNESSES_RAD.len();
     let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
     let alpha_rad = SLENDERNESSES_RAD[position % slendernesses];
@@ -104,15 +106,15 @@ fn block(
         );
         banded.then(|| null_band(&samples, shift, &name)).flatten()
     };
-    BlockSamples {
+    Ok(BlockSamples {
         bands: [band(0.0), band(shift)],
         p_rad_s,
         alpha_rad,
         shift,
-        original: along(&samples, 0.0),
-        shifted: along(&samples, shift),
+        original: along(&samples, 0.0)?,
+        shifted: along(&samples, shift)?,
         samples,
-    }
+    })
 }
 
 /// What turns PGA/(g tan alpha) into the measure, record by record: 1, or

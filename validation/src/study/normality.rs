@@ -1,69 +1,69 @@
 //! Lilliefors' test along the demand.
 
 use rayon::prelude::*;
-use rocking::statistics::Sample;
-use rocking::statistics::acceptance::NullBand;
-use rocking::statistics::lilliefors::{Statistic, Table};
+use rocking::statistics::acceptance::{AcceptedShare, NullBand};
+use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
+use rocking::statistics::{ExtendedSample, SampleError};
 
 /// Level of the tests.
 pub const LEVEL: f64 = 0.05;
 
-/// Lilliefors' D of ln(x - `shift`) over its critical value, level by
-/// level: lognormality is accepted up to 1. NaN where the test does not
-/// apply: an infinite capacity, one not above the shift, or no spread.
-#[must_use]
-pub fn along(samples: &[Vec<f64>], shift: f64) -> Vec<f64> {
+/// Lilliefors' test of ln(x - `shift`) against the table, level by level.
+///
+/// # Errors
+/// [`SampleError`] for a level without values, or with one that is not a
+/// number.
+pub fn along(
+    samples: &[Vec<f64>],
+    shift: f64,
+) -> Result<Vec<Assessment>, SampleError> {
+    let scale = Scale::Logarithmic { shift };
+    let null = Null::Table(Table::embedded());
     samples
         .par_iter()
-        .map(|sample| over_critical(sample, shift).unwrap_or(f64::NAN))
+        .map(|sample| {
+            let sample = ExtendedSample::try_new(sample)?;
+            Ok(Assessment::new(&sample, scale, LEVEL, null))
+        })
         .collect()
 }
 
-fn over_critical(sample: &[f64], shift: f64) -> Option<f64> {
-    let table = Table::embedded();
-    let (critical, _) = table.critical_value(sample.len(), LEVEL).ok()?;
-    Some(Statistic::try_new(&logarithms(sample, shift)?).ok()?.d / critical)
+/// D over its critical value: lognormality is accepted up to 1. NaN where
+/// the test does not apply.
+#[must_use]
+pub fn over_critical(assessment: &Assessment) -> f64 {
+    assessment.ratio().unwrap_or(f64::NAN)
 }
 
-/// ln(x - `shift`) of a sample, if all of it is finite and above the shift.
+/// Share of the levels at which lognormality is accepted, of those tested;
+/// NaN if none was.
 #[must_use]
-pub fn logarithms(sample: &[f64], shift: f64) -> Option<Sample> {
-    let above = |x: &f64| *x > shift && x.is_finite();
-    if !sample.iter().all(above) {
-        return None;
-    }
-    let logs: Vec<f64> = sample.iter().map(|x| libm::log(x - shift)).collect();
-    Sample::try_new(&logs).ok()
-}
-
-/// Share of the levels at which lognormality is accepted; a level at which
-/// the test does not apply is none.
-#[must_use]
-pub fn accepted_share(over_critical: &[f64]) -> f64 {
-    let accepted = over_critical.iter().filter(|r| **r <= 1.0).count();
-    accepted as f64 / over_critical.len() as f64
+pub fn accepted_share(assessments: &[Assessment]) -> f64 {
+    AcceptedShare::of(assessments).share().unwrap_or(f64::NAN)
 }
 
 /// Every so many levels enter the null band, which a denser choice does not
 /// move.
-const BAND_STRIDE: usize = 8;
+pub const BAND_STRIDE: usize = 8;
 
 /// Replicates of the null band.
 const BAND_REPLICATES: u64 = 200;
 
-/// Central 95 % band of the accepted share for capacities that are lognormal
-/// above `shift` and as dependent from level to level as these; none where
-/// a capacity is infinite or not above the shift.
+/// The levels that stand for all of them in a simulation.
+pub fn every<T>(levels: &[T], stride: usize) -> impl Iterator<Item = &T> {
+    levels.iter().skip(stride - 1).step_by(stride)
+}
+
+/// The accepted share of capacities that are lognormal above `shift` and as
+/// dependent from level to level as these; none where a capacity is infinite
+/// or not above the shift.
 #[must_use]
 pub fn null_band(
     samples: &[Vec<f64>],
     shift: f64,
     name: &str,
-) -> Option<(f64, f64)> {
-    let levels: Vec<Vec<f64>> = samples
-        .iter()
-        .skip(BAND_STRIDE - 1)
-        .step_by(BAND_STRIDE)
+) -> Option<NullBand> {
+    let levels: Vec<Vec<f64>> = every(samples, BAND_STRIDE)
         .map(|sample| sample.iter().map(|x| libm::log(x - shift)).collect())
         .collect();
     if levels.iter().flatten().any(|y| !y.is_finite()) {
@@ -71,8 +71,12 @@ pub fn null_band(
     }
     let size = samples.first()?.len();
     let (critical, _) = Table::embedded().critical_value(size, LEVEL).ok()?;
-    let band = NullBand::simulate(&levels, critical, BAND_REPLICATES, name, 0)
-        .ok()?;
+    NullBand::simulate(&levels, critical, BAND_REPLICATES, name, 0).ok()
+}
+
+/// Central 95 % of a null band.
+#[must_use]
+pub fn ends(band: &NullBand) -> Option<(f64, f64)> {
     let band = band.band(1.0 - LEVEL, 0.95)?;
     Some((band.low, band.high))
 }
@@ -93,11 +97,14 @@ mod tests {
             .map(|i| if i < 43 { 2.0 } else { 9.0 } + f64::from(i) * 1e-3)
             .collect();
         let never = vec![f64::INFINITY; 86];
-        let ratios = along(&[scores, clusters, never], 1.0);
+        let tests = along(&[scores, clusters, never], 1.0).expect("samples");
+        let ratios: Vec<f64> = tests.iter().map(over_critical).collect();
         // D of the scores is 1/(2 n) up to the estimate of the spread.
         assert!(ratios[0] < 0.2 && ratios[1] > 2.0, "{ratios:?}");
         assert!(ratios[2].is_nan());
-        assert_eq!(accepted_share(&ratios), 1.0 / 3.0);
+        assert_eq!(accepted_share(&tests), 0.5);
+        assert!(accepted_share(&tests[2..]).is_nan());
+        assert!(along(&[vec![f64::NAN]], 1.0).is_err());
     }
 
     #[test]
@@ -107,7 +114,8 @@ mod tests {
         let copies = vec![level; 40];
         // All levels are accepted together, 95 % of the time: the band
         // reaches 1 and does not shrink to it.
-        let (low, high) = null_band(&copies, 1.0, "test").expect("band");
+        let band = null_band(&copies, 1.0, "test").expect("band");
+        let (low, high) = ends(&band).expect("band");
         assert!(low < 1.0 && high == 1.0, "{low} {high}");
         assert!(null_band(&copies, 2.0, "test").is_none());
     }

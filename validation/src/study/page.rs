@@ -9,6 +9,7 @@ use super::claims::PAPER_GRAVITY_M_S2;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
+use super::questions::Answer;
 use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
 use crate::evidence::{self, ShownChart};
@@ -26,6 +27,7 @@ pub fn input(
     figures: &[Figure],
     charts: &[ShownChart],
     claims: &[Claim],
+    answers: &[Answer],
 ) -> Result<ReportInput, StudyError> {
     let timings = Timings::kept()?;
     let mut drawn: Vec<ShownFigure> =
@@ -45,12 +47,20 @@ pub fn input(
         summary: summary(results),
         findings: claims.iter().map(finding).collect(),
         families: evidence::committed_families()?,
-        tables: vec![table_1()?, evidence::digits_table()],
+        tables: tables(answers)?,
         figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
         credibility: timings.tables(),
     })
+}
+
+fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
+    let mut tables = vec![table_1()?, evidence::digits_table()];
+    for answer in answers {
+        tables.extend(answer.tables.iter().cloned());
+    }
+    Ok(tables)
 }
 
 fn summary(results: &Results) -> Summary {
@@ -162,7 +172,11 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
     Ok(ShownFigure {
         name: heading.name.clone(),
-        number: format!("Figure {number}{arm}"),
+        number: if number.is_empty() {
+            "Beyond the paper".into()
+        } else {
+            format!("Figure {number}{arm}")
+        },
         title: heading.title.clone(),
         reading: figure.reading.clone(),
         svg: figure.drawing.svg()?,

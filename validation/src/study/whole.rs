@@ -17,8 +17,10 @@ use super::findings::{Claim, Findings, ends, rounded, text};
 use super::grid::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, demands,
 };
+use super::normality::ends as band_ends;
 use super::output::Files;
 use super::page;
+use super::questions::{self, Answer};
 use super::sensitivities::Varied;
 use super::speed::Timings;
 use super::suites::StudySuite;
@@ -32,6 +34,7 @@ pub struct Study {
     figures: Vec<Figure>,
     claims: Vec<Claim>,
     findings: Findings,
+    answers: Vec<Answer>,
 }
 
 impl Study {
@@ -54,10 +57,14 @@ impl Study {
         distributions.extend(of_suite(&pulse, common)?);
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
-        let figures = results.figures()?;
+        let mut figures = results.figures()?;
+        let mut answers = questions::all(&results, full)?;
+        for answer in &mut answers {
+            figures.append(&mut answer.figures);
+        }
         let claims = claims::all(&results)?;
-        let findings = findings(&results, &claims)?;
-        Ok(Self { results, figures, claims, findings })
+        let findings = findings(&results, &claims, &answers)?;
+        Ok(Self { results, figures, claims, findings, answers })
     }
 
     /// The claims and what was found about them.
@@ -126,8 +133,20 @@ impl Study {
             let csv = shown.chart.csv();
             files.insert(format!("{name}.csv"), csv.into_bytes());
         }
-        let input =
-            page::input(&self.results, &self.figures, &charts, &self.claims)?;
+        for answer in &self.answers {
+            let csv = answer.csv.clone().into_bytes();
+            files.insert(format!("{}.csv", answer.id), csv);
+            for (name, csv) in &answer.files {
+                files.insert(name.clone(), csv.clone().into_bytes());
+            }
+        }
+        let input = page::input(
+            &self.results,
+            &self.figures,
+            &charts,
+            &self.claims,
+            &self.answers,
+        )?;
         files.insert("index.html".into(), report::page(&input).into_bytes());
         Ok(files)
     }
@@ -191,11 +210,13 @@ fn single_csv(results: &Results) -> String {
 fn findings(
     results: &Results,
     claims: &[Claim],
+    answers: &[Answer],
 ) -> Result<Findings, StudyError> {
     let mut out = Findings::new();
     let claims = claims.iter().map(Claim::json).collect();
     out.insert("claims".into(), Value::Array(claims));
     out.insert("options".into(), options(&results.plan));
+    out.insert("questions".into(), questions::json(answers));
     let suites = [&results.ordinary, &results.pulse].map(suite);
     out.insert("suites".into(), Value::Array(suites.into()));
     out.insert("figure_09".into(), figure_09(results)?);
@@ -308,9 +329,9 @@ fn shares(results: &Results) -> Value {
                 "alpha_rad": rounded(block.alpha_rad),
                 "im_r": rounded(block.shift),
                 "original": rounded(original),
-                "original_null_band": ends(block.bands[0]),
+                "original_null_band": ends(block.bands[0].as_ref().and_then(band_ends)),
                 "shifted": rounded(shifted),
-                "shifted_null_band": ends(block.bands[1]),
+                "shifted_null_band": ends(block.bands[1].as_ref().and_then(band_ends)),
             }));
         }
     }

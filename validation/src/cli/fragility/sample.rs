@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking::statistics::lognormal::{FitError, FitMethod, LognormalFit, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use serde_json::{Map, Value, json};
@@ -138,8 +138,8 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
     show(args, out)
 }
 
-/// Percentile intervals (95 %) of the fit's numbers; the shift `min` is
-/// taken anew from every sample.
+/// Percentile and BCa intervals (95 %) of the fit's numbers; the shift `min`
+/// is taken anew from every sample.
 fn bootstrap(
     plan: &Plan,
     values: &[f64],
@@ -160,10 +160,16 @@ fn bootstrap(
             or_nan(&fits.eq7),
         ]
     };
+    let made = |drawn: &[f64]| {
+        plan.fits(drawn).map_or([f64::NAN; 6], |fits| numbers(&fits))
+    };
     let rows = draws.map(|draw| {
         let drawn: Vec<f64> = draw.iter().map(|&i| values[i]).collect();
-        plan.fits(&drawn).map_or([f64::NAN; 6], |fits| numbers(&fits))
+        made(&drawn)
     });
+    let without: Vec<[f64; 6]> = (0..values.len())
+        .map(|k| made(&[&values[..k], &values[k + 1..]].concat()))
+        .collect();
     let points = numbers(fits);
     let mut out = Map::new();
     out.insert("replicates".to_owned(), replicates.into());
@@ -172,8 +178,12 @@ fn bootstrap(
     let keys = ["mu", "beta", "median", "eq5", "eq6", "eq7"];
     for (i, key) in keys.into_iter().enumerate() {
         let column: Vec<f64> = rows.iter().map(|row| row[i]).collect();
+        let left_out: Vec<f64> = without.iter().map(|row| row[i]).collect();
+        let bca = accelerated(points[i], &column, &left_out, 0.95);
         let value = estimate(points[i], &column, 0.95).map(|e| {
             json!({
+                "bca_low": json::optional(bca.as_ref().map(|e| e.low)),
+                "bca_high": json::optional(bca.as_ref().map(|e| e.high)),
                 "standard_error": json::number(e.standard_error),
                 "low": json::number(e.low),
                 "high": json::number(e.high),

@@ -213,20 +213,15 @@ fn geometric_mean(results: &Results, arm: Arm) -> Result<Claim, StudyError> {
     let factors: Option<Vec<f64>> =
         suite.records.iter().map(|r| r.mean_over_study).collect();
     let d = of(results, suite, arm, Intensity::Pga)?;
-    let changes: Vec<f64> = factors.map_or_else(Vec::new, |factors| {
-        d.blocks
-            .iter()
-            .map(|block| {
-                let samples: Vec<Vec<f64>> = block
-                    .samples
-                    .iter()
-                    .map(|sample| scaled(sample, &factors))
-                    .collect();
-                let share = accepted_share(&along(&samples, least(&factors)));
-                share - block.shares().1
-            })
-            .collect()
-    });
+    let mut changes = Vec::new();
+    for (block, factors) in
+        factors.iter().flat_map(|f| d.blocks.iter().map(move |b| (b, f)))
+    {
+        let samples: Vec<Vec<f64>> =
+            block.samples.iter().map(|s| scaled(s, factors)).collect();
+        let share = accepted_share(&along(&samples, least(factors))?);
+        changes.push(share - block.shares().1);
+    }
     let measured = median(&changes);
     let context = Context {
         section: "3",

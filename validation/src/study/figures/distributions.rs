@@ -1,5 +1,6 @@
 //! Figures 11 to 14: capacities and their tests.
 
+use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
 use super::{Figure, Results, name, percent, range};
@@ -12,7 +13,7 @@ use crate::study::distributions::{BlockSamples, Distributions};
 use crate::study::grid::{
     FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index, demands, position,
 };
-use crate::study::normality::{LEVEL, accepted_share, logarithms};
+use crate::study::normality::{LEVEL, accepted_share, ends, over_critical};
 
 impl Results {
     /// The capacity samples of a suite in an arm and a measure.
@@ -127,7 +128,9 @@ pub(super) fn shares(
                         alpha_rad: block.alpha_rad,
                         arm: *arm,
                         share: if shifted { above } else { original },
-                        null_band: block.bands[usize::from(shifted)],
+                        null_band: block.bands[usize::from(shifted)]
+                            .as_ref()
+                            .and_then(ends),
                     });
                 }
             }
@@ -186,7 +189,6 @@ pub(super) fn along(
     for slenderness in [0, 3] {
         let block =
             results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
-        let sample = &block.samples[demand_index(edp)];
         words.push(format!(
             "{} original and {} shifted at alpha = {:.2}",
             percent(accepted_share(&block.original)),
@@ -197,10 +199,10 @@ pub(super) fn along(
             p_rad_s: block.p_rad_s,
             alpha_rad: block.alpha_rad,
             edp: demands(),
-            original: block.original.clone(),
-            shifted: block.shifted.clone(),
-            original_histogram: histogram(sample, 0.0),
-            shifted_histogram: histogram(sample, block.shift),
+            original: block.original.iter().map(over_critical).collect(),
+            shifted: block.shifted.iter().map(over_critical).collect(),
+            original_histogram: histogram(&block.original[demand_index(edp)]),
+            shifted_histogram: histogram(&block.shifted[demand_index(edp)]),
         });
     }
     Ok(Figure {
@@ -223,12 +225,13 @@ pub(super) fn along(
     })
 }
 
-fn histogram(sample: &[f64], shift: f64) -> Histogram {
+/// Of the logarithms tested.
+fn histogram(test: &Assessment) -> Histogram {
     let none = || Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
-    let Some(logs) = logarithms(sample, shift) else { return none() };
+    let Some(logs) = &test.tested else { return none() };
     let n = logs.len() as f64;
     let deviation = (logs.sum_of_squares() / (n - 1.0)).sqrt();
-    let quartile = |p| quartile(&logs, p);
+    let quartile = |p| quartile(logs, p);
     let quartiles = (quartile(0.25), quartile(0.75));
     Histogram::freedman_diaconis(
         logs.sorted(),

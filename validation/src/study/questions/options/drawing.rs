@@ -1,0 +1,89 @@
+//! The figure of the options.
+
+use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
+use rocking::statistics::QuantileType;
+use rocking::statistics::lognormal::FitMethod;
+
+use super::{MLE, Summary, trimmed};
+use crate::figures::data::{
+    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+};
+use crate::study::figures::Figure;
+
+/// Median distance over blocks and demands against the constant of Eq. 7.
+pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
+    let quantile_type = QuantileType::default();
+    let panel = |intensity: Intensity| {
+        let ks = |recipe: Recipe| {
+            let found = summaries
+                .iter()
+                .find(|s| s.recipe == recipe && s.intensity == intensity);
+            found.map_or(f64::NAN, |s| s.ks)
+        };
+        let series = |label: &str, mark, y: Vec<f64>| Series {
+            label: label.into(),
+            mark,
+            x: CONSTANTS.to_vec(),
+            y,
+            interval: Vec::new(),
+        };
+        let flat = |label: &str, recipe| {
+            series(label, Mark::Line, vec![ks(recipe); CONSTANTS.len()])
+        };
+        let seven = |label: &str, method, centre| {
+            let along = CONSTANTS
+                .iter()
+                .map(|c| ks(Recipe::Transformed { method, centre, c: *c }));
+            series(label, Mark::LineAndPoints, along.collect())
+        };
+        let (fitted, sample) = (Centre::FittedMedian, Centre::SampleMedian);
+        ChartPanel {
+            title: intensity.name().to_uppercase(),
+            x: Axis {
+                label: "*c* of Eq. 7".into(),
+                scale: Scale::Linear,
+                range: Some((0.2, 1.05)),
+                categories: Vec::new(),
+            },
+            y: Axis {
+                label: "median Kolmogorov distance".into(),
+                scale: Scale::Linear,
+                range: None,
+                categories: Vec::new(),
+            },
+            series: vec![
+                flat("unshifted", Recipe::Unshifted(MLE)),
+                flat("Option 1", Recipe::Shifted(MLE)),
+                flat("Option 2", Recipe::Quantiles(quantile_type)),
+                seven("Option 3, untrimmed", MLE, fitted),
+                seven("Option 3, trimmed", trimmed(), fitted),
+                seven("Option 3, untrimmed, sample median", MLE, sample),
+                seven(
+                    "Option 3, quantiles",
+                    FitMethod::Quantile(quantile_type),
+                    sample,
+                ),
+            ],
+        }
+    };
+    Figure {
+        drawing: Box::new(Chart {
+            heading: Heading {
+                name: "figure-options".into(),
+                title: "Options 1, 2 and 3 compared".into(),
+                description: "Median over 15 blocks and three demands of \
+                              the Kolmogorov distance to the empirical \
+                              fragility, against the constant of Eq. 7, for \
+                              each option; PGA and PGV, ordinary records."
+                    .into(),
+                arm: Some(arm),
+            },
+            panels: vec![panel(Intensity::Pga), panel(Intensity::Pgv)],
+            columns: 2,
+        }),
+        reading: "Median over 15 blocks and demands 0.15, 0.35 and 1.00 of \
+                  the Kolmogorov distance to the empirical fragility, of \
+                  the blocks where the option is defined."
+            .into(),
+    }
+}

@@ -7,6 +7,8 @@ use std::process::Stdio;
 
 use serde_json::Value;
 
+#[path = "cli/diff.rs"]
+mod diff;
 #[path = "cli/support.rs"]
 mod support;
 

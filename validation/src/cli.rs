@@ -10,6 +10,7 @@ use clap::{Parser, Subcommand};
 pub mod boxplot;
 pub mod capacities;
 pub mod compare;
+pub mod diff;
 pub mod excitation;
 pub mod fragility;
 pub mod ida;
@@ -39,6 +40,7 @@ enum Command {
     Boxplot(boxplot::Args),
     Capacities(capacities::Args),
     Compare(compare::Args),
+    Diff(diff::Args),
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
@@ -142,6 +144,7 @@ pub fn run() -> ExitCode {
         Command::Boxplot(args) => boxplot::run(&args),
         Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Diff(args) => diff::run(&args),
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),

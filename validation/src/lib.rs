@@ -6,6 +6,7 @@ pub mod arithmetic;
 pub mod cases;
 pub mod cli;
 pub mod curves;
+pub mod diff;
 pub mod drawing;
 pub mod engine;
 pub mod evidence;

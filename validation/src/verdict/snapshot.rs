@@ -85,6 +85,13 @@ fn digits(check: &Check) -> usize {
         Bound::Exact => 0.0,
         _ => 1e-3,
     };
+    supported_digits(relative)
+}
+
+/// Significant digits that are printed of a number known to so large a share
+/// of itself.
+#[must_use]
+pub fn supported_digits(relative: f64) -> usize {
     let mut digits = 1;
     let mut unit = 0.1;
     while digits < MOST_DIGITS && relative < unit {

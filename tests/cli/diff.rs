@@ -1,0 +1,274 @@
+//! `rocking diff` on small made-up results.
+
+use std::fs;
+use std::path::PathBuf;
+
+use serde_json::Value;
+
+use super::support::{folder, json, refused_for, run};
+
+const FINDINGS: &str = r#"{
+  "claims": [
+    {
+      "arm": "C", "blocks": "p = 3 and 4", "id": "ratios-ordinary-c",
+      "interval": [0.98, 1.02], "margin": "all within 5 % of 1",
+      "measure": "median paired ratio", "note": "", "quote": "The same",
+      "section": "4, Figure 7", "suite": "ordinary", "value": 1.0,
+      "verdict": "confirmed"
+    },
+    {
+      "arm": null, "blocks": "all 15", "id": "energy-loss-none",
+      "interval": null, "margin": "15.36 % to four digits",
+      "measure": "1 - eta^2", "note": "", "quote": "15.36%",
+      "section": "3", "suite": "none", "value": 0.1536,
+      "verdict": "confirmed"
+    }
+  ],
+  "options": { "arms": ["C"], "eta": 0.92, "version": "0.1.0" },
+  "overturning": [
+    {
+      "alpha_rad": 0.2, "arm": "C", "im_kind": "pga",
+      "interval": [2.27, 2.3353], "median": 2.31, "p_rad_s": 3.0,
+      "suite": "ordinary", "usable": 86
+    },
+    {
+      "alpha_rad": 0.2, "arm": "C", "im_kind": "pga",
+      "interval": [3.1, 3.5], "median": 3.3, "p_rad_s": 1.0,
+      "suite": "ordinary", "usable": 86
+    }
+  ]
+}
+"#;
+
+const CASES: &str = r#"{
+  "free-rocking/one": {
+    "kind": "code-verification", "method": "free", "oracle": "closed-form",
+    "quantities": {
+      "peak": { "bound": 1e-9, "first": [0.5], "kind": "absolute",
+                "margin": 0.3, "values": 1 }
+    },
+    "rejected": { "wrong": { "margin": 70.0, "quantity": "peak" } },
+    "verdict": "pass"
+  },
+  "free-rocking/two": {
+    "kind": "code-verification", "method": "free", "oracle": "closed-form",
+    "quantities": {
+      "count": { "bound": 0, "first": [7.0], "kind": "exact",
+                 "margin": 0.0, "values": 1 }
+    },
+    "rejected": {},
+    "verdict": "pass"
+  }
+}
+"#;
+
+/// Two sides with results that differ by replacements in the text.
+fn sides(
+    name: &str,
+    findings: &[(&str, &str)],
+    cases: &[(&str, &str)],
+) -> PathBuf {
+    let changed = |text: &str, changes: &[(&str, &str)]| {
+        changes.iter().fold(text.to_owned(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replacen(from, to, 1)
+        })
+    };
+    folder(
+        &format!("diff-{name}"),
+        &[
+            ("old/findings.json", FINDINGS),
+            ("old/validation.json", CASES),
+            ("new/data/findings.json", &changed(FINDINGS, findings)),
+            ("new/data/validation.json", &changed(CASES, cases)),
+        ],
+    )
+}
+
+#[test]
+fn identical_results_say_so() {
+    let place = sides("identical", &[], &[]);
+    for (old, new) in [
+        ("old", "new"),
+        ("old/findings.json", "new/data/findings.json"),
+        ("old/validation.json", "new"),
+    ] {
+        let (status, out, error) = run(&place, &format!("diff {old} {new}"));
+        assert_eq!((status, error.as_str()), (0, ""), "{old} {new}");
+        assert!(out.starts_with("Identical: "), "{out}");
+    }
+    let answer = json(&place, "diff old new --json");
+    assert_eq!(answer["identical"], true);
+    assert_eq!(answer["significant"], 0);
+    // A file on one side only is named.
+    fs::remove_file(place.join("old/validation.json")).unwrap();
+    let (status, out, _) = run(&place, "diff old new");
+    assert_eq!(status, 0);
+    assert!(out.contains("validation.json: only among the new"), "{out}");
+}
+
+#[test]
+fn a_number_beyond_its_interval_is_told_in_engineering_terms() {
+    let place = sides("number", &[("2.31,", "2.35,")], &[]);
+    let (status, out, error) = run(&place, "diff old new");
+    assert_eq!(status, 1);
+    assert_eq!(error, "rocking: 1 significant change\n");
+    // (2.3353 - 2.31)/1.96 is a standard error of 0.0129.
+    let line = "    median overturning PGA/(g tan alpha) at p = 3, alpha = \
+                0.20, arm C: 2.31 to 2.35, +1.7 %, 3.1 standard errors\n";
+    assert!(out.contains(line), "{out}");
+    assert!(out.contains("  ordinary suite: overturning"), "{out}");
+    let (status, out, _) = run(&place, "diff old new --markdown");
+    assert_eq!(status, 1);
+    let row = "| median overturning PGA/(g tan alpha) at p = 3, alpha = \
+               0.20, arm C | 2.31 | 2.35 | +1.7 % | 3.1 standard errors |\n";
+    assert!(out.contains(row), "{out}");
+    let (status, out, _) = run(&place, "diff old new --json");
+    assert_eq!(status, 1);
+    let answer: Value = serde_json::from_str(&out).unwrap();
+    let number = &answer["numbers"][0];
+    assert_eq!((&number["old"], &number["new"]), (&2.31.into(), &2.35.into()));
+    let errors = number["standard_errors"].as_f64().unwrap();
+    assert!((errors - 3.099).abs() < 1e-3, "{errors}");
+}
+
+#[test]
+fn a_number_within_its_interval_does_not_matter() {
+    let changes = [("2.31,", "2.32,"), ("3.3,", "3.4,")];
+    let place = sides("small", &changes, &[]);
+    let (status, out, error) = run(&place, "diff old new");
+    assert_eq!((status, error.as_str()), (0, ""), "{out}");
+    // The more significant first: 0.77 against 0.98 standard errors.
+    let (first, second) = ("at p = 1", "at p = 3");
+    assert!(out.find(first).unwrap() < out.find(second).unwrap(), "{out}");
+}
+
+#[test]
+fn verdicts_come_first_and_settings_before_them() {
+    let changes = [
+        ("\"verdict\": \"confirmed\"", "\"verdict\": \"inconclusive\""),
+        ("\"eta\": 0.92", "\"eta\": 0.919"),
+        ("2.31,", "2.45,"),
+        ("0.1536", "0.155439"),
+    ];
+    let cases =
+        [("\"verdict\": \"pass\"", "\"verdict\": \"fail\""), ("0.5]", "0.6]")];
+    let place = sides("verdicts", &changes, &cases);
+    let (status, out, _) = run(&place, "diff old new");
+    assert_eq!(status, 1);
+    let lines = [
+        "    eta: 0.92 to 0.919\n",
+        "    ratios-ordinary-c, \"The same\": confirmed to inconclusive\n",
+        "    case free-rocking/one: pass to fail\n",
+        "    case free-rocking/one: peak: 0.5 to 0.6, +20 %, ",
+        "    energy-loss-none: 1 - eta^2, all 15: 0.154 to 0.155, +1.2 %, \
+         no interval stated\n",
+    ];
+    let at: Vec<usize> = lines
+        .iter()
+        .map(|line| out.find(line).unwrap_or_else(|| panic!("{line}\n{out}")))
+        .collect();
+    assert!(at[0] < at[1] && at[1] < at[3] && at[2] < at[3], "{out}");
+    // A looser limit takes what has no interval, nothing else.
+    let (_, out, _) = run(&place, "diff old new --relative 0.02 --json");
+    let answer: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(answer["significant"], 6 - 1);
+}
+
+#[test]
+fn what_appeared_or_vanished_is_named() {
+    let renamed = [("energy-loss-none", "energy-none")];
+    let cases = [("free-rocking/two", "free-rocking/three")];
+    let place = sides("presence", &renamed, &cases);
+    let (status, out, error) = run(&place, "diff old new");
+    assert_eq!(status, 1);
+    assert!(error.contains("4 significant"), "{error}");
+    let (_, lists) = out.split_once("\nAppeared\n").unwrap();
+    let (appeared, vanished) = lists.split_once("\nVanished\n").unwrap();
+    for (list, names) in [
+        (appeared, ["claim energy-none", "case free-rocking/three"]),
+        (vanished, ["claim energy-loss-none", "case free-rocking/two"]),
+    ] {
+        for name in names {
+            assert!(list.contains(name), "{name}: {out}");
+        }
+    }
+}
+
+#[test]
+fn tolerances_and_exact_numbers_of_cases() {
+    for (name, change, status) in [
+        ("exact", ("7.0]", "8.0]"), 1),
+        ("within", ("0.5]", "0.500000001]"), 0),
+        ("beyond", ("0.5]", "0.500000004]"), 1),
+        ("looser", ("1e-9", "1e-8"), 1),
+        ("margin", ("\"margin\": 0.3", "\"margin\": 0.9"), 0),
+        ("unrejected", ("\"wrong\": {", "\"other\": {"), 1),
+    ] {
+        let place = sides(name, &[], &[change]);
+        let (found, out, _) = run(&place, "diff old new");
+        assert_eq!(found, status, "{name}: {out}");
+        assert!(!out.starts_with("Identical"), "{name}: {out}");
+    }
+}
+
+#[test]
+fn bad_input_is_refused_with_the_file_and_what_was_expected() {
+    let place = sides("refused", &[], &[]);
+    let files = [
+        ("cut.json", &FINDINGS[..300], "expected JSON"),
+        ("list.json", "[1]", "found a list, expected findings"),
+        ("other.json", "{\"a\": 1}", "found the keys `a`"),
+        ("twice.json", "{\"claims\": [], \"claims\": []}", "stands twice"),
+    ];
+    for (name, text, _) in files {
+        fs::write(place.join(name), text).unwrap();
+    }
+    fs::create_dir(place.join("empty")).unwrap();
+    for (name, _, words) in files {
+        refused_for(&place, &format!("diff {name} new"), &[name, words]);
+        refused_for(&place, &format!("diff new {name}"), &[name, words]);
+    }
+    let flawed = [
+        ("\"confirmed\"", "\"perhaps\"", "confirmed, not confirmed"),
+        ("[0.98, 1.02]", "[1.02, 0.98]", "two rising numbers"),
+        ("[0.98, 1.02]", "[0.98]", "two rising numbers"),
+        ("\"value\": 1.0", "\"value\": \"one\"", "found \"one\""),
+        ("\"value\": 1.0,", "", "claim 1, value: found nothing"),
+        ("energy-loss-none", "ratios-ordinary-c", "twice"),
+    ];
+    for (from, to, words) in flawed {
+        assert!(FINDINGS.contains(from));
+        fs::write(place.join("flawed.json"), FINDINGS.replacen(from, to, 1))
+            .unwrap();
+        let arguments = "diff old flawed.json";
+        refused_for(&place, arguments, &["flawed.json", words]);
+    }
+    let flawed = [
+        ("\"pass\"", "\"good\"", "pass, fail"),
+        ("\"values\": 1 ", "\"values\": 1, \"x\": 1 ", "unknown field `x`"),
+        ("\"values\": 1 ", "\"values\": -1 ", "case free-rocking/one"),
+        ("\"absolute\"", "\"abs\"", "exact, absolute, relative"),
+    ];
+    for (from, to, words) in flawed {
+        assert!(CASES.contains(from));
+        fs::write(place.join("flawed.json"), CASES.replacen(from, to, 1))
+            .unwrap();
+        let arguments = "diff flawed.json old";
+        refused_for(&place, arguments, &["flawed.json", words]);
+    }
+    for (arguments, words) in [
+        ("diff absent new", "absent"),
+        ("diff old empty", "expected findings.json or validation.json"),
+        (
+            "diff old/findings.json new/data/validation.json",
+            "nothing in common",
+        ),
+        ("diff old new --relative -1", "--relative -1"),
+        ("diff old new --relative NaN", "--relative NaN"),
+    ] {
+        refused_for(&place, arguments, &[words]);
+    }
+    fs::write(place.join("new/findings.json"), FINDINGS).unwrap();
+    refused_for(&place, "diff old new", &["new", "one of them"]);
+}

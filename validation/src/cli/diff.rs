@@ -1,0 +1,71 @@
+//! `rocking diff`: what changed between two results.
+
+use std::path::PathBuf;
+
+use super::{Failure, print};
+use crate::diff::{Results, compare};
+
+/// What changed between two results, and whether it matters.
+///
+/// OLD and NEW are each a folder of a study, a folder of reports, or one
+/// file: findings.json or validation.json. Verdicts come first, then numbers
+/// by the size of their change over what it may be: the 95 % interval of a
+/// finding, the tolerance of a case. Ends with 1 where a verdict, a setting
+/// or a number beyond its uncertainty changed, or a claim or a case is on
+/// one side only.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Results before.
+    #[arg(value_name = "OLD")]
+    old: PathBuf,
+    /// Results after.
+    #[arg(value_name = "NEW")]
+    new: PathBuf,
+    /// Relative change that is significant where a finding states no
+    /// interval.
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value_t = 0.01,
+        allow_negative_numbers = true
+    )]
+    relative: f64,
+    /// List every change, also those within their uncertainty; JSON always
+    /// does.
+    #[arg(long, conflicts_with = "json")]
+    all: bool,
+    /// Print Markdown for a pull request.
+    #[arg(long, conflicts_with = "json")]
+    markdown: bool,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for results that cannot be read or have nothing in common
+/// (status 2), and for a significant change (status 1).
+pub fn run(args: &Args) -> Result<(), Failure> {
+    if !(args.relative >= 0.0 && args.relative.is_finite()) {
+        return Err(Failure::input(format!(
+            "--relative {}: expected a share, 0 or more",
+            args.relative
+        )));
+    }
+    let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);
+    let comparison = compare(&old, &new, args.relative)?;
+    print(&if args.json {
+        format!("{:#}\n", comparison.json())
+    } else if args.markdown {
+        comparison.markdown(args.all)
+    } else {
+        comparison.text(args.all)
+    })?;
+    match comparison.significant() {
+        0 => Ok(()),
+        1 => Err(Failure::gate("1 significant change")),
+        n => Err(Failure::gate(format!("{n} significant changes"))),
+    }
+}

@@ -1,0 +1,236 @@
+//! What changed between two sets of results, in engineering terms.
+//!
+//! Findings of a study and results of declared cases become [`Item`]s with a
+//! name each; [`compare`] sets them beside each other, and [`Comparison`]
+//! says what changed and whether it matters.
+
+mod cases;
+mod change;
+mod findings;
+mod input;
+mod print;
+mod strict;
+#[cfg(test)]
+mod tests;
+mod words;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+pub use change::{Change, Measure};
+pub use input::{DiffError, Results};
+
+/// One thing that results say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Item {
+    /// What it belongs to: a case, a claim, a row of a table.
+    pub owner: String,
+    /// Its name within the owner.
+    pub name: String,
+    /// Suite and subject, or family: what it is listed under.
+    pub group: String,
+    /// What it is, in words.
+    pub words: String,
+    /// What it says.
+    pub content: Content,
+}
+
+/// What an item says.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// Whether a claim or a case holds.
+    Verdict(String),
+    /// What makes two runs different runs: a setting, a suite, a declared
+    /// tolerance.
+    Setting(String),
+    /// Words around results.
+    Text(String),
+    /// A result.
+    Number {
+        /// The value; NaN where there is none.
+        value: f64,
+        /// What it may change by.
+        limit: Limit,
+    },
+}
+
+/// What a number may change by before the change means something.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Limit {
+    /// Its 95 % interval.
+    Interval(f64, f64),
+    /// A declared tolerance, and the unit of the last digit printed.
+    Tolerance(f64, f64),
+    /// Nothing is stated.
+    None,
+    /// The verdict beside it tells.
+    Verdict,
+}
+
+/// Everything of one kind that two sets of results say differently.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    /// Items found on both sides.
+    pub compared: usize,
+    /// Settings: the likely cause of what else changed.
+    pub settings: Vec<Change>,
+    /// Verdicts of claims and cases.
+    pub verdicts: Vec<Change>,
+    /// Claims, cases and rows that only the new results have.
+    pub appeared: Vec<Presence>,
+    /// Those that only the old results have.
+    pub vanished: Vec<Presence>,
+    /// Numbers, the most significant first.
+    pub numbers: Vec<Change>,
+    /// Words around results.
+    pub texts: Vec<Change>,
+    /// Files that only one side has.
+    pub not_compared: Vec<String>,
+}
+
+/// Something on one side only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Presence {
+    /// What it is listed under.
+    pub group: String,
+    /// What it is.
+    pub words: String,
+    /// Whether it counts: a claim, a case, or something lost.
+    pub significant: bool,
+}
+
+impl Comparison {
+    /// Number of changes that matter.
+    #[must_use]
+    pub fn significant(&self) -> usize {
+        let changes = [&self.settings, &self.verdicts, &self.numbers];
+        let changed =
+            changes.into_iter().flatten().filter(|c| c.significant).count();
+        let seen = self.appeared.iter().chain(&self.vanished);
+        changed + seen.filter(|p| p.significant).count()
+    }
+
+    /// Whether nothing at all differs.
+    #[must_use]
+    pub fn is_identical(&self) -> bool {
+        *self
+            == Self {
+                compared: self.compared,
+                not_compared: self.not_compared.clone(),
+                ..Self::default()
+            }
+    }
+
+    fn add(&mut self, change: Change, content: &Content) {
+        match content {
+            Content::Verdict(_) => self.verdicts.push(change),
+            Content::Setting(_) => self.settings.push(change),
+            Content::Text(_) => self.texts.push(change),
+            Content::Number { .. } => self.numbers.push(change),
+        }
+    }
+
+    fn items(&mut self, old: &[Item], new: &[Item], relative: f64) {
+        let owners = |items: &[Item]| -> BTreeSet<String> {
+            items.iter().map(|item| item.owner.clone()).collect()
+        };
+        let (before, after) = (owners(old), owners(new));
+        self.vanished.extend(only(old, &after, true));
+        self.appeared.extend(only(new, &before, false));
+        let key = |item: &Item| (item.owner.clone(), item.name.clone());
+        let by_key: BTreeMap<(String, String), &Item> =
+            new.iter().map(|item| (key(item), item)).collect();
+        let mut met = BTreeSet::new();
+        for item in old.iter().filter(|item| after.contains(&item.owner)) {
+            let Some(other) = by_key.get(&key(item)) else {
+                self.vanished.push(alone(item, true));
+                continue;
+            };
+            met.insert(key(item));
+            self.compared += 1;
+            if let Some(change) = Change::between(item, other, relative) {
+                self.add(change, &item.content);
+            }
+        }
+        for item in new.iter().filter(|item| before.contains(&item.owner)) {
+            if !met.contains(&key(item)) {
+                self.appeared.push(alone(item, false));
+            }
+        }
+    }
+}
+
+/// Owners that the other side lacks, each once.
+fn only(
+    items: &[Item],
+    others: &BTreeSet<String>,
+    lost: bool,
+) -> Vec<Presence> {
+    let mut seen = BTreeSet::new();
+    let mut out = Vec::new();
+    for item in items.iter().filter(|item| !others.contains(&item.owner)) {
+        if seen.insert(item.owner.as_str()) {
+            let judged = items.iter().any(|other| {
+                other.owner == item.owner
+                    && matches!(other.content, Content::Verdict(_))
+            });
+            out.push(Presence {
+                group: item.group.clone(),
+                words: item.owner.clone(),
+                significant: lost || judged,
+            });
+        }
+    }
+    out
+}
+
+fn alone(item: &Item, lost: bool) -> Presence {
+    let text = matches!(item.content, Content::Text(_));
+    Presence {
+        group: item.group.clone(),
+        words: item.words.clone(),
+        significant: lost && !text,
+    }
+}
+
+/// Sets two results beside each other; where nothing is stated a number may
+/// change by the share `relative` of itself.
+///
+/// # Errors
+/// [`DiffError::NothingInCommon`] where no file of one kind is on both
+/// sides.
+pub fn compare(
+    old: &Results,
+    new: &Results,
+    relative: f64,
+) -> Result<Comparison, DiffError> {
+    let mut out = Comparison::default();
+    let kinds = [
+        ("findings.json", &old.findings, &new.findings),
+        ("validation.json", &old.cases, &new.cases),
+    ];
+    let mut common = false;
+    for (name, old, new) in kinds {
+        match (old, new) {
+            (Some(old), Some(new)) => {
+                common = true;
+                out.items(old, new, relative);
+            }
+            (None, None) => {}
+            (old, _) => {
+                let side = if old.is_some() { "old" } else { "new" };
+                out.not_compared
+                    .push(format!("{name}: only among the {side} results"));
+            }
+        }
+    }
+    if !common {
+        return Err(DiffError::NothingInCommon {
+            old: old.path.clone(),
+            new: new.path.clone(),
+        });
+    }
+    for changes in [&mut out.numbers, &mut out.settings, &mut out.verdicts] {
+        changes.sort_by(|a, b| b.rank.total_cmp(&a.rank));
+    }
+    Ok(out)
+}

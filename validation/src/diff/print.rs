@@ -1,0 +1,258 @@
+//! A comparison for people, for a pull request and for machines.
+
+use std::fmt::Write as _;
+
+use serde_json::{Value, json};
+
+use super::words::percent;
+use super::{Change, Comparison, Measure, Presence};
+use crate::json::{number, optional};
+
+/// Changes within their uncertainty that are listed unless all are wanted.
+const MOST: usize = 10;
+
+/// Changes by what they are listed under, in the order of the first of each.
+fn by_group<'a>(
+    changes: impl IntoIterator<Item = &'a Change>,
+) -> Vec<(&'a str, Vec<&'a Change>)> {
+    let mut groups: Vec<(&str, Vec<&Change>)> = Vec::new();
+    for change in changes {
+        match groups.iter_mut().find(|(name, _)| *name == change.group) {
+            Some((_, list)) => list.push(change),
+            None => groups.push((&change.group, vec![change])),
+        }
+    }
+    groups
+}
+
+fn groups_of_presences(list: &[Presence]) -> Vec<(&str, Vec<&Presence>)> {
+    let mut groups: Vec<(&str, Vec<&Presence>)> = Vec::new();
+    for one in list {
+        match groups.iter_mut().find(|(name, _)| *name == one.group) {
+            Some((_, list)) => list.push(one),
+            None => groups.push((&one.group, vec![one])),
+        }
+    }
+    groups
+}
+
+fn minor(comparison: &Comparison) -> Vec<&Change> {
+    let small = comparison.numbers.iter().filter(|c| !c.significant);
+    small.chain(&comparison.texts).collect()
+}
+
+impl Comparison {
+    /// For people; `all` lists changes within their uncertainty too.
+    #[must_use]
+    pub fn text(&self, all: bool) -> String {
+        let mut out = self.head();
+        out.push('\n');
+        let mut list = |title: &str, changes: Vec<&Change>| {
+            if changes.is_empty() {
+                return;
+            }
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "\n{title}");
+            for (group, changes) in by_group(changes) {
+                let _ = writeln!(out, "  {group}");
+                for change in changes {
+                    let _ = writeln!(out, "    {}", change.sentence());
+                }
+            }
+        };
+        let big = self.numbers.iter().filter(|c| c.significant).collect();
+        list(
+            "Settings that changed, the likely cause of the rest",
+            self.settings.iter().collect(),
+        );
+        list("Verdicts that changed", self.verdicts.iter().collect());
+        list("Beyond their uncertainty or tolerance", big);
+        let small = minor(self);
+        let shown = if all { small.len() } else { small.len().min(MOST) };
+        list("Within them, or words", small[..shown].to_vec());
+        if shown < small.len() {
+            let _ = writeln!(out, "    {} more: --all", small.len() - shown);
+        }
+        for (title, presences) in
+            [("Appeared", &self.appeared), ("Vanished", &self.vanished)]
+        {
+            if !presences.is_empty() {
+                let _ = writeln!(out, "\n{title}");
+            }
+            for (group, list) in groups_of_presences(presences) {
+                let _ = writeln!(out, "  {group}");
+                for one in list {
+                    let _ = writeln!(out, "    {}", one.words);
+                }
+            }
+        }
+        out
+    }
+
+    /// What there is, in a paragraph.
+    fn head(&self) -> String {
+        let mut out = String::new();
+        if self.is_identical() {
+            let _ = write!(
+                out,
+                "Identical: {} verdicts, numbers and words on both sides.",
+                self.compared
+            );
+        } else {
+            let changed = self.settings.len()
+                + self.verdicts.len()
+                + self.numbers.len()
+                + self.texts.len();
+            let _ = write!(
+                out,
+                "{changed} of {} verdicts, numbers and words changed, {} \
+                 appeared, {} vanished; {} of these changes are significant.",
+                self.compared,
+                self.appeared.len(),
+                self.vanished.len(),
+                self.significant()
+            );
+        }
+        for note in &self.not_compared {
+            let _ = write!(out, "\nNot compared: {note}.");
+        }
+        out
+    }
+
+    /// Markdown for a pull request.
+    #[must_use]
+    pub fn markdown(&self, all: bool) -> String {
+        let mut out = format!("## What changed\n\n{}\n", self.head());
+        let big = self.numbers.iter().filter(|c| c.significant).collect();
+        let small = minor(self);
+        let shown = if all { small.len() } else { small.len().min(MOST) };
+        for (title, changes) in [
+            ("Settings", self.settings.iter().collect()),
+            ("Verdicts", self.verdicts.iter().collect()),
+            ("Beyond uncertainty or tolerance", big),
+            ("Within uncertainty or tolerance", small[..shown].to_vec()),
+        ] {
+            table(&mut out, title, &changes);
+        }
+        if shown < small.len() {
+            let _ = writeln!(out, "\n{} more.", small.len() - shown);
+        }
+        for (title, presences) in
+            [("Appeared", &self.appeared), ("Vanished", &self.vanished)]
+        {
+            if !presences.is_empty() {
+                let _ = writeln!(out, "\n### {title}\n");
+            }
+            for one in presences {
+                let _ = writeln!(
+                    out,
+                    "- {} ({})",
+                    escaped(&one.words),
+                    escaped(&one.group)
+                );
+            }
+        }
+        out
+    }
+
+    /// For machines.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let list = |changes: &[Change]| -> Vec<Value> {
+            changes.iter().map(machine).collect()
+        };
+        let presences = |list: &[Presence]| -> Vec<Value> {
+            list.iter()
+                .map(|one| {
+                    json!({
+                        "group": one.group,
+                        "what": one.words,
+                        "significant": one.significant,
+                    })
+                })
+                .collect()
+        };
+        json!({
+            "identical": self.is_identical(),
+            "significant": self.significant(),
+            "compared": self.compared,
+            "settings": list(&self.settings),
+            "verdicts": list(&self.verdicts),
+            "numbers": list(&self.numbers),
+            "texts": list(&self.texts),
+            "appeared": presences(&self.appeared),
+            "vanished": presences(&self.vanished),
+            "not_compared": self.not_compared,
+        })
+    }
+}
+
+fn machine(change: &Change) -> Value {
+    let (old, new) = match change.values {
+        Some((old, new)) => (number(old), number(new)),
+        None => (json!(change.old), json!(change.new)),
+    };
+    let errors = match change.measure {
+        Measure::StandardErrors(n) => Some(n),
+        _ => None,
+    };
+    let tolerances = match change.measure {
+        Measure::Tolerances(n) => Some(n),
+        _ => None,
+    };
+    json!({
+        "group": change.group,
+        "owner": change.owner,
+        "name": change.name,
+        "what": change.words,
+        "old": old,
+        "new": new,
+        "relative": optional(change.relative),
+        "standard_errors": optional(errors),
+        "tolerances": optional(tolerances),
+        "change_over_limit": number(change.rank),
+        "significant": change.significant,
+    })
+}
+
+fn table(out: &mut String, title: &str, changes: &[&Change]) {
+    if changes.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "\n### {title}");
+    for (group, changes) in by_group(changes.iter().copied()) {
+        let _ = writeln!(
+            out,
+            "\n**{}**\n\n| quantity | old | new | change | measured by |\n\
+             |---|---|---|---|---|",
+            escaped(group)
+        );
+        for c in changes {
+            let _ = writeln!(
+                out,
+                "| {} | {} | {} | {} | {} |",
+                escaped(&c.words),
+                escaped(&c.old),
+                escaped(&c.new),
+                c.relative.map_or(String::new(), percent),
+                c.measured()
+            );
+        }
+    }
+}
+
+/// Text that Markdown shows as it is.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '|' | '*' | '_' | '<' | '`' | '[' | '\\' => {
+                out.push('\\');
+                out.push(c);
+            }
+            '\n' | '\r' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}

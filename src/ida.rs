@@ -332,7 +332,17 @@ pub fn curves_with(
     isa: Isa,
     done: impl Fn() + Sync,
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    batch::curves(records, analyses, isa, &done)
+    curves_reporting(records, analyses, isa, &done)
+}
+
+/// The lanes are compiled here, once, whatever the type of `done`.
+fn curves_reporting(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    isa: Isa,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    batch::curves(records, analyses, isa, &|| done())
 }
 
 /// [`curves`] with every fate certified, as [`certified_curve`].

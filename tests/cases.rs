@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use rocking_validation::cases::{Case, Cost, FAMILIES, load_all};
-use rocking_validation::methods::{METHODS, WRONG_MODELS};
+use rocking_validation::methods::{METHODS, WRONG_MODELS, digits, digits_csv};
 use rocking_validation::verdict::{run_all, run_case, snapshot};
 
 fn main() -> ExitCode {
@@ -131,6 +131,19 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
                 "reports/data/validation.json is stale: see what changed \
                  with `rocking validate --check`, accept it with `rocking \
                  validate`",
+            ))
+        }
+    }));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    trials.push(Trial::test("snapshot/precision-csv", move || {
+        let path = root.join("reports/data/precision.csv");
+        let found = std::fs::read_to_string(&path).unwrap_or_default();
+        if found == digits_csv(&digits().map_err(|e| e.to_string())?) {
+            Ok(())
+        } else {
+            Err(Failed::from(
+                "reports/data/precision.csv is stale: accept it with \
+                 `rocking validate`",
             ))
         }
     }));

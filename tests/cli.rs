@@ -89,6 +89,12 @@ fn bad_numbers_are_refused_with_their_flag() {
         ("ida --alpha 0.1 --p 3 --suite s --step-g 0 --out o.csv", "0"),
         ("ida --alpha 0.1 --p 3 --suite s --step-im NaN --out o.csv", "NaN"),
         ("ida --alpha 0.1 --p 3 --suite s --threads 0 --out o.csv", "0"),
+        (
+            "ida --alpha 0.1 --p 3 --suite s --certify --isa avx2 \
+             --out o.csv",
+            "--certify",
+        ),
+        ("study --engine scalar --isa baseline --out report", "--isa"),
         ("study --eta 1.1 --out report", "1.1"),
         ("study --refine -1 --out report", "-1"),
     ] {
@@ -300,7 +306,7 @@ fn json_is_json_and_missing_values_have_reasons() {
 }
 
 #[test]
-fn threads_do_not_change_a_byte() {
+fn threads_and_engine_do_not_change_a_byte() {
     let motions: Vec<(String, String)> = (0..9)
         .map(|i| {
             let name = format!("suite/{i}.at2");
@@ -310,24 +316,28 @@ fn threads_do_not_change_a_byte() {
     let files: Vec<(&str, &str)> =
         motions.iter().map(|(n, t)| (n.as_str(), t.as_str())).collect();
     let place = folder("threads", &files);
-    let ida = |threads: u32| {
+    let ida = |name: &str, how: &str| {
         let out = answer(
             &place,
             &format!(
                 "ida --alpha 0.15 --p 4 --suite suite --step-im 0.1 \
-                 --threads {threads} --out {threads}.csv --json"
+                 {how} --out {name}.csv --json"
             ),
         );
-        let table = fs::read(place.join(format!("{threads}.csv"))).unwrap();
+        let table = fs::read(place.join(format!("{name}.csv"))).unwrap();
         (out, table)
     };
-    let (summary, table) = ida(1);
+    let (summary, table) = ida("1", "--threads 1");
     assert!(table.len() > 2_000, "{summary}");
-    for threads in [2, 5] {
-        let (other, same) = ida(threads);
-        let name = format!("{threads}.csv");
-        assert_eq!(other.replace(&name, "1.csv"), summary);
-        assert!(same == table, "{threads} threads");
+    for (name, how) in [
+        ("2", "--threads 2"),
+        ("5", "--threads 5"),
+        ("baseline", "--isa baseline --threads 1"),
+        ("scalar", "--engine scalar --threads 2"),
+    ] {
+        let (other, same) = ida(name, how);
+        assert_eq!(other.replace(&format!("{name}.csv"), "1.csv"), summary);
+        assert!(same == table, "{how}");
     }
 }
 

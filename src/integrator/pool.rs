@@ -9,18 +9,19 @@
 mod batch;
 mod group;
 mod roots;
+mod waiting;
 
 use crate::excitation::Excitation;
 use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{
-    GUARD, LONG, LONG_STEP, Observe, Response, SHORT, SHORT_STEP, SMOOTH,
-    Scene,
+    GUARD, Observe, Response, SHORT, SHORT_STEP, SMOOTH, Scene,
 };
 use crate::number::dispatch::{Isa, Work};
 use batch::{Batch, Solved};
 use group::{Group, WIDTH};
+use waiting::{Kind, Lane, Line, Waiting};
 
 /// Groups of lanes: enough that a lane seldom waits for others, few enough
 /// that all stay in the nearest cache.
@@ -50,8 +51,6 @@ pub(crate) trait Source<'a> {
 pub(crate) enum Class {
     /// Eq. 1, steps to [`SHORT_STEP`].
     Short,
-    /// Eq. 1, steps to [`LONG_STEP`].
-    Long,
     /// Eq. 1, longer steps.
     Smooth,
     /// Eq. 2.
@@ -68,9 +67,6 @@ impl Class {
             Model::Nonlinear if length <= SHORT_STEP * GUARD => {
                 Some(Self::Short)
             }
-            Model::Nonlinear if length <= LONG_STEP * GUARD => {
-                Some(Self::Long)
-            }
             Model::Nonlinear => Some(Self::Smooth),
         }
     }
@@ -81,66 +77,13 @@ impl Class {
 pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
     let model = match class {
         Class::Linearized => Model::Linearized,
-        Class::Short | Class::Long | Class::Smooth => Model::Nonlinear,
+        Class::Short | Class::Smooth => Model::Nonlinear,
     };
     match class {
         Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
-        Class::Long => Pool::<_, LONG>::new(model, isa, source).run(),
         Class::Smooth | Class::Linearized => {
             Pool::<_, SMOOTH>::new(model, isa, source).run();
         }
-    }
-}
-
-/// Lanes that wait for others of their [`Kind`], in the order of kinds.
-struct Waiting {
-    lines: [Line; 3],
-}
-
-impl Waiting {
-    fn line(&mut self, kind: Kind) -> &mut Line {
-        &mut self.lines[kind as usize]
-    }
-}
-
-/// Lanes in a line: there is room for all of them.
-struct Line {
-    lanes: [Lane; GROUPS * WIDTH],
-    count: usize,
-}
-
-impl Line {
-    const EMPTY: Self =
-        Self { lanes: [Lane { group: 0, lane: 0 }; GROUPS * WIDTH], count: 0 };
-
-    #[inline(always)]
-    fn push(&mut self, lane: Lane) {
-        self.lanes[self.count % (GROUPS * WIDTH)] = lane;
-        self.count += 1;
-    }
-
-    /// Takes up to eight out, those that wait longest first.
-    #[inline(always)]
-    fn take(&mut self) -> ([Lane; WIDTH], usize) {
-        let taken = self.count.min(WIDTH);
-        let mut lanes = [Lane { group: 0, lane: 0 }; WIDTH];
-        lanes[..taken].copy_from_slice(&self.lanes[..taken]);
-        self.lanes.copy_within(taken..self.count, 0);
-        self.count -= taken;
-        (lanes, taken)
-    }
-}
-
-/// A lane of a group.
-#[derive(Clone, Copy)]
-struct Lane {
-    group: usize,
-    lane: usize,
-}
-
-impl Lane {
-    fn slot(self) -> usize {
-        self.group * WIDTH + self.lane
     }
 }
 
@@ -353,17 +296,6 @@ impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
         }
         moved
     }
-}
-
-/// What lanes wait for.
-#[derive(Clone, Copy)]
-enum Kind {
-    /// The longest series, clear of events.
-    Hard,
-    /// The roots of the class' own series.
-    Events,
-    /// The roots of the longest series.
-    Both,
 }
 
 /// The steps of a batch.

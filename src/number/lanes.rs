@@ -1,4 +1,8 @@
 //! Several numbers at once, operation by operation as one.
+#![expect(
+    clippy::needless_range_loop,
+    reason = "comparisons by index become one instruction, by iterator not"
+)]
 
 use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 

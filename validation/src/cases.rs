@@ -285,7 +285,9 @@ pub struct Case {
 
 /// The case files, by family, embedded.
 pub const FAMILIES: &[(&str, &str)] = &[
+    ("block-geometry", include_str!("../cases/block-geometry.toml")),
     ("calibration", include_str!("../cases/calibration.toml")),
+    ("double-double", include_str!("../cases/double-double.toml")),
     ("estimators", include_str!("../cases/estimators.toml")),
     ("fates", include_str!("../cases/fates.toml")),
     (
@@ -314,4 +316,5 @@ pub const FAMILIES: &[(&str, &str)] = &[
         "solution-verification",
         include_str!("../cases/solution-verification.toml"),
     ),
+    ("work-counters", include_str!("../cases/work-counters.toml")),
 ];

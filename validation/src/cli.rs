@@ -19,7 +19,9 @@ pub mod records;
 pub mod respond;
 pub mod samples;
 pub mod scene;
+pub mod speed;
 pub mod study;
+pub mod way;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
@@ -40,6 +42,7 @@ enum Command {
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Quantile(quantile::Args),
+    Speed(speed::Args),
     Study(study::Args),
     /// Runs the declared cases and writes or checks their results.
     Validate(validate::Args),
@@ -142,6 +145,7 @@ pub fn run() -> ExitCode {
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Quantile(args) => quantile::run(&args),
+        Command::Speed(args) => speed::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Validate(args) => validate::run(&args),
     };

@@ -1,11 +1,15 @@
 //! The core behind its public interface.
 
+mod wide;
+
+pub use wide::{Arithmetic, WideTrace};
+
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     self, Model, Observe, Order, Outcome, Overturning, Response, SceneError,
 };
-use rocking::record::Accelerogram;
+use rocking::number::Real;
 
 use crate::scene::{
     Criterion, Engine, EngineError, Equation, Forcing, Impact, Scene, Trace,
@@ -81,7 +85,32 @@ pub fn respond(
     scene: &Scene,
     observe: &Observe,
 ) -> Result<Response, EngineError> {
-    with_core_scene(scene, |scene| integrator::respond(scene, observe))
+    with_core_scene(scene, Quotient::Rounded, |scene| {
+        integrator::respond(scene, observe)
+    })
+}
+
+/// Where the quotient of an acceleration and gravity is rounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quotient {
+    /// To double precision, before the run.
+    Rounded,
+    /// In the precision of the run.
+    Kept,
+}
+
+/// Runs the core on a scene of the harness in other arithmetic.
+///
+/// # Errors
+/// [`EngineError::Refused`] with the core's own words.
+pub fn respond_in<N: Real>(
+    scene: &Scene,
+    observe: &Observe,
+    quotient: Quotient,
+) -> Result<Response<N>, EngineError> {
+    with_core_scene(scene, quotient, |scene| {
+        integrator::respond_in(scene, observe)
+    })
 }
 
 /// Runs the core on a record at a fixed order of Eq. 1, with events.
@@ -93,15 +122,16 @@ pub fn respond_at_order(
     order: Order,
 ) -> Result<Response, EngineError> {
     let observe = Observe { events: true, ..Observe::default() };
-    with_core_scene(scene, |scene| {
+    with_core_scene(scene, Quotient::Rounded, |scene| {
         integrator::respond_at_order(scene, &observe, order)
     })
 }
 
-fn with_core_scene(
+fn with_core_scene<R>(
     scene: &Scene,
-    run: impl FnOnce(&integrator::Scene<'_>) -> Result<Response, SceneError>,
-) -> Result<Response, EngineError> {
+    quotient: Quotient,
+    run: impl FnOnce(&integrator::Scene<'_>) -> Result<R, SceneError>,
+) -> Result<R, EngineError> {
     fn refused(error: impl std::fmt::Display) -> EngineError {
         EngineError::Refused(error.to_string())
     }
@@ -109,19 +139,34 @@ fn with_core_scene(
         .map_err(refused)?;
     let restitution =
         Restitution::constant(scene.restitution).map_err(refused)?;
-    let record = record(scene).transpose().map_err(refused)?;
-    let kind = pulse(scene);
-    let pulse = kind.map(Pulse::try_new).transpose().map_err(refused)?;
-    let mut initial_ratio = 0.0;
-    let excitation = match (&record, &pulse, &scene.forcing) {
-        (Some(record), ..) => {
-            Excitation::Record(ScaledRecord::by_factor(record, 1.0))
+    let g = scene.gravity_m_s2;
+    // Divided here, or by the core.
+    let (unit, divisor) = match quotient {
+        Quotient::Rounded => (g, 1.0),
+        Quotient::Kept => (1.0, g),
+    };
+    let samples = match &scene.forcing {
+        Forcing::Samples { acceleration_m_s2, .. } => {
+            acceleration_m_s2.iter().map(|a| a / unit).collect()
         }
-        (_, Some(pulse), _) => Excitation::Pulse(pulse),
-        (.., Forcing::Free { rotation_rad }) => {
+        _ => Vec::new(),
+    };
+    let pulse = pulse(scene, unit);
+    let pulse = pulse
+        .map(|kind| Pulse::try_new_si(kind, divisor))
+        .transpose()
+        .map_err(refused)?;
+    let mut initial_ratio = 0.0;
+    let excitation = match (&scene.forcing, &pulse) {
+        (Forcing::Samples { dt_s, .. }, _) => Excitation::Record(
+            ScaledRecord::try_new_si(&samples, *dt_s, divisor)
+                .map_err(refused)?,
+        ),
+        (Forcing::Free { rotation_rad }, _) => {
             initial_ratio = rotation_rad.abs() / scene.slenderness_rad;
             Excitation::Free
         }
+        (_, Some(pulse)) => Excitation::Pulse(pulse),
         _ => Excitation::Free,
     };
     let scene = integrator::Scene {
@@ -141,21 +186,11 @@ fn with_core_scene(
     run(&scene).map_err(refused)
 }
 
-type Record = Result<Accelerogram, rocking::record::AccelerogramError>;
-
-fn record(scene: &Scene) -> Option<Record> {
-    let Forcing::Samples { dt_s, acceleration_m_s2 } = &scene.forcing else {
-        return None;
-    };
-    let samples = acceleration_m_s2.iter().map(|a| a / scene.gravity_m_s2);
-    Some(Accelerogram::try_new("case", *dt_s, samples.collect()))
-}
-
-fn pulse(scene: &Scene) -> Option<PulseKind> {
-    let g = scene.gravity_m_s2;
+/// The pulse of a scene, its accelerations over `unit`.
+fn pulse(scene: &Scene, unit: f64) -> Option<PulseKind> {
     Some(match scene.forcing {
         Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles } => {
-            let amplitude_g = amplitude_m_s2 / g;
+            let amplitude_g = amplitude_m_s2 / unit;
             match half_cycles {
                 1 => PulseKind::HalfSine { amplitude_g, omega_rad_s },
                 2 => PulseKind::OneSine { amplitude_g, omega_rad_s },
@@ -164,18 +199,21 @@ fn pulse(scene: &Scene) -> Option<PulseKind> {
         }
         Forcing::Cosine { amplitude_m_s2, omega_rad_s } => {
             PulseKind::OneCosine {
-                amplitude_g: amplitude_m_s2 / g,
+                amplitude_g: amplitude_m_s2 / unit,
                 omega_rad_s,
             }
         }
         Forcing::Rectangle { amplitude_m_s2, duration_s } => {
             PulseKind::Rectangle {
-                amplitude_g: amplitude_m_s2 / g,
+                amplitude_g: amplitude_m_s2 / unit,
                 duration_s,
             }
         }
         Forcing::Triangle { amplitude_m_s2, duration_s } => {
-            PulseKind::Triangle { amplitude_g: amplitude_m_s2 / g, duration_s }
+            PulseKind::Triangle {
+                amplitude_g: amplitude_m_s2 / unit,
+                duration_s,
+            }
         }
         Forcing::Ricker {
             amplitude_m_s2,
@@ -183,7 +221,7 @@ fn pulse(scene: &Scene) -> Option<PulseKind> {
             cycles,
             antisymmetric,
         } => {
-            let amplitude_g = amplitude_m_s2 / g;
+            let amplitude_g = amplitude_m_s2 / unit;
             if antisymmetric {
                 PulseKind::RickerAntisymmetric {
                     amplitude_g,
@@ -200,7 +238,7 @@ fn pulse(scene: &Scene) -> Option<PulseKind> {
             gamma,
             phase_rad,
         } => PulseKind::MavroeidisPapageorgiou {
-            velocity_g_s: velocity_m_s / g,
+            velocity_g_s: velocity_m_s / unit,
             frequency_hz,
             gamma,
             phase_rad,

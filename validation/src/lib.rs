@@ -2,10 +2,13 @@
 //!
 //! Everything here stands on the core's public interface alone.
 
+pub mod arithmetic;
 pub mod cases;
 pub mod cli;
+pub mod curves;
 pub mod drawing;
 pub mod engine;
+pub mod evidence;
 pub mod figures;
 pub mod files;
 pub mod inputs;
@@ -15,6 +18,7 @@ pub mod naive;
 pub mod oracles;
 pub mod report;
 pub mod scene;
+pub mod speed;
 pub mod study;
 pub mod synthesis;
 pub mod verdict;

@@ -2,8 +2,14 @@
 
 mod closed_forms;
 mod convergence;
+mod digits;
+mod edges;
+mod estimate;
 mod fates;
+mod hard;
 mod invariance;
+mod points;
+mod precise;
 mod references;
 mod response;
 mod solution;
@@ -11,6 +17,7 @@ mod spectrum;
 mod statistics;
 mod wrong;
 
+pub use digits::{DigitsError, Reach, Row, digits, digits_csv};
 pub use wrong::{RIGHT_NAIVE, WRONG_MODELS, WrongModel, wrong_model};
 
 use std::collections::BTreeMap;
@@ -20,7 +27,7 @@ use thiserror::Error;
 
 use crate::cases::Case;
 use crate::engine::Core;
-use crate::scene::{Engine, EngineError};
+use crate::scene::{Engine, EngineError, Scene};
 
 /// Numbers by name.
 pub type Quantities = BTreeMap<String, Vec<f64>>;
@@ -77,6 +84,8 @@ pub struct Context<'a> {
     pub engine: &'a dyn Engine,
     /// A wrong model that the method itself carries out.
     pub wrong: Option<&'static str>,
+    /// The wrong model, of whatever kind.
+    pub model: Option<&'static WrongModel>,
 }
 
 impl Context<'_> {
@@ -85,9 +94,24 @@ impl Context<'_> {
     /// # Errors
     /// [`MethodError::Input`] for missing, unknown or malformed keys.
     pub fn input<T: DeserializeOwned>(&self) -> Result<T, MethodError> {
-        let table = toml::Value::Table(self.case.input.clone());
-        table.try_into().map_err(|e| MethodError::Input(e.to_string()))
+        input_of(self.case)
     }
+
+    /// The scene as the wrong model sees it, where that changes the input;
+    /// for methods that run the core themselves.
+    #[must_use]
+    pub fn altered(&self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        if let Some(model) = self.model {
+            model.alter(&mut scene);
+        }
+        scene
+    }
+}
+
+fn input_of<T: DeserializeOwned>(case: &Case) -> Result<T, MethodError> {
+    let table = toml::Value::Table(case.input.clone());
+    table.try_into().map_err(|e| MethodError::Input(e.to_string()))
 }
 
 type Run = fn(&Context) -> Result<Answer, MethodError>;
@@ -111,6 +135,21 @@ pub const METHODS: &[(&str, Run)] = &[
     ("response", fates::response),
     ("fates-over-levels", fates::levels),
     ("adjustment-on-suite", fates::adjustment),
+    ("edge-defect", edges::defect),
+    ("bay-opens", edges::bay),
+    ("grazing-uplift", edges::grazing),
+    ("block-sizes", edges::sizes),
+    ("error-estimate", estimate::estimate),
+    ("work-counters", solution::work),
+    ("near-saddle", hard::saddle),
+    ("chatter", hard::chatter),
+    ("double-against-double-double", hard::twin),
+    ("points-of-trajectories", points::trajectories),
+    ("pulse-ends", points::pulse_ends),
+    ("precise-trajectory", precise::trajectory),
+    ("precise-linear-pulse", precise::linear_pulse),
+    ("precise-free-rocking", precise::free_rocking),
+    ("precise-rectangular-pulse", precise::rectangular_pulse),
     ("sample-moments", statistics::moments),
     ("lilliefors-null", statistics::null),
     ("lilliefors-largest", statistics::largest),
@@ -141,12 +180,11 @@ pub fn run(
         .iter()
         .find(|(name, _)| *name == case.method)
         .ok_or_else(|| MethodError::Unknown(case.method.clone()))?;
-    match wrong {
-        None => method(&Context { case, engine: &Core, wrong: None }),
-        Some(model) => {
-            let engine = model.engine(&Core);
-            let wrong = model.by_method().then_some(model.name);
-            method(&Context { case, engine: engine.as_ref(), wrong })
-        }
-    }
+    let changed = wrong.map(|model| model.engine(&Core));
+    method(&Context {
+        case,
+        engine: changed.as_deref().unwrap_or(&Core),
+        wrong: wrong.filter(|m| m.by_method()).map(|m| m.name),
+        model: wrong,
+    })
 }

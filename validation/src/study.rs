@@ -3,6 +3,7 @@
 
 pub mod analyses;
 pub mod capacities;
+pub mod certainty;
 pub mod choice;
 pub mod claims;
 pub mod distributions;
@@ -16,6 +17,7 @@ pub mod page;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
+pub mod speed;
 pub mod stripes;
 pub mod suites;
 pub mod whole;
@@ -34,6 +36,7 @@ use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
 use crate::drawing::DrawError;
+use crate::evidence::EvidenceError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -69,9 +72,15 @@ pub enum StudyError {
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),
+    /// Evidence that cannot be shown.
+    #[error(transparent)]
+    Evidence(#[from] EvidenceError),
     /// A drawing that grew too large.
     #[error(transparent)]
     Draw(#[from] DrawError),
+    /// A table of timings that cannot be read.
+    #[error("timings: {0}")]
+    Timings(#[from] csv::Error),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,

@@ -3,7 +3,8 @@
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Model, drive};
-use crate::integrator::pool::{Lane, SAFETY, SMALL, Slot, Waiting};
+use crate::integrator::pool::waiting::{Lane, Waiting};
+use crate::integrator::pool::{SAFETY, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
 use crate::number::Number;
 use crate::number::lanes::{Lanes, Mask};
@@ -203,9 +204,8 @@ impl<'a> Group<'a> {
         self.here = clear.select(ahead, self.here);
         self.offset = clear.select(Number::zero(), self.offset);
         self.length = clear.select(self.whole, self.length);
-        let count = clear.count();
-        for lane in 0..WIDTH {
-            self.next[lane] += count[lane];
+        for (next, count) in self.next.iter_mut().zip(clear.count()) {
+            *next += count;
         }
         let stopped = self.active.but_not(clear);
         self.active = clear;

@@ -1,5 +1,7 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
+mod refine;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -8,15 +10,19 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
     Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaError, IdaPoint,
-    Method, REFINEMENT, Resurrections, certified_curves, curves,
+    Method, REFINEMENT, Resurrections, certified_curves,
 };
 use rocking::integrator::uplift_threshold;
 use rocking::record::{ReadOptions, Suite};
 use serde_json::json;
 
+use refine::Refine;
+
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
+use super::way::WayArgs;
 use super::{Failure, print, progress, with_threads};
+use crate::curves::Way;
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};
@@ -69,40 +75,14 @@ pub struct Args {
     /// Threads [default: all].
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
+    #[command(flatten)]
+    way: WayArgs,
     /// Where the table goes.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
     /// JSON summary for machines.
     #[arg(long)]
     json: bool,
-}
-
-/// Bisection of the first overturning bracket.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refine(Option<f64>);
-
-impl std::str::FromStr for Refine {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" {
-            return Ok(Self(None));
-        }
-        match text.parse() {
-            Ok(width) if width > 0.0 && f64::is_finite(width) => {
-                Ok(Self(Some(width)))
-            }
-            _ => Err("expected a positive number, or none".to_owned()),
-        }
-    }
-}
-
-impl Refine {
-    /// The width, if any.
-    #[must_use]
-    pub fn width(self) -> Option<f64> {
-        self.0
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -133,12 +113,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2()?;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
+    let way = args.way.way_unless_certified(args.certify)?;
     let read = ReadOptions { gravity_m_s2, ..ReadOptions::default() };
     let suite = read_suite(&args.suite, read)?;
     let records = args.records(&suite)?;
     let bar = progress(records.len() as u64);
     let (table, certified) = with_threads(args.threads, || {
-        args.curves(&records, &analysis, || bar.inc(1))
+        args.curves(way, &records, &analysis, || bar.inc(1))
     })??;
     bar.finish_and_clear();
     write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
@@ -180,13 +161,14 @@ impl Args {
     /// asked for.
     fn curves(
         &self,
+        way: Way,
         records: &[NormalisedRecord],
         analysis: &Analysis,
         done: impl Fn() + Sync,
     ) -> Result<(Vec<IdaCurve>, Option<Certification>), IdaError> {
         let only = std::slice::from_ref(analysis);
         if !self.certify {
-            let found = curves(records, only, done)?;
+            let found = way.curves(records, only, &done)?;
             return Ok((found.into_iter().flatten().collect(), None));
         }
         let found = certified_curves(records, only, done)?;

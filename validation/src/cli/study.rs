@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 
+use super::way::WayArgs;
 use super::{Failure, print};
 use crate::figures::data::Arm;
 use crate::study::analyses::Plan;
@@ -53,6 +54,8 @@ pub struct Args {
     /// on it.
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
+    #[command(flatten)]
+    way: WayArgs,
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = "rocking-report")]
     out: PathBuf,
@@ -149,6 +152,7 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
         restitution: Restitution::constant(args.eta)?,
         overturning,
         tolerance: args.refine,
+        way: args.way.way()?,
     };
     Ok(Plan { setup, arms })
 }

@@ -10,10 +10,12 @@ use super::{Failure, print};
 use crate::cases::{Case, Cost, FAMILIES, load_all};
 use crate::files::write_atomically;
 use crate::json;
+use crate::methods::{digits, digits_csv};
 use crate::verdict::{Outcome, Verdict, run_all, snapshot};
 
 /// Runs the declared cases. Without `--family` and `--check` it writes the
-/// results to OUT/data/validation.json.
+/// results to OUT/data/validation.json, and to OUT/data/precision.csv what
+/// single, double and double-double precision reach.
 #[derive(clap::Args)]
 pub struct Args {
     /// Run this family alone; nothing is written.
@@ -55,19 +57,36 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             outcomes.len()
         )));
     }
-    let path = args.out.join("data/validation.json");
+    if args.family.is_some() || args.full {
+        return Ok(());
+    }
+    let folder = args.out.join("data");
+    let path = folder.join("validation.json");
     let text = snapshot::text(&cases, &outcomes);
+    let digits_path = folder.join("precision.csv");
+    let digits = digits_csv(&digits()?);
     if args.check {
-        return compare(&path, &text);
+        compare(&path, &text)?;
+        if digits == read(&digits_path)? {
+            return Ok(());
+        }
+        return Err(Failure::gate(format!(
+            "{} is stale: `rocking validate` accepts what is there now",
+            digits_path.display()
+        )));
     }
-    if args.family.is_none() && !args.full {
-        let folder = path.parent().unwrap_or(&args.out);
-        std::fs::create_dir_all(folder).map_err(|e| {
-            Failure::input(format!("cannot make {}: {e}", folder.display()))
-        })?;
-        write_atomically(&path, text)?;
-    }
+    std::fs::create_dir_all(&folder).map_err(|e| {
+        Failure::input(format!("cannot make {}: {e}", folder.display()))
+    })?;
+    write_atomically(&path, text)?;
+    write_atomically(&digits_path, digits)?;
     Ok(())
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|e| {
+        Failure::input(format!("cannot read {}: {e}", path.display()))
+    })
 }
 
 fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
@@ -88,16 +107,14 @@ fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
 }
 
 fn compare(path: &Path, text: &str) -> Result<(), Failure> {
-    let found = std::fs::read_to_string(path).map_err(|e| {
-        Failure::input(format!("cannot read {}: {e}", path.display()))
-    })?;
+    let found = read(path)?;
     if found == text {
         return Ok(());
     }
-    let read = |text: &str| -> BTreeMap<String, serde_json::Value> {
+    let parsed = |text: &str| -> BTreeMap<String, serde_json::Value> {
         serde_json::from_str(text).unwrap_or_default()
     };
-    let (old, new) = (read(&found), read(text));
+    let (old, new) = (parsed(&found), parsed(text));
     let changed: Vec<&str> = old
         .keys()
         .chain(new.keys())
@@ -124,6 +141,13 @@ fn machine(outcomes: &[Outcome]) -> serde_json::Value {
                 "kind": outcome.kind.name(),
                 "verdict": outcome.verdict.name(),
                 "margin": json::number(outcome.worst_margin()),
+                "quantities": outcome.checks.iter().map(|c| json!({
+                    "quantity": c.quantity,
+                    "observed": json::numbers(&c.observed),
+                    "expected": json::numbers(&c.expected),
+                    "error": json::number(c.error),
+                    "margin": json::number(c.margin),
+                })).collect::<Vec<_>>(),
                 "rejected": outcome.rejections.iter().map(|r| json!({
                     "model": r.model,
                     "margin": json::number(r.margin),

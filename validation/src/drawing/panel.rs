@@ -44,13 +44,14 @@ impl Marker {
     /// The mark that goes with a series, for readers without colour.
     #[must_use]
     pub fn of_series(series: usize) -> Self {
-        match series % 6 {
+        match series % 7 {
             0 => Self::Dot,
             1 => Self::Square,
             2 => Self::Triangle,
             3 => Self::Diamond,
             4 => Self::Down,
-            _ => Self::Plus,
+            5 => Self::Plus,
+            _ => Self::Cross,
         }
     }
 

@@ -5,7 +5,8 @@ use serde::Deserialize;
 use super::closed_forms::{equation, extend};
 use super::references;
 use super::wrong::scale;
-use super::{Answer, Context, MethodError};
+use super::{Answer, Context, MethodError, input_of};
+use crate::cases::Case;
 use crate::engine::Core;
 use crate::scene::{Criterion, Engine as _, Equation, Forcing, Scene};
 use crate::synthesis;
@@ -34,14 +35,14 @@ struct Sine {
 /// A record written as runs of straight lines.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Samples {
+pub(super) struct Samples {
     dt_s: f64,
     /// Corner points: sample number and acceleration in m/s2.
     corners: Vec<(usize, f64)>,
 }
 
 impl Samples {
-    fn forcing(&self) -> Result<Forcing, MethodError> {
+    pub(super) fn forcing(&self) -> Result<Forcing, MethodError> {
         let mut samples = Vec::new();
         for pair in self.corners.windows(2) {
             let [(from, a), (to, b)] = pair else { continue };
@@ -57,9 +58,9 @@ impl Samples {
     }
 }
 
-/// Peak, fate and counts of a scene; what is expected is in the case.
-pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
-    let input: SceneInput = context.input()?;
+/// The scene that a case writes out.
+pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
+    let input: SceneInput = input_of(case)?;
     let forcing = match (&input.half_sine, &input.record) {
         (Some(sine), None) => Forcing::Sine {
             amplitude_m_s2: sine.amplitude_m_s2,
@@ -72,7 +73,7 @@ pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
             return Err(MethodError::Input(text));
         }
     };
-    let scene = Scene {
+    Ok(Scene {
         slenderness_rad: input.slenderness_rad,
         frequency_rad_s: input.frequency_rad_s,
         restitution: input.restitution,
@@ -81,7 +82,12 @@ pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
         criterion: Criterion::Alpha,
         forcing,
         until_s: input.until_s,
-    };
+    })
+}
+
+/// Peak, fate and counts of a scene; what is expected is in the case.
+pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
+    let scene = scene_of(context.case)?;
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
     let mut see = |name: &str, values: Vec<f64>| {

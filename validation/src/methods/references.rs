@@ -1,9 +1,11 @@
 //! High-precision references, embedded; every number is a decimal string
 //! with 36 or 40 digits and is read to the nearest double.
 
+use rocking::number::double::DoubleDouble;
 use serde_json::Value;
 
 use super::MethodError;
+use crate::arithmetic::decimal;
 use crate::scene::{Criterion, Equation, Forcing, Scene};
 
 /// An embedded file.
@@ -87,6 +89,17 @@ impl Reference {
             Value::Null => Ok(None),
             found => self.number(found).map(Some),
         }
+    }
+
+    /// The number `key` of `value` to the last bits of a double-double.
+    pub fn wide(
+        &self,
+        value: &Value,
+        key: &str,
+    ) -> Result<DoubleDouble, MethodError> {
+        let found = self.get(value, key)?;
+        let number = found.as_str().and_then(decimal);
+        number.ok_or_else(|| self.lacks(format!("`{found}` is no decimal")))
     }
 
     /// The numbers `key` of every entry of a list.

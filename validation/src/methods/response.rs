@@ -199,7 +199,11 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
 }
 
 /// The pulse of a dimensionless case for a block with p and g alpha.
-fn scaled(case: &Value, unit: f64, p: f64) -> Result<Forcing, MethodError> {
+pub(super) fn scaled(
+    case: &Value,
+    unit: f64,
+    p: f64,
+) -> Result<Forcing, MethodError> {
     let file = &LINEAR_PULSES;
     let get = |key| file.f64(case, key);
     let amplitude_m_s2 =

@@ -1,9 +1,11 @@
-//! The numerical error itself: energy in flight.
+//! The numerical error itself: energy in flight; and the work that a run
+//! takes.
 
 use rocking::integrator::Observe;
 use serde::Deserialize;
 
-use super::closed_forms::equation;
+use super::closed_forms::{equation, extend};
+use super::references;
 use super::{Answer, Context, MethodError};
 use crate::engine;
 use crate::scene::{Criterion, Equation, Forcing, Scene};
@@ -114,4 +116,33 @@ fn level(equation: Equation, alpha: f64, u: f64, w: f64) -> f64 {
         Equation::Linearized => u * (alpha - 0.5 * u),
     };
     0.5 * w * w + potential
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WorkInput {
+    entries: Vec<String>,
+}
+
+/// What runs of reference trajectories cost, apart from what they give.
+pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
+    let input: WorkInput = context.input()?;
+    let mut answer = Answer::default();
+    for entry in &input.entries {
+        let case = references::trajectory(entry)?;
+        let scene = references::scene(&case, Criterion::Alpha)?;
+        let scene = context.altered(&scene);
+        let work = engine::respond(&scene, &Observe::default())?.work;
+        for (name, count) in [
+            ("steps", work.steps),
+            ("impacts", work.impacts),
+            ("turning-points", work.turning_points),
+            ("uplifts", work.uplifts),
+            ("rest-scans", work.rest_scans),
+        ] {
+            extend(&mut answer, name, [count as f64], []);
+            answer.expected.remove(name);
+        }
+    }
+    Ok(answer)
 }

@@ -146,6 +146,12 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
     method("order-too-low", "the series stops two terms early"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
+    method("estimate-hundredth", "an error estimate 100 times too small"),
+    method(
+        "f64-constants",
+        "coefficients and pi of a wider engine rounded to double precision",
+    ),
+    method("f64-inputs", "a/g of a wider engine rounded to double precision"),
     method("sum-of-squares", "variance in one pass, sum x^2 - (sum x)^2/n"),
     method("other-divisor", "n for n - 1, n - 1 for n, or the whole sample"),
     method("upper-side-only", "D+ alone, or the smaller side"),
@@ -205,6 +211,13 @@ impl WrongModel {
     #[must_use]
     pub fn by_method(&self) -> bool {
         matches!(self.how, How::Method)
+    }
+
+    /// Makes the mistake in a scene, where it is one of the input.
+    pub fn alter(&self, scene: &mut Scene) {
+        if let How::Scene(change) = self.how {
+            change(scene);
+        }
     }
 
     /// The engine that makes the mistake.

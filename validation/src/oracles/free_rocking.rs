@@ -93,6 +93,69 @@ pub fn linearized(
     )
 }
 
+/// Chatter under a constant acceleration `pull` = a/g below the uplift
+/// threshold, after a first impact (time and speed before it, in units of
+/// 1/p and p) of a hop with theta < 0 when `pull` > 0.
+///
+/// On the side s = sgn(theta) gravity is turned by s psi = s atan(a/g) and
+/// its square root of rate multiplied by (1 + (a/g)^2)^(1/4): a hop is one of
+/// free rocking with alpha + s psi. In Eq. 2 it lasts
+/// 2 atanh(v/(alpha + s a/g)). The last hops sum to
+/// 2 v [1/(c + s a) + eta/(c - s a)]/(1 - eta^2), c + s a the downward
+/// acceleration on the side entered with speed v.
+#[must_use]
+pub fn chatter(
+    is_nonlinear: bool,
+    alpha_rad: f64,
+    eta: f64,
+    pull: f64,
+    (time_p, speed_p): (f64, f64),
+    impacts: usize,
+) -> FreeRocking {
+    let psi = libm::atan(pull);
+    let rate = (1.0 + pull * pull).sqrt().sqrt();
+    // Downward acceleration at the base on a side.
+    let down = |side: f64| {
+        if is_nonlinear {
+            rate * rate * libm::sin(alpha_rad + side * psi)
+        } else {
+            alpha_rad + side * pull
+        }
+    };
+    let hop = |side: f64, v: f64| {
+        if is_nonlinear {
+            let turned = alpha_rad + side * psi;
+            let (s, c) = (libm::sin(0.5 * turned), libm::cos(0.5 * turned));
+            let d = 0.5 * (v / rate) * (v / rate);
+            let q2 = s * s - 0.5 * d;
+            let quarter = (0.5 * d).sqrt()
+                * rf(q2 * c * c, q2 * (1.0 - q2), s * s * (1.0 - q2));
+            2.0 * quarter / rate
+        } else {
+            2.0 * libm::atanh(v / down(side))
+        }
+    };
+    let mut answer = FreeRocking {
+        impact_times_p: Vec::new(),
+        impact_speeds_p: Vec::new(),
+        peak_ratios: Vec::new(),
+        settling_p: f64::INFINITY,
+    };
+    let (mut time, mut v, mut side) = (time_p, eta * speed_p, 1.0);
+    while v > TAIL * alpha_rad || answer.impact_times_p.len() < impacts {
+        time += hop(side, v);
+        if answer.impact_times_p.len() < impacts {
+            answer.impact_times_p.push(time);
+            answer.impact_speeds_p.push(v);
+        }
+        v *= eta;
+        side = -side;
+    }
+    let hops = 1.0 / down(side) + eta / down(-side);
+    answer.settling_p = time + 2.0 * v * hops / (1.0 - eta * eta);
+    answer
+}
+
 fn series(
     (first_energy, first_quarter): (f64, f64),
     eta: f64,

@@ -63,8 +63,15 @@ impl Rectangular {
     /// alpha - asin[sin alpha - (1 - cos alpha) g/a].
     #[must_use]
     pub fn critical_duration_s(&self) -> f64 {
+        self.duration_to_energy_s(0.0)
+    }
+
+    /// Pulse after which the energy is that of the saddle plus `above` (in
+    /// the units of 1 - cos alpha), s.
+    #[must_use]
+    pub fn duration_to_energy_s(&self, above: f64) -> f64 {
         let half = libm::sin(0.5 * self.alpha_rad);
-        let need = 2.0 * half * half / self.pull;
+        let need = (2.0 * half * half + above) / self.pull;
         let y = self.alpha_rad - libm::asin(libm::sin(self.alpha_rad) - need);
         self.time_s(y)
     }

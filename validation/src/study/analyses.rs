@@ -9,6 +9,7 @@ use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Method;
 
+use super::certainty::Certainty;
 use super::choice::{by_rank, common_level};
 use super::grid::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, position,
@@ -36,12 +37,12 @@ pub struct Facts {
 }
 
 /// What the chains of a suite took.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work {
     /// Analyses, bisection included.
     pub analyses: u64,
-    /// Those whose fate double precision cannot tell.
-    pub unresolved: usize,
+    /// Levels whose fate double precision cannot tell.
+    pub certainty: Certainty,
 }
 
 /// All curves of one arm, by block, then by record.
@@ -241,7 +242,7 @@ impl Plan {
         let arms = self.arms.iter().zip(chains.curves);
         let arms = arms.map(|(arm, curves)| ArmCurves { arm: *arm, curves });
         let work =
-            Work { analyses: chains.analyses, unresolved: chains.unresolved };
+            Work { analyses: chains.analyses, certainty: chains.certainty };
         Ok((arms.collect(), work))
     }
 

@@ -10,7 +10,10 @@ use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
 use super::questions::Answer;
+use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
+use crate::evidence::{self, ShownChart};
+use crate::figures::Figure as _;
 use crate::report::{
     self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
 };
@@ -22,9 +25,20 @@ use crate::report::{
 pub fn input(
     results: &Results,
     figures: &[Figure],
+    charts: &[ShownChart],
     claims: &[Claim],
     answers: &[Answer],
 ) -> Result<ReportInput, StudyError> {
+    let timings = Timings::kept()?;
+    let mut drawn: Vec<ShownFigure> =
+        figures.iter().map(shown).collect::<Result<_, StudyError>>()?;
+    for chart in charts {
+        drawn.push(shown_chart(chart)?);
+    }
+    drawn.push(ShownFigure {
+        number: "Speed".into(),
+        ..shown(&timings.figure())?
+    });
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -32,20 +46,17 @@ pub fn input(
             .into(),
         summary: summary(results),
         findings: claims.iter().map(finding).collect(),
-        families: Vec::new(),
+        families: evidence::committed_families()?,
         tables: tables(answers)?,
-        figures: figures
-            .iter()
-            .map(shown)
-            .collect::<Result<_, StudyError>>()?,
+        figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
-        credibility: Vec::new(),
+        credibility: timings.tables(),
     })
 }
 
 fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
-    let mut tables = vec![table_1()?];
+    let mut tables = vec![table_1()?, evidence::digits_table()];
     for answer in answers {
         tables.extend(answer.tables.iter().cloned());
     }
@@ -54,13 +65,19 @@ fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
 
 fn summary(results: &Results) -> Summary {
     let found = |suite: &SuiteResults| {
+        let certainty = suite.work.certainty;
         format!(
-            "{} {} records, {} analyses, {} of them with a fate that double \
-             precision cannot tell.",
+            "{} {} records, {} analyses; {} levels whose fate needed \
+             double-double, {} of them told wrongly in double precision, {} \
+             left open. If all of those flipped, the 16, 50 and 84 % \
+             overturning intensities would move by {} at most.",
             suite.records.len(),
             suite.kind,
             suite.work.analyses,
-            suite.work.unresolved
+            certainty.needed,
+            certainty.moved,
+            certainty.undecided,
+            rounded_text(certainty.largest_shift)
         )
     };
     Summary {
@@ -164,6 +181,19 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
         reading: figure.reading.clone(),
         svg: figure.drawing.svg()?,
         csv: figure.drawing.csv(),
+        csv_path: format!("{}.csv", heading.name),
+    })
+}
+
+fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, StudyError> {
+    let heading = &shown.chart.heading;
+    Ok(ShownFigure {
+        name: heading.name.clone(),
+        number: shown.number.clone(),
+        title: heading.title.clone(),
+        reading: shown.reading.clone(),
+        svg: shown.chart.svg()?,
+        csv: shown.chart.csv(),
         csv_path: format!("{}.csv", heading.name),
     })
 }

@@ -11,6 +11,8 @@ use rocking::integrator::{
 };
 
 use super::StudyError;
+use super::certainty::{Certainty, certainty};
+use crate::curves::Way;
 use crate::figures::data::Arm;
 
 /// What holds for every analysis of a study.
@@ -23,6 +25,8 @@ pub struct Setup {
     /// Width to which arms B and C bisect the first overturning, in
     /// dimensionless intensity.
     pub tolerance: f64,
+    /// How curves are made.
+    pub way: Way,
 }
 
 /// The curves of blocks under records, and what they took.
@@ -32,8 +36,8 @@ pub struct Chains {
     pub curves: Vec<Vec<Vec<ResponseCurve>>>,
     /// Analyses made.
     pub analyses: u64,
-    /// Analyses whose fate double precision cannot tell.
-    pub unresolved: usize,
+    /// Levels whose fate double precision cannot tell.
+    pub certainty: Certainty,
 }
 
 impl Setup {
@@ -74,9 +78,8 @@ impl Setup {
             .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
             .map(|(block, arm)| self.analysis(block, arm, method))
             .collect();
-        let runs = ida::curves(records, &analyses, done)?;
+        let runs = self.way.curves(records, &analyses, &done)?;
         let all = || runs.iter().flatten();
-        let points = all().flat_map(|run| &run.points);
         let curves = arms
             .iter()
             .map(|arm| {
@@ -94,7 +97,7 @@ impl Setup {
         Ok(Chains {
             curves,
             analyses: all().map(|run| run.analyses).sum(),
-            unresolved: points.filter(|point| !point.resolved).count(),
+            certainty: certainty(&analyses, records, &runs)?,
         })
     }
 

@@ -10,9 +10,10 @@ use super::analyses::Plan;
 use super::output::Files;
 use super::runs::Setup;
 use super::suites::StudySuite;
+use crate::curves::Way;
 use crate::figures::data::Arm;
 
-fn small(threads: usize) -> Files {
+fn small(threads: usize, way: Way) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     ordinary.motions.truncate(10);
     pulse.motions.truncate(4);
@@ -20,6 +21,7 @@ fn small(threads: usize) -> Files {
         restitution: Restitution::constant(0.92).expect("restitution"),
         overturning: Overturning::Alpha,
         tolerance: 1e-3,
+        way,
     };
     let plan = Plan { setup, arms: vec![Arm::A, Arm::B] };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -32,8 +34,9 @@ fn small(threads: usize) -> Files {
 }
 
 #[test]
-fn the_same_bytes_with_one_thread_and_with_two() {
-    let (one, two) = (small(1), small(2));
+fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
+    let one = small(1, Way::default());
+    let two = small(2, Way::OneByOne);
     assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
     for (name, content) in &one {
         assert!(*content == two[name], "{name} differs");

@@ -22,9 +22,11 @@ use super::output::Files;
 use super::page;
 use super::questions::{self, Answer};
 use super::sensitivities::Varied;
+use super::speed::Timings;
 use super::suites::StudySuite;
 use crate::figures::data::{Arm, Table, number};
 use crate::report;
+use crate::{evidence, figures::Figure as _};
 
 /// A finished study.
 pub struct Study {
@@ -110,7 +112,8 @@ impl Study {
     /// [`StudyError`] where a figure cannot be drawn.
     pub fn files(&self) -> Result<Files, StudyError> {
         let mut files = Files::new();
-        for figure in &self.figures {
+        let timed = Timings::kept()?.figure();
+        for figure in self.figures.iter().chain([&timed]) {
             let name = &figure.drawing.heading().name;
             let svg = figure.drawing.svg()?;
             files.insert(format!("{name}.svg"), svg.into_bytes());
@@ -122,6 +125,14 @@ impl Study {
         files.insert("single-records.csv".into(), single.into_bytes());
         let text = self.findings_text();
         files.insert("findings.json".into(), text.into_bytes());
+        let charts = evidence::charts()?;
+        for shown in &charts {
+            let name = &shown.chart.heading.name;
+            let svg = shown.chart.svg()?;
+            files.insert(format!("{name}.svg"), svg.into_bytes());
+            let csv = shown.chart.csv();
+            files.insert(format!("{name}.csv"), csv.into_bytes());
+        }
         for answer in &self.answers {
             let csv = answer.csv.clone().into_bytes();
             files.insert(format!("{}.csv", answer.id), csv);
@@ -132,6 +143,7 @@ impl Study {
         let input = page::input(
             &self.results,
             &self.figures,
+            &charts,
             &self.claims,
             &self.answers,
         )?;
@@ -244,7 +256,11 @@ fn suite(suite: &SuiteResults) -> Value {
         "records": suite.records.len(),
         "sha256": suite.sha256,
         "analyses": suite.work.analyses,
-        "unresolved": suite.work.unresolved,
+        "needed_double_double": suite.work.certainty.needed,
+        "told_wrongly_in_double": suite.work.certainty.moved,
+        "unresolved": suite.work.certainty.undecided,
+        "largest_shift_if_flipped":
+            rounded(suite.work.certainty.largest_shift),
         "shown_alone": chosen,
     })
 }

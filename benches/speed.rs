@@ -1,0 +1,228 @@
+//! `cargo bench`: what a sample, an analysis, a curve, a study and a
+//! Lilliefors replicate take, and how that grows with records, levels,
+//! samples and threads. Wall-clock time; `rocking speed` tells processor
+//! time and error.
+
+use std::hint::black_box;
+use std::sync::LazyLock;
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use rocking::block::{Block, Restitution};
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{Analysis, Grid, curve};
+use rocking::integrator::{
+    Model, Observe, Order, respond, respond_at_order, respond_precise,
+};
+use rocking::record::Accelerogram;
+use rocking::statistics::lilliefors::NullDistribution;
+use rocking_validation::curves::Way;
+use rocking_validation::speed::cases::{self, Case};
+use rocking_validation::speed::throughput::{analyses, samples_of};
+use rocking_validation::study::grid::blocks;
+use rocking_validation::study::suites::StudySuite;
+
+static RECORDS: LazyLock<Vec<NormalisedRecord>> = LazyLock::new(|| {
+    let suites = StudySuite::embedded().expect("suites");
+    let motions = suites.iter().flat_map(|suite| &suite.motions);
+    motions.map(|m| NormalisedRecord::new(&m.study)).collect()
+});
+
+static CASES: LazyLock<Vec<Case>> =
+    LazyLock::new(|| cases::all().expect("cases"));
+
+fn main() {
+    divan::main();
+}
+
+/// The block in the middle of the paper's fifteen.
+fn middle() -> Vec<Analysis> {
+    let block = Block::try_new(0.15, 3.0).expect("block");
+    analyses(&[block], Model::Nonlinear).expect("analyses")
+}
+
+/// Curves on a pool of its own; items are analyses.
+fn ida(
+    bencher: Bencher,
+    threads: usize,
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let pool = pool.expect("threads");
+    let run =
+        || pool.install(|| Way::default().curves(records, analyses, &|| ()));
+    let once = run().expect("curves");
+    let count: u64 =
+        once.iter().flatten().map(|c| c.analyses).fold(0, u64::saturating_add);
+    bencher
+        .counter(ItemsCount::new(count))
+        .bench_local(|| black_box(run().expect("curves")));
+}
+
+/// One analysis; items are the samples stepped in flight.
+mod analysis {
+    use super::*;
+
+    fn all(bencher: Bencher, order: Option<Order>) {
+        let run = |case: &Case| match order {
+            Some(order) => {
+                respond_at_order(&case.scene(), &Observe::default(), order)
+            }
+            None => respond(&case.scene(), &Observe::default()),
+        };
+        let steps = CASES
+            .iter()
+            .map(|case| run(case).expect("scene").work.steps)
+            .fold(0, u64::saturating_add);
+        bencher.counter(ItemsCount::new(steps)).bench_local(|| {
+            for case in CASES.iter() {
+                black_box(run(case).expect("scene"));
+            }
+        });
+    }
+
+    #[divan::bench(args = [4, 6, 8, 10])]
+    fn thirty_at_order(bencher: Bencher, order: u32) {
+        let order = match order {
+            4 => Order::Four,
+            6 => Order::Six,
+            8 => Order::Eight,
+            _ => Order::Ten,
+        };
+        all(bencher, Some(order));
+    }
+
+    #[divan::bench]
+    fn thirty_as_shipped(bencher: Bencher) {
+        all(bencher, None);
+    }
+
+    #[divan::bench(sample_count = 5)]
+    fn one_in_double_double(bencher: Bencher) {
+        let scene = CASES[0].scene();
+        bencher.bench_local(|| {
+            black_box(respond_precise(&scene, &Observe::default()))
+        });
+    }
+}
+
+/// Free rocking in lanes, hardly an impact: items are samples.
+#[divan::bench(args = ["Eq. 1", "Eq. 2"], sample_count = 10)]
+fn kernel(bencher: Bencher, equation: &str) {
+    let step = 1e-3;
+    let lobe = |i: i32| libm::sin(std::f64::consts::PI * 1e-3 * f64::from(i));
+    let samples =
+        (0..100_000).map(|i| if i < 1000 { lobe(i) } else { 0.0 }).collect();
+    let push = Accelerogram::try_new("push", step, samples).expect("record");
+    let records = vec![NormalisedRecord::new(&push); 64];
+    let analysis = Analysis {
+        model: if equation == "Eq. 1" {
+            Model::Nonlinear
+        } else {
+            Model::Linearized
+        },
+        grid: Grid::Im { step: 1.0 },
+        highest_im: 2.5,
+        ..Analysis::paper(
+            Block::try_new(0.2, 1.0).expect("block"),
+            Restitution::constant(0.9995).expect("restitution"),
+        )
+    };
+    let one = [analysis];
+    let lanes = Way::default();
+    let once = lanes.curves(&records, &one, &|| ()).expect("curves");
+    let steps = samples_of(&records, &one, &once).expect("steps");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.expect("threads");
+    bencher.counter(ItemsCount::new(steps)).bench_local(|| {
+        pool.install(|| black_box(lanes.curves(&records, &one, &|| ())))
+    });
+}
+
+/// The curves of one block under all embedded records; items are analyses.
+mod one_block {
+    use super::*;
+
+    #[divan::bench(sample_count = 10)]
+    fn in_lanes(bencher: Bencher) {
+        ida(bencher, 1, &RECORDS, &middle());
+    }
+
+    #[divan::bench(sample_count = 5)]
+    fn one_by_one(bencher: Bencher) {
+        let analysis = middle()[0];
+        let run = || {
+            RECORDS
+                .iter()
+                .map(|r| curve(r, &analysis).expect("curve").analyses)
+                .fold(0, u64::saturating_add)
+        };
+        bencher
+            .counter(ItemsCount::new(run()))
+            .bench_local(|| black_box(run()));
+    }
+
+    #[divan::bench(args = [16, 32, 64, 128], sample_count = 10)]
+    fn by_records(bencher: Bencher, records: usize) {
+        ida(bencher, 1, &RECORDS[..records], &middle());
+    }
+
+    /// Levels a g: their number.
+    #[divan::bench(args = [50, 100, 200, 400], sample_count = 10)]
+    fn by_levels(bencher: Bencher, levels: u32) {
+        let grid = Grid::Pga { step_g: 1.0 / f64::from(levels) };
+        let analysis = Analysis { grid, ..middle()[0] };
+        ida(bencher, 1, &RECORDS, &[analysis]);
+    }
+
+    /// Records with as many samples in each interval.
+    #[divan::bench(args = [1, 2, 4], sample_count = 10)]
+    fn by_samples(bencher: Bencher, parts: usize) {
+        let records: Vec<NormalisedRecord> =
+            RECORDS.iter().map(|record| divided(record, parts)).collect();
+        ida(bencher, 1, &records, &middle());
+    }
+
+    #[divan::bench(args = [1, 2, 4], sample_count = 10)]
+    fn by_threads(bencher: Bencher, threads: usize) {
+        ida(bencher, threads, &RECORDS, &middle());
+    }
+
+    /// The same record, each interval in parts.
+    fn divided(record: &NormalisedRecord, parts: usize) -> NormalisedRecord {
+        let mut finer = Vec::new();
+        for ends in record.samples().windows(2) {
+            for part in 0..parts {
+                let share = part as f64 / parts as f64;
+                finer.push((ends[1] - ends[0]).mul_add(share, ends[0]));
+            }
+        }
+        finer.extend(record.samples().last());
+        let dt_s = record.dt_s() / parts as f64;
+        let finer = Accelerogram::try_new(record.name(), dt_s, finer);
+        NormalisedRecord::new(&finer.expect("record"))
+    }
+}
+
+/// 15 blocks, all embedded records, 0.01 g: arm A of the study.
+#[divan::bench(args = ["Eq. 1", "Eq. 2"], sample_count = 2)]
+fn whole_study(bencher: Bencher, equation: &str) {
+    let model =
+        if equation == "Eq. 1" { Model::Nonlinear } else { Model::Linearized };
+    let blocks = blocks().expect("blocks");
+    let all = analyses(&blocks, model).expect("analyses");
+    let threads = rayon::current_num_threads();
+    ida(bencher, threads, &RECORDS, &all);
+}
+
+/// Replicates of the statistic of 86 values, on one thread.
+#[divan::bench(args = [10_000, 20_000, 40_000], sample_count = 10)]
+fn lilliefors(bencher: Bencher, replicates: u64) {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let pool = pool.expect("threads");
+    let run = || NullDistribution::simulate(86, replicates, 0);
+    bencher
+        .counter(ItemsCount::new(replicates))
+        .bench_local(|| pool.install(|| black_box(run().expect("simulated"))));
+}

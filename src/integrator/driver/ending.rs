@@ -1,0 +1,192 @@
+//! From the end of a flight to the answer; histories.
+
+use crate::integrator::coast::{Coast, coast};
+use crate::integrator::driver::{Driver, Flight, Motion, Stage, Step};
+use crate::integrator::dynamics::Overturning;
+use crate::integrator::forcing::{Forcing, Place, Silence};
+use crate::integrator::taylor::value;
+use crate::integrator::{HistoryPoint, Outcome, Response, Side};
+use crate::number::Real;
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    /// The observation stops in flight: the rotation there counts.
+    pub(super) fn stop(&mut self, motion: Motion<N>) {
+        if motion.u > self.record.peak {
+            self.record.peak = motion.u;
+            self.record.peak_time_s = self.until_s;
+            if let Some(accuracy) = &mut self.record.accuracy {
+                let alpha = self.dynamics.alpha.to_f64();
+                accuracy.peak(motion.u.to_f64(), alpha);
+            }
+        }
+    }
+
+    /// Zeros of a history up to a time.
+    pub(super) fn sample_rest(&mut self, to_s: N) {
+        let Some(interval) = self.interval_s else { return };
+        let mut time_s = self.record.history.len() as f64 * interval;
+        while time_s <= to_s.to_f64() {
+            self.record.history.push(HistoryPoint {
+                time_s: N::from_f64(time_s),
+                rotation_rad: N::zero(),
+                velocity_rad_s: N::zero(),
+            });
+            time_s = self.record.history.len() as f64 * interval;
+        }
+    }
+
+    /// Points of a history within a step.
+    #[inline(never)]
+    pub(super) fn sample_step<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        v: &[N; LEN],
+        tau: N,
+        place: Place<N>,
+        side: Side,
+    ) {
+        let Some(interval) = self.interval_s else { return };
+        let start_s = self.time_s(place);
+        let p = self.dynamics.p;
+        let sign = N::from_f64(side.sign());
+        loop {
+            let time_s = self.record.history.len() as f64 * interval;
+            let time_s = N::from_f64(time_s);
+            let at = (time_s - start_s) * p;
+            if !(at <= tau) {
+                return;
+            }
+            let at = if at > N::zero() { at } else { N::zero() };
+            self.record.history.push(HistoryPoint {
+                time_s,
+                rotation_rad: sign * value(c, at),
+                velocity_rad_s: sign * (value(v, at) * p),
+            });
+        }
+    }
+
+    /// From the end of a flight to the answer.
+    pub fn conclude(&mut self, flight: &Flight<N>) -> Response<N> {
+        let alpha = self.dynamics.alpha;
+        let mut margin = None;
+        let mut overturned = None;
+        match *flight {
+            Flight::Rest(_, time_s) => {
+                if self.record.work.uplifts > 0 || self.record.work.impacts > 0
+                {
+                    self.record.rest_time_s = Some(time_s);
+                }
+                let end = self.until_s.unwrap_or(self.end_s());
+                self.sample_rest(end);
+            }
+            Flight::Stopped => {
+                if let Some(until) = self.until_s {
+                    self.sample_rest(until);
+                }
+            }
+            Flight::Overturned { time_s, side, margin: beyond } => {
+                margin = Some(beyond);
+                overturned = Some((time_s, side));
+                if let Some(accuracy) = &mut self.record.accuracy {
+                    accuracy.overturned(alpha.to_f64());
+                }
+            }
+            Flight::End(motion) => {
+                let end_s = self.end_s();
+                let coasting = Coast {
+                    dynamics: &self.dynamics,
+                    start_s: end_s,
+                    events: self.events,
+                    until_s: self.until_s,
+                };
+                let fate = coast(&coasting, motion, &mut self.record);
+                margin = fate.margin;
+                overturned = fate.overturned;
+                if self.interval_s.is_some() {
+                    self.trace(motion, end_s);
+                }
+            }
+        }
+        self.answer(overturned, margin)
+    }
+
+    /// History of the free motion after the excitation, stepped.
+    #[inline(never)]
+    pub(super) fn trace(&mut self, motion: Motion<N>, end_s: N) {
+        let silence = Silence::endless(end_s, self.dynamics.p);
+        let mut free = Driver::<N, _, HARD, 1, HARD>::new(
+            self.dynamics,
+            silence,
+            self.isa,
+        );
+        free.events = true;
+        free.interval_s = self.interval_s;
+        free.until_s = self.until_s.or_else(|| {
+            // Without restitution the motion never ends: show some of it.
+            let horizon = N::from_f64(60.0) / self.dynamics.p;
+            (!(self.dynamics.eta < N::one())).then_some(end_s + horizon)
+        });
+        free.record.history = std::mem::take(&mut self.record.history);
+        let mut stage = Stage::Flying(Step {
+            place: Place { piece: 0, offset: N::zero() },
+            index: 0,
+            motion,
+            at_threshold: false,
+        });
+        while let Stage::Flying(step) = stage {
+            stage = free.proceed(step);
+        }
+        if let Stage::Landed(Flight::Rest(_, time_s)) = stage {
+            let end = free.until_s.unwrap_or(time_s);
+            free.sample_rest(end);
+        }
+        self.record.history = free.record.history;
+    }
+
+    pub(super) fn answer(
+        &mut self,
+        overturned: Option<(N, Side)>,
+        margin: Option<f64>,
+    ) -> Response<N> {
+        let alpha = self.dynamics.alpha;
+        let record = &mut self.record;
+        let moved = record.uplift_time_s.is_some()
+            || record.peak > N::zero()
+            || record.work.impacts > 0;
+        let ratio = record.peak / alpha;
+        let own = match self.dynamics.overturning {
+            Overturning::Alpha => N::one() - ratio,
+            Overturning::HalfPi => (N::right_angle() - record.peak) / alpha,
+        };
+        let outcome = match overturned {
+            Some((time_s, side)) => Outcome::Overturned { time_s, side },
+            None if moved => Outcome::Rocked { peak_ratio: ratio },
+            None => Outcome::NoUplift,
+        };
+        let fate_margin = match margin {
+            Some(beyond) if outcome.is_overturned() => beyond,
+            Some(decision) => own.to_f64().min(decision),
+            None => own.to_f64(),
+        };
+        let accuracy = record.accuracy;
+        Response {
+            outcome,
+            peak_ratio: ratio,
+            peak_time_s: record.peak_time_s,
+            uplift_time_s: record.uplift_time_s,
+            rest_time_s: record.rest_time_s,
+            impacts: std::mem::take(&mut record.impacts),
+            fate_margin,
+            error_estimate: accuracy.map(|a| a.peak_error()),
+            fate_error: accuracy.map(|a| a.fate_error()),
+            condition_number: accuracy.map(|a| a.peak_condition()),
+            work: record.work,
+            history: std::mem::take(&mut record.history),
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! What happens within a step: the first impact or overturning, and the
+//! turning points before it.
+
+use crate::integrator::driver::{Driver, Motion};
+use crate::integrator::dynamics::Overturning;
+use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::roots::first_descent;
+use crate::integrator::taylor::value;
+use crate::number::Real;
+use crate::number::dispatch::Work as Dispatched;
+
+/// What happened in a step.
+pub(super) enum Event<N> {
+    None,
+    Impact(N),
+    Overturning(N),
+}
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    /// First impact or overturning in (0, length].
+    #[inline(always)]
+    pub(super) fn first_event<const LEN: usize>(
+        &self,
+        c: &[N; LEN],
+        length: N,
+    ) -> Event<N> {
+        // Bound on |u(tau) - u_0 - w_0 tau| / tau over the step.
+        let mut rest = N::zero();
+        for k in (2..LEN).rev() {
+            rest = rest.mul_add(length, c[k].abs());
+        }
+        let rest = rest * length;
+        let linear = c[1] * length;
+        let spread = rest * length;
+        let (down, up) = if c[1] < N::zero() {
+            (linear, N::zero())
+        } else {
+            (N::zero(), linear)
+        };
+        let clear_of_base =
+            c[0] + down > spread || (c[0] == N::zero() && c[1] > rest);
+        let clear_of_limit = c[0] + up + spread < self.dynamics.limit;
+        if clear_of_base && clear_of_limit {
+            return Event::None;
+        }
+        let impact = if clear_of_base {
+            None
+        } else {
+            first_descent(c, length, self.isa)
+        };
+        let overturning = if clear_of_limit {
+            None
+        } else {
+            let mut gap = c.map(|x| -x);
+            gap[0] = self.dynamics.limit - c[0];
+            first_descent(&gap, length, self.isa)
+        };
+        match (impact, overturning) {
+            (None, None) => Event::None,
+            (Some(tau), None) => Event::Impact(tau),
+            (None, Some(tau)) => Event::Overturning(tau),
+            (Some(i), Some(o)) if i < o => Event::Impact(i),
+            (Some(_), Some(o)) => Event::Overturning(o),
+        }
+    }
+
+    /// Raises the peak by the turning points in (0, tau).
+    #[inline(always)]
+    pub(super) fn turning_points<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        v: &[N; LEN],
+        tau: N,
+        place: Place<N>,
+    ) {
+        let mut rest = N::zero();
+        for k in (2..LEN).rev() {
+            rest = rest.mul_add(tau, c[k].abs());
+        }
+        let rise = if c[1] > N::zero() { c[1] * tau } else { N::zero() };
+        if !(c[0] + rise + rest * tau * tau > self.record.peak) {
+            return;
+        }
+        let mut variation = N::zero();
+        for k in (1..LEN).rev() {
+            variation = variation.mul_add(tau, v[k].abs());
+        }
+        if v[0].abs() > variation * tau {
+            return;
+        }
+        self.raise_by_turning(c, v, tau, place);
+    }
+
+    #[inline(never)]
+    pub(super) fn raise_by_turning<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        v: &[N; LEN],
+        tau: N,
+        place: Place<N>,
+    ) {
+        let isa = self.isa;
+        isa.run(Turning { driver: self, c, v, tau, place });
+    }
+
+    #[inline(always)]
+    pub(super) fn locate_turning_points<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        v: &[N; LEN],
+        tau: N,
+        place: Place<N>,
+    ) {
+        let mut at = N::zero();
+        let mut v = *v;
+        // At most LEN turning points lie in a step.
+        for _ in 0..LEN {
+            let left = tau - at;
+            let first = v.iter().find(|x| **x != N::zero());
+            let Some(first) = first else { return };
+            let rising = *first > N::zero();
+            if !rising {
+                v = v.map(|x| -x);
+            }
+            let Some(turn) = first_descent(&v, left, self.isa) else {
+                return;
+            };
+            if !(turn < left) {
+                return;
+            }
+            at = at + turn;
+            if rising {
+                self.raise_peak(value(c, at), place, at);
+            }
+            if !rising {
+                v = v.map(|x| -x);
+            }
+            shift(&mut v, turn);
+            // The root itself: exactly zero, so that deflation applies.
+            v[0] = N::zero();
+        }
+    }
+
+    /// Counts a turning point at `u`, `tau` after a place.
+    pub fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
+        self.record.work.turning_points += 1;
+        if u > self.record.peak {
+            self.record.peak = u;
+            let offset = place.offset + tau;
+            let time_s = self.time_s(Place { offset, ..place });
+            self.record.peak_time_s = Some(time_s);
+            if let Some(accuracy) = &mut self.record.accuracy {
+                accuracy.peak(u.to_f64(), self.dynamics.alpha.to_f64());
+            }
+        }
+    }
+
+    /// Next turning value of |theta|/alpha beyond an overturning, minus 1;
+    /// infinite if the block never turns.
+    #[inline(never)]
+    pub(super) fn margin_beyond(
+        &self,
+        from: Place<N>,
+        motion: Motion<N>,
+    ) -> f64 {
+        self.isa.run(Beyond { driver: self, from, motion })
+    }
+
+    #[inline(always)]
+    pub(super) fn turning_beyond(
+        &self,
+        from: Place<N>,
+        motion: Motion<N>,
+    ) -> f64 {
+        if self.dynamics.overturning == Overturning::HalfPi {
+            return f64::INFINITY;
+        }
+        let Motion { side, mut u, mut w } = motion;
+        let mut offset = from.offset;
+        for piece in from.piece..self.forcing.pieces() {
+            let left = self.forcing.length(piece) - offset;
+            let f = self.oriented(Place { piece, offset }, side, false);
+            let (a, b) = self.dynamics.drive(&f);
+            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, (&a, &b));
+            if let Some(tau) = first_descent(&v, left, self.isa) {
+                return self.beyond(value(&c, tau));
+            }
+            (u, w) = (value(&c, left), value(&v, left));
+            if !(u < N::right_angle()) {
+                return f64::INFINITY;
+            }
+            offset = N::zero();
+        }
+        // Beyond the saddle and moving outwards, nothing turns it back.
+        f64::INFINITY
+    }
+
+    pub(super) fn beyond(&self, u: N) -> f64 {
+        ((u - self.dynamics.alpha) / self.dynamics.alpha).to_f64()
+    }
+}
+
+/// The margin of an overturning, compiled for each instruction-set level.
+struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
+    driver: &'d Driver<N, G, SIZE, F, HARD>,
+    from: Place<N>,
+    motion: Motion<N>,
+}
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Dispatched
+    for Beyond<'_, N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        self.driver.turning_beyond(self.from, self.motion)
+    }
+}
+
+/// Turning points of a step, compiled for each instruction-set level.
+struct Turning<
+    'd,
+    N,
+    G,
+    const LEN: usize,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> {
+    driver: &'d mut Driver<N, G, SIZE, F, HARD>,
+    c: &'d [N; LEN],
+    v: &'d [N; LEN],
+    tau: N,
+    place: Place<N>,
+}
+
+impl<
+    N,
+    G,
+    const LEN: usize,
+    const SIZE: usize,
+    const F: usize,
+    const HARD: usize,
+> Dispatched for Turning<'_, N, G, LEN, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { driver, c, v, tau, place } = self;
+        driver.locate_turning_points(c, v, tau, place);
+    }
+}
+
+/// Moves the origin of the polynomial `c` to `by`.
+fn shift<N: Real>(c: &mut [N], by: N) {
+    for round in 0..c.len() {
+        for k in (round..c.len() - 1).rev() {
+            c[k] = c[k + 1].mul_add(by, c[k]);
+        }
+    }
+}

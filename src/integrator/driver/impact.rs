@@ -1,0 +1,137 @@
+//! The impact, and the proof that a chatter ends.
+
+use crate::integrator::Impact;
+use crate::integrator::driver::{Driver, Flight, Motion, Step};
+use crate::integrator::forcing::{Forcing, Place};
+use crate::number::Real;
+
+/// Post-impact speed over alpha p below which an observer of events lets the
+/// geometric tail of the impacts stand for the rest of them: the tail's own
+/// error is of second order in it (over the square of the least downward
+/// acceleration, which grazing uplifts make small).
+pub(crate) fn tail_speed<N: Real>() -> f64 {
+    if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
+}
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    /// The impact at a step's place, `speed` before it; rest if it ends
+    /// there.
+    #[inline(always)]
+    pub(super) fn impact(
+        &mut self,
+        step: &mut Step<N>,
+        speed: N,
+        before: N,
+    ) -> Option<Flight<N>> {
+        let speed = if speed > N::zero() { speed } else { N::zero() };
+        let side = step.motion.side.flipped();
+        let w = self.dynamics.eta * speed;
+        self.record.work.impacts += 1;
+        if self.events && speed > N::zero() {
+            self.record.impacts.push(Impact {
+                time_s: self.time_s(step.place),
+                speed_before_rad_s: speed * self.dynamics.p,
+            });
+        }
+        let f = self.oriented(step.place, side, false);
+        if let Some(accuracy) = &mut self.record.accuracy {
+            let after = -self.dynamics.restoring(f[0]).to_f64();
+            let eta = self.dynamics.eta.to_f64();
+            accuracy.impact(eta, speed.to_f64(), before.to_f64(), after);
+        }
+        step.motion = Motion { side, u: N::zero(), w };
+        let left = self.forcing.length(step.place.piece) - step.place.offset;
+        let time = self.chatter(&f, w, left)?;
+        let time_s = self.time_s(step.place) + time / self.dynamics.p;
+        let offset = step.place.offset + time;
+        let piece = step.place.piece;
+        Some(Flight::Rest(Place { piece, offset }, time_s))
+    }
+
+    /// Time (in 1/p) in which the impacts after one that leaves speed `w`
+    /// accumulate, if they provably do within `left` while the ground stays
+    /// below the uplift threshold; `f` is the forcing on the new branch.
+    ///
+    /// Each hop rises by at most w^2/D and lasts at most 2 w/D, D being the
+    /// least downward acceleration; from hop to hop the speed falls by
+    /// eta sqrt(D_max/D_min) at least.
+    #[inline(always)]
+    pub(super) fn chatter(&self, f: &[N; F], w: N, left: N) -> Option<N> {
+        let threshold = self.dynamics.threshold;
+        let margin = threshold - f[0].abs();
+        if w == N::zero() {
+            return (!(margin < N::zero())).then_some(N::zero());
+        }
+        let two = N::from_f64(2.0);
+        let eta = self.dynamics.eta;
+        if !(margin > N::zero()) || !(eta < N::one()) {
+            return None;
+        }
+        // Quick refusal before the proof.
+        let scale = self.dynamics.restoring(-f[0].abs());
+        let guess = two * w / (scale * (N::one() - eta));
+        if !(guess < left) {
+            return None;
+        }
+        self.prove(f, w, left, two * guess)
+    }
+
+    #[inline(never)]
+    pub(super) fn prove(
+        &self,
+        f: &[N; F],
+        w: N,
+        left: N,
+        window: N,
+    ) -> Option<N> {
+        let two = N::from_f64(2.0);
+        let window = if window < left { window } else { left };
+        let mut drift = N::zero();
+        for k in (1..F).rev() {
+            drift = (drift + f[k].abs()) * window;
+        }
+        let least = self.dynamics.restoring(-(f[0].abs() + drift));
+        if !(least > N::zero()) {
+            return None;
+        }
+        // Eq. 1 pushes outwards by at most (1 + tan alpha) u on a hop.
+        let rise = w * w / least;
+        let push = (N::one() + self.dynamics.threshold) * (rise + rise);
+        let least = least - push;
+        if !(least > N::zero()) {
+            return None;
+        }
+        let most = |f0: N| self.dynamics.restoring(f0 + drift) + push;
+        let low = |f0: N| self.dynamics.restoring(f0 - drift) - push;
+        let ratio = |f0: N| most(f0) / low(f0);
+        let (here, there) = (ratio(f[0]), ratio(-f[0]));
+        let worst = if here > there { here } else { there };
+        let eta = self.dynamics.eta;
+        let decay = eta * worst.sqrt();
+        if !(decay < N::one()) {
+            return None;
+        }
+        let bound = two * w * worst.sqrt() / (least * (N::one() - decay));
+        if !(bound < window) {
+            return None;
+        }
+        // A hop of the tail must not raise the peak.
+        if !(w * w / (two * least) * worst < self.record.peak) {
+            return None;
+        }
+        let tail = self.dynamics.alpha * N::from_f64(tail_speed::<N>());
+        if self.events && !(w < tail) {
+            return None;
+        }
+        // 2 w [1/D + eta/D'] / (1 - eta^2), D and D' on the two branches.
+        let up = self.dynamics.restoring(f[0]);
+        let down = self.dynamics.restoring(-f[0]);
+        let hops = N::one() / up + eta / down;
+        Some(two * w * hops / (N::one() - eta * eta))
+    }
+}

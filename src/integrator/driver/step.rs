@@ -1,0 +1,259 @@
+//! One step of the driver: its series, and how much that leaves.
+
+use crate::integrator::Side;
+use crate::integrator::driver::events::Event;
+use crate::integrator::driver::{Driver, Flight, Motion, Step};
+use crate::integrator::dynamics::Model;
+use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::taylor::{expand, slope, value};
+use crate::number::dispatch::Work as Dispatched;
+use crate::number::{Number, Real};
+
+/// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
+/// error estimate says what it leaves.
+const HALVINGS: u32 = 12;
+
+/// How a step was left.
+pub(super) enum Advance<N> {
+    /// At its end.
+    Reached,
+    /// At an impact within it.
+    Bounced,
+    /// The flight ended in it.
+    Ended(Flight<N>),
+}
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    /// One step: to its end, or to the first event in it.
+    #[inline(always)]
+    pub(super) fn advance(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+    ) -> Advance<N> {
+        self.attempt::<SIZE>(step, length)
+            .unwrap_or_else(|| self.advance_hard(step, length))
+    }
+
+    /// A step of which the short series leaves too much: a longer series,
+    /// then a shorter step.
+    #[inline(never)]
+    pub(super) fn advance_hard(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+    ) -> Advance<N> {
+        self.isa.run(Hard { driver: self, step, length })
+    }
+
+    #[inline(always)]
+    pub(super) fn lengthened(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+    ) -> Advance<N> {
+        let mut part = length;
+        for halving in 0..=HALVINGS {
+            let last = halving == HALVINGS;
+            let tolerance = self.tolerance;
+            if last {
+                self.tolerance = N::one() / N::zero();
+            }
+            let done = self.attempt::<HARD>(step, part);
+            self.tolerance = tolerance;
+            match done {
+                // Short of the step's end: go on from there.
+                Some(Advance::Reached) if halving > 0 => {
+                    return Advance::Bounced;
+                }
+                Some(done) => return done,
+                None => part = part * N::ratio(1, 2),
+            }
+        }
+        // Not a number: nothing bounds the motion any more.
+        Advance::Ended(Flight::Stopped)
+    }
+
+    /// A step by a series of `LEN` coefficients, unless it leaves too much.
+    #[inline(always)]
+    pub(super) fn attempt<const LEN: usize>(
+        &mut self,
+        step: &mut Step<N>,
+        length: N,
+    ) -> Option<Advance<N>> {
+        let Motion { side, u, w } = step.motion;
+        let oriented = self.oriented(step.place, side, step.at_threshold);
+        let (a, b) = self.dynamics.drive(&oriented);
+        let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, (&a, &b));
+        let (c, v) = (&c, &v);
+        self.record.work.steps += 1;
+        if left_by(v, length) > self.tolerance * length {
+            return None;
+        }
+        let event = self.first_event(c, length);
+        let tau = match event {
+            Event::None => length,
+            Event::Impact(tau) | Event::Overturning(tau) => tau,
+        };
+        self.turning_points(c, v, tau, step.place);
+        if self.interval_s.is_some() {
+            self.sample_step(c, v, tau, step.place, side);
+        }
+        let (end_u, end_w) = (value(c, tau), value(v, tau));
+        if self.record.accuracy.is_some() {
+            let f = self.oriented(step.place, side, step.at_threshold);
+            let (a, b) = self.dynamics.drive(&f);
+            self.track(c, v, (a[0], b[0]), tau, (end_u, end_w));
+        }
+        step.at_threshold = false;
+        step.place.offset = step.place.offset + tau;
+        match event {
+            Event::None => {
+                step.motion = Motion { side, u: end_u, w: end_w };
+                Some(Advance::Reached)
+            }
+            Event::Overturning(_) => {
+                let time_s = self.time_s(step.place);
+                let motion = Motion { side, u: end_u, w: end_w };
+                let margin = self.margin_beyond(step.place, motion);
+                Some(Advance::Ended(Flight::Overturned {
+                    time_s,
+                    side,
+                    margin,
+                }))
+            }
+            Event::Impact(_) => {
+                let before = slope(v, tau);
+                Some(
+                    self.impact(step, -end_w, before)
+                        .map_or(Advance::Bounced, Advance::Ended),
+                )
+            }
+        }
+    }
+
+    /// Taylor polynomial of the motion.
+    #[inline(always)]
+    pub(super) fn expand<const LEN: usize>(
+        &self,
+        u: N,
+        w: N,
+        drive: (&[N; F], &[N; F]),
+    ) -> ([N; LEN], [N; LEN]) {
+        let model = self.dynamics.model;
+        let sine_cosine = match model {
+            // Beyond pi/4 the short polynomials lose digits.
+            Model::Nonlinear if u > N::ratio(785, 1000) => u.sin_cos(),
+            Model::Nonlinear => u.sin_cos_small(),
+            Model::Linearized => (u, N::one()),
+        };
+        expand(model, u, w, drive, sine_cosine)
+    }
+
+    /// Series of s a/g about a place.
+    #[inline(always)]
+    pub(super) fn oriented(
+        &self,
+        place: Place<N>,
+        side: Side,
+        exact: bool,
+    ) -> [N; F] {
+        let mut series = self.forcing.series(place);
+        if side == Side::Negative {
+            series = series.map(|x| -x);
+        }
+        if exact {
+            series[0] = -self.dynamics.threshold;
+        }
+        series
+    }
+
+    /// Accumulates the error of a step.
+    #[inline(never)]
+    pub(super) fn track<const LEN: usize>(
+        &mut self,
+        c: &[N; LEN],
+        v: &[N; LEN],
+        drive: (N, N),
+        tau: N,
+        (u, w): (N, N),
+    ) {
+        let model = self.dynamics.model;
+        let Some(accuracy) = &mut self.record.accuracy else { return };
+        let (a, b) = (drive.0.to_f64(), drive.1.to_f64());
+        let u0 = c[0].to_f64();
+        let last = left_by(v, tau).to_f64();
+        let tau = tau.to_f64();
+        let (j, force) = match model {
+            Model::Nonlinear => {
+                let (s, c) = (libm::sin(u0), libm::cos(u0));
+                (a * c + b * s, (a * s).abs() + (b * c).abs())
+            }
+            Model::Linearized => (1.0, u0.abs() + b.abs()),
+        };
+        // The forcing itself carries a roundoff: the threshold's size.
+        let size = force + self.dynamics.threshold.to_f64();
+        let unit = N::ROUNDOFF;
+        let error_u = unit * u.to_f64().abs().max(u0) + last * tau;
+        let speed = w.to_f64().abs().max(c[1].to_f64().abs());
+        let error_w = unit * (speed + size * tau) + last;
+        accuracy.step(j, tau, [error_u, error_w]);
+    }
+
+    /// Last of `LEN` coefficients of the velocity that leaves as much as is
+    /// allowed over a step of `length`.
+    #[inline(always)]
+    pub fn last_allowed<const LEN: usize>(&self, length: N) -> N {
+        self.tolerance * length / last_term(N::one(), LEN, length)
+    }
+}
+
+/// A hard step, compiled for each instruction-set level.
+struct Hard<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
+    driver: &'d mut Driver<N, G, SIZE, F, HARD>,
+    step: &'d mut Step<N>,
+    length: N,
+}
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Dispatched
+    for Hard<'_, N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    type Output = Advance<N>;
+
+    #[inline(always)]
+    fn run(self) -> Advance<N> {
+        self.driver.lengthened(self.step, self.length)
+    }
+}
+
+/// Estimate of the velocity error that a series leaves over a step: the next
+/// coefficient of the velocity is at most about a quarter of its last one
+/// (1/`LEN` for the motion alone; the rest allows for strong forcing).
+#[inline(always)]
+fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
+    last_term(v[LEN - 1].abs(), LEN, tau)
+}
+
+/// That estimate from the size of the last of `count` coefficients.
+#[inline(always)]
+pub(crate) fn last_term<N: Number>(last: N, count: usize, tau: N) -> N {
+    let mut power = N::ratio(1, 4) * last;
+    let mut base = tau;
+    let mut left = count;
+    while left > 0 {
+        if left % 2 == 1 {
+            power = power * base;
+        }
+        base = base * base;
+        left /= 2;
+    }
+    power
+}

@@ -1,0 +1,131 @@
+// Boost.odeint: dopri5 with dense output; events are found in each step,
+// both the ends and the turning point within it. Two ways: the record as one
+// function, as most would write it; and a stop at every sample, where the
+// forcing has its kinks.
+#include <array>
+#include <boost/numeric/odeint.hpp>
+#include <boost/version.hpp>
+
+#include "scene.hpp"
+
+namespace odeint = boost::numeric::odeint;
+using State = std::array<double, 2>;
+using Dopri5 = odeint::runge_kutta_dopri5<State>;
+
+// Root of `value` between a and b, where it has different signs.
+template <class F>
+double root(F value, double a, double b) {
+    double va = value(a), vb = value(b);
+    if (va == 0) return a;
+    for (int i = 0; i < 200; i++) {
+        // Secant, kept away from the ends; bisection every third turn.
+        double m = i % 3 == 2 ? 0.5 * (a + b) : a - va * (b - a) / (vb - va);
+        if (!(m > a && m < b)) m = 0.5 * (a + b);
+        if (m == a || m == b) break;
+        double vm = value(m);
+        if (vm == 0) return m;
+        if ((va < 0) == (vm < 0)) a = m, va = vm;
+        else b = m, vb = vm;
+        if (b - a < 4e-16 * std::abs(b)) break;
+    }
+    return b;
+}
+
+Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
+    return [&scene, &work, rtol, stops](double t, double side, double w) {
+        const double alpha = scene.alpha, pp = scene.p * scene.p;
+        double f0 = 0, slope = 0, origin = 0;
+        auto fixed = [&](const State& x, State& d, double time) {
+            work++;
+            double y = alpha - x[0], f = f0 + slope * (time - origin);
+            d = {x[1], -pp * (std::sin(y) + side * f * std::cos(y))};
+        };
+        auto whole = [&](const State& x, State& d, double time) {
+            work++;
+            double y = alpha - x[0], f = scene.force(time);
+            d = {x[1], -pp * (std::sin(y) + side * f * std::cos(y))};
+        };
+        State x{0, w};
+        double peak = 0, step = scene.first_step(w);
+        while (t < scene.end + 60) {
+            // The next instant to stop at.
+            double stop = scene.end + 60;
+            if (t < scene.end) stop = scene.end;
+            if (stops) {
+                size_t k = size_t(t / scene.dt);
+                if (t < scene.end && double(k + 1) * scene.dt - t < 1e-12) k++;
+                if (k < scene.slope.size()) {
+                    stop = double(k + 1) * scene.dt;
+                    f0 = scene.f[k], slope = scene.slope[k];
+                    origin = double(k) * scene.dt;
+                } else {
+                    f0 = slope = 0;
+                }
+            }
+            auto stepper = odeint::make_dense_output(
+                rtol * alpha, rtol, stop <= scene.end ? scene.dt : 1e9, Dopri5());
+            stepper.initialize(x, t, std::min(step, stop - t));
+            bool beyond = false;
+            while (!beyond) {
+                auto [a, b] = stops ? stepper.do_step(fixed)
+                                    : stepper.do_step(whole);
+                step = stepper.current_time_step();
+                if (b >= stop) b = stop, beyond = true;
+                auto at = [&](double time) {
+                    State s;
+                    stepper.calc_state(time, s);
+                    return s;
+                };
+                State begin = stepper.previous_state(), end = at(b);
+                // The step in two where the velocity changes its sign.
+                double cuts[3] = {a, b, b};
+                int parts = 1;
+                if ((begin[1] > 0) != (end[1] > 0) && begin[1] != 0) {
+                    cuts[1] = root([&](double s) { return at(s)[1]; }, a, b);
+                    parts = 2;
+                }
+                for (int i = 0; i < parts; i++) {
+                    State s = at(cuts[i + 1]);
+                    if (s[0] < 0) {
+                        double from = cuts[i];
+                        // From the base itself: past the root at the start.
+                        if (i == 0 && begin[0] == 0) from += 1e-3 * (cuts[1] - a);
+                        double hit = root([&](double z) { return at(z)[0]; },
+                                          from, cuts[i + 1]);
+                        return Landing{Kind::Impact, hit, at(hit)[1], peak};
+                    }
+                    if (s[0] >= alpha)
+                        return Landing{Kind::Overturned, cuts[i + 1], s[1], peak};
+                    peak = std::max(peak, s[0]);
+                }
+                x = end, t = b;
+            }
+        }
+        return Landing{Kind::Failed, t, 0, peak};
+    };
+}
+
+// `odeint singles FOLDER` or `odeint chains FOLDER`.
+int main(int, char** argv) {
+    const bool singles = std::string(argv[1]) == "singles";
+    const std::string version = std::to_string(BOOST_VERSION / 100000) + "." +
+                                std::to_string(BOOST_VERSION / 100 % 1000);
+    if (singles) header();
+    for (bool stops : {false, true})
+        for (const char* rtol : {"1e-06", "1e-09", "1e-12"}) {
+            const double relative = std::stod(rtol);
+            auto own = [&](const Scene& scene, long& work) {
+                return flights(scene, work, relative, stops);
+            };
+            const std::string method =
+                stops ? "dopri5 sample by sample" : "dopri5";
+            if (singles)
+                measure("Boost.odeint," + version + "," + method + ",rtol " +
+                            rtol,
+                        argv[2], own);
+            else
+                measure_chains("\"p = 3, alpha = 0.15, Boost.odeint " + method +
+                                   ", rtol " + rtol + "\"",
+                               argv[2], own);
+        }
+}

@@ -1,0 +1,50 @@
+//! Other arithmetic for the core's generic source: single precision, and
+//! double-double with a mistake.
+
+mod decimal;
+mod rounded;
+mod single;
+
+pub use decimal::decimal;
+pub use rounded::RoundedConstants;
+pub use single::Single;
+
+use rocking::number::double::DoubleDouble;
+use rocking::number::{Number as _, Real};
+
+/// Arithmetic whose numbers a double-double holds.
+pub trait Wide: Real {
+    /// The number, exactly.
+    fn wide(self) -> DoubleDouble;
+}
+
+impl Wide for f64 {
+    fn wide(self) -> DoubleDouble {
+        DoubleDouble::from_f64(self)
+    }
+}
+
+impl Wide for DoubleDouble {
+    fn wide(self) -> DoubleDouble {
+        self
+    }
+}
+
+/// Forwards the four operations and the sign to the number inside.
+macro_rules! forward {
+    ($type:ident: $($trait:ident $name:ident),+) => {
+        $(impl std::ops::$trait for $type {
+            type Output = Self;
+            fn $name(self, other: Self) -> Self {
+                Self(std::ops::$trait::$name(self.0, other.0))
+            }
+        })+
+        impl std::ops::Neg for $type {
+            type Output = Self;
+            fn neg(self) -> Self {
+                Self(-self.0)
+            }
+        }
+    };
+}
+use forward;

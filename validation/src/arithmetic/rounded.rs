@@ -1,0 +1,73 @@
+use rocking::number::double::DoubleDouble;
+use rocking::number::{Number, Real};
+
+use super::{Wide, forward};
+
+/// Double-double whose coefficients and pi/2 were rounded to one double: the
+/// mistake that caps such an engine at 1e-17 without a word.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct RoundedConstants(DoubleDouble);
+
+forward!(RoundedConstants: Add add, Sub sub, Mul mul, Div div);
+
+impl Wide for RoundedConstants {
+    fn wide(self) -> DoubleDouble {
+        self.0
+    }
+}
+
+impl Number for RoundedConstants {
+    fn from_f64(x: f64) -> Self {
+        Self(DoubleDouble::from_f64(x))
+    }
+
+    fn ratio(i: i32, j: i32) -> Self {
+        Self::from_f64(f64::from(i) / f64::from(j))
+    }
+
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        Self(self.0.mul_add(b.0, c.0))
+    }
+
+    fn sin_cos_small(self) -> (Self, Self) {
+        self.sin_cos()
+    }
+}
+
+impl Real for RoundedConstants {
+    const ROUNDOFF: f64 = DoubleDouble::ROUNDOFF;
+    const NEWTON_STEP: f64 = DoubleDouble::NEWTON_STEP;
+
+    fn to_f64(self) -> f64 {
+        self.0.to_f64()
+    }
+
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.0.sin_cos();
+        (Self(s), Self(c))
+    }
+
+    fn exp(self) -> Self {
+        Self(self.0.exp())
+    }
+
+    fn ln_1p(self) -> Self {
+        Self(self.0.ln_1p())
+    }
+
+    fn asin(self) -> Self {
+        Self(self.0.asin())
+    }
+
+    fn right_angle() -> Self {
+        Self::from_f64(std::f64::consts::FRAC_PI_2)
+    }
+}

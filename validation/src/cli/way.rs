@@ -1,0 +1,82 @@
+//! Flags that show that results don't depend on how they are computed.
+
+use clap::ValueEnum;
+use rocking::number::dispatch::Isa;
+
+use super::Failure;
+use crate::curves::Way;
+
+/// How curves are made; results are the same bits.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct WayArgs {
+    /// Instruction set of the lanes.
+    #[arg(long, value_enum, hide = true)]
+    isa: Option<Level>,
+    /// Chains in lanes, or one analysis at a time.
+    #[arg(long, value_enum, hide = true)]
+    engine: Option<EngineName>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Level {
+    Avx512,
+    Avx2,
+    Baseline,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum EngineName {
+    Lanes,
+    Scalar,
+}
+
+impl WayArgs {
+    /// The way asked for.
+    ///
+    /// # Errors
+    /// [`Failure`] for an instruction set that this machine has not, or one
+    /// for an engine that doesn't take it.
+    pub fn way(self) -> Result<Way, Failure> {
+        match (self.engine, self.isa) {
+            (Some(EngineName::Scalar), None) => Ok(Way::OneByOne),
+            (Some(EngineName::Scalar), Some(_)) => Err(Failure::input(
+                "--isa is for --engine lanes; scalar has no choice of it",
+            )),
+            (_, None) => Ok(Way::default()),
+            (_, Some(level)) => level.isa().map(Way::Lanes),
+        }
+    }
+
+    /// The way asked for, of a command that may have been asked to certify.
+    ///
+    /// # Errors
+    /// As [`Self::way`]; [`Failure`] for both at once.
+    pub fn way_unless_certified(self, certify: bool) -> Result<Way, Failure> {
+        if certify && (self.isa.is_some() || self.engine.is_some()) {
+            return Err(Failure::input(
+                "--certify runs one analysis at a time: no --isa, no --engine",
+            ));
+        }
+        self.way()
+    }
+}
+
+impl Level {
+    fn isa(self) -> Result<Isa, Failure> {
+        let name = match self {
+            Self::Avx512 => "avx512",
+            Self::Avx2 => "avx2",
+            Self::Baseline => "baseline",
+        };
+        let available = Isa::available();
+        let names: Vec<&str> = available.iter().map(|i| i.name()).collect();
+        available.iter().find(|isa| isa.name() == name).copied().ok_or_else(
+            || {
+                Failure::input(format!(
+                    "--isa {name}: not on this machine, expected one of {}",
+                    names.join(", ")
+                ))
+            },
+        )
+    }
+}

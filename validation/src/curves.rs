@@ -1,0 +1,54 @@
+//! How many curves are made: in lanes at an instruction-set level, or one
+//! analysis at a time. Results are the same bits.
+
+use rayon::prelude::*;
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{Analysis, IdaCurve, IdaError, curve, curves_with};
+use rocking::number::dispatch::Isa;
+
+/// The way curves are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Chains in lanes, by instructions of this level.
+    Lanes(Isa),
+    /// One analysis at a time.
+    OneByOne,
+}
+
+impl Default for Way {
+    fn default() -> Self {
+        Self::Lanes(Isa::best())
+    }
+}
+
+impl Way {
+    /// The curves of every record under every analysis, as
+    /// [`rocking::ida::curves`] gives them; `done` is called after each.
+    ///
+    /// # Errors
+    /// As [`rocking::ida::curves`].
+    pub fn curves(
+        self,
+        records: &[NormalisedRecord],
+        analyses: &[Analysis],
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+        if let Self::Lanes(isa) = self {
+            return curves_with(records, analyses, isa, done);
+        }
+        analyses
+            .iter()
+            .map(|analysis| {
+                records
+                    .par_iter()
+                    .with_max_len(1)
+                    .map(|record| {
+                        let result = curve(record, analysis);
+                        done();
+                        result
+                    })
+                    .collect()
+            })
+            .collect()
+    }
+}

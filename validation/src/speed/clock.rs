@@ -1,0 +1,57 @@
+//! Processor time and memory of this process.
+
+use rustix::time::{ClockId, Timespec};
+
+/// Processor time that this thread has used, in s.
+#[must_use]
+pub fn thread_s() -> f64 {
+    seconds(ClockId::ThreadCPUTime)
+}
+
+/// Processor time that all threads of this process have used, in s.
+#[must_use]
+pub fn process_s() -> f64 {
+    seconds(ClockId::ProcessCPUTime)
+}
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "measuring time is what `rocking speed` is for"
+)]
+fn seconds(clock: ClockId) -> f64 {
+    let Timespec { tv_sec, tv_nsec } = rustix::time::clock_gettime(clock);
+    (tv_nsec as f64).mul_add(1e-9, tv_sec as f64)
+}
+
+/// Least processor time of this thread that `work` takes a turn, in s, and
+/// what it gives: over `batches` batches of as many turns as `batch_s` hold.
+pub fn least_s<T>(
+    batches: u32,
+    batch_s: f64,
+    mut work: impl FnMut() -> T,
+) -> (f64, T) {
+    let begin = thread_s();
+    let mut given = work();
+    let once = thread_s() - begin;
+    let turns = (batch_s / once.max(1e-9)).clamp(1.0, 1e6) as u32;
+    let mut least = once;
+    for _ in 0..batches {
+        let begin = thread_s();
+        for _ in 0..turns {
+            given = std::hint::black_box(work());
+        }
+        let each = (thread_s() - begin) / f64::from(turns);
+        least = least.min(each);
+    }
+    (least, given)
+}
+
+/// Most memory that this process has held, in MiB; none where the system
+/// doesn't say.
+#[must_use]
+pub fn peak_memory_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kib / 1024.0)
+}

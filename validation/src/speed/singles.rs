@@ -1,0 +1,74 @@
+//! Our own methods on the single analyses.
+
+use rocking::integrator::{
+    Observe, Order, Response, Scene, SceneError, respond, respond_at_order,
+    respond_precise,
+};
+
+use super::answers::Answer;
+use super::cases::Case;
+use super::clock::least_s;
+use super::measured::{Row, row};
+
+/// The tool, method and setting that ratios refer to.
+pub const BASE: [&str; 3] = ["rocking", "Taylor", "as shipped"];
+
+/// Batches of a measurement, and how long each is, in s.
+const BATCHES: (u32, f64) = (5, 4e-3);
+
+/// The orders, as settings.
+pub const ORDERS: [(&str, Option<Order>); 5] = [
+    ("order 4", Some(Order::Four)),
+    ("order 6", Some(Order::Six)),
+    ("order 8", Some(Order::Eight)),
+    ("order 10", Some(Order::Ten)),
+    ("as shipped", None),
+];
+
+fn run(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    order: Option<Order>,
+) -> Result<Response, SceneError> {
+    match order {
+        Some(order) => respond_at_order(scene, observe, order),
+        None => respond(scene, observe),
+    }
+}
+
+/// Measures every order on every case, and double-double once.
+///
+/// # Errors
+/// [`SceneError`] in none of the cases.
+pub fn measure(
+    cases: &[(Case, Answer)],
+    done: impl Fn(),
+) -> Result<Vec<Row>, SceneError> {
+    let version = env!("CARGO_PKG_VERSION");
+    let mut rows = Vec::new();
+    for (setting, order) in ORDERS {
+        let label = ["rocking", version, "Taylor", setting];
+        for (case, reference) in cases {
+            let scene = case.scene();
+            let bare = Observe::default();
+            let (batches, batch_s) = BATCHES;
+            let (cpu_s, plain) =
+                least_s(batches, batch_s, || run(&scene, &bare, order));
+            let seen = Observe { events: true, ..bare };
+            let answer = Answer::of(case, &run(&scene, &seen, order)?);
+            let took = (cpu_s, plain?.work.steps);
+            rows.push(row(label, (case, reference), took, &answer));
+            done();
+        }
+    }
+    let label = ["rocking", version, "Taylor, double-double", "order 27"];
+    for (case, reference) in cases {
+        let scene = case.scene();
+        let (cpu_s, plain) =
+            least_s(1, 0.0, || respond_precise(&scene, &Observe::default()));
+        let took = (cpu_s, plain?.work.steps);
+        rows.push(row(label, (case, reference), took, reference));
+        done();
+    }
+    Ok(rows)
+}

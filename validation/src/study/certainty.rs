@@ -1,0 +1,185 @@
+//! Fates that double precision cannot tell: what double-double says of them,
+//! and how far capacities move if those that stay open flip.
+
+use rayon::prelude::*;
+use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
+use rocking::integrator::{Certified, Engine, Scene, certify};
+
+use super::StudyError;
+
+/// Levels whose fate double precision leaves open.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Certainty {
+    /// Levels that needed double-double.
+    pub needed: usize,
+    /// Those of them that double precision had told wrongly.
+    pub moved: usize,
+    /// Those that double-double leaves open as well.
+    pub undecided: usize,
+    /// Largest relative change of a 16, 50 or 84 % overturning intensity of
+    /// a block if every level that needed double-double flips.
+    pub largest_shift: f64,
+}
+
+/// Looks again at every open level of the curves `runs[a][r]` of
+/// `analyses[a]` and `records[r]`.
+///
+/// # Errors
+/// [`StudyError`] where a level cannot be run again.
+pub fn certainty(
+    analyses: &[Analysis],
+    records: &[NormalisedRecord],
+    runs: &[Vec<IdaCurve>],
+) -> Result<Certainty, StudyError> {
+    let mut out = Certainty::default();
+    for (analysis, curves) in analyses.iter().zip(runs) {
+        let open: Vec<(usize, IdaPoint)> = curves
+            .iter()
+            .enumerate()
+            .flat_map(|(r, curve)| levels(curve).map(move |p| (r, p)))
+            .filter(|(_, point)| !point.resolved)
+            .collect();
+        if open.is_empty() {
+            continue;
+        }
+        let fates: Vec<Certified> = open
+            .par_iter()
+            .map(|(r, point)| again(analysis, &records[*r], point))
+            .collect::<Result<_, StudyError>>()?;
+        let by_double_double =
+            |fate: &&Certified| fate.by == Engine::DoubleDouble;
+        out.needed += fates.iter().filter(by_double_double).count();
+        out.moved += fates.iter().filter(|fate| fate.moved()).count();
+        out.undecided += fates.iter().filter(|fate| !fate.decided).count();
+        let first = |curve: &IdaCurve| {
+            curve.overturning.map_or(f64::INFINITY, |first| first.im())
+        };
+        let told: Vec<f64> = curves.iter().map(first).collect();
+        let mut flipped = told.clone();
+        for (r, point) in &open {
+            let other = flip(analysis, &records[*r], point)?;
+            flipped[*r] = if point.outcome.is_overturned() {
+                other
+            } else {
+                // The first open level of a chain decides.
+                flipped[*r].min(other)
+            };
+        }
+        out.largest_shift = out.largest_shift.max(shift(told, flipped));
+    }
+    Ok(out)
+}
+
+/// Every level of a curve, the bisected end among them.
+fn levels(curve: &IdaCurve) -> impl Iterator<Item = IdaPoint> {
+    let refined = curve.overturning.and_then(|first| first.refined);
+    curve.points.iter().copied().chain(refined)
+}
+
+/// The level in the precision that it needs.
+fn again(
+    analysis: &Analysis,
+    record: &NormalisedRecord,
+    point: &IdaPoint,
+) -> Result<Certified, StudyError> {
+    let block = rocking::block::Block::try_new(
+        point.slenderness_rad,
+        analysis.block.frequency_rad_s(),
+    )?;
+    Ok(certify(&Scene {
+        block,
+        restitution: analysis.restitution,
+        model: analysis.model,
+        overturning: analysis.overturning,
+        excitation: Excitation::Record(ScaledRecord::to_pga(
+            record,
+            point.pga_g,
+        )),
+        initial_ratio: 0.0,
+    })?)
+}
+
+/// First overturning of a chain if this level had the other fate: the level
+/// itself, or the next one above that overturns.
+fn flip(
+    analysis: &Analysis,
+    record: &NormalisedRecord,
+    point: &IdaPoint,
+) -> Result<f64, StudyError> {
+    if !point.outcome.is_overturned() {
+        return Ok(point.im);
+    }
+    let further = Analysis {
+        resurrections: Some(Resurrections::Multiple(3.0)),
+        refine: None,
+        ..*analysis
+    };
+    let curve = ida::curve(record, &further)?;
+    let next = curve.above.iter().find(|p| p.outcome.is_overturned());
+    Ok(next.map_or(f64::INFINITY, |point| point.im))
+}
+
+/// Largest relative change of the 16, 50 and 84 % of two samples.
+fn shift(mut told: Vec<f64>, mut flipped: Vec<f64>) -> f64 {
+    told.sort_by(f64::total_cmp);
+    flipped.sort_by(f64::total_cmp);
+    let mut largest = 0.0;
+    for share in [0.16, 0.5, 0.84] {
+        let k = (share * told.len() as f64) as usize;
+        let (Some(a), Some(b)) = (told.get(k), flipped.get(k)) else {
+            continue;
+        };
+        let change = if a == b { 0.0 } else { (b / a - 1.0).abs() };
+        if !(change <= largest) {
+            largest = change;
+        }
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use rocking::block::{Block, Restitution};
+    use rocking::integrator::Overturning;
+    use rocking::record::Accelerogram;
+
+    use super::*;
+
+    /// A triangular lobe, bisected to the last bit: its end cannot be told
+    /// in double precision.
+    #[test]
+    fn an_open_fate_is_told_and_hardly_moves_anything() {
+        let samples =
+            (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+        let record = Accelerogram::try_new("lobe", 0.01, samples.collect());
+        let records = [NormalisedRecord::new(&record.unwrap())];
+        let block = Block::try_new(0.1, 3.0).unwrap();
+        let eta = Restitution::constant(0.92).unwrap();
+        let analysis = Analysis {
+            refine: Some(f64::MIN_POSITIVE),
+            overturning: Overturning::HalfPi,
+            ..Analysis::paper(block, eta)
+        };
+        let runs = ida::curves(&records, &[analysis], || {}).unwrap();
+        let found = certainty(&[analysis], &records, &runs).unwrap();
+        assert!(found.needed > 0 && found.undecided == 0, "{found:?}");
+        // The next level of the grid overturns as well.
+        assert!(found.largest_shift < 0.1, "{found:?}");
+        // Nothing is open at the study's own refinement.
+        let analysis = Analysis { refine: Some(1e-4), ..analysis };
+        let runs = ida::curves(&records, &[analysis], || {}).unwrap();
+        let found = certainty(&[analysis], &records, &runs).unwrap();
+        assert_eq!(found, Certainty::default());
+    }
+
+    #[test]
+    fn quantiles_that_move_are_seen() {
+        let told = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let mut flipped = told.clone();
+        flipped[3] = 8.0;
+        // Sorted: 1 2 3 5 6 8; the median goes from 4 to 5.
+        assert!((shift(told.clone(), flipped) - 1.0 / 3.0).abs() < 1e-15);
+        assert!(shift(told.clone(), told).abs() < 1e-300);
+    }
+}

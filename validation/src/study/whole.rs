@@ -133,13 +133,7 @@ impl Study {
             let csv = shown.chart.csv();
             files.insert(format!("{name}.csv"), csv.into_bytes());
         }
-        for answer in &self.answers {
-            let csv = answer.csv.clone().into_bytes();
-            files.insert(format!("{}.csv", answer.id), csv);
-            for (name, csv) in &answer.files {
-                files.insert(name.clone(), csv.clone().into_bytes());
-            }
-        }
+        files.extend(questions::files(&self.answers));
         let input = page::input(
             &self.results,
             &self.figures,

@@ -84,14 +84,8 @@ impl Study {
     pub fn table(&self) -> String {
         let mut out = String::new();
         for claim in &self.claims {
-            let suite = format!(
-                "{}{}",
-                claim.suite,
-                claim.arm.map_or(String::new(), |a| format!(
-                    ", arm {}",
-                    a.letter()
-                ))
-            );
+            let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
+            let suite = claim.suite.clone() + &arm.unwrap_or_default();
             // Writing to a string cannot fail.
             let _ = writeln!(
                 out,

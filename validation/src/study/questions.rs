@@ -83,6 +83,15 @@ pub fn json(answers: &[Answer]) -> Value {
     Value::Array(answers.iter().map(one).collect())
 }
 
+/// The answers' CSV files, by name.
+pub fn files(answers: &[Answer]) -> impl Iterator<Item = (String, Vec<u8>)> {
+    answers.iter().flat_map(|answer| {
+        let own = (format!("{}.csv", answer.id), answer.csv.clone());
+        let all = std::iter::once(own).chain(answer.files.iter().cloned());
+        all.map(|(name, csv)| (name, csv.into_bytes()))
+    })
+}
+
 /// Rows for a CSV and a table of the page at once.
 struct Rows {
     csv: Table,

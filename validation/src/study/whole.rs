@@ -84,14 +84,8 @@ impl Study {
     pub fn table(&self) -> String {
         let mut out = String::new();
         for claim in &self.claims {
-            let suite = format!(
-                "{}{}",
-                claim.suite,
-                claim.arm.map_or(String::new(), |a| format!(
-                    ", arm {}",
-                    a.letter()
-                ))
-            );
+            let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
+            let suite = claim.suite.clone() + &arm.unwrap_or_default();
             // Writing to a string cannot fail.
             let _ = writeln!(
                 out,
@@ -133,13 +127,7 @@ impl Study {
             let csv = shown.chart.csv();
             files.insert(format!("{name}.csv"), csv.into_bytes());
         }
-        for answer in &self.answers {
-            let csv = answer.csv.clone().into_bytes();
-            files.insert(format!("{}.csv", answer.id), csv);
-            for (name, csv) in &answer.files {
-                files.insert(name.clone(), csv.clone().into_bytes());
-            }
-        }
+        files.extend(questions::files(&self.answers));
         let input = page::input(
             &self.results,
             &self.figures,

@@ -62,7 +62,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         "dispersion_b",
     ]);
     let mut words = Vec::new();
-    let mut figures = Vec::new();
+    let mut by_suite = Vec::new();
     for suite in both(results) {
         let rows = rows(results, suite.kind)?;
         for (i, row) in rows.iter().enumerate() {
@@ -114,9 +114,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             capital(suite.kind),
             slender.join("; ")
         ));
-        if suite.kind == results.ordinary.kind {
-            figures.push(figure(&rows));
-        }
+        by_suite.push((suite.kind, rows));
     }
     let mut answer = Answer::new(
         "grid",
@@ -133,7 +131,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
          overturning: the interval likelihood of the grid's brackets is the \
          alternative to bisecting them.",
     );
-    answer.figures = figures;
+    answer.figures.push(figure(&by_suite));
     Ok(answer)
 }
 
@@ -247,47 +245,16 @@ pub(super) fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
     rejected as f64 / DRAWS as f64
 }
 
-fn figure(rows: &[Row]) -> Figure {
-    let panels = FREQUENCIES_RAD_S
+/// A row of panels a suite.
+fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
+    let panels = suites
         .iter()
-        .enumerate()
-        .map(|(frequency, p)| {
-            let line = |label: &str, mark, of: &dyn Fn(&Row) -> f64| Series {
-                label: label.into(),
-                mark,
-                x: SLENDERNESSES_RAD.to_vec(),
-                y: (0..SLENDERNESSES_RAD.len())
-                    .map(|s| 100.0 * of(&rows[position(frequency, s)]))
-                    .collect(),
-                interval: Vec::new(),
-            };
-            let mut series: Vec<Series> = ARMS
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| rows[0].rejected[*k].is_finite())
-                .map(|(k, arm)| {
-                    let label = format!("arm {}", arm.letter());
-                    line(&label, Mark::LineAndPoints, &|r| r.rejected[k])
-                })
-                .collect();
-            let words = "the grid alone, at overturning";
-            series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
-            ChartPanel {
-                title: format!("*p* = {p} rad/s"),
-                x: Axis {
-                    label: "*α* (rad)".into(),
-                    scale: AxisScale::Linear,
-                    range: Some((0.03, 0.27)),
-                    categories: Vec::new(),
-                },
-                y: Axis {
-                    label: "rejected levels (%)".into(),
-                    scale: AxisScale::Linear,
-                    range: Some((0.0, 100.0)),
-                    categories: Vec::new(),
-                },
-                series,
-            }
+        .flat_map(|(kind, rows)| {
+            let frequencies = FREQUENCIES_RAD_S.iter().enumerate();
+            frequencies.map(move |(frequency, p)| {
+                let title = format!("*p* = {p} rad/s, {kind}");
+                panel(title, &rows[position(frequency, 0)..])
+            })
         })
         .collect();
     Figure {
@@ -297,7 +264,8 @@ fn figure(rows: &[Row]) -> Figure {
                 title: "Rejections and the grid of 0.01 g".into(),
                 description: "Share of demand levels at which the shifted \
                               sample is rejected, by slenderness, in three \
-                              arms of the grid; ordinary records, PGA."
+                              arms of the grid; ordinary and pulse-type \
+                              records, PGA."
                     .into(),
                 arm: None,
             },
@@ -308,6 +276,43 @@ fn figure(rows: &[Row]) -> Figure {
                   three arms of the grid; dashed: what the grid of 0.01 g \
                   alone does to a shifted lognormal sample at overturning."
             .into(),
+    }
+}
+
+/// One frequency parameter: the first rows are its blocks.
+fn panel(title: String, rows: &[Row]) -> ChartPanel {
+    let line = |label: &str, mark, of: &dyn Fn(&Row) -> f64| Series {
+        label: label.into(),
+        mark,
+        x: SLENDERNESSES_RAD.to_vec(),
+        y: rows[..SLENDERNESSES_RAD.len()]
+            .iter()
+            .map(|row| 100.0 * of(row))
+            .collect(),
+        interval: Vec::new(),
+    };
+    let mut series: Vec<Series> = ARMS
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| rows[0].rejected[*k].is_finite())
+        .map(|(k, arm)| {
+            let label = format!("arm {}", arm.letter());
+            line(&label, Mark::LineAndPoints, &|r| r.rejected[k])
+        })
+        .collect();
+    let words = "the grid alone, at overturning";
+    series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
+    let axis = |label: &str, range| Axis {
+        label: label.into(),
+        scale: AxisScale::Linear,
+        range: Some(range),
+        categories: Vec::new(),
+    };
+    ChartPanel {
+        title,
+        x: axis("*α* (rad)", (0.03, 0.27)),
+        y: axis("rejected levels (%)", (0.0, 100.0)),
+        series,
     }
 }
 

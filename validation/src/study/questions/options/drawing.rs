@@ -57,7 +57,6 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
                 flat("Option 2", Recipe::Quantiles(quantile_type)),
                 seven("Option 3, untrimmed", MLE, fitted),
                 seven("Option 3, trimmed", trimmed(), fitted),
-                seven("Option 3, untrimmed, sample median", MLE, sample),
                 seven(
                     "Option 3, quantiles",
                     FitMethod::Quantile(quantile_type),

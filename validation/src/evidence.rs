@@ -50,8 +50,15 @@ pub struct ShownChart {
 /// # Errors
 /// [`EvidenceError`] where cases or results cannot be read.
 pub fn committed_families() -> Result<Vec<Family>, EvidenceError> {
-    let results: Value = serde_json::from_str(RESULTS)?;
-    Ok(families(&load_all()?, &results))
+    Ok(families(&load_all()?, &committed_results()?))
+}
+
+/// The committed results of the declared cases, by id.
+///
+/// # Errors
+/// [`EvidenceError::Results`] where they cannot be read.
+pub fn committed_results() -> Result<Value, EvidenceError> {
+    Ok(serde_json::from_str(RESULTS)?)
 }
 
 /// Significant digits that each precision reaches on the hard cases and the

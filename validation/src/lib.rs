@@ -14,6 +14,7 @@ pub mod figures;
 pub mod files;
 pub mod inputs;
 pub mod json;
+pub mod ledger;
 pub mod methods;
 pub mod naive;
 pub mod oracles;

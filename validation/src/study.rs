@@ -6,6 +6,7 @@ pub mod capacities;
 pub mod certainty;
 pub mod choice;
 pub mod claims;
+pub mod credibility;
 pub mod distributions;
 pub mod figures;
 pub mod findings;
@@ -13,6 +14,7 @@ pub mod grid;
 pub mod histories;
 pub mod normality;
 pub mod output;
+pub mod overturning;
 pub mod page;
 pub mod questions;
 pub mod runs;
@@ -37,6 +39,7 @@ use thiserror::Error;
 
 use crate::drawing::DrawError;
 use crate::evidence::EvidenceError;
+use crate::ledger::LedgerError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -75,6 +78,9 @@ pub enum StudyError {
     /// Evidence that cannot be shown.
     #[error(transparent)]
     Evidence(#[from] EvidenceError),
+    /// Requirements that cannot be read.
+    #[error(transparent)]
+    Ledger(#[from] LedgerError),
     /// A drawing that grew too large.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -177,7 +177,9 @@ impl Row {
     fn words(&self, name: &str) -> String {
         let mut words = quantity(&self.section, name);
         if !self.measure.is_empty() {
-            words += &format!(" {}", self.measure);
+            let overturning = self.section == "overturning";
+            words += if overturning { " " } else { ", by " };
+            words += &self.measure;
         }
         if !self.place.is_empty() {
             words += &format!(" at {}", self.place);

@@ -6,6 +6,7 @@ use rocking::integrator::Overturning;
 use super::StudyError;
 use super::analyses::SuiteResults;
 use super::claims::PAPER_GRAVITY_M_S2;
+use super::credibility;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
@@ -14,6 +15,7 @@ use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
 use crate::evidence::{self, ShownChart};
 use crate::figures::Figure as _;
+use crate::ledger;
 use crate::report::{
     self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
 };
@@ -51,8 +53,20 @@ pub fn input(
         figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
-        credibility: timings.tables(),
+        credibility: credibility(results, claims, &timings)?,
     })
+}
+
+fn credibility(
+    results: &Results,
+    claims: &[Claim],
+    timings: &Timings,
+) -> Result<Vec<PlainTable>, StudyError> {
+    let proof = evidence::committed_results()?;
+    let mut tables = vec![ledger::table(&proof, claims)?];
+    tables.extend(credibility::tables(results, claims));
+    tables.extend(timings.tables());
+    Ok(tables)
 }
 
 fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {

@@ -12,6 +12,7 @@ use super::runs::Setup;
 use super::suites::StudySuite;
 use crate::curves::Way;
 use crate::figures::data::Arm;
+use crate::ledger::requirements;
 
 fn small(threads: usize, way: Way) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
@@ -65,6 +66,30 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     assert!(onset.iter().all(|c| c["verdict"] == "confirmed"));
     // Ten records, all above 0.14 g: none fails to lift alpha = 0.10.
     assert_eq!(json["uplift_unscaled"][1]["ordinary"], 10);
+    // The ledger names what was measured, and all of it.
+    let keys: Vec<&str> = json["claims"]
+        .as_array()
+        .expect("claims")
+        .iter()
+        .map(|claim| claim["id"].as_str().expect("id"))
+        .collect();
+    let named: Vec<String> = requirements()
+        .expect("ledger")
+        .into_iter()
+        .flat_map(|requirement| requirement.findings)
+        .collect();
+    for name in &named {
+        let measured = keys.iter().any(|key| key.starts_with(name.as_str()));
+        assert!(measured, "the ledger names {name}, which is no claim");
+    }
+    for key in &keys {
+        let listed = named.iter().any(|name| key.starts_with(name.as_str()));
+        assert!(listed, "the ledger does not name {key}");
+    }
+    let page = String::from_utf8(one["index.html"].clone()).expect("text");
+    for table in ["ledger", "comparison-error", "credibility-assessment"] {
+        assert!(page.contains(&format!("<div id=\"{table}\">")), "{table}");
+    }
     let names: Vec<_> = json.as_object().expect("object").keys().collect();
     assert!(names.is_sorted(), "{names:?}");
 }

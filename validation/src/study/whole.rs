@@ -19,6 +19,7 @@ use super::grid::{
 };
 use super::normality::ends as band_ends;
 use super::output::Files;
+use super::overturning;
 use super::page;
 use super::questions::{self, Answer};
 use super::sensitivities::Varied;
@@ -210,6 +211,7 @@ fn findings(
     out.insert("figure_09".into(), figure_09(results)?);
     out.insert("uplift_unscaled".into(), uplift(results)?);
     out.insert("accepted_shares".into(), shares(results));
+    out.insert("overturning".into(), overturning::json(results));
     out.insert("resurrections".into(), resurrections(results));
     out.insert("single_records".into(), single(results));
     out.insert("sensitivities".into(), varied(results)?);

@@ -1,0 +1,372 @@
+//! The ledger of evidence: what was required, and what proves it.
+
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+use serde_json::Value;
+use thiserror::Error;
+
+use crate::report::PlainTable;
+use crate::study::findings::Claim;
+
+/// The requirements, embedded.
+const REQUIREMENTS: &str = include_str!("../requirements.toml");
+
+/// Who requires something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// Who asked for the implementation.
+    User,
+    /// The paper.
+    Paper,
+    /// This project.
+    Ours,
+}
+
+/// One requirement and where its evidence is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Requirement {
+    /// Unique name.
+    pub id: String,
+    /// Who requires it.
+    pub source: Origin,
+    /// Where it stands.
+    pub place: String,
+    /// What is required.
+    pub text: String,
+    /// Ids of declared cases; one `*` stands for anything.
+    #[serde(default)]
+    pub cases: Vec<String>,
+    /// Names of claims.
+    #[serde(default)]
+    pub findings: Vec<String>,
+    /// Functions of the gate: `file::function`.
+    #[serde(default)]
+    pub tests: Vec<String>,
+    /// What the evidence leaves open; may be empty.
+    #[serde(default)]
+    pub gap: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    requirement: Vec<Requirement>,
+}
+
+/// Why there is no ledger.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LedgerError {
+    /// The file is not of the expected form.
+    #[error("requirements.toml: {0}")]
+    Form(#[from] toml::de::Error),
+    /// Two requirements have one name.
+    #[error("requirements.toml: two requirements are named `{0}`")]
+    Duplicate(String),
+}
+
+/// The requirements, in the order of the file.
+///
+/// # Errors
+/// [`LedgerError`] for unknown keys, missing fields and duplicate names.
+pub fn requirements() -> Result<Vec<Requirement>, LedgerError> {
+    parse(REQUIREMENTS)
+}
+
+fn parse(text: &str) -> Result<Vec<Requirement>, LedgerError> {
+    let file: File = toml::from_str(text)?;
+    let mut ids = BTreeSet::new();
+    for requirement in &file.requirement {
+        if !ids.insert(requirement.id.as_str()) {
+            return Err(LedgerError::Duplicate(requirement.id.clone()));
+        }
+    }
+    Ok(file.requirement)
+}
+
+/// How a requirement stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Standing {
+    /// Number of cases that passed.
+    pub passed: usize,
+    /// Cases that did not.
+    pub failed: Vec<String>,
+    /// Patterns and names that no executed evidence fits.
+    pub missing: Vec<String>,
+    /// Whether anything at all is named as evidence.
+    pub named: bool,
+}
+
+impl Standing {
+    /// Whether all evidence named was executed, and the cases passed.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.named && self.failed.is_empty() && self.missing.is_empty()
+    }
+}
+
+impl Requirement {
+    /// How it stands, given the results of the declared cases and whether a
+    /// claim was measured, a test is part of the gate.
+    #[must_use]
+    pub fn standing(
+        &self,
+        results: &Value,
+        measured: &dyn Fn(&str) -> bool,
+        is_test: &dyn Fn(&str) -> bool,
+    ) -> Standing {
+        let named = [&self.cases, &self.findings, &self.tests];
+        let mut out = Standing {
+            named: named.iter().any(|list| !list.is_empty()),
+            ..Standing::default()
+        };
+        let none = serde_json::Map::new();
+        let results = results.as_object().unwrap_or(&none);
+        let mut met = BTreeSet::new();
+        for pattern in &self.cases {
+            let mut fits = false;
+            for (id, result) in results.iter().filter(|r| fit(pattern, r.0)) {
+                fits = true;
+                if !met.insert(id) {
+                    continue;
+                }
+                if result["verdict"] == "pass" {
+                    out.passed += 1;
+                } else {
+                    out.failed.push(id.clone());
+                }
+            }
+            if !fits {
+                out.missing.push(pattern.clone());
+            }
+        }
+        let missing = |list: &[String], there: &dyn Fn(&str) -> bool| {
+            let gone = list.iter().filter(|name| !there(name));
+            gone.cloned().collect::<Vec<String>>()
+        };
+        out.missing.extend(missing(&self.findings, measured));
+        out.missing.extend(missing(&self.tests, is_test));
+        out
+    }
+}
+
+/// Whether an id fits a pattern with at most one `*`.
+fn fit(pattern: &str, id: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == id,
+        Some((before, after)) => {
+            id.len() >= before.len() + after.len()
+                && id.starts_with(before)
+                && id.ends_with(after)
+        }
+    }
+}
+
+/// The ledger for the page: what was required, and what proves it.
+///
+/// # Errors
+/// [`LedgerError`] where the requirements cannot be read.
+pub fn table(
+    results: &Value,
+    claims: &[Claim],
+) -> Result<PlainTable, LedgerError> {
+    let measured = |name: &str| claims.iter().any(|c| c.id == name);
+    let requirements = requirements()?;
+    let mut rows = Vec::with_capacity(requirements.len());
+    let mut met = 0;
+    for r in &requirements {
+        let standing = r.standing(results, &measured, &|_| true);
+        met += usize::from(standing.is_met());
+        let source = match r.source {
+            Origin::User => "asked for",
+            Origin::Paper => "paper",
+            Origin::Ours => "our own",
+        };
+        rows.push(vec![
+            r.text.clone(),
+            format!("{source}, {}", r.place),
+            evidence(r, &standing, claims),
+            state(&standing),
+            r.gap.clone(),
+        ]);
+    }
+    let header =
+        ["requirement", "source", "evidence", "state", "what it leaves open"];
+    Ok(PlainTable {
+        name: "ledger".into(),
+        title: "What was required, and what proves it".into(),
+        reading: format!(
+            "{met} of {} requirements have executed evidence and no failed \
+             case. A finding is evidence that the claim was measured, \
+             whatever the verdict; tests run with every change and turn the \
+             gate red, their results are not in these files.",
+            rows.len()
+        ),
+        header: header.map(String::from).into(),
+        rows,
+    })
+}
+
+fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
+    let mut parts = Vec::new();
+    if !r.cases.is_empty() {
+        parts.push(format!(
+            "{} cases passed ({})",
+            standing.passed,
+            r.cases.join(", ")
+        ));
+    }
+    let found: Vec<String> = claims
+        .iter()
+        .filter(|claim| r.findings.contains(&claim.id))
+        .map(|claim| format!("{} {}", claim.key(), claim.verdict.name()))
+        .collect();
+    if !found.is_empty() {
+        parts.push(format!("findings: {}", found.join(", ")));
+    }
+    if !r.tests.is_empty() {
+        parts.push(format!("tests: {}", r.tests.join(", ")));
+    }
+    parts.join("; ")
+}
+
+fn state(standing: &Standing) -> String {
+    if standing.is_met() {
+        return "✓ executed".into();
+    }
+    if !standing.failed.is_empty() {
+        return format!("✗ failed: {}", standing.failed.join(", "));
+    }
+    if standing.missing.is_empty() {
+        return "✗ no evidence named".into();
+    }
+    format!("✗ no evidence: {}", standing.missing.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use serde_json::json;
+
+    use super::*;
+    use crate::evidence::committed_results;
+
+    /// Whether `file::function` is a test of the gate.
+    fn in_the_gate(name: &str) -> bool {
+        let Some((file, function)) = name.split_once("::") else {
+            return false;
+        };
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let Ok(text) = std::fs::read_to_string(root.join(file)) else {
+            return false;
+        };
+        text.contains(&format!("#[test]\nfn {function}()"))
+    }
+
+    #[test]
+    fn every_requirement_has_executed_evidence() {
+        let results = committed_results().unwrap();
+        let mut problems = Vec::new();
+        for r in requirements().unwrap() {
+            // A study that is run holds the names of claims: study::tests.
+            let standing = r.standing(&results, &|_| true, &in_the_gate);
+            if !standing.is_met() {
+                problems.push(format!("{}: {}", r.id, state(&standing)));
+            }
+            for text in [&r.id, &r.text, &r.place] {
+                assert!(!text.trim().is_empty(), "{}", r.id);
+            }
+        }
+        assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));
+    }
+
+    #[test]
+    fn the_whole_paper_is_required() {
+        let requirements = requirements().unwrap();
+        let paper: Vec<&Requirement> = requirements
+            .iter()
+            .filter(|r| r.source == Origin::Paper)
+            .collect();
+        let mut wanted: Vec<String> =
+            (1..=7).map(|k| format!("Eq. {k}")).collect();
+        wanted.push("Table 1".into());
+        for place in wanted {
+            assert!(paper.iter().any(|r| r.place == place), "{place}");
+        }
+        for figure in 2..=18 {
+            let digits = |place: &str| -> Vec<u32> {
+                place
+                    .split(|c: char| !c.is_ascii_digit())
+                    .filter_map(|n| n.parse().ok())
+                    .collect()
+            };
+            let named = paper.iter().any(|r| {
+                let figures = r.place.split("Figure").nth(1);
+                figures.is_some_and(|f| digits(f).contains(&figure))
+            });
+            assert!(named, "Figure {figure}");
+        }
+        for origin in [Origin::User, Origin::Ours] {
+            assert!(requirements.iter().any(|r| r.source == origin));
+        }
+    }
+
+    #[test]
+    fn a_failed_or_missing_case_is_red() {
+        let requirement = Requirement {
+            id: "r".into(),
+            source: Origin::Ours,
+            place: "p".into(),
+            text: "t".into(),
+            cases: vec!["a/*".into(), "b/one".into(), "a/x*z".into()],
+            findings: vec!["f".into()],
+            tests: vec!["tests/x.rs::y".into()],
+            gap: String::new(),
+        };
+        let results = |b: &str| {
+            json!({
+                "a/one": { "verdict": "pass" },
+                "a/xyz": { "verdict": "pass" },
+                "b/one": { "verdict": b },
+            })
+        };
+        let yes = |_: &str| true;
+        let no = |_: &str| false;
+        let standing = |b| requirement.standing(&results(b), &yes, &yes);
+        assert_eq!(standing("pass").passed, 3);
+        assert!(standing("pass").is_met());
+        for verdict in ["fail", "error", "known-failure", ""] {
+            assert_eq!(standing(verdict).failed, ["b/one"]);
+            assert!(!standing(verdict).is_met());
+        }
+        let all = results("pass");
+        assert!(!requirement.standing(&all, &no, &yes).is_met());
+        assert!(!requirement.standing(&all, &yes, &no).is_met());
+        let empty = requirement.standing(&json!({}), &yes, &yes);
+        assert_eq!(empty.missing.len(), 3);
+        let nothing = Requirement {
+            cases: Vec::new(),
+            findings: Vec::new(),
+            tests: Vec::new(),
+            ..requirement
+        };
+        assert!(!nothing.standing(&all, &yes, &yes).is_met());
+    }
+
+    #[test]
+    fn unknown_keys_and_duplicates_are_refused() {
+        let one = "[[requirement]]\nid = \"a\"\nsource = \"ours\"\n\
+                   place = \"p\"\ntext = \"t\"\n";
+        assert_eq!(parse(one).unwrap().len(), 1);
+        assert!(matches!(
+            parse(&format!("{one}{one}")).unwrap_err(),
+            LedgerError::Duplicate(_)
+        ));
+        assert!(parse(&format!("{one}proof = 1\n")).is_err());
+        assert!(parse(&one.replace("ours", "theirs")).is_err());
+    }
+}

@@ -258,7 +258,8 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         refused_for(&place, arguments, &["flawed.json", words]);
     }
     for (arguments, words) in [
-        ("diff absent new", "absent"),
+        ("diff absent new", "absent: "),
+        ("diff old absent", "expected findings.json, validation.json"),
         ("diff old empty", "expected findings.json or validation.json"),
         (
             "diff old/findings.json new/data/validation.json",

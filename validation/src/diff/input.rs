@@ -17,7 +17,11 @@ const NAMES: [&str; 2] = ["findings.json", "validation.json"];
 #[non_exhaustive]
 pub enum DiffError {
     /// A file or folder is not there or cannot be read.
-    #[error("{}: {source}", path.display())]
+    #[error(
+        "{}: {source}; expected findings.json, validation.json, or a folder \
+         with one of them",
+        path.display()
+    )]
     Read {
         /// The path.
         path: PathBuf,

@@ -2,6 +2,7 @@
 //! figures, their data, and what was found about the paper's claims.
 
 pub mod analyses;
+mod answers;
 pub mod capacities;
 pub mod certainty;
 pub mod choice;

@@ -5,6 +5,7 @@ use rocking::integrator::Overturning;
 
 use super::StudyError;
 use super::analyses::SuiteResults;
+use super::answers::answers;
 use super::claims::PAPER_GRAVITY_M_S2;
 use super::credibility;
 use super::figures::{Figure, Results};
@@ -46,7 +47,7 @@ pub fn input(
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        summary: summary(results),
+        summary: summary(results, claims),
         findings: claims.iter().map(finding).collect(),
         families: evidence::committed_families()?,
         tables: tables(answers)?,
@@ -77,7 +78,7 @@ fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
     Ok(tables)
 }
 
-fn summary(results: &Results) -> Summary {
+fn summary(results: &Results, claims: &[Claim]) -> Summary {
     let found = |suite: &SuiteResults| {
         let certainty = suite.work.certainty;
         format!(
@@ -101,7 +102,11 @@ fn summary(results: &Results) -> Summary {
                 0.05 to 0.25 rad, were rocked to overturning by every record \
                 of two suites."
             .into(),
-        found: vec![found(&results.ordinary), found(&results.pulse)],
+        found: [
+            answers(claims),
+            vec![found(&results.ordinary), found(&results.pulse)],
+        ]
+        .concat(),
         trust: "Margins were fixed before any result was seen, but for one: \
                 the sharp onset for PGA was first measured by the largest \
                 intensity at a rotation of 0.005 alpha, which turned out to \

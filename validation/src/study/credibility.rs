@@ -128,7 +128,9 @@ fn comparison(claims: &[Claim], shift: f64) -> PlainTable {
 
 fn row(claim: &Claim, printed: &Printed, shift: f64) -> Vec<String> {
     let value = claim.measured.value;
+    // An error below the ninth digit is rounding.
     let error = value - printed.value;
+    let error = if error.abs() < 1e-9 { 0.0 } else { error };
     let numerics = if printed.records { shift * value.abs() } else { 0.0 };
     let input =
         claim.measured.interval.map(|(a, b)| (b - a) / (2.0 * COVERAGE));
@@ -137,9 +139,7 @@ fn row(claim: &Claim, printed: &Printed, shift: f64) -> Vec<String> {
         + square(input.unwrap_or(0.0))
         + square(printed.rounding.unwrap_or(0.0)))
     .sqrt();
-    // An error below the ninth digit is rounding.
-    let none = error.abs() < 1e-9;
-    let ratio = if none { 0.0 } else { error.abs() / together };
+    let ratio = if error == 0.0 { 0.0 } else { error.abs() / together };
     let says = if error.is_nan() {
         "nothing: no data"
     } else if ratio <= COVERAGE {
@@ -156,15 +156,12 @@ fn row(claim: &Claim, printed: &Printed, shift: f64) -> Vec<String> {
         .arm
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
     vec![
-        format!("{} ({}{arm})", claim.measure, claim.suite),
+        format!("{} ({}, {}{arm})", claim.measure, claim.suite, claim.blocks),
         rounded_text(value),
         format!("{}", printed.value),
         short(error),
         if printed.records { short(numerics) } else { "rounding".into() },
-        optional(
-            input,
-            if printed.records { "not stated" } else { "none: exact" },
-        ),
+        optional(input, if printed.records { "not stated" } else { "exact" }),
         optional(printed.rounding, "in words"),
         if ratio.is_finite() { format!("{ratio:.1}") } else { "–".into() },
         says.into(),

@@ -169,6 +169,8 @@ fn verdicts_come_first_and_settings_before_them() {
         .map(|line| out.find(line).unwrap_or_else(|| panic!("{line}\n{out}")))
         .collect();
     assert!(at[0] < at[1] && at[1] < at[3] && at[2] < at[3], "{out}");
+    // What states no interval comes after what does.
+    assert!(at[3] < at[4], "{out}");
     // A looser limit takes what has no interval, nothing else.
     let (_, out, _) = run(&place, "diff old new --relative 0.02 --json");
     let answer: Value = serde_json::from_str(&out).unwrap();

@@ -79,7 +79,8 @@ pub struct Comparison {
     pub appeared: Vec<Presence>,
     /// Those that only the old results have.
     pub vanished: Vec<Presence>,
-    /// Numbers, the most significant first.
+    /// Numbers, the most significant first; those without an uncertainty
+    /// last.
     pub numbers: Vec<Change>,
     /// Words around results.
     pub texts: Vec<Change>,
@@ -230,7 +231,11 @@ pub fn compare(
         });
     }
     for changes in [&mut out.numbers, &mut out.settings, &mut out.verdicts] {
-        changes.sort_by(|a, b| b.rank.total_cmp(&a.rank));
+        // What no uncertainty is stated of cannot be ranked among the rest.
+        let blind = |c: &Change| c.measure == Measure::NoInterval;
+        changes.sort_by(|a, b| {
+            blind(a).cmp(&blind(b)).then(b.rank.total_cmp(&a.rank))
+        });
     }
     Ok(out)
 }

@@ -10,9 +10,9 @@ use crate::diff::{Results, compare};
 /// OLD and NEW are each a folder of a study, a folder of reports, or one
 /// file: findings.json or validation.json. Verdicts come first, then numbers
 /// by the size of their change over what it may be: the 95 % interval of a
-/// finding, the tolerance of a case. Ends with 1 where a verdict, a setting
-/// or a number beyond its uncertainty changed, or a claim or a case is on
-/// one side only.
+/// finding, the tolerance of a case; those without either come last. Ends
+/// with 1 where a verdict, a setting or a number beyond its uncertainty
+/// changed, or a claim or a case is on one side only.
 #[derive(clap::Args)]
 pub struct Args {
     /// Results before.

@@ -21,4 +21,4 @@ mod running;
 const CASES: u32 = 8;
 
 /// Ends observation (s), because eta = 1 never comes to rest.
-const UNTIL_S: f64 = 1.5;
+const UNTIL_S: f64 = 2.0;

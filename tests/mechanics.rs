@@ -19,6 +19,3 @@ mod running;
 
 /// A subset of the cases of `properties.rs`.
 const CASES: u32 = 5;
-
-/// Ends observation (s), because eta = 1 never comes to rest.
-const UNTIL_S: f64 = 12.0;

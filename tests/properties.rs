@@ -22,9 +22,6 @@ use drawn::{body, config, record, samples};
 /// Cases of each property of the mechanics.
 const CASES: u32 = 192;
 
-/// Ends observation (s), because eta = 1 never comes to rest.
-const UNTIL_S: f64 = 12.0;
-
 proptest! {
     #![proptest_config(config(48))]
 

@@ -18,6 +18,7 @@ pub fn config(cases: u32) -> Config {
         cases,
         rng_seed: RngSeed::Fixed(*SEED),
         failure_persistence: None,
+        max_shrink_iters: cases,
         ..Config::default()
     }
 }

@@ -7,7 +7,6 @@ use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Observe, Response, Scene, respond};
 use rocking::record::Accelerogram;
 
-use crate::UNTIL_S;
 use crate::drawn::Body;
 
 pub fn interval_s() -> impl Strategy<Value = f64> {
@@ -24,6 +23,9 @@ pub fn scene<'a>(body: Body, excitation: Excitation<'a>) -> Scene<'a> {
         initial_ratio: 0.0,
     }
 }
+
+/// Ends observation, because eta = 1 never comes to rest.
+pub const UNTIL_S: f64 = 12.0;
 
 pub fn observe() -> Observe {
     Observe {

@@ -102,3 +102,67 @@ fn regresses_estimates_margins_and_work() {
         include_str!("regressions.txt").lines().collect();
     assert_eq!(lines, expected);
 }
+
+/// Short records of steps, plateaus about the threshold and spikes.
+fn short(seed: u64) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut draw = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / 16_777_216.0
+    };
+    let mut out = vec![0.0];
+    for _ in 0..8 {
+        let level = match (draw() * 4.0) as u32 {
+            0 => 0.15 * (0.6 + 0.8 * draw()),
+            1 => -0.15 * (0.6 + 0.8 * draw()),
+            2 => 0.0,
+            _ => 0.9 * draw() - 0.45,
+        };
+        let times = 1 + (draw() * 3.0) as usize;
+        out.extend(vec![level; times]);
+    }
+    out
+}
+
+#[test]
+fn regresses_the_sums_of_many_short_runs() {
+    let mut lines = Vec::new();
+    for group in 0..16_u64 {
+        let model = [Model::Nonlinear, Model::Linearized][group as usize % 2];
+        let events = group % 4 < 2;
+        let observe = Observe { events, ..Observe::default() };
+        let (mut work, mut sums) = ([0; 5], [0.0; 3]);
+        for k in 0..40 {
+            let seed = 40 * group + k;
+            let dt_s = 0.01 + 0.002 * (seed % 37) as f64;
+            let record =
+                Accelerogram::try_new("short", dt_s, short(seed)).unwrap();
+            let record = ScaledRecord::by_factor(&record, 1.0);
+            let base = scene(model, Excitation::Record(record));
+            let eta = 0.3 + 0.02 * (seed % 33) as f64;
+            let restitution = Restitution::constant(eta).unwrap();
+            let scene = Scene { restitution, ..base };
+            let response = respond(&scene, &observe).unwrap();
+            let w = response.work;
+            let counts = [
+                w.steps,
+                w.impacts,
+                w.turning_points,
+                w.uplifts,
+                w.rest_scans,
+            ];
+            for (sum, count) in work.iter_mut().zip(counts) {
+                *sum += count;
+            }
+            sums[0] += response.peak_ratio;
+            sums[1] += response.fate_margin.min(9.0);
+            sums[2] += response.rest_time_s.unwrap_or(0.0);
+        }
+        let [a, b, c] = sums.map(|x| format!("{x:.8e}"));
+        lines.push(format!("{work:?} {a} {b} {c}"));
+    }
+    let expected: Vec<&str> = include_str!("short.txt").lines().collect();
+    assert_eq!(lines, expected);
+}

@@ -268,3 +268,27 @@ fn orders_converge() {
     assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
     assert!(errors[0] > 1e-9 && errors[3] < 1e-10, "{errors:?}");
 }
+
+/// Under a record of zeros a released block moves as without one, and comes
+/// to rest within it; so it does under forcing that is too weak to lift it.
+#[test]
+fn silence_is_free_motion() {
+    let record = Accelerogram::try_new("zeros", 0.02, vec![0.0; 600]).unwrap();
+    let record = ScaledRecord::by_factor(&record, 1.0);
+    let observe = Observe { events: true, ..Observe::default() };
+    for model in [Model::Nonlinear, Model::Linearized] {
+        let [free, silent] = [Excitation::Free, Excitation::Record(record)]
+            .map(|what| Scene { initial_ratio: 0.1, ..scene(model, what) })
+            .map(|scene| respond(&scene, &observe).unwrap());
+        assert!(silent.impacts.len() > 100);
+        for (a, b) in free.impacts.iter().zip(&silent.impacts) {
+            near(a.time_s, b.time_s, 1e-12);
+            let speed = a.speed_before_rad_s;
+            near(speed, b.speed_before_rad_s, 1e-11 * speed);
+        }
+        let rest = free.rest_time_s.unwrap();
+        near(silent.rest_time_s.unwrap(), rest, 1e-8);
+        assert_eq!(silent.uplift_time_s, None);
+        near(silent.peak_ratio, 0.1, 1e-15);
+    }
+}

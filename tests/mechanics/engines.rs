@@ -115,6 +115,8 @@ fn neighbours_of_a_critical_amplitude_are_told() {
         let fate = certify(&near).unwrap();
         assert!(fate.decided && fate.by == by, "{fate:?}");
         assert_eq!(fate.outcome.is_overturned(), overturns);
+        let quick = respond(&near, &Observe::default()).unwrap();
+        assert_eq!(fate.double, quick.outcome);
         let other = fate.double.is_overturned() != overturns;
         assert_eq!(fate.moved(), other);
         assert!(fate.margin > fate.error);

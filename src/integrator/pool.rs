@@ -9,6 +9,8 @@
 mod batch;
 mod group;
 mod roots;
+#[cfg(test)]
+mod tests;
 mod waiting;
 
 use crate::excitation::Excitation;

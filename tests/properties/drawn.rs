@@ -1,4 +1,4 @@
-//! Random blocks and motions, and running them.
+//! Random blocks and motions.
 
 use std::sync::LazyLock;
 
@@ -6,11 +6,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 
-use rocking::block::{Block, Restitution};
-use rocking::excitation::{Excitation, ScaledRecord};
-use rocking::integrator::{
-    Model, Observe, Overturning, Response, Scene, respond,
-};
+use rocking::integrator::{Model, Overturning};
 use rocking::record::Accelerogram;
 
 pub fn config(cases: u32) -> Config {
@@ -22,6 +18,7 @@ pub fn config(cases: u32) -> Config {
         cases,
         rng_seed: RngSeed::Fixed(*SEED),
         failure_persistence: None,
+        max_shrink_iters: cases,
         ..Config::default()
     }
 }
@@ -69,54 +66,6 @@ pub fn samples() -> impl Strategy<Value = Vec<f64>> {
     )
 }
 
-pub fn interval_s() -> impl Strategy<Value = f64> {
-    prop_oneof![Just(0.005), Just(0.01), Just(0.02), 0.002..0.05_f64]
-}
-
 pub fn record(dt_s: f64, samples: &[f64]) -> Accelerogram {
     Accelerogram::try_new("drawn", dt_s, samples.to_vec()).unwrap()
-}
-
-pub fn scene<'a>(body: Body, excitation: Excitation<'a>) -> Scene<'a> {
-    Scene {
-        block: Block::try_new(body.alpha_rad, body.p_rad_s).unwrap(),
-        restitution: Restitution::constant(body.eta).unwrap(),
-        model: body.model,
-        overturning: body.overturning,
-        excitation,
-        initial_ratio: 0.0,
-    }
-}
-
-/// Ends observation, because eta = 1 never comes to rest.
-pub const UNTIL_S: f64 = 12.0;
-
-pub fn observe() -> Observe {
-    Observe {
-        events: true,
-        accuracy: true,
-        history_interval_s: Some(0.02),
-        until_s: Some(UNTIL_S),
-    }
-}
-
-pub fn run(body: Body, excitation: Excitation<'_>) -> Response {
-    respond(&scene(body, excitation), &observe()).unwrap()
-}
-
-pub fn under(body: Body, record: &Accelerogram) -> Response {
-    run(body, Excitation::Record(ScaledRecord::by_factor(record, 1.0)))
-}
-
-pub fn close(
-    a: Option<f64>,
-    b: Option<f64>,
-    shift: f64,
-    tolerance: f64,
-) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => (a + shift - b).abs() <= tolerance,
-        (None, None) => true,
-        _ => false,
-    }
 }

@@ -1,0 +1,88 @@
+//! What a pool says of its runs, beside what the curves show: the whole
+//! response of the scalar driver, work included.
+
+use super::{Class, Source, run};
+use crate::block::{Block, Restitution};
+use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use crate::integrator::{
+    Model, Observe, Overturning, Response, Scene, respond,
+};
+use crate::number::dispatch::Isa;
+use crate::record::Accelerogram;
+
+/// Scenes to be run, and what came of them.
+struct Bench<'a> {
+    left: Vec<Scene<'a>>,
+    done: Vec<(Scene<'a>, Response)>,
+}
+
+impl<'a> Source<'a> for Bench<'a> {
+    type Task = Scene<'a>;
+
+    fn take(&mut self) -> Option<(Scene<'a>, Scene<'a>)> {
+        self.left.pop().map(|scene| (scene, scene))
+    }
+
+    fn settle(&mut self, task: Scene<'a>, response: &Response) {
+        self.done.push((task, response.clone()));
+    }
+}
+
+fn wave(seed: f64, dt_s: f64) -> NormalisedRecord {
+    let sample = |k: u32| {
+        let t = dt_s * f64::from(k);
+        let low = libm::sin((3.0 + seed) * t + seed);
+        let high = 0.7 * libm::sin((11.0 + 2.0 * seed) * t);
+        (low + high) * libm::sin(0.8 * t)
+    };
+    let samples = (0..200).map(sample).collect();
+    NormalisedRecord::new(
+        &Accelerogram::try_new("wave", dt_s, samples).unwrap(),
+    )
+}
+
+#[test]
+fn a_pool_gives_the_whole_response_of_single_runs() {
+    let Some(isa) = Isa::available().into_iter().rfind(|isa| isa.is_wide())
+    else {
+        println!("no wide level on this machine");
+        return;
+    };
+    let p = 2.5;
+    for (dt_s, model, class) in [
+        (0.02, Model::Nonlinear, Class::Short),
+        (0.03, Model::Nonlinear, Class::Smooth),
+        (0.02, Model::Linearized, Class::Linearized),
+    ] {
+        assert_eq!(Class::of(model, p * dt_s), Some(class));
+        let records = [0.0, 1.0, 2.0].map(|seed| wave(seed, dt_s));
+        let mut left = Vec::new();
+        for record in &records {
+            for k in 0..40 {
+                let overturning = match k % 2 {
+                    0 => Overturning::Alpha,
+                    _ => Overturning::HalfPi,
+                };
+                let alpha = 0.05 + 0.05 * f64::from(k % 5);
+                let pga_g = alpha * (0.9 + 0.1 * f64::from(k));
+                let record = ScaledRecord::to_pga(record, pga_g);
+                left.push(Scene {
+                    block: Block::try_new(alpha, p).unwrap(),
+                    restitution: Restitution::constant(0.92).unwrap(),
+                    model,
+                    overturning,
+                    excitation: Excitation::Record(record),
+                    initial_ratio: 0.0,
+                });
+            }
+        }
+        let count = left.len();
+        let mut bench = Bench { left, done: Vec::new() };
+        run(class, isa, &mut bench);
+        assert_eq!(bench.done.len(), count);
+        for (scene, found) in &bench.done {
+            let alone = respond(scene, &Observe::default()).unwrap();
+            assert_eq!(*found, alone);
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! The mechanics in a few seconds: block and integrator against values from
+//! outside, and what must hold for any of them. Mutation testing runs this
+//! target alone.
+
+#[path = "mechanics/closed.rs"]
+mod closed;
+#[path = "properties/drawn.rs"]
+mod drawn;
+#[path = "mechanics/engines.rs"]
+mod engines;
+#[path = "properties/mechanics.rs"]
+mod properties;
+#[path = "mechanics/references.rs"]
+mod references;
+#[path = "mechanics/regressions.rs"]
+mod regressions;
+#[path = "properties/running.rs"]
+mod running;
+
+/// A subset of the cases of `properties.rs`.
+const CASES: u32 = 5;

@@ -1,0 +1,294 @@
+//! Closed forms written out here, and refusals.
+
+use rocking::block::{Block, BlockError, Restitution};
+use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
+use rocking::integrator::{
+    Model, Observe, Order, Outcome, Overturning, Response, Scene, SceneError,
+    Side, respond, respond_at_order, uplift_threshold,
+};
+use rocking::record::Accelerogram;
+
+fn near(found: f64, expected: f64, tolerance: f64) {
+    let gap = (found - expected).abs();
+    assert!(gap <= tolerance, "{found} {expected} {gap:e}");
+}
+
+fn scene<'a>(model: Model, excitation: Excitation<'a>) -> Scene<'a> {
+    Scene {
+        block: Block::try_new(0.2, 2.0).unwrap(),
+        restitution: Restitution::constant(0.92).unwrap(),
+        model,
+        overturning: Overturning::HalfPi,
+        excitation,
+        initial_ratio: 0.0,
+    }
+}
+
+#[test]
+fn blocks_have_the_lengths_of_table_1() {
+    // p, alpha, 2b, 2h of the paper, and R = 3 g/(4 p^2).
+    for (p, alpha, width, height) in [
+        (1.0, 0.25, 3.641, 14.258),
+        (3.0, 0.20, 0.325, 1.602),
+        (4.0, 0.05, 0.046, 0.919),
+    ] {
+        let block = Block::try_new(alpha, p).unwrap();
+        let size = block.dimensions(9.81).unwrap();
+        near(size.width_m, width, 5e-4);
+        near(size.height_m, height, 5e-4);
+        near(size.half_diagonal_m, 0.75 * 9.81 / (p * p), 1e-12);
+        let back = Block::from_dimensions(size.width_m, size.height_m, 9.81);
+        near(back.unwrap().slenderness_rad(), alpha, 1e-15);
+        near(back.unwrap().frequency_rad_s(), p, 1e-14);
+        assert_eq!(uplift_threshold(&block, Model::Linearized), alpha);
+        let tangent = width / height;
+        let found = uplift_threshold(&block, Model::Nonlinear);
+        near(found, tangent, 0.02 * tangent);
+    }
+    let flat = Block::try_new(0.9, 1.0).unwrap();
+    near(Restitution::housner(&flat).unwrap().velocity_ratio(), 0.0796, 5e-5);
+    near(Restitution::constant(0.92).unwrap().energy_ratio(), 0.8464, 1e-15);
+    let half = Restitution::from_energy_ratio(0.25).unwrap();
+    assert_eq!(half.velocity_ratio(), 0.5);
+    assert_eq!(
+        Restitution::from_energy_ratio(1.0).unwrap().energy_ratio(),
+        1.0
+    );
+    assert_eq!(Restitution::constant(1.0).unwrap().velocity_ratio(), 1.0);
+}
+
+#[test]
+fn what_is_no_block_is_refused() {
+    let (nan, infinity) = (f64::NAN, f64::INFINITY);
+    let right = std::f64::consts::FRAC_PI_2;
+    for alpha in [0.0, -0.1, right, 2.0, nan] {
+        let found = Block::try_new(alpha, 1.0);
+        assert!(matches!(found, Err(BlockError::Slenderness(_))));
+    }
+    for p in [0.0, -1.0, infinity, nan] {
+        let found = Block::try_new(0.1, p);
+        assert!(matches!(found, Err(BlockError::Frequency(_))));
+        let found = Block::from_dimensions(p, 1.0, 9.81);
+        assert!(matches!(found, Err(BlockError::Dimensions { .. })));
+        let found = Block::from_dimensions(1.0, p, 9.81);
+        assert!(matches!(found, Err(BlockError::Dimensions { .. })));
+        let found = Block::from_dimensions(1.0, 2.0, p);
+        assert!(matches!(found, Err(BlockError::Gravity(_))));
+        let found = Block::try_new(0.1, 1.0).unwrap().dimensions(p);
+        assert!(matches!(found, Err(BlockError::Gravity(_))));
+    }
+    for ratio in [0.0, -0.5, 1.0_f64.next_up(), nan] {
+        assert!(Restitution::constant(ratio).is_err());
+        assert!(Restitution::from_energy_ratio(ratio).is_err());
+    }
+    assert!(
+        Restitution::housner(&Block::try_new(0.96, 1.0).unwrap()).is_err()
+    );
+    assert!(Restitution::housner(&Block::try_new(0.95, 1.0).unwrap()).is_ok());
+}
+
+#[test]
+fn what_is_no_scene_is_refused() {
+    let plain = scene(Model::Nonlinear, Excitation::Free);
+    let quiet = Observe::default();
+    for initial_ratio in [-0.1, 1.0, f64::NAN] {
+        let found = respond(&Scene { initial_ratio, ..plain }, &quiet);
+        assert!(matches!(found, Err(SceneError::InitialRatio(_))));
+    }
+    for time in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+        let history_interval_s = Some(time);
+        let found = respond(&plain, &Observe { history_interval_s, ..quiet });
+        assert!(matches!(found, Err(SceneError::Time { .. })));
+        let until_s = Some(time);
+        let found = respond(&plain, &Observe { until_s, ..quiet });
+        assert!(matches!(found, Err(SceneError::Time { .. })));
+    }
+    let record = Accelerogram::try_new("two", 0.1, vec![0.0, 1.0]).unwrap();
+    let record = ScaledRecord::by_factor(&record, f64::INFINITY);
+    let found =
+        respond(&scene(Model::Nonlinear, Excitation::Record(record)), &quiet);
+    assert!(matches!(found, Err(SceneError::Amplitude(_))));
+    let rest = respond(&plain, &quiet).unwrap();
+    assert_eq!(rest.outcome, Outcome::NoUplift);
+    assert_eq!(rest.outcome.edp(), 0.0);
+    assert_eq!(rest.rest_time_s, None);
+    assert!(rest.is_resolved());
+    assert_eq!((Side::Positive.sign(), Side::Negative.sign()), (1.0, -1.0));
+}
+
+/// A response that has this margin and this error.
+fn with(margin: f64, error: Option<f64>) -> bool {
+    let plain = scene(Model::Nonlinear, Excitation::Free);
+    let response = respond(&plain, &Observe::default()).unwrap();
+    let response =
+        Response { fate_margin: margin, fate_error: error, ..response };
+    response.is_resolved()
+}
+
+#[test]
+fn a_fate_is_resolved_where_its_margin_reaches_its_error() {
+    assert!(with(1.0, Some(0.5)) && with(1.0, None) && with(1.0, Some(1.0)));
+    assert!(!with(0.5, Some(1.0)) && !with(f64::NAN, Some(1.0)));
+}
+
+/// Eq. 2 in free motion: theta = alpha - (alpha - theta0) cosh(p t), by the
+/// impact at p t1 = acosh(1/(1 - ratio)), and the next hop likewise.
+#[test]
+fn a_history_of_free_motion_is_a_hyperbolic_cosine() {
+    let (alpha, p, ratio, eta) = (0.2, 2.0, 0.6, 0.92);
+    let plain = scene(Model::Linearized, Excitation::Free);
+    let free = Scene { initial_ratio: ratio, ..plain };
+    let observe = Observe {
+        history_interval_s: Some(0.05),
+        until_s: Some(2.0),
+        ..Observe::default()
+    };
+    let history = respond(&free, &observe).unwrap().history;
+    assert_eq!(history.len(), 41);
+    let first = libm::acosh(1.0 / (1.0 - ratio)) / p;
+    let speed = (1.0 - (1.0 - ratio) * (1.0 - ratio)).sqrt();
+    let next = eta * speed;
+    for (k, point) in history.iter().enumerate() {
+        let t = 0.05 * k as f64;
+        assert_eq!(point.time_s, t);
+        let (y, v) = if t < first {
+            let room = 1.0 - ratio;
+            let (c, s) = (libm::cosh(p * t), libm::sinh(p * t));
+            (1.0 - room * c, -room * s)
+        } else if t < first + 2.0 * libm::atanh(next) / p {
+            let x = p * (t - first);
+            let (c, s) = (libm::cosh(x), libm::sinh(x));
+            // On the other side, from the base at speed `next`.
+            (-(1.0 - c + next * s), -(-s + next * c))
+        } else {
+            continue;
+        };
+        near(point.rotation_rad, alpha * y, 1e-14);
+        near(point.velocity_rad_s, alpha * p * v, 1e-13);
+    }
+}
+
+#[test]
+fn a_history_ends_with_rest_and_shows_it() {
+    for model in [Model::Nonlinear, Model::Linearized] {
+        let free =
+            Scene { initial_ratio: 0.3, ..scene(model, Excitation::Free) };
+        let long = Observe {
+            events: true,
+            history_interval_s: Some(0.5),
+            until_s: Some(20.0),
+            ..Observe::default()
+        };
+        let response = respond(&free, &long).unwrap();
+        let rest = response.rest_time_s.unwrap();
+        assert_eq!(response.history.len(), 41);
+        for (k, point) in response.history.iter().enumerate() {
+            assert_eq!(point.time_s, 0.5 * k as f64);
+            let at_rest = point.time_s > rest;
+            assert_eq!(point.rotation_rad == 0.0, at_rest, "{point:?} {rest}");
+        }
+        let open = Observe { until_s: None, ..long };
+        let open = respond(&free, &open).unwrap();
+        assert_eq!(open.history.len(), (rest / 0.5) as usize + 1);
+        // Observation that ends in flight, before the first impact.
+        let first = response.impacts[0].time_s;
+        let until_s = Some(0.5 * first);
+        let short = respond(&free, &Observe { until_s, ..long }).unwrap();
+        assert!(short.impacts.is_empty() && short.rest_time_s.is_none());
+        let after = Some(1.01 * first);
+        let short =
+            respond(&free, &Observe { until_s: after, ..long }).unwrap();
+        assert_eq!(short.impacts.len(), 1);
+    }
+}
+
+/// Zeros of a history before the uplift and after the motion; a rise that
+/// observation cuts is the peak.
+#[test]
+fn observation_cuts_a_rise() {
+    let kind = PulseKind::Rectangle { amplitude_g: 0.5, duration_s: 0.1 };
+    let pulse = Pulse::try_new(kind).unwrap();
+    let cut = scene(Model::Linearized, Excitation::Pulse(&pulse));
+    let observe = Observe { until_s: Some(0.05), ..Observe::default() };
+    let response = respond(&cut, &observe).unwrap();
+    // u = (A - alpha) (cosh(p t) - 1), over alpha.
+    let expected = 1.5 * (libm::cosh(0.1) - 1.0);
+    near(response.peak_ratio, expected, 1e-15);
+    assert_eq!(response.peak_time_s, Some(0.05));
+    assert_eq!(response.uplift_time_s, Some(0.0));
+    assert_eq!(
+        response.outcome,
+        Outcome::Rocked { peak_ratio: response.peak_ratio }
+    );
+    assert_eq!(response.outcome.edp(), response.peak_ratio);
+    assert!(!response.outcome.is_overturned());
+}
+
+/// The condition number against what eta and the state do to the peak.
+#[test]
+fn a_condition_number_is_the_derivative_by_eta() {
+    let kind = PulseKind::OneSine { amplitude_g: 0.3, omega_rad_s: 8.0 };
+    let pulse = Pulse::try_new(kind).unwrap();
+    for model in [Model::Nonlinear, Model::Linearized] {
+        let base = scene(model, Excitation::Pulse(&pulse));
+        let peak = |eta: f64| {
+            let restitution = Restitution::constant(eta).unwrap();
+            let observe = Observe { accuracy: true, ..Observe::default() };
+            respond(&Scene { restitution, ..base }, &observe).unwrap()
+        };
+        let middle = peak(0.92);
+        let step = 1e-5;
+        let slope = (peak(0.92 + step).peak_ratio
+            - peak(0.92 - step).peak_ratio)
+            / (2.0 * step);
+        let relative = (slope * 0.92 / middle.peak_ratio).abs();
+        let found = middle.condition_number.unwrap();
+        assert!(
+            relative > 0.01 && found >= 0.98 * relative,
+            "{found} {relative}"
+        );
+        assert!(found < 100.0 * relative);
+    }
+}
+
+/// Eq. 1 at a fixed order under a record converges with that order.
+#[test]
+fn orders_converge() {
+    let samples = (0..60)
+        .map(|k| 0.6 * libm::sin(0.4 * f64::from(k)))
+        .collect::<Vec<_>>();
+    let record = Accelerogram::try_new("wave", 0.12, samples).unwrap();
+    let record = ScaledRecord::by_factor(&record, 1.0);
+    let wave = scene(Model::Nonlinear, Excitation::Record(record));
+    let observe = Observe { until_s: Some(0.6), ..Observe::default() };
+    let exact = respond(&wave, &observe).unwrap();
+    let errors = [Order::Four, Order::Six, Order::Eight, Order::Ten]
+        .map(|order| respond_at_order(&wave, &observe, order).unwrap())
+        .map(|found| (found.peak_ratio - exact.peak_ratio).abs());
+    assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    assert!(errors[0] > 1e-9 && errors[3] < 1e-10, "{errors:?}");
+}
+
+/// Under a record of zeros a released block moves as without one, and comes
+/// to rest within it; so it does under forcing that is too weak to lift it.
+#[test]
+fn silence_is_free_motion() {
+    let record = Accelerogram::try_new("zeros", 0.02, vec![0.0; 600]).unwrap();
+    let record = ScaledRecord::by_factor(&record, 1.0);
+    let observe = Observe { events: true, ..Observe::default() };
+    for model in [Model::Nonlinear, Model::Linearized] {
+        let [free, silent] = [Excitation::Free, Excitation::Record(record)]
+            .map(|what| Scene { initial_ratio: 0.1, ..scene(model, what) })
+            .map(|scene| respond(&scene, &observe).unwrap());
+        assert!(silent.impacts.len() > 100);
+        for (a, b) in free.impacts.iter().zip(&silent.impacts) {
+            near(a.time_s, b.time_s, 1e-12);
+            let speed = a.speed_before_rad_s;
+            near(speed, b.speed_before_rad_s, 1e-11 * speed);
+        }
+        let rest = free.rest_time_s.unwrap();
+        near(silent.rest_time_s.unwrap(), rest, 1e-8);
+        assert_eq!(silent.uplift_time_s, None);
+        near(silent.peak_ratio, 0.1, 1e-15);
+    }
+}

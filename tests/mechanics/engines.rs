@@ -1,0 +1,127 @@
+//! One source in lanes, one by one, and in double-double.
+
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{
+    Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
+};
+use rocking::ida::{Analysis, Grid, curve, curves};
+use rocking::integrator::{
+    Engine, Model, Observe, Outcome, Overturning, Scene, certify, respond,
+    respond_precise,
+};
+use rocking::record::Accelerogram;
+
+fn wave(seed: f64, dt_s: f64) -> Accelerogram {
+    let sample = |k: u32| {
+        let t = dt_s * f64::from(k);
+        let low = libm::sin((3.0 + seed) * t + seed);
+        let high = 0.7 * libm::sin((11.0 + 2.0 * seed) * t);
+        (low + high) * libm::sin(0.8 * t)
+    };
+    let count = (3.0 / dt_s) as u32;
+    Accelerogram::try_new("wave", dt_s, (0..count).map(sample).collect())
+        .unwrap()
+}
+
+fn scene<'a>(model: Model, excitation: Excitation<'a>) -> Scene<'a> {
+    Scene {
+        block: Block::try_new(0.1, 3.0).unwrap(),
+        restitution: Restitution::constant(0.92).unwrap(),
+        model,
+        overturning: Overturning::HalfPi,
+        excitation,
+        initial_ratio: 0.0,
+    }
+}
+
+#[test]
+fn lanes_have_the_bits_of_single_runs() {
+    let records: Vec<NormalisedRecord> =
+        [(0.0, 0.01), (1.0, 0.02), (2.0, 0.02), (3.0, 0.03)]
+            .map(|(seed, dt_s)| NormalisedRecord::new(&wave(seed, dt_s)))
+            .into();
+    let mut panel = Vec::new();
+    for (p, alpha) in [(3.0, 0.1), (1.5, 0.25), (3.0, 0.05)] {
+        let restitution = Restitution::constant(0.92).unwrap();
+        let paper =
+            Analysis::paper(Block::try_new(alpha, p).unwrap(), restitution);
+        let base = Analysis {
+            grid: Grid::Im { step: 0.5 },
+            highest_im: 4.0,
+            ..paper
+        };
+        panel.push(base);
+        panel.push(Analysis { overturning: Overturning::HalfPi, ..base });
+        panel.push(Analysis { model: Model::Linearized, ..base });
+    }
+    let found = curves(&records, &panel, || ()).unwrap();
+    for (analysis, found) in panel.iter().zip(&found) {
+        for (record, found) in records.iter().zip(found) {
+            assert_eq!(*found, curve(record, analysis).unwrap());
+        }
+    }
+}
+
+/// The estimate of double precision bounds its distance from double-double.
+#[test]
+fn estimates_bound_the_distance_from_double_double() {
+    let observe =
+        Observe { events: true, accuracy: true, ..Observe::default() };
+    let kind = PulseKind::OneSine { amplitude_g: 0.25, omega_rad_s: 14.0 };
+    let pulse = Pulse::try_new(kind).unwrap();
+    let samples = vec![0.0, 0.3, -0.1, -0.4, 0.2, 0.05, 0.0];
+    let record = Accelerogram::try_new("short", 0.05, samples).unwrap();
+    let record = ScaledRecord::by_factor(&record, 1.0);
+    for excitation in [Excitation::Pulse(&pulse), Excitation::Record(record)] {
+        for model in [Model::Nonlinear, Model::Linearized] {
+            let scene = scene(model, excitation);
+            let double = respond(&scene, &observe).unwrap();
+            let precise = respond_precise(&scene, &observe).unwrap();
+            let gap = (double.peak_ratio - precise.peak_ratio.hi()).abs();
+            let error = double.error_estimate.unwrap();
+            assert!(gap <= error && error < 1e-12, "{gap:e} {error:e}");
+            assert!(precise.error_estimate.unwrap() < 1e-26);
+            let impacts = double.impacts.iter().zip(&precise.impacts);
+            for (a, b) in impacts.take(8) {
+                assert!((a.time_s - b.time_s.hi()).abs() < 1e-12);
+                let speed = b.speed_before_rad_s.hi();
+                let gap = (a.speed_before_rad_s - speed).abs();
+                assert!(gap < 1e-12 * speed);
+            }
+            let (a, b) = (double.rest_time_s, precise.rest_time_s);
+            assert_eq!(a.is_some(), b.is_some());
+            let gap = a.zip(b).map_or(0.0, |(a, b)| (a - b.hi()).abs());
+            assert!(gap < 1e-8);
+        }
+    }
+}
+
+/// The two doubles around the critical amplitude of `trajectories.json`.
+#[test]
+fn neighbours_of_a_critical_amplitude_are_told() {
+    let first = 4.072_395_807_424_461_f64;
+    for (amplitude_g, overturns, by) in [
+        (first.next_down(), false, Engine::DoubleDouble),
+        (first, true, Engine::DoubleDouble),
+        (3.0, false, Engine::Double),
+        (5.0, true, Engine::Double),
+    ] {
+        let kind = PulseKind::HalfSine { amplitude_g, omega_rad_s: 5.0 };
+        let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
+        let near = Scene {
+            block: Block::try_new(0.2, 2.0).unwrap(),
+            ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
+        };
+        let fate = certify(&near).unwrap();
+        assert!(fate.decided && fate.by == by, "{fate:?}");
+        assert_eq!(fate.outcome.is_overturned(), overturns);
+        let quick = respond(&near, &Observe::default()).unwrap();
+        assert_eq!(fate.double, quick.outcome);
+        let other = fate.double.is_overturned() != overturns;
+        assert_eq!(fate.moved(), other);
+        assert!(fate.margin > fate.error);
+        if let Outcome::Rocked { peak_ratio } = fate.outcome {
+            assert!(peak_ratio > 0.0 && peak_ratio < 1.0);
+        }
+    }
+}

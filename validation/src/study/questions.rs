@@ -182,3 +182,12 @@ fn capital(word: &str) -> String {
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
 }
+
+/// A share in words; a dash where there are no data.
+fn percent(share: f64) -> String {
+    if share.is_nan() {
+        "–".into()
+    } else {
+        format!("{:.0} %", 100.0 * share)
+    }
+}

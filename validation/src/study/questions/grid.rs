@@ -10,7 +10,7 @@ use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 use rocking::statistics::{ExtendedSample, Lognormal};
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows, both, capital};
+use super::{Answer, Cell, Rows, both, capital, percent};
 use crate::figures::data::{
     Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark,
     Scale as AxisScale, Series,
@@ -96,7 +96,6 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             .enumerate()
             .map(|(frequency, p)| {
                 let row = &rows[position(frequency, 0)];
-                let percent = |x: f64| format!("{:.0} %", 100.0 * x);
                 format!(
                     "{} in A, {} in B and {} in C at p = {p} ({} by the \
                      grid alone, {} distinct values of {})",

@@ -6,7 +6,7 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows, both, capital, mean};
+use super::{Answer, Cell, Rows, both, capital, mean, percent};
 use crate::figures::data::Intensity;
 use crate::study::StudyError;
 use crate::study::figures::Results;
@@ -126,14 +126,6 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
          20 demands.",
     );
     Ok(answer)
-}
-
-fn percent(share: f64) -> String {
-    if share.is_nan() {
-        "–".into()
-    } else {
-        format!("{:.0} %", 100.0 * share)
-    }
 }
 
 #[derive(Clone, Copy)]

@@ -2,3 +2,4 @@
 
 mod certified;
 mod lanes;
+mod responses;

@@ -9,8 +9,6 @@
 mod batch;
 mod group;
 mod roots;
-#[cfg(test)]
-mod tests;
 mod waiting;
 
 use crate::excitation::Excitation;

@@ -1,9 +1,9 @@
 //! What a pool says of its runs, beside what the curves show: the whole
 //! response of the scalar driver, work included.
 
-use super::{Class, Source, run};
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use crate::integrator::pool::{Class, Source, run};
 use crate::integrator::{
     Model, Observe, Overturning, Response, Scene, respond,
 };

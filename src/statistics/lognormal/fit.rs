@@ -133,7 +133,7 @@ pub struct LognormalFit {
 /// let sample = ExtendedSample::try_new(&[1.5, 2.0, 3.0])?;
 /// let ssfl = fit(&sample, 1.0, FitMethod::MaximumLikelihood)?;
 /// assert!((ssfl.distribution.median() - 2.0).abs() < 1e-15);
-/// let beta = 2.0_f64.ln() * (2.0_f64 / 3.0).sqrt();
+/// let beta = std::f64::consts::LN_2 * (2.0_f64 / 3.0).sqrt();
 /// assert!((ssfl.distribution.dispersion() - beta).abs() < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -12,12 +12,11 @@ mod roots;
 mod waiting;
 
 use crate::excitation::Excitation;
+use crate::integrator::class::{Class, EIGHT, SEVEN, SMOOTH, TEN};
 use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
-use crate::integrator::{
-    GUARD, Observe, Response, SHORT, SHORT_STEP, SMOOTH, Scene,
-};
+use crate::integrator::{Observe, Response, Scene};
 use crate::number::dispatch::{Isa, Work};
 use batch::{Batch, Solved};
 use group::{Group, WIDTH};
@@ -46,42 +45,21 @@ pub(crate) trait Source<'a> {
     fn settle(&mut self, task: Self::Task, response: &Response);
 }
 
-/// What the scenes of a pool have in common: the length of the series.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Class {
-    /// Eq. 1, steps to [`SHORT_STEP`].
-    Short,
-    /// Eq. 1, longer steps.
-    Smooth,
-    /// Eq. 2.
-    Linearized,
-}
-
-impl Class {
-    /// The class of scenes of a model under records at a step of `length`
-    /// (in 1/p); none where a sample takes more than one step.
-    pub fn of(model: Model, length: f64) -> Option<Self> {
-        match model {
-            _ if steps_of(length) > 1 => None,
-            Model::Linearized => Some(Self::Linearized),
-            Model::Nonlinear if length <= SHORT_STEP * GUARD => {
-                Some(Self::Short)
-            }
-            Model::Nonlinear => Some(Self::Smooth),
-        }
-    }
+/// The class of scenes that a pool takes at steps of `length` (in 1/p); none
+/// where a sample takes more than one step.
+pub(crate) fn class_of(model: Model, length: f64) -> Option<Class> {
+    (steps_of(length) == 1).then(|| Class::of(model, length))
 }
 
 /// Makes the analyses of one class that a source gives, until it gives none;
 /// needs a [wide](Isa::is_wide) level.
 pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
-    let model = match class {
-        Class::Linearized => Model::Linearized,
-        Class::Short | Class::Smooth => Model::Nonlinear,
-    };
+    let model = class.model();
     match class {
-        Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
-        Class::Smooth | Class::Linearized => {
+        Class::Seven => Pool::<_, SEVEN>::new(model, isa, source).run(),
+        Class::Eight => Pool::<_, EIGHT>::new(model, isa, source).run(),
+        Class::Ten => Pool::<_, TEN>::new(model, isa, source).run(),
+        Class::Thirteen | Class::Linearized => {
             Pool::<_, SMOOTH>::new(model, isa, source).run();
         }
     }

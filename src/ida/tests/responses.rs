@@ -3,7 +3,8 @@
 
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use crate::integrator::pool::{Class, Source, run};
+use crate::integrator::class::Class;
+use crate::integrator::pool::{Source, class_of, run};
 use crate::integrator::{
     Model, Observe, Overturning, Response, Scene, respond,
 };
@@ -50,11 +51,13 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
     };
     let p = 2.5;
     for (dt_s, model, class) in [
-        (0.02, Model::Nonlinear, Class::Short),
-        (0.03, Model::Nonlinear, Class::Smooth),
+        (0.004, Model::Nonlinear, Class::Seven),
+        (0.008, Model::Nonlinear, Class::Eight),
+        (0.02, Model::Nonlinear, Class::Ten),
+        (0.03, Model::Nonlinear, Class::Thirteen),
         (0.02, Model::Linearized, Class::Linearized),
     ] {
-        assert_eq!(Class::of(model, p * dt_s), Some(class));
+        assert_eq!(class_of(model, p * dt_s), Some(class));
         let records = [0.0, 1.0, 2.0].map(|seed| wave(seed, dt_s));
         let mut left = Vec::new();
         for record in &records {

@@ -184,8 +184,8 @@ where
         for piece in from.piece..self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
-            let (a, b) = self.dynamics.drive(&f);
-            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, (&a, &b));
+            let drive = self.dynamics.drive(f);
+            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, &drive);
             if let Some(tau) = first_descent(&v, left, self.isa) {
                 return self.beyond(value(&c, tau));
             }

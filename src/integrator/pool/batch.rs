@@ -4,9 +4,9 @@
 //! same operations in the same order; a lane whose step needs more than one
 //! plain impact is left to them.
 
-use crate::integrator::SMOOTH;
+use crate::integrator::class::SMOOTH;
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{Model, drive};
+use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::group::{Group, WIDTH};
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::waiting::{Lane, Line};
@@ -182,13 +182,13 @@ impl Batch {
         let rate = (self.ahead - self.here) * self.inverse;
         let series = [rate.mul_add(offset, self.here), rate];
         let constants = (self.threshold, self.sine, self.cosine);
-        let (a, b) = drive(model, constants, &series);
+        let drive = Drive::new(model, constants, series);
         let small = match model {
             Model::Nonlinear => self.u.sin_cos_small(),
             Model::Linearized => (self.u, Number::one()),
         };
         let (mut c, mut v): Series<SIZE> =
-            expand(model, self.u, self.w, (&a, &b), small);
+            expand(model, self.u, self.w, &drive, small);
         // Beyond it the driver takes other functions.
         let large = match model {
             Model::Nonlinear => all.but_not(self.u.below(Lanes::splat(SMALL))),

@@ -1,7 +1,7 @@
 //! Integration of a scene: block, excitation, model, and what to record.
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
-//! Eq. 1 is stepped by its Taylor polynomial, order 7 to 13, one step a sample;
+//! Eq. 1 is stepped by its Taylor polynomial, order 9 or 13, one step a sample;
 //! Eq. 2 by its exponential series, to rounding. Events are roots of the
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the
@@ -28,7 +28,7 @@ use thiserror::Error;
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, RestIndex};
 use crate::number::dispatch::{Isa, Work as Dispatched};
-use class::{Class, EIGHT, SEVEN, SMOOTH, TEN};
+use class::{Class, SHORT, SMOOTH};
 use driver::Driver;
 use dynamics::Dynamics;
 use forcing::{PulseForcing, RecordForcing, Silence};
@@ -391,10 +391,8 @@ impl Dispatched for Run<'_> {
                     return self.at_order(order, dynamics, forcing);
                 }
                 match Class::of(model, step) {
-                    Class::Seven => self.at::<SEVEN>(dynamics, forcing),
-                    Class::Eight => self.at::<EIGHT>(dynamics, forcing),
-                    Class::Ten => self.at::<TEN>(dynamics, forcing),
-                    Class::Thirteen | Class::Linearized => {
+                    Class::Short => self.at::<SHORT>(dynamics, forcing),
+                    Class::Smooth | Class::Linearized => {
                         self.at::<SMOOTH>(dynamics, forcing)
                     }
                 }
@@ -440,8 +438,8 @@ impl Run<'_> {
         match order {
             Order::Four => self.fixed::<5>(dynamics, forcing),
             Order::Six => self.fixed::<7>(dynamics, forcing),
-            Order::Eight => self.fixed::<EIGHT>(dynamics, forcing),
-            Order::Ten => self.fixed::<TEN>(dynamics, forcing),
+            Order::Eight => self.fixed::<9>(dynamics, forcing),
+            Order::Ten => self.fixed::<11>(dynamics, forcing),
         }
     }
 

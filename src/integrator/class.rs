@@ -2,22 +2,16 @@
 
 use crate::integrator::dynamics::Model;
 
-/// Coefficients of the series of order 7.
-pub(crate) const SEVEN: usize = 8;
-/// Coefficients of the series of order 8.
-pub(crate) const EIGHT: usize = 9;
-/// Coefficients of the series of order 10.
-pub(crate) const TEN: usize = 11;
-/// Coefficients of the series of order 13: of pulses, of Eq. 2 (whose series
-/// is the exponential's), and of any step that a shorter series leaves too
-/// much of.
+/// Coefficients of the short series: order 9.
+pub(crate) const SHORT: usize = 10;
+/// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
+/// of any step that a shorter series leaves too much of: order 13.
 pub(crate) const SMOOTH: usize = 14;
 
-/// Longest steps (in 1/p) of which orders 7, 8 and 10 leave less than
-/// rounding, but for few on records with sharp kinks: taking those again
-/// costs less than a higher order for all.
-const LONGEST: [(f64, Class); 3] =
-    [(0.0105, Class::Seven), (0.0205, Class::Eight), (0.06, Class::Ten)];
+/// Longest step (in 1/p) of which the short series leaves less than rounding,
+/// but for few on records with sharp kinks: taking those again costs less
+/// than a higher order for all.
+const SHORT_STEP: f64 = 0.06;
 
 /// A step of 0.06 is one although p dt comes out above it.
 const GUARD: f64 = 1.0 + 1e-9;
@@ -25,15 +19,11 @@ const GUARD: f64 = 1.0 + 1e-9;
 /// What scenes under records have in common: equation and order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
-    /// Eq. 1, order 7.
-    Seven,
-    /// Eq. 1, order 8.
-    Eight,
-    /// Eq. 1, order 10.
-    Ten,
-    /// Eq. 1, order 13.
-    Thirteen,
-    /// Eq. 2, order 13.
+    /// Eq. 1, the short series.
+    Short,
+    /// Eq. 1, the long one.
+    Smooth,
+    /// Eq. 2.
     Linearized,
 }
 
@@ -42,10 +32,8 @@ impl Class {
     pub fn of(model: Model, length: f64) -> Self {
         match model {
             Model::Linearized => Self::Linearized,
-            Model::Nonlinear => LONGEST
-                .into_iter()
-                .find(|(longest, _)| length <= longest * GUARD)
-                .map_or(Self::Thirteen, |(_, class)| class),
+            Model::Nonlinear if length <= SHORT_STEP * GUARD => Self::Short,
+            Model::Nonlinear => Self::Smooth,
         }
     }
 
@@ -53,9 +41,7 @@ impl Class {
     pub fn model(self) -> Model {
         match self {
             Self::Linearized => Model::Linearized,
-            Self::Seven | Self::Eight | Self::Ten | Self::Thirteen => {
-                Model::Nonlinear
-            }
+            Self::Short | Self::Smooth => Model::Nonlinear,
         }
     }
 }

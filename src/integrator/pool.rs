@@ -12,7 +12,7 @@ mod roots;
 mod waiting;
 
 use crate::excitation::Excitation;
-use crate::integrator::class::{Class, EIGHT, SEVEN, SMOOTH, TEN};
+use crate::integrator::class::{Class, SHORT, SMOOTH};
 use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
@@ -24,7 +24,7 @@ use waiting::{Kind, Lane, Line, Waiting};
 
 /// Groups of lanes: enough that a lane seldom waits for others, few enough
 /// that all stay in the nearest cache.
-const GROUPS: usize = 8;
+const GROUPS: usize = 12;
 
 /// Rotation to which the short sine and cosine are used.
 const SMALL: f64 = 0.785;
@@ -56,10 +56,8 @@ pub(crate) fn class_of(model: Model, length: f64) -> Option<Class> {
 pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
     let model = class.model();
     match class {
-        Class::Seven => Pool::<_, SEVEN>::new(model, isa, source).run(),
-        Class::Eight => Pool::<_, EIGHT>::new(model, isa, source).run(),
-        Class::Ten => Pool::<_, TEN>::new(model, isa, source).run(),
-        Class::Thirteen | Class::Linearized => {
+        Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
+        Class::Smooth | Class::Linearized => {
             Pool::<_, SMOOTH>::new(model, isa, source).run();
         }
     }

@@ -51,10 +51,8 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
     };
     let p = 2.5;
     for (dt_s, model, class) in [
-        (0.004, Model::Nonlinear, Class::Seven),
-        (0.008, Model::Nonlinear, Class::Eight),
-        (0.02, Model::Nonlinear, Class::Ten),
-        (0.03, Model::Nonlinear, Class::Thirteen),
+        (0.02, Model::Nonlinear, Class::Short),
+        (0.03, Model::Nonlinear, Class::Smooth),
         (0.02, Model::Linearized, Class::Linearized),
     ] {
         assert_eq!(class_of(model, p * dt_s), Some(class));

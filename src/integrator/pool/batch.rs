@@ -37,7 +37,7 @@ pub(super) struct Batch {
     peak: Eight,
     limit: Eight,
     eta: Eight,
-    /// Truncation allowed per unit of p-time.
+    /// Truncation of the velocity allowed in a step.
     tolerance: Eight,
 }
 
@@ -195,7 +195,7 @@ impl Batch {
             Model::Linearized => none,
         };
         let mut left = large;
-        let allowed = self.tolerance * h;
+        let allowed = self.tolerance;
         let again = allowed.below(last_term(v[LEN - 1].abs(), LEN, h));
         let mut hard = none;
         if SIZE > LEN {

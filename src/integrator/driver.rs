@@ -253,6 +253,21 @@ where
         }
     }
 
+    /// From an impact elsewhere, after which the block comes to rest within
+    /// `after` (in 1/p), to the next uplift.
+    pub fn rest(&mut self, impact: Place<N>, after: N) -> Stage<N> {
+        let (place, time_s) = self.later(impact, after);
+        self.uplift(place, time_s)
+    }
+
+    /// The place some time (in 1/p) later in the same piece, and when (s).
+    #[inline(always)]
+    fn later(&self, place: Place<N>, after: N) -> (Place<N>, N) {
+        let time_s = self.time_s(place) + after / self.dynamics.p;
+        let offset = place.offset + after;
+        (Place { offset, ..place }, time_s)
+    }
+
     /// One step, or the part of it up to an impact.
     #[inline(always)]
     fn next(&mut self, step: &mut Step<N>) -> Option<Flight<N>> {

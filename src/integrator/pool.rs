@@ -7,6 +7,7 @@
 //! Operations and their order are the same either way, and so are the bits.
 
 mod batch;
+mod chatter;
 mod group;
 mod roots;
 mod waiting;
@@ -240,6 +241,13 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             group.extra[lane] += u64::from(solved.again.at(i));
             if solved.impact.at(i) {
                 group.extra[lane] += 1;
+                if solved.rested.at(i) {
+                    slot.driver.count_impact();
+                    group.release(lane, slot);
+                    slot.rest(solved.rest[i]);
+                    settled |= self.proceed(id, groups);
+                    continue;
+                }
                 group.side[lane] = group.side[lane].flipped();
                 slot.driver.count_impact();
             } else {
@@ -318,6 +326,13 @@ impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
 }
 
 impl<T, const LEN: usize> Slot<'_, T, LEN> {
+    /// Comes to rest, some time after an impact.
+    fn rest(&mut self, after: f64) {
+        if let Stage::Flying(step) = &self.stage {
+            self.stage = self.driver.rest(step.place, after);
+        }
+    }
+
     /// A step by the scalar driver.
     fn advance(&mut self, step: Step<f64>, isa: Isa) {
         self.stage = isa.run(Alone { driver: &mut self.driver, step });

@@ -2,7 +2,7 @@
 
 use crate::integrator::Impact;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
-use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::forcing::Forcing;
 use crate::number::Real;
 
 /// Post-impact speed over alpha p below which an observer of events lets the
@@ -47,10 +47,8 @@ where
         step.motion = Motion { side, u: N::zero(), w };
         let left = self.forcing.length(step.place.piece) - step.place.offset;
         let time = self.chatter(&f, w, left)?;
-        let time_s = self.time_s(step.place) + time / self.dynamics.p;
-        let offset = step.place.offset + time;
-        let piece = step.place.piece;
-        Some(Flight::Rest(Place { piece, offset }, time_s))
+        let (place, time_s) = self.later(step.place, time);
+        Some(Flight::Rest(place, time_s))
     }
 
     /// Time (in 1/p) in which the impacts after one that leaves speed `w`

@@ -11,7 +11,7 @@ use crate::engine;
 use crate::scene::{Criterion, Scene};
 
 /// The state at an instant, by a history of that interval.
-fn state(
+pub(super) fn state(
     context: &Context,
     scene: &Scene,
     time_s: f64,

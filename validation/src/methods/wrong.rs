@@ -143,6 +143,15 @@ pub static WRONG_MODELS: &[WrongModel] = &[
         "energy-of-the-other-equation",
         "energy of Eq. 2 along Eq. 1, or of Eq. 1 along Eq. 2",
     ),
+    method(
+        "semi-infinite-sine",
+        "the condition of a sine that never ends for one that does",
+    ),
+    method(
+        "energy-whichever-way",
+        "overturning wherever the energy passes the saddle's",
+    ),
+    method("angle-alone", "overturning wherever |theta| exceeds alpha"),
     method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
     method("order-too-low", "the series stops two terms early"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),

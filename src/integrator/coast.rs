@@ -463,3 +463,6 @@ fn carlson_rf<N: Real>(mut x: N, mut y: N, mut z: N) -> N {
         z = (z + lambda) * quarter;
     }
 }
+
+#[cfg(test)]
+mod tests;

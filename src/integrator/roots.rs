@@ -124,12 +124,9 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
 /// First zero of the polynomial's first three terms, where it has one.
 #[inline(always)]
 fn parabola<N: Real>(c: &[N]) -> N {
-    if c.len() < 3 {
-        return N::zero();
-    }
-    let four = N::from_f64(4.0);
-    let root = (c[1] * c[1] - four * c[0] * c[2]).sqrt();
-    (c[0] + c[0]) / (root - c[1])
+    let [start, slope, bend, ..] = *c else { return N::zero() };
+    let root = (slope * slope - N::from_f64(4.0) * start * bend).sqrt();
+    (start + start) / (root - slope)
 }
 
 /// Whether a polynomial that is positive at its start, and surely falls or

@@ -77,8 +77,7 @@ where
         let mut overturned = None;
         match *flight {
             Flight::Rest(_, time_s) => {
-                if self.record.work.uplifts > 0 || self.record.work.impacts > 0
-                {
+                if self.record.work.impacts > 0 {
                     self.record.rest_time_s = Some(time_s);
                 }
                 let end = self.until_s.unwrap_or(self.end_s());

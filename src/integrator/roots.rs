@@ -60,11 +60,8 @@ fn surely_positive<N: Real>(c: &[N], length: N) -> bool {
     for k in (2..c.len()).rev() {
         rest = rest.mul_add(length, c[k].abs());
     }
-    if c.len() < 2 {
-        return true;
-    }
-    let falling = if c[1] < N::zero() { c[1] } else { N::zero() };
-    let low = falling.mul_add(length, c[0]);
+    let [start, slope, ..] = *c else { return true };
+    let low = (-(-slope).positive_part()).mul_add(length, start);
     low - rest * length * length > N::zero()
 }
 

@@ -61,7 +61,7 @@ where
             if !(at <= tau) {
                 return;
             }
-            let at = if at > N::zero() { at } else { N::zero() };
+            let at = at.positive_part();
             self.record.history.push(HistoryPoint {
                 time_s,
                 rotation_rad: sign * value(c, at),

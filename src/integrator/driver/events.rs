@@ -36,11 +36,7 @@ where
         let rest = rest * length;
         let linear = c[1] * length;
         let spread = rest * length;
-        let (down, up) = if c[1] < N::zero() {
-            (linear, N::zero())
-        } else {
-            (N::zero(), linear)
-        };
+        let (down, up) = (-(-linear).positive_part(), linear.positive_part());
         let clear_of_base = is_clear_of_base([c[0], c[1]], down, rest, spread);
         let clear_of_limit = c[0] + up + spread < self.dynamics.limit;
         if clear_of_base && clear_of_limit {
@@ -80,7 +76,7 @@ where
         for k in (2..LEN).rev() {
             rest = rest.mul_add(tau, c[k].abs());
         }
-        let rise = if c[1] > N::zero() { c[1] * tau } else { N::zero() };
+        let rise = (c[1] * tau).positive_part();
         if !(c[0] + rise + rest * tau * tau > self.record.peak) {
             return;
         }

@@ -34,7 +34,7 @@ where
         speed: N,
         before: N,
     ) -> Option<Flight<N>> {
-        let speed = positive(speed).unwrap_or(N::zero());
+        let speed = speed.positive_part();
         let side = step.motion.side.flipped();
         let w = self.dynamics.eta * speed;
         self.record.work.impacts += 1;

@@ -96,3 +96,6 @@ pub(super) fn refine<const SIZE: usize>(
     }
     tau
 }
+
+#[cfg(test)]
+mod tests;

@@ -12,6 +12,7 @@ mod points;
 mod precise;
 mod references;
 mod response;
+mod schemes;
 mod sines;
 mod solution;
 mod spectrum;
@@ -138,6 +139,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
     ("order-of-convergence", convergence::order),
+    ("orders-of-naive-schemes", schemes::orders),
     ("response", fates::response),
     ("fates-over-levels", fates::levels),
     ("adjustment-on-suite", fates::adjustment),

@@ -1,7 +1,7 @@
 //! Wrong models: what a case must be able to tell from the right one.
 
 use crate::naive::{
-    Events, Hold, Loss, Naive, Pushback, Rest, Rules, Threshold,
+    Events, Hold, Loss, Naive, Pushback, Rest, Rules, STEP_P, Threshold,
 };
 use crate::scene::{Engine, EngineError, Equation, Forcing, Scene, Trace};
 
@@ -33,6 +33,7 @@ const RIGHT: Rules = Rules {
     hold: Hold::Linear,
     threshold: Threshold::Own,
     after_end: true,
+    step_p: STEP_P,
 };
 
 /// The naive integrator without a mistake.

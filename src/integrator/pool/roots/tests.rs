@@ -24,7 +24,7 @@ fn polynomial(seed: u64) -> [f64; 6] {
     if seed % 5 < 4 {
         c[0] = c[0].abs();
     }
-    if seed % 7 == 0 {
+    if seed.is_multiple_of(7) {
         // A root within rounding, or nearly so, of the end at 1.
         let tail: f64 = c[1..].iter().sum();
         c[0] = -tail * (1.0 + 2e-11 * (draw() - 0.5));
@@ -47,7 +47,7 @@ fn lanes_decide_and_solve_as_the_scalar_root_finder() {
             }
             // Those that were made for it end at 1.
             let seed = 8 * batch + lane as u64;
-            lengths[lane] = if seed % 7 == 0 { 1.0 } else { 0.7 };
+            lengths[lane] = if seed.is_multiple_of(7) { 1.0 } else { 0.7 };
         }
         let told = descent(&lanes, lengths);
         let tau = refine(&lanes, lengths, told.one);
@@ -76,11 +76,7 @@ fn lanes_decide_and_solve_as_the_scalar_root_finder() {
 /// A lane that is not asked for does not keep the others.
 #[test]
 fn lanes_not_asked_for_are_left() {
-    let mut c = [Eight::zero(); 3];
-    for lane in 0..8 {
-        c[0][lane] = 0.3;
-        c[1][lane] = -1.0;
-    }
+    let c = [0.3, -1.0, 0.0].map(Eight::splat);
     let mut which = Mask::splat(false);
     which.set(3, true);
     let high = Eight::ratio(1, 1);

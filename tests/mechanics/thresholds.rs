@@ -115,6 +115,22 @@ fn long_intervals_take_as_many_steps_as_they_should() {
     }
 }
 
+/// Observation that ends before the motion shows leaves the peak where it
+/// was: at the release.
+#[test]
+fn a_peak_is_the_first_of_equal_ones() {
+    let free = Scene { initial_ratio: 0.5, ..scene(Excitation::Free) };
+    let observe = Observe { until_s: Some(1e-9), ..Observe::default() };
+    let record = Accelerogram::try_new("zeros", 0.1, vec![0.0; 5]).unwrap();
+    let record = ScaledRecord::by_factor(&record, 1.0);
+    let excitation = Excitation::Record(record);
+    for scene in [free, Scene { excitation, ..free }] {
+        let found = respond(&scene, &observe).unwrap();
+        assert_eq!(found.peak_ratio, 0.5);
+        assert_eq!(found.peak_time_s, Some(0.0));
+    }
+}
+
 #[test]
 fn nothing_costs_nothing() {
     let found = respond(&scene(Excitation::Free), &Observe::default());

@@ -44,6 +44,21 @@ pub(crate) struct Record<N> {
     pub accuracy: Option<Accuracy>,
 }
 
+impl<N: Real> Record<N> {
+    pub fn empty() -> Self {
+        Self {
+            peak: N::zero(),
+            peak_time_s: None,
+            uplift_time_s: None,
+            rest_time_s: None,
+            impacts: Vec::new(),
+            history: Vec::new(),
+            work: Work::default(),
+            accuracy: None,
+        }
+    }
+}
+
 /// Steps by a series of `SIZE` coefficients, and by one of `HARD` where that
 /// leaves too much; the forcing's series has `F`.
 pub(crate) struct Driver<
@@ -104,21 +119,11 @@ where
 {
     #[inline(always)]
     pub fn new(dynamics: Dynamics<N>, forcing: G, isa: Isa) -> Self {
-        let record = Record {
-            peak: N::zero(),
-            peak_time_s: None,
-            uplift_time_s: None,
-            rest_time_s: None,
-            impacts: Vec::new(),
-            history: Vec::new(),
-            work: Work::default(),
-            accuracy: None,
-        };
         Self {
             dynamics,
             forcing,
             isa,
-            record,
+            record: Record::empty(),
             events: false,
             interval_s: None,
             until_s: None,

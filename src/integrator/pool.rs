@@ -52,14 +52,33 @@ pub(crate) fn class_of(model: Model, length: f64) -> Option<Class> {
     (steps_of(length) == 1).then(|| Class::of(model, length))
 }
 
+/// Work of a pool: what its screens do not tell costs more than it should,
+/// and changes nothing else.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Tally {
+    /// Steps of all groups together.
+    pub sweeps: u64,
+    /// Batches solved of each [`Kind`].
+    pub batches: [u64; 3],
+    /// Lanes solved in them, those passed on to longer series, and those
+    /// left to the scalar driver.
+    pub solved: u64,
+    pub passed: u64,
+    pub left: u64,
+}
+
 /// Makes the analyses of one class that a source gives, until it gives none;
 /// needs a [wide](Isa::is_wide) level.
-pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
+pub(crate) fn run<'a>(
+    class: Class,
+    isa: Isa,
+    source: &mut impl Source<'a>,
+) -> Tally {
     let model = class.model();
     match class {
         Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
         Class::Smooth | Class::Linearized => {
-            Pool::<_, SMOOTH>::new(model, isa, source).run();
+            Pool::<_, SMOOTH>::new(model, isa, source).run()
         }
     }
 }
@@ -72,6 +91,7 @@ struct Pool<'s, 'a, S: Source<'a>, const LEN: usize> {
     slots: Vec<Option<Slot<'a, S::Task, LEN>>>,
     /// Slots in use.
     busy: usize,
+    tally: Tally,
 }
 
 type Run<'a, const LEN: usize> =
@@ -87,10 +107,11 @@ struct Slot<'a, T, const LEN: usize> {
 impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
     fn new(model: Model, isa: Isa, source: &'s mut S) -> Self {
         let slots = (0..GROUPS * WIDTH).map(|_| None).collect();
-        Self { model, isa, source, slots, busy: 0 }
+        let tally = Tally::default();
+        Self { model, isa, source, slots, busy: 0, tally }
     }
 
-    fn run(mut self) {
+    fn run(mut self) -> Tally {
         let (model, isa) = (self.model, self.isa);
         let mut groups: Vec<Group<'a>> =
             (0..GROUPS).map(|_| Group::idle()).collect();
@@ -104,14 +125,15 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 fresh = self.fill(&mut groups);
             }
             if self.busy == 0 {
-                return;
+                return self.tally;
             }
             let sweep = Sweep::<LEN> {
                 model,
                 groups: &mut groups,
                 waiting: &mut waiting,
             };
-            let Some(moved) = isa.run_wide(sweep) else { return };
+            let Some(moved) = isa.run_wide(sweep) else { return self.tally };
+            self.tally.sweeps += 1;
             // Few runs do not wait for eight of a kind.
             let enough =
                 if moved { (self.busy / 4).clamp(1, WIDTH) } else { 1 };
@@ -126,8 +148,9 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                         solved: &mut solved,
                     });
                     if done.is_none() {
-                        return;
+                        return self.tally;
                     }
+                    self.tally.batches[kind as usize] += 1;
                     fresh |= self.scatter(&mut groups, &mut waiting, &solved);
                 }
             }
@@ -212,6 +235,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             let Some(slot) = &mut self.slots[id.slot()] else { continue };
             let (group, lane) = (&mut groups[id.group], id.lane);
             if solved.left.at(i) {
+                self.tally.left += 1;
                 group.release(lane, slot);
                 if let Stage::Flying(step) = slot.stage {
                     slot.advance(step, self.isa);
@@ -220,9 +244,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 continue;
             }
             if solved.hard.at(i) {
+                self.tally.passed += 1;
                 waiting.line(Kind::Both).push(id);
                 continue;
             }
+            self.tally.solved += 1;
             if solved.turned.at(i) {
                 let place = Place {
                     piece: group.next[lane] as usize - 1,

@@ -13,6 +13,12 @@ pub(crate) fn tail_speed<N: Real>() -> f64 {
     if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
 }
 
+/// The number, if it is positive.
+#[inline(always)]
+fn positive<N: Real>(x: N) -> Option<N> {
+    (x > N::zero()).then_some(x)
+}
+
 impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
     Driver<N, G, SIZE, F, HARD>
 where
@@ -28,11 +34,11 @@ where
         speed: N,
         before: N,
     ) -> Option<Flight<N>> {
-        let speed = if speed > N::zero() { speed } else { N::zero() };
+        let speed = speed.positive_part();
         let side = step.motion.side.flipped();
         let w = self.dynamics.eta * speed;
         self.record.work.impacts += 1;
-        if self.events && speed > N::zero() {
+        if self.events && positive(speed).is_some() {
             self.record.impacts.push(Impact {
                 time_s: self.time_s(step.place),
                 speed_before_rad_s: speed * self.dynamics.p,
@@ -67,9 +73,8 @@ where
         }
         let two = N::from_f64(2.0);
         let eta = self.dynamics.eta;
-        if !(margin > N::zero()) || !(eta < N::one()) {
-            return None;
-        }
+        positive(margin)?;
+        positive(N::one() - eta)?;
         // Quick refusal before the proof.
         let scale = self.dynamics.restoring(-f[0].abs());
         let guess = two * w / (scale * (N::one() - eta));
@@ -93,17 +98,11 @@ where
         for k in (1..F).rev() {
             drift = (drift + f[k].abs()) * window;
         }
-        let least = self.dynamics.restoring(-(f[0].abs() + drift));
-        if !(least > N::zero()) {
-            return None;
-        }
+        let least = positive(self.dynamics.restoring(-(f[0].abs() + drift)))?;
         // Eq. 1 pushes outwards by at most (1 + tan alpha) u on a hop.
         let rise = w * w / least;
         let push = (N::one() + self.dynamics.threshold) * (rise + rise);
-        let least = least - push;
-        if !(least > N::zero()) {
-            return None;
-        }
+        let least = positive(least - push)?;
         let most = |f0: N| self.dynamics.restoring(f0 + drift) + push;
         let low = |f0: N| self.dynamics.restoring(f0 - drift) - push;
         let ratio = |f0: N| most(f0) / low(f0);
@@ -111,10 +110,8 @@ where
         let worst = if here > there { here } else { there };
         let eta = self.dynamics.eta;
         let decay = eta * worst.sqrt();
-        if !(decay < N::one()) {
-            return None;
-        }
-        let bound = two * w * worst.sqrt() / (least * (N::one() - decay));
+        let bound =
+            two * w * worst.sqrt() / (least * positive(N::one() - decay)?);
         if !(bound < window) {
             return None;
         }
@@ -133,3 +130,6 @@ where
         Some(two * w * hops / (N::one() - eta * eta))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -99,3 +99,6 @@ pub(super) fn refine<const SIZE: usize>(
     }
     tau
 }
+
+#[cfg(test)]
+mod tests;

@@ -19,9 +19,9 @@ use crate::number::Real;
 use crate::number::dispatch::Isa;
 use step::Advance;
 
-/// Truncation of the velocity (over p) allowed in a step, in roundoffs of the
-/// slenderness angle: no more than the step's own rounding.
-const TRUNCATION_SHARE: f64 = 0.25;
+/// Truncation allowed per unit of time, in roundoffs of the slenderness
+/// angle: what rounding does anyway.
+const TRUNCATION_SHARE: f64 = 0.5;
 
 /// State of a block in motion, in units of 1/p: u = |theta| on a side.
 #[derive(Clone, Copy, Debug)]
@@ -75,7 +75,7 @@ pub(crate) struct Driver<
     events: bool,
     interval_s: Option<f64>,
     until_s: Option<N>,
-    /// Truncation of the velocity allowed in a step.
+    /// Truncation allowed per unit of p-time.
     tolerance: N,
 }
 
@@ -204,7 +204,7 @@ where
         self.record.work.impacts += 1;
     }
 
-    /// Truncation of the velocity allowed in a step.
+    /// Truncation allowed per unit of p-time.
     #[inline(always)]
     pub fn tolerance(&self) -> N {
         self.tolerance

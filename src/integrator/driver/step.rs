@@ -92,7 +92,7 @@ where
         let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, &drive);
         let (c, v) = (&c, &v);
         self.record.work.steps += 1;
-        if left_by(v, length) > self.tolerance {
+        if left_by(v, length) > self.tolerance * length {
             return None;
         }
         let event = self.first_event(c, length);
@@ -207,7 +207,7 @@ where
     /// allowed over a step of `length`.
     #[inline(always)]
     pub fn last_allowed<const LEN: usize>(&self, length: N) -> N {
-        self.tolerance / last_term(N::one(), LEN, length)
+        self.tolerance * length / last_term(N::one(), LEN, length)
     }
 }
 

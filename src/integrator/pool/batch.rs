@@ -38,7 +38,7 @@ pub(super) struct Batch {
     peak: Eight,
     limit: Eight,
     eta: Eight,
-    /// Truncation of the velocity allowed in a step.
+    /// Truncation allowed per unit of p-time.
     tolerance: Eight,
 }
 
@@ -201,7 +201,7 @@ impl Batch {
             Model::Linearized => none,
         };
         let mut left = large;
-        let allowed = self.tolerance;
+        let allowed = self.tolerance * h;
         let again = allowed.below(last_term(v[LEN - 1].abs(), LEN, h));
         let mut hard = none;
         if SIZE > LEN {

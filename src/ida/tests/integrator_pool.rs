@@ -44,25 +44,25 @@ fn wave(seed: f64, dt_s: f64) -> NormalisedRecord {
 /// Screens that tell less than they could change no bit; they show here. The
 /// counts are as they are: a change of them is to be meant.
 const SHORT: Tally = Tally {
-    sweeps: 350,
-    batches: [115, 621, 23],
-    solved: 4013,
-    passed: 161,
-    left: 1492,
+    sweeps: 338,
+    batches: [105, 609, 27],
+    solved: 3784,
+    passed: 200,
+    left: 1543,
 };
 const SMOOTH: Tally = Tally {
-    sweeps: 310,
-    batches: [0, 628, 0],
-    solved: 3001,
+    sweeps: 296,
+    batches: [13, 590, 0],
+    solved: 2934,
     passed: 0,
-    left: 1317,
+    left: 1415,
 };
 const LINEARIZED: Tally = Tally {
-    sweeps: 311,
-    batches: [0, 582, 0],
-    solved: 3538,
+    sweeps: 301,
+    batches: [0, 565, 0],
+    solved: 3355,
     passed: 0,
-    left: 758,
+    left: 748,
 };
 
 #[test]
@@ -88,7 +88,9 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
                     _ => Overturning::HalfPi,
                 };
                 let alpha = 0.05 + 0.05 * f64::from(k % 5);
-                let pga_g = alpha * (0.9 + 0.1 * f64::from(k));
+                // The last are violent: no short series is enough.
+                let violent = if k > 36 { 300.0 } else { 1.0 };
+                let pga_g = violent * alpha * (0.9 + 0.1 * f64::from(k));
                 let record = ScaledRecord::to_pga(record, pga_g);
                 left.push(Scene {
                     block: Block::try_new(alpha, p).unwrap(),
@@ -104,7 +106,7 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
         let mut bench = Bench { left, done: Vec::new() };
         let tally = run(class, isa, &mut bench);
         assert_eq!(bench.done.len(), count);
-        assert_eq!(tally, regressed);
+        assert_eq!(tally, regressed, "{class:?}");
         for (scene, found) in &bench.done {
             let alone = respond(scene, &Observe::default()).unwrap();
             assert_eq!(*found, alone);

@@ -91,6 +91,17 @@ fn estimates_bound_the_distance_from_double_double() {
             let (a, b) = (double.rest_time_s, precise.rest_time_s);
             assert_eq!(a.is_some(), b.is_some());
             let gap = a.zip(b).map_or(0.0, |(a, b)| (a - b.hi()).abs());
+            if a.is_none() {
+                continue;
+            }
+            // Impacts are followed down to where the rest of them is a
+            // geometric series to the last digit of each arithmetic.
+            let unit = 3.0 * 0.1;
+            let slow = double.impacts.last().unwrap().speed_before_rad_s;
+            assert!(slow < 2e-10 * unit && slow > 1e-12 * unit, "{slow:e}");
+            let slow = precise.impacts.last().unwrap().speed_before_rad_s;
+            let slow = slow.hi();
+            assert!(slow < 2e-26 * unit && slow > 1e-28 * unit, "{slow:e}");
             assert!(gap < 1e-8);
         }
     }

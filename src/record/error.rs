@@ -122,6 +122,9 @@ pub enum Fault {
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),
+    /// A format that names its unit does not.
+    #[error("no unit in the file: expected it to be given")]
+    UnitMissing,
     /// The caller's unit and the file's differ.
     #[error(
         "unit {given} was given: expected {stated}, which the file states"

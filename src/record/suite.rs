@@ -58,7 +58,8 @@ pub struct SuiteMember {
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
     pub study_component: bool,
-    /// Other columns of the index, by name (event, magnitude, ...).
+    /// Other cells of the index that are not empty, by column (event,
+    /// magnitude, ...).
     pub attributes: BTreeMap<String, String>,
 }
 

@@ -22,6 +22,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("fragility", &["statistics"]),
     ("ida", &["block", "excitation", "integrator", "number", "record"]),
     ("integrator", &["block", "excitation", "number"]),
+    ("intensity", &["record", "units"]),
     ("number", &[]),
     ("record", &["units"]),
     ("statistics", &["streams"]),

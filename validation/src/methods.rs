@@ -7,6 +7,7 @@ mod edges;
 mod estimate;
 mod fates;
 mod hard;
+mod intensity;
 mod invariance;
 mod points;
 mod precise;
@@ -166,6 +167,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rejected-share", statistics::rejection),
     ("coverage", statistics::coverage),
     ("bias", statistics::bias),
+    ("intensity", intensity::measures),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

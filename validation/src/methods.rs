@@ -162,6 +162,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("quantiles", statistics::quantiles),
     ("tests-of-normality", statistics::tests),
     ("paired-procedures", statistics::paired),
+    ("two-samples", statistics::two_samples),
     ("inversion", statistics::inversion),
     ("equations-5-to-7", statistics::transforms),
     ("rejected-share", statistics::rejection),

@@ -177,6 +177,7 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("arias-without-its-factor", "the integral of a^2 over g"),
     method("geometric-mean-for-rotd50", "sqrt of the product"),
     method("rotd50-for-geometric-mean", "the median over directions"),
+    method("one-side-doubled", "the limit for many values, doubled"),
     method("known-shift", "the table though the shift was estimated"),
 ];
 

@@ -21,7 +21,7 @@ impl Spectrum {
         let mut values: Vec<(f64, f64)> =
             samples.iter().map(|a| (*a, 0.0)).collect();
         values.resize(n, (0.0, 0.0));
-        transform(&mut values);
+        Transform::new(n).apply(&mut values);
         let step = 1.0 / (n as f64 * dt_s);
         let (mut hz, mut coefficients) = (Vec::new(), Vec::new());
         for (k, value) in values.iter().enumerate().take(n / 2 + 1) {
@@ -61,37 +61,53 @@ impl Spectrum {
     }
 }
 
-/// Discrete Fourier transform in place, of a power of two of values
-/// (Cooley and Tukey 1965).
-pub(super) fn transform(values: &mut [(f64, f64)]) {
-    let n = values.len();
-    let bits = n.trailing_zeros();
-    for i in 0..n {
-        let j = i.reverse_bits() >> (usize::BITS - bits).min(usize::BITS - 1);
-        if bits > 0 && i < j {
-            values.swap(i, j);
-        }
-    }
-    let mut length = 2;
-    while length <= n {
-        let half = length / 2;
-        // Each factor from its own angle: errors don't add up.
-        let factors: Vec<(f64, f64)> = (0..half)
-            .map(|k| {
-                let angle = -2.0 * PI * k as f64 / length as f64;
-                let (sin, cos) = libm::sincos(angle);
+/// The discrete Fourier transform of a power of two of values (Cooley and
+/// Tukey 1965).
+pub(super) struct Transform {
+    /// Factors of every stage: 1, then 2, 4 and so on.
+    factors: Vec<Vec<(f64, f64)>>,
+}
+
+impl Transform {
+    /// For `size` values, a power of two.
+    pub(super) fn new(size: usize) -> Self {
+        let stage = |bit: u32| {
+            let half = 1_usize << bit;
+            // Each factor from its own angle: errors don't add up.
+            let factor = |k: usize| {
+                let (sin, cos) = libm::sincos(-PI * k as f64 / half as f64);
                 (cos, sin)
-            })
-            .collect();
-        for block in values.chunks_exact_mut(length) {
-            let (low, high) = block.split_at_mut(half);
-            for ((a, b), (cos, sin)) in low.iter_mut().zip(high).zip(&factors)
-            {
-                let turned = (b.0 * cos - b.1 * sin, b.0 * sin + b.1 * cos);
-                *b = (a.0 - turned.0, a.1 - turned.1);
-                *a = (a.0 + turned.0, a.1 + turned.1);
+            };
+            (0..half).map(factor).collect()
+        };
+        Self { factors: (0..size.trailing_zeros()).map(stage).collect() }
+    }
+
+    /// Transforms in place; values of another size are left as they are.
+    pub(super) fn apply(&self, values: &mut [(f64, f64)]) {
+        let n = values.len();
+        let bits = self.factors.len();
+        if n != 1 << bits || bits == 0 {
+            return;
+        }
+        for i in 0..n {
+            let j = i.reverse_bits() >> (usize::BITS as usize - bits);
+            if i < j {
+                values.swap(i, j);
             }
         }
-        length *= 2;
+        for factors in &self.factors {
+            for block in values.chunks_exact_mut(2 * factors.len()) {
+                let (low, high) = block.split_at_mut(factors.len());
+                for ((a, b), (cos, sin)) in
+                    low.iter_mut().zip(high).zip(factors)
+                {
+                    let turned =
+                        (b.0 * cos - b.1 * sin, b.0 * sin + b.1 * cos);
+                    *b = (a.0 - turned.0, a.1 - turned.1);
+                    *a = (a.0 + turned.0, a.1 + turned.1);
+                }
+            }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Tests of the measures beyond the declared cases.
 
-use super::fourier::transform;
+use super::fourier::Transform;
 use super::*;
 
 fn record(dt_s: f64, samples_g: &[f64]) -> Accelerogram {
@@ -26,7 +26,7 @@ fn transform_of_a_few_values_is_the_sum_of_its_definition() {
             (libm::sin(3.0 * x), libm::cos(x * x))
         };
         let mut fast: Vec<(f64, f64)> = (0..n).map(value).collect();
-        transform(&mut fast);
+        Transform::new(n).apply(&mut fast);
         for (k, own) in fast.iter().enumerate() {
             let sum = (0..n).fold((0.0, 0.0), |sum, i| {
                 let turn = (i * k % n) as f64 / n as f64;

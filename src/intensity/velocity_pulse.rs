@@ -26,7 +26,7 @@
 mod wavelet;
 
 use super::IntensityError;
-use super::fourier::transform;
+use super::fourier::Transform;
 use crate::record::Accelerogram;
 use wavelet::Wavelet;
 
@@ -176,7 +176,8 @@ impl CoefficientMap {
             .zip(velocities[1].iter().copied())
             .collect();
         motion.resize(size, (0.0, 0.0));
-        transform(&mut motion);
+        let transform = Transform::new(size);
+        transform.apply(&mut motion);
         let of = |scale: &usize| {
             let weights = wavelet.weights(*scale);
             let half = weights.len() / 2;
@@ -184,7 +185,7 @@ impl CoefficientMap {
             for (j, w) in weights.iter().enumerate() {
                 kernel[(j + size - half) % size].0 = *w;
             }
-            transform(&mut kernel);
+            transform.apply(&mut kernel);
             // Correlation: the product with the conjugate, transformed back
             // by the conjugate's transform.
             let mut product: Vec<(f64, f64)> = motion
@@ -196,7 +197,7 @@ impl CoefficientMap {
                     (re, -im)
                 })
                 .collect();
-            transform(&mut product);
+            transform.apply(&mut product);
             let scale = 1.0 / size as f64;
             product
                 .iter()

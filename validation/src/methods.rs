@@ -16,6 +16,7 @@ mod response;
 mod solution;
 mod spectrum;
 mod statistics;
+mod velocity_pulse;
 mod wrong;
 
 pub use digits::{DigitsError, Reach, Row, digits, digits_csv};
@@ -169,6 +170,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("coverage", statistics::coverage),
     ("bias", statistics::bias),
     ("intensity", intensity::measures),
+    ("velocity-pulse", velocity_pulse::pulses),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

@@ -177,6 +177,9 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("arias-without-its-factor", "the integral of a^2 over g"),
     method("geometric-mean-for-rotd50", "sqrt of the product"),
     method("rotd50-for-geometric-mean", "the median over directions"),
+    method("one-component", "the second component left out"),
+    method("velocity-in-m-s", "PGV in m/s where cm/s are meant"),
+    method("late-pulses-kept", "no criterion of time"),
     method("one-side-doubled", "the limit for many values, doubled"),
     method("known-shift", "the table though the shift was estimated"),
 ];

@@ -31,6 +31,7 @@ use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
 use rocking::ida::IdaError;
 use rocking::integrator::SceneError;
+use rocking::intensity::IntensityError;
 use rocking::record::{AccelerogramError, SuiteError};
 use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
@@ -61,6 +62,9 @@ pub enum StudyError {
     /// A run that cannot be done.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A record whose intensity cannot be measured.
+    #[error(transparent)]
+    Intensity(#[from] IntensityError),
     /// A curve that cannot be inverted.
     #[error(transparent)]
     Capacity(#[from] CapacityError),

@@ -12,6 +12,9 @@ use serde_json::{Value, json};
 use super::{Failure, print};
 use crate::inputs;
 use crate::json::number;
+use measures::{Found, MeasureArgs};
+
+mod measures;
 
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
@@ -35,6 +38,8 @@ pub struct Args {
         allow_negative_numbers = true
     )]
     gravity: f64,
+    #[command(flatten)]
+    measures: MeasureArgs,
     /// JSON for machines.
     #[arg(long)]
     json: bool,
@@ -103,10 +108,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         listing.add(path, options);
     }
     listing.remark();
+    let found = args.measures.run(&listing.records, args.gravity)?;
     if args.json {
-        print(&listing.json(args.gravity))?;
+        print(&listing.json(args.gravity, &found))?;
     } else {
         print(&listing.table(args.gravity))?;
+        print(&found.table(&listing.records))?;
     }
     if listing.refused.is_empty() {
         return Ok(());
@@ -221,8 +228,8 @@ impl Listing {
         }
     }
 
-    fn json(&self, gravity_m_s2: f64) -> String {
-        let record = |listed: &Listed| {
+    fn json(&self, gravity_m_s2: f64, found: &Found) -> String {
+        let record = |(position, listed): (usize, &Listed)| {
             let motion = &listed.motion;
             let (pair, study) = match &listed.place {
                 Some((pair, study)) => (pair.as_deref(), Some(*study)),
@@ -235,7 +242,7 @@ impl Listing {
                 })
             };
             let remarks = listed.remarks.iter().map(remark);
-            json!({
+            let mut value = json!({
                 "file": listed.file,
                 "format": listed.format.to_string(),
                 "units": listed.unit.to_string(),
@@ -248,7 +255,9 @@ impl Listing {
                 "pair": pair,
                 "study_component": study,
                 "remarks": remarks.collect::<Vec<_>>(),
-            })
+            });
+            found.add_to(position, &mut value);
+            value
         };
         let refused = |list: &[Refused]| -> Vec<Value> {
             let one = |refused: &Refused| {
@@ -260,12 +269,18 @@ impl Listing {
             };
             list.iter().map(one).collect()
         };
-        let all = json!({
+        let records = self.records.iter().enumerate().map(record);
+        let mut all = json!({
             "gravity_m_s2": number(gravity_m_s2),
-            "records": self.records.iter().map(record).collect::<Vec<_>>(),
+            "records": records.collect::<Vec<_>>(),
             "refused": refused(&self.refused),
             "ignored": refused(&self.ignored),
         });
+        if let (Some(pairs), Some(map)) =
+            (found.pairs_json(), all.as_object_mut())
+        {
+            map.insert("pairs".into(), pairs);
+        }
         format!("{all:#}\n")
     }
 

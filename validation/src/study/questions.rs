@@ -9,6 +9,7 @@ mod nulls;
 mod options;
 mod power;
 mod robustness;
+mod suites;
 mod trimming;
 
 use serde_json::{Value, json};
@@ -66,6 +67,7 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         inversion::answer(results)?,
         options::answer(results, full)?,
         trimming::answer(results)?,
+        suites::answer(results)?,
     ])
 }
 

@@ -8,6 +8,9 @@ use sha2::{Digest as _, Sha256};
 use super::StudyError;
 use crate::synthesis::{self, Pair};
 
+/// How the source of an embedded suite begins.
+pub const EMBEDDED: &str = "embedded synthetic suite";
+
 /// The component a study uses, and the other of its pair.
 #[derive(Clone, Debug)]
 pub struct Motion {
@@ -38,7 +41,7 @@ impl StudySuite {
     pub fn embedded() -> Result<[Self; 2], StudyError> {
         let of = |kind, seed: &str, pairs: Vec<Pair>| Self {
             kind,
-            source: format!("embedded synthetic suite, streams {seed}"),
+            source: format!("{EMBEDDED}, streams {seed}"),
             component_rule: "the first component of each pair".into(),
             motions: pairs
                 .into_iter()

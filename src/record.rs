@@ -19,6 +19,7 @@ mod fields;
 mod keys;
 mod knet;
 mod number;
+mod processing;
 mod quality;
 mod resorce;
 mod smc;
@@ -27,6 +28,7 @@ mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
+pub use processing::{Processing, ProcessingError};
 pub use quality::{Remark, duplicates, remarks, remarks_together};
 pub use suite::{
     PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,

@@ -51,11 +51,12 @@ impl<'a> Text<'a> {
         text: &'a str,
     ) -> Result<Self, RecordError> {
         let separator = if text.contains('\n') { '\n' } else { '\r' };
-        let mut lines: Vec<&str> = text
-            .split(separator)
-            .map(|line| line.trim_end_matches('\r'))
-            .collect();
-        while lines.last().is_some_and(|line| line.trim().is_empty()) {
+        // Counted first: a vector that grows takes three times the room.
+        let count = text.matches(separator).count();
+        let mut lines = Vec::with_capacity(count + 1);
+        let split = text.split(separator);
+        lines.extend(split.map(|line| line.trim_end_matches('\r')));
+        while lines.last().is_some_and(|line: &&str| line.trim().is_empty()) {
             lines.pop();
         }
         if lines.is_empty() {

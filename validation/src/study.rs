@@ -32,7 +32,7 @@ use rocking::capacity::CapacityError;
 use rocking::ida::IdaError;
 use rocking::integrator::SceneError;
 use rocking::intensity::IntensityError;
-use rocking::record::{AccelerogramError, SuiteError};
+use rocking::record::{AccelerogramError, ProcessingError, SuiteError};
 use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
 use rocking::statistics::paired::PairedError;
@@ -50,6 +50,9 @@ pub enum StudyError {
     /// A suite that was refused.
     #[error(transparent)]
     Suite(#[from] SuiteError),
+    /// A record that cannot be processed as asked.
+    #[error(transparent)]
+    Processing(#[from] ProcessingError),
     /// A synthetic record that is none.
     #[error(transparent)]
     Accelerogram(#[from] AccelerogramError),

@@ -338,9 +338,7 @@ impl Row {
         ];
         let named = self.columns.iter().zip(&self.cells);
         let attributes = named
-            .filter(|(name, cell)| {
-                !used.contains(&name.as_str()) && !cell.is_empty()
-            })
+            .filter(|(name, _)| !used.contains(&name.as_str()))
             .map(|(name, cell)| (name.clone(), cell.clone()))
             .collect();
         Ok(SuiteMember {

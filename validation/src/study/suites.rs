@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use rocking::record::{Accelerogram, ReadOptions, Suite, SuiteOptions};
+use rocking::record::{Accelerogram, Processing, ReadOptions};
 use sha2::{Digest as _, Sha256};
 
 use super::StudyError;
+use crate::inputs::read_suite;
 use crate::synthesis::{self, Pair};
 
 /// How the source of an embedded suite begins.
@@ -61,12 +62,13 @@ impl StudySuite {
     ///
     /// # Errors
     /// [`StudyError`] naming the file that was refused, and why.
-    pub fn read(kind: &'static str, path: &Path) -> Result<Self, StudyError> {
-        let options = SuiteOptions {
-            read: ReadOptions::default(),
-            sha256_hex: Some(sha256_hex),
-        };
-        let suite = Suite::read(path, &options)?;
+    pub fn read(
+        kind: &'static str,
+        path: &Path,
+        processing: &Processing,
+    ) -> Result<Self, StudyError> {
+        let suite = read_suite(path, ReadOptions::default())?;
+        let suite = suite.processed(processing)?;
         let motions = suite
             .study_components()
             .map(|study| Motion {
@@ -81,7 +83,11 @@ impl StudySuite {
             .collect();
         Ok(Self {
             kind,
-            source: format!("suite {}", suite.name()),
+            source: if processing.is_none() {
+                format!("suite {}", suite.name())
+            } else {
+                format!("suite {} ({processing})", suite.name())
+            },
             component_rule: suite.study_rule().to_string(),
             motions,
         })
@@ -102,11 +108,6 @@ impl StudySuite {
         }
         hex(&hash.finalize())
     }
-}
-
-/// SHA-256 of bytes, in hexadecimal.
-fn sha256_hex(bytes: &[u8]) -> String {
-    hex(&Sha256::digest(bytes))
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -206,3 +206,34 @@ pub enum Fault {
     #[error(transparent)]
     Samples(#[from] AccelerogramError),
 }
+
+impl Fault {
+    /// Short name of the reason, the same in every version.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unreadable(_) => "unreadable",
+            Self::Empty => "empty",
+            Self::NotText { .. } => "not-text",
+            Self::UnknownFormat { .. } => "unknown-format",
+            Self::Header { .. } => "header",
+            Self::Ends(_) => "ends",
+            Self::Quantity(_) => "quantity",
+            Self::Vertical(_) => "vertical",
+            Self::Unit(_) => "unit",
+            Self::UnitMissing => "unit-missing",
+            Self::UnitConflict { .. } => "unit-conflict",
+            Self::Gravity(_) => "gravity",
+            Self::IntervalMissing => "interval-missing",
+            Self::Interval(_) => "interval",
+            Self::IntervalConflict { .. } => "interval-conflict",
+            Self::Count { .. } => "count",
+            Self::Number { .. } => "number",
+            Self::NotFinite(_) => "not-finite",
+            Self::Step { .. } => "step",
+            Self::Peak { .. } => "peak",
+            Self::SeveralChannels(_) => "several-channels",
+            Self::Samples(_) => "samples",
+        }
+    }
+}

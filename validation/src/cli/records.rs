@@ -9,12 +9,15 @@ use rocking::record::{
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
 
+use super::processing::{ProcessingArgs, words};
 use super::{Failure, print};
+use crate::files::write_atomically;
 use crate::inputs;
 use crate::json::number;
 use measures::{Found, MeasureArgs};
 
 mod measures;
+mod plot;
 
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
@@ -39,7 +42,13 @@ pub struct Args {
     )]
     gravity: f64,
     #[command(flatten)]
+    processing: ProcessingArgs,
+    #[command(flatten)]
     measures: MeasureArgs,
+    /// Draw one record as SVG: acceleration, velocity, displacement and
+    /// response spectrum.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
     /// JSON for machines.
     #[arg(long)]
     json: bool,
@@ -80,6 +89,7 @@ impl Listed {
 /// One file that was refused.
 struct Refused {
     file: String,
+    code: &'static str,
     line: Option<usize>,
     reason: String,
 }
@@ -90,6 +100,8 @@ struct Listing {
     refused: Vec<Refused>,
     ignored: Vec<Refused>,
     suites: Vec<String>,
+    /// What was done to the records.
+    processing: Option<String>,
 }
 
 /// Runs the command.
@@ -107,7 +119,19 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.paths {
         listing.add(path, options);
     }
+    let processing = args.processing.processing()?;
+    for listed in &mut listing.records {
+        listed.motion = processing.apply(&listed.motion)?;
+    }
+    listing.processing = words(&processing);
     listing.remark();
+    if let Some(path) = &args.plot
+        && listing.refused.is_empty()
+    {
+        let done = listing.processing.as_deref();
+        let svg = plot::svg(&listing.records, done, args.gravity)?;
+        write_atomically(path, svg)?;
+    }
     let found = args.measures.run(&listing.records, args.gravity)?;
     if args.json {
         print(&listing.json(args.gravity, &found))?;
@@ -127,6 +151,7 @@ impl From<&RecordError> for Refused {
     fn from(error: &RecordError) -> Self {
         Self {
             file: error.file().to_owned(),
+            code: error.fault().code(),
             line: error.line(),
             reason: error.to_string(),
         }
@@ -144,7 +169,9 @@ impl Listing {
             Err(error) => {
                 let fault = Fault::Unreadable(error.to_string());
                 let reason = format!("{file}: {fault}");
-                self.refused.push(Refused { file, line: None, reason });
+                let code = fault.code();
+                let refused = Refused { file, code, line: None, reason };
+                self.refused.push(refused);
                 return;
             }
         };
@@ -173,6 +200,7 @@ impl Listing {
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
         let refused = |error: &record::SuiteError| Refused {
             file: error.file().to_owned(),
+            code: error.code(),
             line: error.line(),
             reason: error.to_string(),
         };
@@ -263,6 +291,7 @@ impl Listing {
             let one = |refused: &Refused| {
                 json!({
                     "file": refused.file,
+                    "code": refused.code,
                     "line": refused.line,
                     "reason": refused.reason,
                 })
@@ -272,6 +301,7 @@ impl Listing {
         let records = self.records.iter().enumerate().map(record);
         let mut all = json!({
             "gravity_m_s2": number(gravity_m_s2),
+            "processing": self.processing,
             "records": records.collect::<Vec<_>>(),
             "refused": refused(&self.refused),
             "ignored": refused(&self.ignored),
@@ -322,6 +352,9 @@ impl Listing {
                     motion.pgv_m_s(gravity_m_s2),
                 ),
             );
+        }
+        if let Some(words) = &self.processing {
+            line(&mut text, format_args!("processed: {words}"));
         }
         for listed in &self.records {
             for remark in &listed.remarks {

@@ -8,6 +8,7 @@ mod levels;
 mod nulls;
 mod options;
 mod power;
+mod recorded;
 mod robustness;
 mod suites;
 mod trimming;
@@ -68,6 +69,7 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         options::answer(results, full)?,
         trimming::answer(results)?,
         suites::answer(results)?,
+        recorded::answer(results)?,
     ])
 }
 

@@ -22,6 +22,7 @@ pub mod excitation;
 pub mod fragility;
 pub mod ida;
 pub mod integrator;
+pub mod intensity;
 pub mod number;
 pub mod record;
 pub mod statistics;

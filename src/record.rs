@@ -19,6 +19,7 @@ mod fields;
 mod keys;
 mod knet;
 mod number;
+mod processing;
 mod quality;
 mod resorce;
 mod smc;
@@ -27,6 +28,7 @@ mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
+pub use processing::{Processing, ProcessingError};
 pub use quality::{Remark, duplicates, remarks, remarks_together};
 pub use suite::{
     PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
@@ -163,6 +165,39 @@ pub fn read_all(
     bytes: &[u8],
     options: &ReadOptions,
 ) -> Result<Vec<Record>, RecordError> {
+    read_text(file, bytes, options, |text| {
+        format_of(text).ok_or_else(|| unknown(text))
+    })
+}
+
+/// Reads all components of a file whose format is known, whatever its
+/// content looks like.
+///
+/// # Errors
+/// As [`read_all`].
+///
+/// ```
+/// use rocking::record::{self, Format, ReadOptions};
+/// let text = b"0.1\n0.2\n";
+/// let options = ReadOptions { dt_s: Some(0.01), ..ReadOptions::default() };
+/// assert!(record::read_as(Format::Column, "a", text, &options).is_ok());
+/// assert!(record::read_as(Format::At2, "a", text, &options).is_err());
+/// ```
+pub fn read_as(
+    format: Format,
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+) -> Result<Vec<Record>, RecordError> {
+    read_text(file, bytes, options, |_| Ok(format))
+}
+
+fn read_text(
+    file: &str,
+    bytes: &[u8],
+    options: &ReadOptions,
+    format: impl Fn(&Text<'_>) -> Result<Format, RecordError>,
+) -> Result<Vec<Record>, RecordError> {
     let gravity = options.gravity_m_s2;
     if !(gravity > 0.0 && gravity.is_finite()) {
         return Err(Fault::Gravity(gravity).whole(file));
@@ -174,7 +209,17 @@ pub fn read_all(
     }
     let content = text::decode(file, bytes)?;
     let text = Text::new(file, &content)?;
-    let (format, channels) = read_channels(&text)?;
+    let format = format(&text)?;
+    let channels = match format {
+        Format::Smc => vec![smc::read(&text)?],
+        Format::Knet => vec![knet::read(&text)?],
+        Format::Esm => vec![esm::read(&text)?],
+        Format::Resorce => vec![resorce::read(&text)?],
+        Format::At2 => vec![at2::read(&text)?],
+        Format::Cosmos => cosmos::read(&text)?,
+        Format::Column => vec![column::read(&text)?],
+        Format::Csv => vec![csv::read(&text)?],
+    };
     let several = channels.len() > 1;
     channels
         .into_iter()
@@ -182,32 +227,20 @@ pub fn read_all(
         .collect()
 }
 
-/// The reader is chosen by content; formats that name themselves come first.
-fn read_channels(
-    text: &Text<'_>,
-) -> Result<(Format, Vec<Channel>), RecordError> {
-    let one = |format, channel: Result<Channel, RecordError>| {
-        channel.map(|channel| (format, vec![channel]))
-    };
-    if smc::recognises(text) {
-        one(Format::Smc, smc::read(text))
-    } else if knet::recognises(text) {
-        one(Format::Knet, knet::read(text))
-    } else if esm::recognises(text) {
-        one(Format::Esm, esm::read(text))
-    } else if resorce::recognises(text) {
-        one(Format::Resorce, resorce::read(text))
-    } else if at2::recognises(text) {
-        one(Format::At2, at2::read(text))
-    } else if cosmos::recognises(text) {
-        cosmos::read(text).map(|channels| (Format::Cosmos, channels))
-    } else if column::recognises(text) {
-        one(Format::Column, column::read(text))
-    } else if csv::recognises(text) {
-        one(Format::Csv, csv::read(text))
-    } else {
-        Err(unknown(text))
-    }
+/// The format by content; formats that name themselves come first.
+fn format_of(text: &Text<'_>) -> Option<Format> {
+    let formats: [(fn(&Text<'_>) -> bool, Format); 8] = [
+        (smc::recognises, Format::Smc),
+        (knet::recognises, Format::Knet),
+        (esm::recognises, Format::Esm),
+        (resorce::recognises, Format::Resorce),
+        (at2::recognises, Format::At2),
+        (cosmos::recognises, Format::Cosmos),
+        (column::recognises, Format::Column),
+        (csv::recognises, Format::Csv),
+    ];
+    let found = formats.iter().find(|(recognises, _)| recognises(text));
+    found.map(|(_, format)| *format)
 }
 
 /// Reads the one component of the file at `path`.
@@ -281,6 +314,9 @@ fn complete(
     let unit = match (channel.unit, options.unit) {
         (Some(stated), Some(given)) if stated != given => {
             return Err(fail(Fault::UnitConflict { stated, given }));
+        }
+        (None, None) if format == Format::At2 => {
+            return Err(fail(Fault::UnitMissing));
         }
         (stated, given) => stated.or(given),
     };

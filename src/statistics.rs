@@ -16,6 +16,7 @@ pub mod paired;
 pub mod quantile;
 pub mod rivals;
 pub mod sample;
+pub mod two_sample;
 
 pub use boxplot::Boxplot;
 pub use lognormal::Lognormal;

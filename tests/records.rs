@@ -9,6 +9,13 @@ use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_validation::inputs;
 
+#[path = "records/export.rs"]
+mod export;
+#[path = "records/measures.rs"]
+mod measures;
+#[path = "records/processing.rs"]
+mod processing;
+
 fn real(index: &str) -> Option<PathBuf> {
     let root = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let path = root.join("../shared/records").join(index);

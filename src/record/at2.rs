@@ -41,7 +41,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     while lines.get(first).is_some_and(|line| line.trim().is_empty()) {
         first += 1;
     }
-    let layout = fields::infer(&lines[first.min(lines.len())..]);
+    let layout = fields::infer(&lines[first.min(lines.len())..], 0);
     let samples = fields::read(text, first, lines.len(), layout)?;
     text.check_count(samples.len(), count)?;
     Ok(Channel { dt, unit, samples, label: None })

@@ -1,6 +1,10 @@
 //! One value a line and no header; lines that begin with `#` are comments.
+//!
+//! Nothing in such a file tells a line that was dropped, doubled or changed:
+//! an index's `npts` or `sha256` does. A file that ends within a line is
+//! refused.
 
-use super::number::{self, Reading};
+use super::number::{self, Form, Reading};
 use super::text::{Text, excerpt};
 use super::{Channel, Fault, RecordError};
 
@@ -19,20 +23,21 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         if line.starts_with('#') {
             continue;
         }
-        samples.push(one_number(text, index, line)?);
+        samples.push(one_number(text, index, line)?.0);
     }
+    text.check_ended()?;
     Ok(Channel { dt: None, unit: None, samples, label: None })
 }
 
-/// The number that a line or a field of it is.
+/// The number that a line or a field of it is, and its form.
 pub(super) fn one_number(
     text: &Text<'_>,
     index: usize,
     found: &str,
-) -> Result<f64, RecordError> {
+) -> Result<(f64, Form), RecordError> {
     let found = found.trim();
     match number::read(found) {
-        Reading::Finite(value, _) => Ok(value),
+        Reading::Finite(value, form) => Ok((value, form)),
         Reading::NotFinite => {
             Err(text.on_line(index, Fault::NotFinite(excerpt(found))))
         }

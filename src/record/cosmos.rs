@@ -1,10 +1,14 @@
-//! COSMOS V1 and V2, and the CSMIP V2 it grew from: one or more channels,
-//! each with its header and with fixed-width blocks that say what they are.
+//! COSMOS V1 and V2, and the CSMIP V1 and V2 it grew from: one or more
+//! channels, each with its header and with fixed-width blocks that say what
+//! they are.
 //!
 //! COSMOS: `6000 acceleration pts, approx 60 secs, units=cm/sec2 (4),
 //! Format=(8F10.3)`, the interval in milliseconds as the 34th real header
-//! value. CSMIP: `3000 points of accel data equally spaced at .020 sec, in
-//! cm/sec2. (8f10.3)`. Velocity and displacement blocks are passed over.
+//! value. CSMIP V2: `3000 points of accel data equally spaced at .020 sec, in
+//! cm/sec2. (8f10.3)`. CSMIP V1 (raw): `35000 Accelerogram points at 100
+//! pts/sec in units of g. Format: (8f9.6)`. Velocity and displacement blocks
+//! are passed over. A file of several channels that ends after one of them
+//! leaves no trace of the others.
 
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
@@ -26,7 +30,11 @@ struct Block<'a> {
 
 /// Whether any line announces a block of samples.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
-    text.lines().iter().any(|line| is_cosmos(line) || is_csmip(line))
+    text.lines().iter().any(|line| announces(line))
+}
+
+fn announces(line: &str) -> bool {
+    is_cosmos(line) || is_csmip(line) || is_raw(line)
 }
 
 fn is_cosmos(line: &str) -> bool {
@@ -37,6 +45,18 @@ fn is_cosmos(line: &str) -> bool {
 
 fn is_csmip(line: &str) -> bool {
     text::contains(line, "data equally spaced at")
+}
+
+fn is_raw(line: &str) -> bool {
+    text::contains(line, RAW_RATE) && text::contains(line, RAW_UNIT)
+}
+
+const RAW_RATE: &str = "accelerogram points at";
+const RAW_UNIT: &str = "pts/sec in units of";
+
+/// Whether the line ends a channel's samples.
+fn ends_block(line: &str) -> bool {
+    text::contains(line, "end-of-data") || text::contains(line, "end of data")
 }
 
 /// Reads every acceleration channel.
@@ -54,7 +74,16 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
             index = end;
             continue;
         }
-        if !(is_cosmos(line) || is_csmip(line)) {
+        if ends_block(line) {
+            // Its samples were read just before, or nothing announced them.
+            if index != head || index == 0 {
+                let expected = "samples, announced before their end";
+                let fault = Fault::Header { found: excerpt(line), expected };
+                return Err(text.on_line(index, fault));
+            }
+            head += 1;
+        }
+        if !announces(line) {
             index += 1;
             continue;
         }
@@ -63,6 +92,12 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let samples = fields::read(text, index + 1, end, Some(block.layout))?;
         text.check_count_at(end - 1, samples.len(), block.count)?;
         after_block(text, end)?;
+        let header = &lines[head..index];
+        if let Some(at) = stated_count(header, block.count) {
+            let (found, expected) = (excerpt(header[at]), SAME_COUNT);
+            let fault = Fault::Header { found, expected };
+            return Err(text.on_line(head + at, fault));
+        }
         if text::contains(block.quantity, "accel") {
             let unit =
                 AccelerationUnit::parse(block.unit).ok_or_else(|| {
@@ -73,16 +108,21 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
                 Some(dt.ok_or_else(|| {
                     text.on_line(index, Fault::IntervalMissing)
                 })?);
-            let label = Some(label(&lines[head..index], channels.len() + 1));
+            let label = Some(label(header, channels.len() + 1));
             channels.push(Channel { dt, unit: Some(unit), samples, label });
         }
         head = end;
         index = end;
     }
+    let rest = (head..lines.len()).find(|&i| {
+        let line = lines[i].trim_start();
+        !line.is_empty() && !line.starts_with('|')
+    });
+    if rest.is_some() && head > 0 {
+        return Err(text.at_end(Fault::Ends("samples after a header")));
+    }
     if channels.is_empty() {
-        let first = (0..lines.len())
-            .find(|&i| is_cosmos(lines[i]) || is_csmip(lines[i]))
-            .unwrap_or(0);
+        let first = lines.iter().position(|line| announces(line)).unwrap_or(0);
         let fault = Fault::Quantity(excerpt(lines[first]));
         return Err(text.on_line(first, fault));
     }
@@ -120,6 +160,18 @@ fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
     Ok(())
 }
 
+const SAME_COUNT: &str = "the number of points that announces the samples";
+
+/// Place of the header line that states another number of points.
+fn stated_count(header: &[&str], count: usize) -> Option<usize> {
+    header.iter().position(|line| {
+        let rest = line.trim_start().strip_prefix("No. of Points");
+        let rest = rest.map(|r| r.trim_start_matches([' ', '=']));
+        rest.and_then(|r| r.split_ascii_whitespace().next())
+            .is_some_and(|stated| stated.parse() != Ok(count))
+    })
+}
+
 fn announced<'a>(
     text: &Text<'a>,
     index: usize,
@@ -147,6 +199,14 @@ fn announced<'a>(
         let unit = unit.split(['(', ',']).next().unwrap_or("").trim();
         return Ok(Block { count, quantity, unit, layout, dt_s: None });
     }
+    if is_raw(line) {
+        return raw(
+            text,
+            index,
+            Block { count, quantity: "accel", unit: "", layout, dt_s: None },
+            rest,
+        );
+    }
     let spaced = "equally spaced at";
     let at = lower.find(spaced).unwrap_or(0);
     let quantity = &rest[..at];
@@ -168,6 +228,30 @@ fn announced<'a>(
     Ok(Block { count, quantity, unit, layout, dt_s: Some(dt_s) })
 }
 
+/// The block of a raw file, whose line states a rate.
+fn raw<'a>(
+    text: &Text<'a>,
+    index: usize,
+    block: Block<'a>,
+    rest: &'a str,
+) -> Result<Block<'a>, RecordError> {
+    let lower = rest.to_ascii_lowercase();
+    let after = |part: &str| {
+        let from = lower.find(part).map_or(rest.len(), |at| at + part.len());
+        rest[from..].split_ascii_whitespace().next().unwrap_or("")
+    };
+    let unit = after(RAW_UNIT).trim_end_matches(['.', ',']);
+    match number::read(after(RAW_RATE)) {
+        Reading::Finite(rate, _) if rate > 0.0 => {
+            Ok(Block { unit, dt_s: Some(1.0 / rate), ..block })
+        }
+        _ => {
+            let (found, expected) = (excerpt(rest), "a rate in points/s");
+            Err(text.on_line(index, Fault::Header { found, expected }))
+        }
+    }
+}
+
 /// The Fortran format of one kind of number in a line: `(8F10.3)`,
 /// `(8(1PE10.4E1))`; after the word `format`, or at the end.
 fn layout(line: &str) -> Option<Layout> {
@@ -184,8 +268,7 @@ fn layout(line: &str) -> Option<Layout> {
         .chars()
         .take_while(char::is_ascii_digit)
         .collect();
-    let layout =
-        Layout { width: width.parse().ok()?, per_line: repeat.parse().ok()? };
+    let layout = Layout::even(repeat.parse().ok()?, width.parse().ok()?);
     let sane = (1..=64).contains(&layout.width)
         && (1..=64).contains(&layout.per_line);
     sane.then_some(layout)
@@ -217,6 +300,8 @@ fn real_header(
     if values.len() != count {
         return Err(header("as many values as the line says"));
     }
+    // One value more would have shifted those after it.
+    after_block(text, end)?;
     let milliseconds = values[INTERVAL_PLACE - 1];
     if milliseconds > 0.0 {
         return Ok((milliseconds / 1000.0, end));

@@ -1,7 +1,9 @@
 //! Two columns, time and acceleration, with one header line or none.
 //!
 //! Separator: semicolon, comma, tab or blanks. Lines that begin with `#` are
-//! comments. The first sample counts as t = 0, whatever its time.
+//! comments. The first sample counts as t = 0, whatever its time. Lines
+//! dropped at either end leave no trace: an index's `npts` tells. A file that
+//! ends within a line is refused.
 
 use super::column::one_number;
 use super::number;
@@ -55,13 +57,13 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
             let fault = Fault::Number { found: excerpt(line), expected };
             return Err(text.on_line(index, fault));
         };
-        times.push(one_number(text, index, time)?);
-        samples.push(one_number(text, index, value)?);
+        let (time_s, form) = one_number(text, index, time)?;
+        decimals = decimals.max(places(time, form));
+        times.push(time_s);
+        samples.push(one_number(text, index, value)?.0);
         lines_of.push(index);
-        if let number::Reading::Finite(_, form) = number::read(time) {
-            decimals = decimals.max(places(time, form));
-        }
     }
+    text.check_ended()?;
     let dt = step(text, &times, &lines_of, decimals)?;
     Ok(Channel { dt: Some(dt), unit, samples, label: None })
 }

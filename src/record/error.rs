@@ -122,6 +122,9 @@ pub enum Fault {
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),
+    /// A format that names its unit does not.
+    #[error("no unit in the file: expected it to be given")]
+    UnitMissing,
     /// The caller's unit and the file's differ.
     #[error(
         "unit {given} was given: expected {stated}, which the file states"
@@ -202,4 +205,35 @@ pub enum Fault {
     /// The samples make no accelerogram.
     #[error(transparent)]
     Samples(#[from] AccelerogramError),
+}
+
+impl Fault {
+    /// Short name of the reason, the same in every version.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Unreadable(_) => "unreadable",
+            Self::Empty => "empty",
+            Self::NotText { .. } => "not-text",
+            Self::UnknownFormat { .. } => "unknown-format",
+            Self::Header { .. } => "header",
+            Self::Ends(_) => "ends",
+            Self::Quantity(_) => "quantity",
+            Self::Vertical(_) => "vertical",
+            Self::Unit(_) => "unit",
+            Self::UnitMissing => "unit-missing",
+            Self::UnitConflict { .. } => "unit-conflict",
+            Self::Gravity(_) => "gravity",
+            Self::IntervalMissing => "interval-missing",
+            Self::Interval(_) => "interval",
+            Self::IntervalConflict { .. } => "interval-conflict",
+            Self::Count { .. } => "count",
+            Self::Number { .. } => "number",
+            Self::NotFinite(_) => "not-finite",
+            Self::Step { .. } => "step",
+            Self::Peak { .. } => "peak",
+            Self::SeveralChannels(_) => "several-channels",
+            Self::Samples(_) => "samples",
+        }
+    }
 }

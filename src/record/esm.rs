@@ -2,6 +2,7 @@
 //! `KEY: value`, then one sample a line.
 
 use super::column::one_number;
+use super::fields::Forms;
 use super::text::{self, Text, excerpt};
 use super::{Channel, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
@@ -34,9 +35,13 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     };
     let header = text.lines().iter().take_while(|l| is_key(l)).count();
     let mut samples = Vec::new();
+    let mut forms = Forms::default();
     for (index, line) in text.lines().iter().enumerate().skip(header) {
-        samples.push(one_number(text, index, line)?);
+        let (sample, form) = one_number(text, index, line)?;
+        forms.push(form);
+        samples.push(sample);
     }
+    forms.check_end(text)?;
     text.check_count(samples.len(), count)?;
     let peak = "PGA_CM/S^2";
     let gal = unit == AccelerationUnit::CentimetrePerSecondSquared;

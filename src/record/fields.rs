@@ -14,23 +14,42 @@ pub(super) struct Layout {
     pub(super) width: usize,
     /// Numbers in a full line.
     pub(super) per_line: usize,
+    /// Characters by which the first field of a line is narrower.
+    pub(super) missing: usize,
 }
 
-/// The layout that at least half of the lines have, if the numbers end at
-/// the multiples of one width; `None` for free text.
+impl Layout {
+    /// Fields of one width.
+    pub(super) const fn even(per_line: usize, width: usize) -> Self {
+        Self { width, per_line, missing: 0 }
+    }
+
+    /// Bytes of field `k` in a line.
+    fn field(self, k: usize) -> std::ops::Range<usize> {
+        let end = (k + 1) * self.width - self.missing;
+        let start = if k == 0 { 0 } else { end - self.width };
+        start..end
+    }
+}
+
+/// The layout that at least half of the lines have, if the numbers end one
+/// width apart, the first field being `missing` characters narrower; `None`
+/// for free text.
 ///
-/// The last line may be short. A file of one number a line is free text:
-/// its width says nothing.
-pub(super) fn infer(lines: &[&str]) -> Option<Layout> {
+/// The last line may be short. A file of one number a line is free text: its
+/// width says nothing.
+pub(super) fn infer(lines: &[&str], missing: usize) -> Option<Layout> {
     let full = if lines.len() > 1 { &lines[..lines.len() - 1] } else { lines };
     let mut votes: BTreeMap<Layout, usize> = BTreeMap::new();
     for line in full {
         let Ok(tokens) = number::tokens(line.as_bytes()) else { continue };
-        let Some(first) = tokens.first() else { continue };
-        let layout = Layout { width: first.end, per_line: tokens.len() };
-        let in_step =
-            tokens.iter().zip(1..).all(|(t, k)| t.end == k * layout.width);
-        if in_step && layout.per_line > 1 {
+        let [first, second, ..] = tokens[..] else { continue };
+        let width = second.end - first.end;
+        let layout = Layout { width, per_line: tokens.len(), missing };
+        let mut fields = tokens.iter().zip(0..);
+        if first.end + missing == width
+            && fields.all(|(token, k)| token.end == layout.field(k).end)
+        {
             *votes.entry(layout).or_default() += 1;
         }
     }
@@ -109,9 +128,9 @@ impl Line<'_, '_> {
         last: bool,
         samples: &mut Vec<f64>,
     ) -> Result<(), RecordError> {
-        let Layout { width, per_line } = layout;
+        let Layout { width, per_line, missing } = layout;
         let line = self.text.lines()[self.index].trim_end();
-        let full = width * per_line;
+        let full = width * per_line - missing;
         if line.len() > full {
             // The text may hold a character of several bytes there.
             let rest = line.get(full..).unwrap_or(line);
@@ -119,14 +138,15 @@ impl Line<'_, '_> {
                 format!("{per_line} numbers of {width} characters a line");
             return Err(self.refuse(full, rest, expected));
         }
-        let count = if last { line.len().div_ceil(width) } else { per_line };
-        for start in (0..count).map(|k| k * width) {
-            let field = line.get(start..line.len().min(start + width));
-            let field = field.unwrap_or("");
+        let written = (line.len() + missing).div_ceil(width);
+        let count = if last { written } else { per_line };
+        for place in (0..count).map(|k| layout.field(k)) {
+            let end = line.len().min(place.end);
+            let field = line.get(place.start..end).unwrap_or("");
             let found = field.trim_start_matches(' ');
             let expected = || format!("a number of {width} characters");
-            let byte = start + field.len() - found.len();
-            if field.len() < width {
+            let byte = place.start + field.len() - found.len();
+            if field.len() < place.len() {
                 return Err(self.refuse(byte, found, expected()));
             }
             samples.push(self.number(byte, found, expected)?);
@@ -151,6 +171,44 @@ impl Line<'_, '_> {
             at += part.len() + 1;
         }
         Ok(())
+    }
+}
+
+/// The forms of numbers that are read one a line.
+#[derive(Default)]
+pub(super) struct Forms {
+    count: usize,
+    before: Option<Form>,
+    varied: bool,
+    last: Option<Form>,
+}
+
+impl Forms {
+    /// Adds the next number's form.
+    pub(super) fn push(&mut self, form: Form) {
+        self.count += 1;
+        if let Some(last) = self.last.replace(form) {
+            self.varied |= *self.before.get_or_insert(last) != last;
+        }
+    }
+
+    /// Refuses a text that was cut within its last number, where that can be
+    /// told: no line end, and fewer digits than all numbers before.
+    pub(super) fn check_end(
+        &self,
+        text: &Text<'_>,
+    ) -> Result<(), RecordError> {
+        let (Some(before), Some(last)) = (self.before, self.last) else {
+            return Ok(());
+        };
+        let shorter =
+            last.decimals < before.decimals || last.exponent < before.exponent;
+        if self.varied || text.is_ended() || self.count < 4 || !shorter {
+            return Ok(());
+        }
+        let line = text.lines().last().copied().unwrap_or("");
+        let (found, expected) = (excerpt(line), describe(before));
+        Err(text.at_end(Fault::Number { found, expected }))
     }
 }
 

@@ -1,13 +1,17 @@
 //! K-NET and KiK-net ASCII: 17 lines of header, then integer counts in
-//! 8I9 or free fields, to be multiplied by a scale factor in gal.
+//! I8,7I9 or free fields, to be multiplied by a scale factor in gal.
 //!
 //! The counts carry the instrument's offset; it is read as it is and shows
-//! in the quality control.
+//! in the quality control. The header's maximum is that of the record
+//! without its mean, and is checked.
 
 use super::number::{self, Reading};
 use super::text::{Text, excerpt};
 use super::{Channel, Fault, RecordError, fields, keys};
 use crate::units::AccelerationUnit;
+
+/// The key of the maximum, in two spellings.
+const MAXIMUM: [&str; 2] = ["Max. Acc. (gal)", "Max Acc. (gal)"];
 
 /// Whether the header has the format's keys.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
@@ -23,7 +27,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let (memo, _) = keys::value(text, "Memo.")?;
     let first = memo + 1;
     let end = text.lines().len();
-    let layout = fields::infer(&text.lines()[first..]);
+    let lines = &text.lines()[first..];
+    let layout = fields::infer(lines, 1).or_else(|| fields::infer(lines, 0));
     let counts = fields::read(text, first, end, layout)?;
     let expected = frequency_hz * duration_s;
     if !(expected <= 1e9 && expected.fract() == 0.0) {
@@ -34,10 +39,28 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         return Err(text.on_line(memo, fault));
     }
     text.check_count(counts.len(), expected as usize)?;
-    let samples = counts.iter().map(|count| count * scale).collect();
+    let samples: Vec<f64> = counts.iter().map(|count| count * scale).collect();
+    check_maximum(text, &samples)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
     let label = keys::find(text, "Dir.").map(|(_, v)| v.to_owned());
     Ok(Channel { dt: Some(1.0 / frequency_hz), unit, samples, label })
+}
+
+/// The header's maximum acceleration against the samples less their mean.
+fn check_maximum(text: &Text<'_>, samples: &[f64]) -> Result<(), RecordError> {
+    let key = MAXIMUM.iter().find(|key| keys::find(text, key).is_some());
+    let Some(key) = key else { return Ok(()) };
+    let expected = keys::positive(text, key, "")?;
+    let mut sum = 0.0;
+    for sample in samples {
+        sum += sample;
+    }
+    let mean = sum / samples.len() as f64;
+    let moving: Vec<f64> = samples.iter().map(|a| a - mean).collect();
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    // The mean may be that of a part, and the maximum is rounded.
+    let allowed = 0.01 * expected + 0.001;
+    keys::check_peak(text, &moving, expected, allowed, unit)
 }
 
 /// Gal per count: `7845(gal)/8223790`.

@@ -6,7 +6,7 @@ use super::{Channel, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 const HEADER_LINES: usize = 40;
-const LAYOUT: Layout = Layout { width: 14, per_line: 5 };
+const LAYOUT: Layout = Layout::even(5, 14);
 
 /// Whether the header has RESORCE's keys.
 pub(super) fn recognises(text: &Text<'_>) -> bool {

@@ -2,17 +2,16 @@
 //! comments, then samples in 8E10.4, in cm/s2.
 
 use super::fields::{self, Layout};
-use super::number::{self, Reading};
 use super::text::{Text, excerpt};
 use super::{Channel, Fault, RecordError};
 use crate::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 11;
-const INTEGERS: Layout = Layout { width: 10, per_line: 8 };
+const INTEGERS: Layout = Layout::even(8, 10);
 const INTEGER_LINES: usize = 6;
-const REALS: Layout = Layout { width: 15, per_line: 5 };
+const REALS: Layout = Layout::even(5, 15);
 const REAL_LINES: usize = 10;
-const SAMPLES: Layout = Layout { width: 10, per_line: 8 };
+const SAMPLES: Layout = Layout::even(8, 10);
 
 const KINDS: [&str; 6] = [
     "1 UNCORRECTED ACCELEROGRAM",
@@ -59,7 +58,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     }
     let first = comments.saturating_add(count(16)?);
     let expected = count(17)?;
-    let dt = interval(text, reals)?;
+    let reals = fields::read(text, reals, comments, Some(REALS))?;
+    let dt = interval(text, &reals)?;
     if first >= lines.len() {
         return Err(text.at_end(Fault::Count { found: 0, expected }));
     }
@@ -70,18 +70,17 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
 }
 
 /// The interval from the second real value, samples per second.
-fn interval(text: &Text<'_>, reals: usize) -> Result<f64, RecordError> {
-    let line = text.lines()[reals];
-    let from = REALS.width;
-    let found = line.get(from..2 * from).unwrap_or("").trim();
-    match number::read(found) {
+fn interval(text: &Text<'_>, reals: &[f64]) -> Result<f64, RecordError> {
+    match reals.get(1) {
         // The null value is 1.7e38.
-        Reading::Finite(rate, _) if rate > 0.0 && rate < 1e6 => Ok(1.0 / rate),
-        _ => {
-            let found = excerpt(found);
+        Some(&rate) if rate > 0.0 && rate < 1e6 => Ok(1.0 / rate),
+        found => {
+            let index = TEXT_LINES + INTEGER_LINES;
+            let found =
+                found.map_or_else(String::new, |rate| format!("{rate:e}"));
             let expected = "a positive number of samples per second";
             let fault = Fault::Header { found, expected };
-            Err(text.at(reals, from, fault))
+            Err(text.at(index, REALS.width, fault))
         }
     }
 }

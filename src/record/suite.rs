@@ -12,7 +12,10 @@ mod survey;
 pub use error::SuiteError;
 pub use survey::{Survey, folder_files};
 
-use super::{Accelerogram, Format, ReadOptions, RecordError};
+use super::{
+    Accelerogram, Format, Processing, ProcessingError, ReadOptions,
+    RecordError,
+};
 use crate::units::AccelerationUnit;
 
 /// Relative difference allowed between an index's PGA or PGV and the
@@ -133,6 +136,20 @@ impl Suite {
         file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
         Survey::of_index(path, bytes, options, file_bytes)?.into_suite()
+    }
+
+    /// The suite with every record processed.
+    ///
+    /// # Errors
+    /// [`ProcessingError`] for the first record that cannot be.
+    pub fn processed(
+        mut self,
+        processing: &Processing,
+    ) -> Result<Self, ProcessingError> {
+        for member in &mut self.members {
+            member.accelerogram = processing.apply(&member.accelerogram)?;
+        }
+        Ok(self)
     }
 
     /// Name of the folder or index, without its ending.

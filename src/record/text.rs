@@ -8,6 +8,7 @@ use super::{Fault, RecordError};
 pub(super) struct Text<'a> {
     file: &'a str,
     lines: Vec<&'a str>,
+    ended: bool,
 }
 
 /// Bytes as text: UTF-8, else Latin-1 (station names); control characters
@@ -50,17 +51,18 @@ impl<'a> Text<'a> {
         text: &'a str,
     ) -> Result<Self, RecordError> {
         let separator = if text.contains('\n') { '\n' } else { '\r' };
-        let mut lines: Vec<&str> = text
-            .split(separator)
-            .map(|line| line.trim_end_matches('\r'))
-            .collect();
-        while lines.last().is_some_and(|line| line.trim().is_empty()) {
+        // Counted first: a vector that grows takes three times the room.
+        let count = text.matches(separator).count();
+        let mut lines = Vec::with_capacity(count + 1);
+        let split = text.split(separator);
+        lines.extend(split.map(|line| line.trim_end_matches('\r')));
+        while lines.last().is_some_and(|line: &&str| line.trim().is_empty()) {
             lines.pop();
         }
         if lines.is_empty() {
             return Err(Fault::Empty.whole(file));
         }
-        Ok(Self { file, lines })
+        Ok(Self { file, lines, ended: text.ends_with(['\n', '\r']) })
     }
 
     /// Name of the file.
@@ -72,6 +74,20 @@ impl<'a> Text<'a> {
     /// left out. Index i is line i + 1.
     pub(super) fn lines(&self) -> &[&'a str] {
         &self.lines
+    }
+
+    /// Whether the text ends with the end of a line.
+    pub(super) fn is_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Refuses a text that ends within a line, for formats in which nothing
+    /// else tells a file that was cut.
+    pub(super) fn check_ended(&self) -> Result<(), RecordError> {
+        if self.ended {
+            return Ok(());
+        }
+        Err(self.at_end(Fault::Ends("the end of this line: was it cut?")))
     }
 
     /// A fault on the line of index `index`.

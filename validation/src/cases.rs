@@ -296,6 +296,7 @@ pub const FAMILIES: &[(&str, &str)] = &[
     ),
     ("free-rocking", include_str!("../cases/free-rocking.toml")),
     ("hard-cases", include_str!("../cases/hard-cases.toml")),
+    ("intensity", include_str!("../cases/intensity.toml")),
     ("inversion", include_str!("../cases/inversion.toml")),
     ("invariants", include_str!("../cases/invariants.toml")),
     ("lilliefors", include_str!("../cases/lilliefors.toml")),

@@ -15,6 +15,7 @@ pub mod excitation;
 pub mod fragility;
 pub mod ida;
 pub mod lilliefors;
+pub mod processing;
 pub mod quantile;
 pub mod records;
 pub mod respond;
@@ -22,6 +23,7 @@ pub mod samples;
 pub mod scene;
 pub mod speed;
 pub mod study;
+pub mod suite;
 pub mod way;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
@@ -46,6 +48,7 @@ enum Command {
     Quantile(quantile::Args),
     Speed(speed::Args),
     Study(study::Args),
+    Suite(suite::Args),
     /// Runs the declared cases and writes or checks their results.
     Validate(validate::Args),
 }
@@ -150,6 +153,7 @@ pub fn run() -> ExitCode {
         Command::Quantile(args) => quantile::run(&args),
         Command::Speed(args) => speed::run(&args),
         Command::Study(args) => study::run(&args),
+        Command::Suite(args) => suite::run(&args),
         Command::Validate(args) => validate::run(&args),
     };
     match outcome {

@@ -46,3 +46,56 @@ pub fn write_atomically(
         fail(source)
     })
 }
+
+/// Writes `files` (paths below `folder`, and contents) into a new folder by
+/// way of a hidden one beside it: all of them or nothing.
+///
+/// # Errors
+/// [`WriteError`] for a folder that is there and not empty, and whatever the
+/// system says; the hidden folder is removed.
+pub fn write_new_folder(
+    folder: &Path,
+    files: impl IntoIterator<Item = (PathBuf, Vec<u8>)>,
+) -> Result<(), WriteError> {
+    let fail = |path: &Path, source| WriteError { path: path.into(), source };
+    let name = folder.file_name();
+    let name = name.ok_or_else(|| {
+        fail(folder, io::Error::other("not the name of a folder"))
+    })?;
+    let empty = || -> io::Result<bool> {
+        match fs::read_dir(folder) {
+            Ok(mut entries) => Ok(entries.next().is_none()),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(true),
+            Err(error) => Err(error),
+        }
+    };
+    if !empty().map_err(|error| fail(folder, error))? {
+        let error = io::Error::from(io::ErrorKind::DirectoryNotEmpty);
+        return Err(fail(folder, error));
+    }
+    let mut hidden = std::ffi::OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".{}.part", std::process::id()));
+    let part = folder.with_file_name(hidden);
+    let attempt = || {
+        fs::create_dir_all(&part).map_err(|error| fail(&part, error))?;
+        for (inner, content) in files {
+            let path = part.join(inner);
+            let write = || {
+                fs::create_dir_all(path.parent().unwrap_or(&part))?;
+                let mut file = fs::File::create(&path)?;
+                file.write_all(&content)?;
+                file.sync_all()
+            };
+            write().map_err(|error| fail(&path, error))?;
+        }
+        // Onto an empty folder, or where there is none.
+        fs::rename(&part, folder).map_err(|error| fail(folder, error))
+    };
+    let outcome = attempt();
+    if outcome.is_err() {
+        // The error that matters is the first one.
+        let _ = fs::remove_dir_all(&part);
+    }
+    outcome
+}

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use rocking::record::{
@@ -58,19 +58,34 @@ pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
         return Survey::read(path, &options);
     }
     let shown = path.display().to_string();
-    let unreadable = |reason: String| SuiteError::Unreadable {
+    let file = File::open(path).map_err(|e| SuiteError::Unreadable {
         path: shown.clone(),
+        reason: e.to_string(),
+    })?;
+    survey_zip(&shown, file, &options)
+}
+
+/// Reads every record of the zip `archive`, which `shown` names in messages.
+///
+/// # Errors
+/// As [`survey`].
+pub fn survey_zip(
+    shown: &str,
+    archive: impl Read + Seek,
+    options: &SuiteOptions,
+) -> Result<Survey, SuiteError> {
+    let unreadable = |reason: String| SuiteError::Unreadable {
+        path: shown.to_owned(),
         reason,
     };
-    let file = File::open(path).map_err(|e| unreadable(e.to_string()))?;
     let mut archive =
-        ZipArchive::new(file).map_err(|e| unreadable(e.to_string()))?;
+        ZipArchive::new(archive).map_err(|e| unreadable(e.to_string()))?;
     let mut names = Vec::new();
     for name in archive.file_names() {
         names.push(name.map_err(|e| unreadable(e.to_string()))?.into_owned());
     }
     let (base, names) = contents(names);
-    Survey::of_files(&shown, &names, &options, |name| {
+    Survey::of_files(shown, &names, options, |name| {
         unpacked(&mut archive, &format!("{base}{name}")).map_err(|reason| {
             RecordError::unreadable(&format!("{shown}/{name}"), reason)
         })
@@ -109,7 +124,7 @@ pub fn is_zip(path: &Path) -> bool {
 
 /// One file of an archive, if it is no larger than records are.
 fn unpacked(
-    archive: &mut ZipArchive<File>,
+    archive: &mut ZipArchive<impl Read + Seek>,
     name: &str,
 ) -> Result<Vec<u8>, String> {
     let file = archive.by_name(name).map_err(|e| e.to_string())?;

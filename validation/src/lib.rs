@@ -10,6 +10,7 @@ pub mod diff;
 pub mod drawing;
 pub mod engine;
 pub mod evidence;
+pub mod export;
 pub mod figures;
 pub mod files;
 pub mod inputs;

@@ -7,6 +7,7 @@ mod edges;
 mod estimate;
 mod fates;
 mod hard;
+mod intensity;
 mod invariance;
 mod points;
 mod precise;
@@ -18,6 +19,7 @@ mod solution;
 mod spectrum;
 mod squares;
 mod statistics;
+mod velocity_pulse;
 mod wrong;
 
 pub use digits::{DigitsError, Reach, Row, digits, digits_csv};
@@ -169,11 +171,14 @@ pub const METHODS: &[(&str, Run)] = &[
     ("quantiles", statistics::quantiles),
     ("tests-of-normality", statistics::tests),
     ("paired-procedures", statistics::paired),
+    ("two-samples", statistics::two_samples),
     ("inversion", statistics::inversion),
     ("equations-5-to-7", statistics::transforms),
     ("rejected-share", statistics::rejection),
     ("coverage", statistics::coverage),
     ("bias", statistics::bias),
+    ("intensity", intensity::measures),
+    ("velocity-pulse", velocity_pulse::pulses),
 ];
 
 /// Runs a case's method, on the core or on a wrong model.

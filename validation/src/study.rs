@@ -31,7 +31,8 @@ use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
 use rocking::ida::IdaError;
 use rocking::integrator::SceneError;
-use rocking::record::{AccelerogramError, SuiteError};
+use rocking::intensity::IntensityError;
+use rocking::record::{AccelerogramError, ProcessingError, SuiteError};
 use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
 use rocking::statistics::paired::PairedError;
@@ -49,6 +50,9 @@ pub enum StudyError {
     /// A suite that was refused.
     #[error(transparent)]
     Suite(#[from] SuiteError),
+    /// A record that cannot be processed as asked.
+    #[error(transparent)]
+    Processing(#[from] ProcessingError),
     /// A synthetic record that is none.
     #[error(transparent)]
     Accelerogram(#[from] AccelerogramError),
@@ -61,6 +65,9 @@ pub enum StudyError {
     /// A run that cannot be done.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// A record whose intensity cannot be measured.
+    #[error(transparent)]
+    Intensity(#[from] IntensityError),
     /// A curve that cannot be inverted.
     #[error(transparent)]
     Capacity(#[from] CapacityError),

@@ -109,6 +109,21 @@ impl SuiteError {
         }
     }
 
+    /// Short name of the reason, the same in every version.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Record(error) => error.fault().code(),
+            Self::Unreadable { .. } => "unreadable",
+            Self::Empty { .. } => "empty",
+            Self::Index { .. } => "index",
+            Self::Mismatch { .. } => "mismatch",
+            Self::Unverifiable { .. } => "unverifiable",
+            Self::SameName { .. } => "same-name",
+            Self::Pair { .. } => "pair",
+        }
+    }
+
     /// Line of that file, counted from 1.
     #[must_use]
     pub fn line(&self) -> Option<usize> {

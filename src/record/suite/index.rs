@@ -1,6 +1,6 @@
 //! The index of a suite: a CSV file with a header, columns by name.
 
-use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember, SuiteOptions};
 use crate::record::text::{self, excerpt};
@@ -9,17 +9,27 @@ use crate::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
 pub(super) struct Index {
-    columns: Vec<String>,
+    columns: Rc<[String]>,
     rows: Vec<Row>,
+    paired: bool,
 }
 
 /// One row of an index.
 pub(super) struct Row {
-    path: String,
+    path: Rc<str>,
     line: usize,
     file: String,
-    cells: BTreeMap<String, String>,
+    /// PEER's number stands for a column `pair`.
+    pair: Option<String>,
+    columns: Rc<[String]>,
+    cells: Vec<String>,
 }
+
+/// Characters of a column's name, at most: every record carries the names.
+const LONGEST_NAME: usize = 64;
+
+/// Records of an index, at most: twice the largest database of its kind.
+const MOST_ROWS: usize = 50_000;
 
 /// Column of PEER's search results that names the first component.
 const PEER_FIRST: &str = "Horizontal-1 Acc. Filename";
@@ -96,31 +106,39 @@ impl Index {
             line.contains(PEER_FIRST) && line.contains(PEER_NUMBER)
         });
         let head = peer.unwrap_or(0);
-        let mut table = Table { path, columns: Vec::new(), lines: &lines };
-        table.columns = table.head(head)?;
+        let columns = Rc::from([]);
+        let mut table = Table { path: path.into(), columns, lines: &lines };
+        table.columns = table.head(head)?.into();
         let mut rows = Vec::new();
         for (line, text) in lines.iter().enumerate().skip(head + 1) {
             let blank = text.trim_matches([',', ' ', '\t']).is_empty();
             if blank && peer.is_some() {
                 break;
             }
+            if rows.len() >= MOST_ROWS {
+                let expected = format!("at most {MOST_ROWS} records");
+                return Err(table.refuse(line, text, &expected));
+            }
             if !blank {
                 let cells = table.cells(line)?;
                 match peer {
-                    None => rows.push(table.row(line, cells)?),
+                    None => rows.push(table.plain_row(line, cells)?),
                     Some(_) => rows.extend(table.peer_rows(line, &cells)?),
                 }
             }
         }
-        if peer.is_some() {
-            table.columns.push("pair".to_owned());
-        }
-        Ok(Self { columns: table.columns, rows })
+        let paired = peer.is_some() || table.place("pair").is_some();
+        Ok(Self { columns: table.columns, rows, paired })
     }
 
     /// Rows in the index's order.
-    pub(super) fn rows(&self) -> &[Row] {
-        &self.rows
+    pub(super) fn into_rows(self) -> Vec<Row> {
+        self.rows
+    }
+
+    /// Whether rows name their pair.
+    pub(super) fn is_paired(&self) -> bool {
+        self.paired
     }
 
     /// Whether there is a column `name`.
@@ -131,15 +149,15 @@ impl Index {
 
 /// Lines under a head of column names.
 struct Table<'a> {
-    path: &'a str,
-    columns: Vec<String>,
+    path: Rc<str>,
+    columns: Rc<[String]>,
     lines: &'a [&'a str],
 }
 
 impl Table<'_> {
     fn refuse(&self, line: usize, found: &str, expected: &str) -> SuiteError {
         SuiteError::Index {
-            path: self.path.to_owned(),
+            path: self.path.to_string(),
             line: line + 1,
             found: excerpt(found),
             expected: expected.to_owned(),
@@ -156,6 +174,10 @@ impl Table<'_> {
                     "a folder, or an index: a CSV file with a column `file`";
                 self.refuse(line, text, expected)
             })?;
+        if let Some(long) = columns.iter().find(|c| c.len() > LONGEST_NAME) {
+            let expected = format!("names of at most {LONGEST_NAME} bytes");
+            return Err(self.refuse(line, long, &expected));
+        }
         let mut sorted: Vec<&String> =
             columns.iter().filter(|name| !name.is_empty()).collect();
         sorted.sort_unstable();
@@ -167,10 +189,12 @@ impl Table<'_> {
         }
     }
 
-    fn cells(
-        &self,
-        line: usize,
-    ) -> Result<BTreeMap<String, String>, SuiteError> {
+    /// Place of the column `name`.
+    fn place(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column == name)
+    }
+
+    fn cells(&self, line: usize) -> Result<Vec<String>, SuiteError> {
         let text = self.lines[line];
         let mut cells = split(text).ok_or_else(|| {
             let expected = "cells separated by commas, quotes closed";
@@ -188,36 +212,44 @@ impl Table<'_> {
             let found = format!("{} cells", cells.len());
             return Err(self.refuse(line, &found, &expected));
         }
-        Ok(self.columns.iter().cloned().zip(cells).collect())
+        Ok(cells)
+    }
+
+    fn plain_row(
+        &self,
+        line: usize,
+        cells: Vec<String>,
+    ) -> Result<Row, SuiteError> {
+        let file = self.place("file").map_or("", |place| &cells[place]);
+        self.row(line, file.to_owned(), None, cells)
     }
 
     fn row(
         &self,
         line: usize,
-        mut cells: BTreeMap<String, String>,
+        file: String,
+        pair: Option<String>,
+        cells: Vec<String>,
     ) -> Result<Row, SuiteError> {
-        let file = cells.remove("file").unwrap_or_default();
         if file.is_empty() {
             return Err(self.refuse(line, &file, "the name of a file"));
         }
-        Ok(Row { path: self.path.to_owned(), line: line + 1, file, cells })
+        let (path, columns) = (self.path.clone(), self.columns.clone());
+        Ok(Row { path, line: line + 1, file, pair, columns, cells })
     }
 
     /// The two horizontal components of a row of PEER's search results.
     fn peer_rows(
         &self,
         line: usize,
-        cells: &BTreeMap<String, String>,
+        cells: &[String],
     ) -> Result<Vec<Row>, SuiteError> {
-        let cell = |name| cells.get(name).map_or("", String::as_str);
+        let cell = |name| self.place(name).map_or("", |i| cells[i].as_str());
         let files = [cell(PEER_FIRST), cell(PEER_SECOND)];
         let there = |file: &&str| !file.trim_matches(['-', ' ']).is_empty();
         let pair = format!("RSN{}", cell(PEER_NUMBER));
         let row = |file: &str| {
-            let mut cells = cells.clone();
-            cells.insert("file".to_owned(), file.to_owned());
-            cells.insert("pair".to_owned(), pair.clone());
-            self.row(line, cells)
+            self.row(line, file.to_owned(), Some(pair.clone()), cells.to_vec())
         };
         files.into_iter().filter(there).map(row).collect()
     }
@@ -231,12 +263,13 @@ impl Row {
 
     /// A cell that is there and not empty.
     fn cell(&self, name: &str) -> Option<&str> {
-        self.cells.get(name).map(String::as_str).filter(|c| !c.is_empty())
+        let place = self.columns.iter().position(|column| column == name)?;
+        Some(self.cells[place].as_str()).filter(|cell| !cell.is_empty())
     }
 
     fn refuse(&self, found: &str, expected: &str) -> SuiteError {
         SuiteError::Index {
-            path: self.path.clone(),
+            path: self.path.to_string(),
             line: self.line,
             found: excerpt(found),
             expected: expected.to_owned(),
@@ -250,7 +283,7 @@ impl Row {
         expected: &str,
     ) -> SuiteError {
         SuiteError::Mismatch {
-            path: self.path.clone(),
+            path: self.path.to_string(),
             line: self.line,
             file: self.file.clone(),
             quantity,
@@ -292,6 +325,7 @@ impl Row {
             Some(cell) => return Err(self.refuse(cell, "1 or 0")),
         };
         let used = [
+            "file",
             "format",
             "units",
             "dt_s",
@@ -302,9 +336,8 @@ impl Row {
             "pair",
             "study_component",
         ];
-        let attributes = self
-            .cells
-            .iter()
+        let named = self.columns.iter().zip(&self.cells);
+        let attributes = named
             .filter(|(name, _)| !used.contains(&name.as_str()))
             .map(|(name, cell)| (name.clone(), cell.clone()))
             .collect();
@@ -314,7 +347,10 @@ impl Row {
             format: record.format,
             unit: record.unit,
             unit_stated: record.unit_stated,
-            pair: self.cell("pair").map(str::to_owned),
+            pair: match &self.pair {
+                Some(pair) => Some(pair.clone()),
+                None => self.cell("pair").map(str::to_owned),
+            },
             study_component,
             attributes,
         })
@@ -327,7 +363,9 @@ impl Row {
     ) -> Result<(), SuiteError> {
         let Some(expected) = self.cell("sha256") else { return Ok(()) };
         let Some(sha256_hex) = options.sha256_hex else {
-            return Err(SuiteError::Unverifiable { path: self.path.clone() });
+            return Err(SuiteError::Unverifiable {
+                path: self.path.to_string(),
+            });
         };
         let found = sha256_hex(content);
         if found.eq_ignore_ascii_case(expected) {

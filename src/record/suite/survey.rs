@@ -99,20 +99,21 @@ impl Survey {
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
         let index = index::Index::parse(path, bytes)?;
-        let member =
-            |row: &index::Row| row.member(&file_bytes(row.file())?, options);
-        let members = index.rows().iter().map(member).collect();
+        let paired = index.is_paired();
         let study_rule = if index.has("study_component") {
             StudyRule::Index
         } else {
             StudyRule::FirstName
         };
+        let member =
+            |row: index::Row| row.member(&file_bytes(row.file())?, options);
+        let members = index.into_rows().into_iter().map(member).collect();
         Ok(Self {
             path: path.to_owned(),
             members,
             ignored: Vec::new(),
             study_rule,
-            paired: index.has("pair"),
+            paired,
         })
     }
 

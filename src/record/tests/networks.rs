@@ -124,6 +124,49 @@ fn csmip_v2_is_read() {
     assert!(refusal(&bad).starts_with("test:3: sampling interval"));
 }
 
+const RAW: &str = "Uncorrected Accelerogram Data\n\
+    Chan  1:  90 Deg\n\
+    No. of Points =  10  Record Length =  .100 sec   at 100 Samples/sec\n\
+    \x20   3  100    1\n\
+    \x20   10 Accelerogram points at 100 pts/sec in units of g.  Format: (8f9.6)\n\
+    \x20 .000027  .000021 -.250000  .000024  .000027  .000027  .000019-1.000023\n\
+    \x20 .000026  .000028\n\
+    /&  ----------  End of Data for Station Channel   1  ----------\n";
+
+#[test]
+fn csmip_raw_is_read() {
+    let record = read_text(RAW).unwrap();
+    assert_eq!(record.format, Format::Cosmos);
+    assert_eq!(record.unit, AccelerationUnit::Gravity);
+    assert_eq!(record.accelerogram.dt_s(), 0.01);
+    assert_eq!(record.accelerogram.samples_g().len(), 10);
+    assert_eq!(record.accelerogram.pga_g(), 1.000023);
+    assert_eq!(record.channel.as_deref(), Some("1 90 Deg"));
+    let two = format!("{RAW}{}", RAW.replace("Chan  1", "Chan  2"));
+    let all = read_all("x", two.as_bytes(), &options(None)).unwrap();
+    assert_eq!(all.len(), 2);
+    let lines: Vec<&str> = two.lines().collect();
+    let without = |at: usize| {
+        let rest = [&lines[..at], &lines[at + 1..]].concat();
+        refusal(&format!("{}\n", rest.join("\n")))
+    };
+    let cases = [
+        (RAW.replace(" 10 Acc", " 11 Acc"), "test:7: 10 samples: exp"),
+        (RAW.replace("=  10", "=  11"), "test:3: \"No. of Points =  11  Re"),
+        (RAW.replace("at 100 pts", "at 0 pts"), "test:5: \"Accelerogram po"),
+        (RAW.replace("of g.", "of counts."), "test:5: unit \"counts\""),
+        (RAW.replace("-.25", " -.2"), "test:6:"),
+    ];
+    for (text, expected) in cases {
+        let found = refusal(&text);
+        assert!(found.starts_with(expected), "{found}");
+    }
+    // The second channel's announcement, and a header without its samples.
+    assert!(without(12).starts_with("test:15: \"/&  ----"), "{}", without(12));
+    let cut = format!("{}\n", lines[..11].join("\n"));
+    assert!(refusal(&cut).contains("samples after a header"));
+}
+
 pub(super) const KNET: &str = "Origin Time       1900/01/01 00:00:00\n\
     Lat.              38.103\n\
     Long.             142.860\n\
@@ -138,7 +181,7 @@ pub(super) const KNET: &str = "Origin Time       1900/01/01 00:00:00\n\
     Duration Time(s)  2\n\
     Dir.              E-W\n\
     Scale Factor      3920(gal)/4000\n\
-    Max. Acc. (gal)   980.000\n\
+    Max. Acc. (gal)   944.671\n\
     Last Correction   1900/01/01 00:00:15\n\
     Memo.\n\
     \x20     100      -10       20      -30       40      -50       60    -1000\n\
@@ -167,11 +210,36 @@ fn knet_counts_are_scaled() {
         (KNET.replace("/4000", "/0"), "test:14: \"Scale Factor"),
         (KNET.replace("(s)  2", "(s)  2.05"), "test:17: \"10 Hz for 2.05 s\""),
         (KNET[..KNET.len() - 170].to_owned(), "test:1"),
+        // The mean of the counts is -36.05, by hand: 963.95 of them, 0.98 gal
+        // each.
+        (
+            KNET.replace("944.671", "980.0"),
+            "test:20: largest absolute sample 944.67",
+        ),
     ];
     for (text, expected) in cases {
         let found = refusal(&text);
         assert!(found.starts_with(expected), "{found}");
     }
+}
+
+#[test]
+fn knet_fields_may_begin_a_blank_earlier() {
+    // As the network writes them: I8, then seven I9.
+    let first = KNET.rfind("Memo.\n").unwrap() + "Memo.\n".len();
+    let (header, counts) = KNET.split_at(first);
+    let counts: String =
+        counts.lines().map(|line| format!("{}\n", &line[1..])).collect();
+    let text = format!("{header}{counts}");
+    let even = read_text(KNET).unwrap().accelerogram;
+    assert_eq!(read_text(&text).unwrap().accelerogram, even);
+    let narrow = text.replace("       40 ", "       4 ");
+    assert!(
+        refusal(&narrow)
+            .starts_with("test:18:43: \"4\": expected a number of 9"),
+        "{}",
+        refusal(&narrow)
+    );
 }
 
 pub(super) const ESM: &str = "EVENT_NAME: NOWHERE\n\
@@ -264,7 +332,10 @@ fn smc_is_read() {
             text.replace("2 CORRECTED ACCELEROGRAM", "3 VELOCITY"),
             "test:1: \"3 V",
         ),
-        (text.replace("2.0000000E+02", "1.7000000E+38"), "test:18:16: \"1.70"),
+        (
+            text.replace("2.0000000E+02", "1.7000000E+38"),
+            "test:18:16: \"1.7e38",
+        ),
         (text.lines().take(20).collect::<Vec<_>>().join("\n"), "test:20: the"),
         (text.lines().take(27).collect::<Vec<_>>().join("\n"), "test:27: the"),
         (text.replace("        10", "    -32768"), "test:14: \"integer 17 is"),

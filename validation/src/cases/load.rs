@@ -9,6 +9,9 @@ use super::{
     Bound, Case, Cost, Expect, FAMILIES, Family, Source, Status, Tolerance,
 };
 
+/// Bytes of a case file, at most.
+const LARGEST: usize = 256 << 10;
+
 /// Why a file of cases was refused.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -20,6 +23,15 @@ pub enum CaseError {
         family: String,
         /// What the parser says, with line and column.
         message: String,
+    },
+    /// No hand writes so many cases, and parsing takes a hundred times the
+    /// text's memory.
+    #[error("cases/{family}.toml: {bytes} bytes: expected at most {LARGEST}")]
+    Long {
+        /// The family.
+        family: String,
+        /// Length of the text.
+        bytes: usize,
     },
     /// Two cases have one name.
     #[error("cases/{family}.toml: two cases are named `{name}`")]
@@ -111,6 +123,10 @@ pub fn load_all() -> Result<Vec<Case>, CaseError> {
 /// assert!(error.to_string().contains("unknown field `x`"));
 /// ```
 pub fn load_family(family: &str, text: &str) -> Result<Vec<Case>, CaseError> {
+    if text.len() > LARGEST {
+        let (family, bytes) = (family.to_owned(), text.len());
+        return Err(CaseError::Long { family, bytes });
+    }
     let file: File = toml::from_str(text).map_err(|e| CaseError::Form {
         family: family.to_owned(),
         message: e.to_string(),

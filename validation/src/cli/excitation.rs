@@ -8,6 +8,7 @@ use rocking::record::{Accelerogram, ReadOptions, read_file};
 use rocking::units::AccelerationUnit;
 
 use super::Failure;
+use super::processing::{ProcessingArgs, words};
 
 /// The excitation: a record, a pulse, or none.
 #[derive(clap::Args, Clone, Debug)]
@@ -31,6 +32,8 @@ pub struct ExcitationArgs {
     /// Unit of a record file that states none: g, m/s2 or cm/s2.
     #[arg(long, value_name = "UNIT", value_parser = unit, requires = "record")]
     units: Option<AccelerationUnit>,
+    #[command(flatten)]
+    processing: ProcessingArgs,
     /// An analytic pulse from t = 0.
     #[arg(long, value_enum, value_name = "KIND", conflicts_with = "free")]
     pulse: Option<PulseName>,
@@ -184,6 +187,7 @@ impl ExcitationArgs {
             let options =
                 ReadOptions { dt_s: self.dt, unit: self.units, gravity_m_s2 };
             let record = read_file(path, &options)?.accelerogram;
+            let record = self.processing.processing()?.apply(&record)?;
             let unit = NormalisedRecord::new(&record);
             let target =
                 self.target_pga_g(threshold, p, unit.velocity_ratio_s());
@@ -258,6 +262,11 @@ impl ExcitationArgs {
         }
         if self.units.is_some() && !of_record {
             return unused("--units");
+        }
+        if let Some(flag) = self.processing.given()
+            && !of_record
+        {
+            return unused(flag);
         }
         if self.initial_ratio.is_some() && !self.free {
             return unused("--initial-ratio");
@@ -335,6 +344,14 @@ impl ExcitationArgs {
 }
 
 impl ExcitationArgs {
+    /// What was done to the record, in words.
+    ///
+    /// # Errors
+    /// [`Failure`] for a corner that is none.
+    pub fn processing(&self) -> Result<Option<String>, Failure> {
+        Ok(words(&self.processing.processing()?))
+    }
+
     /// What moves the ground, in a word.
     #[must_use]
     pub fn name(&self) -> String {

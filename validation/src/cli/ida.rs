@@ -18,6 +18,7 @@ use serde_json::json;
 
 use refine::Refine;
 
+use super::processing::{ProcessingArgs, words};
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
 use super::way::WayArgs;
@@ -37,6 +38,8 @@ pub struct Args {
     /// Folder of records, or index CSV.
     #[arg(long, value_name = "PATH")]
     suite: PathBuf,
+    #[command(flatten)]
+    processing: ProcessingArgs,
     /// Step of the levels in PGA, g [default: 0.01].
     #[arg(
         long,
@@ -115,7 +118,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let analysis = args.analysis(block)?;
     let way = args.way.way_unless_certified(args.certify)?;
     let read = ReadOptions { gravity_m_s2, ..ReadOptions::default() };
-    let suite = read_suite(&args.suite, read)?;
+    let processing = args.processing.processing()?;
+    let suite = read_suite(&args.suite, read)?.processed(&processing)?;
     let records = args.records(&suite)?;
     let bar = progress(records.len() as u64);
     let (table, certified) = with_threads(args.threads, || {
@@ -124,9 +128,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     bar.finish_and_clear();
     write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
     let text = if args.json {
-        format!("{}\n", summary_json(args, &table, certified, &suite))
+        summary_json(args, &table, certified, &suite, words(&processing))
     } else {
-        summary(args, &table, certified, &suite)
+        summary(args, &table, certified, &suite, words(&processing))
     };
     print(&text)
 }
@@ -319,11 +323,13 @@ fn summary_json(
     table: &[IdaCurve],
     certified: Option<Certification>,
     suite: &Suite,
+    processing: Option<String>,
 ) -> String {
     let counts = counts(table);
     let sought = args.resurrections_to.is_some();
-    json!({
+    let all = json!({
         "suite": suite.name(),
+        "processing": processing,
         "records": table.len(),
         "study_components": suite.study_rule().to_string(),
         "analyses": counts.analyses,
@@ -342,8 +348,8 @@ fn summary_json(
             "overturning_im":
                 c.overturning.map(|first| number(first.im())),
         })).collect::<Vec<_>>(),
-    })
-    .to_string()
+    });
+    format!("{all}\n")
 }
 
 fn summary(
@@ -351,6 +357,7 @@ fn summary(
     table: &[IdaCurve],
     certified: Option<Certification>,
     suite: &Suite,
+    processing: Option<String>,
 ) -> String {
     let counts = counts(table);
     let mut text = String::new();
@@ -358,6 +365,9 @@ fn summary(
         let _ = writeln!(text, "{name:<24}{value}");
     };
     row("suite", suite.name().to_owned());
+    if let Some(words) = processing {
+        row("processing", words);
+    }
     row("records", table.len().to_string());
     row("study components", suite.study_rule().to_string());
     row("analyses", counts.analyses.to_string());

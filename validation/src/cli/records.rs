@@ -9,9 +9,15 @@ use rocking::record::{
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
 
+use super::processing::{ProcessingArgs, words};
 use super::{Failure, print};
+use crate::files::write_atomically;
 use crate::inputs;
 use crate::json::number;
+use measures::{Found, MeasureArgs};
+
+mod measures;
+mod plot;
 
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
@@ -35,6 +41,14 @@ pub struct Args {
         allow_negative_numbers = true
     )]
     gravity: f64,
+    #[command(flatten)]
+    processing: ProcessingArgs,
+    #[command(flatten)]
+    measures: MeasureArgs,
+    /// Draw one record as SVG: acceleration, velocity, displacement and
+    /// response spectrum.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
     /// JSON for machines.
     #[arg(long)]
     json: bool,
@@ -75,6 +89,7 @@ impl Listed {
 /// One file that was refused.
 struct Refused {
     file: String,
+    code: &'static str,
     line: Option<usize>,
     reason: String,
 }
@@ -85,6 +100,8 @@ struct Listing {
     refused: Vec<Refused>,
     ignored: Vec<Refused>,
     suites: Vec<String>,
+    /// What was done to the records.
+    processing: Option<String>,
 }
 
 /// Runs the command.
@@ -102,11 +119,25 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.paths {
         listing.add(path, options);
     }
+    let processing = args.processing.processing()?;
+    for listed in &mut listing.records {
+        listed.motion = processing.apply(&listed.motion)?;
+    }
+    listing.processing = words(&processing);
     listing.remark();
+    if let Some(path) = &args.plot
+        && listing.refused.is_empty()
+    {
+        let done = listing.processing.as_deref();
+        let svg = plot::svg(&listing.records, done, args.gravity)?;
+        write_atomically(path, svg)?;
+    }
+    let found = args.measures.run(&listing.records, args.gravity)?;
     if args.json {
-        print(&listing.json(args.gravity))?;
+        print(&listing.json(args.gravity, &found))?;
     } else {
         print(&listing.table(args.gravity))?;
+        print(&found.table(&listing.records))?;
     }
     if listing.refused.is_empty() {
         return Ok(());
@@ -120,6 +151,7 @@ impl From<&RecordError> for Refused {
     fn from(error: &RecordError) -> Self {
         Self {
             file: error.file().to_owned(),
+            code: error.fault().code(),
             line: error.line(),
             reason: error.to_string(),
         }
@@ -137,7 +169,9 @@ impl Listing {
             Err(error) => {
                 let fault = Fault::Unreadable(error.to_string());
                 let reason = format!("{file}: {fault}");
-                self.refused.push(Refused { file, line: None, reason });
+                let code = fault.code();
+                let refused = Refused { file, code, line: None, reason };
+                self.refused.push(refused);
                 return;
             }
         };
@@ -166,6 +200,7 @@ impl Listing {
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
         let refused = |error: &record::SuiteError| Refused {
             file: error.file().to_owned(),
+            code: error.code(),
             line: error.line(),
             reason: error.to_string(),
         };
@@ -221,8 +256,8 @@ impl Listing {
         }
     }
 
-    fn json(&self, gravity_m_s2: f64) -> String {
-        let record = |listed: &Listed| {
+    fn json(&self, gravity_m_s2: f64, found: &Found) -> String {
+        let record = |(position, listed): (usize, &Listed)| {
             let motion = &listed.motion;
             let (pair, study) = match &listed.place {
                 Some((pair, study)) => (pair.as_deref(), Some(*study)),
@@ -235,7 +270,7 @@ impl Listing {
                 })
             };
             let remarks = listed.remarks.iter().map(remark);
-            json!({
+            let mut value = json!({
                 "file": listed.file,
                 "format": listed.format.to_string(),
                 "units": listed.unit.to_string(),
@@ -248,24 +283,34 @@ impl Listing {
                 "pair": pair,
                 "study_component": study,
                 "remarks": remarks.collect::<Vec<_>>(),
-            })
+            });
+            found.add_to(position, &mut value);
+            value
         };
         let refused = |list: &[Refused]| -> Vec<Value> {
             let one = |refused: &Refused| {
                 json!({
                     "file": refused.file,
+                    "code": refused.code,
                     "line": refused.line,
                     "reason": refused.reason,
                 })
             };
             list.iter().map(one).collect()
         };
-        let all = json!({
+        let records = self.records.iter().enumerate().map(record);
+        let mut all = json!({
             "gravity_m_s2": number(gravity_m_s2),
-            "records": self.records.iter().map(record).collect::<Vec<_>>(),
+            "processing": self.processing,
+            "records": records.collect::<Vec<_>>(),
             "refused": refused(&self.refused),
             "ignored": refused(&self.ignored),
         });
+        if let (Some(pairs), Some(map)) =
+            (found.pairs_json(), all.as_object_mut())
+        {
+            map.insert("pairs".into(), pairs);
+        }
         format!("{all:#}\n")
     }
 
@@ -307,6 +352,9 @@ impl Listing {
                     motion.pgv_m_s(gravity_m_s2),
                 ),
             );
+        }
+        if let Some(words) = &self.processing {
+            line(&mut text, format_args!("processed: {words}"));
         }
         for listed in &self.records {
             for remark in &listed.remarks {

@@ -109,7 +109,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let certified = if args.certify { Some(certify(&scene)?) } else { None };
     let scene = &scene;
-    let setting = Setting { args, scene, certified, gravity_m_s2, pga_g };
+    let processing = args.excitation.processing()?;
+    let setting =
+        Setting { args, scene, certified, gravity_m_s2, pga_g, processing };
     if args.json {
         let text = serde_json::to_string_pretty(&setting.json(&response))?;
         print(&format!("{text}\n"))
@@ -197,6 +199,8 @@ struct Setting<'a> {
     certified: Option<Certified>,
     gravity_m_s2: f64,
     pga_g: f64,
+    /// What was done to the record.
+    processing: Option<String>,
 }
 
 /// The certified outcome, `unresolved` where no engine can tell.
@@ -268,6 +272,7 @@ impl Setting<'_> {
                 "model": self.args.model.model_name(),
                 "overturn": self.args.model.overturning_name(),
                 "gravity_m_s2": number(self.gravity_m_s2),
+                "processing": self.processing,
                 "pga_g": number(self.pga_g),
                 "im_pga": number(self.im_pga()),
             },
@@ -345,6 +350,9 @@ impl Setting<'_> {
                 self.gravity_m_s2
             ),
         );
+        if let Some(words) = &self.processing {
+            row("record", words.clone());
+        }
         row(
             "PGA",
             format!("{:.6} g, intensity {:.6}", self.pga_g, self.im_pga()),

@@ -8,6 +8,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 
+use super::processing::ProcessingArgs;
 use super::way::WayArgs;
 use super::{Failure, print};
 use crate::figures::data::Arm;
@@ -28,6 +29,8 @@ pub struct Args {
     /// Pulse-type suite: a folder of records, or an index (CSV).
     #[arg(long, value_name = "PATH", requires = "ordinary")]
     pulse: Option<PathBuf>,
+    #[command(flatten)]
+    processing: ProcessingArgs,
     /// Coefficient of restitution, ratio of angular velocities.
     #[arg(long, default_value_t = 0.92, allow_negative_numbers = true)]
     eta: f64,
@@ -89,12 +92,21 @@ enum ArmName {
 /// folder that cannot be written.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let plan = plan(args)?;
+    let processing = args.processing.processing()?;
     let suites = match (&args.ordinary, &args.pulse) {
         (Some(ordinary), Some(pulse)) => [
-            StudySuite::read("ordinary", ordinary)?,
-            StudySuite::read("pulse-type", pulse)?,
+            StudySuite::read("ordinary", ordinary, &processing)?,
+            StudySuite::read("pulse-type", pulse, &processing)?,
         ],
-        _ => StudySuite::embedded()?,
+        _ => match args.processing.given() {
+            None => StudySuite::embedded()?,
+            Some(flag) => {
+                return Err(Failure::input(format!(
+                    "{flag} is not used without --ordinary and --pulse: the \
+                     embedded suites need no correction"
+                )));
+            }
+        },
     };
     output::check(&args.out)?;
     // Drawn on a terminal only.

@@ -8,6 +8,7 @@ mod inversion;
 mod lilliefors;
 mod nist;
 mod truths;
+mod two_samples;
 
 pub(super) use calibration::{bias, coverage, rejection};
 pub(super) use equations::transforms;
@@ -17,6 +18,7 @@ pub(super) use lilliefors::{
     asymptotics, draws, largest, null, published, table,
 };
 pub(super) use nist::moments;
+pub(super) use two_samples::two_samples;
 
 use super::MethodError;
 

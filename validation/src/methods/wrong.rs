@@ -181,6 +181,16 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("clamped", "Eq. 7 made up beyond its end"),
     method("notch-for-interval", "McGill's notch as 95 % interval"),
     method("other-interval", "another interval, too narrow"),
+    method("period-one-percent-long", "oscillators 1 % too slow"),
+    method("no-damping", "oscillators without damping"),
+    method("velocity-for-acceleration", "measures of the velocity"),
+    method("arias-without-its-factor", "the integral of a^2 over g"),
+    method("geometric-mean-for-rotd50", "sqrt of the product"),
+    method("rotd50-for-geometric-mean", "the median over directions"),
+    method("one-component", "the second component left out"),
+    method("velocity-in-m-s", "PGV in m/s where cm/s are meant"),
+    method("late-pulses-kept", "no criterion of time"),
+    method("one-side-doubled", "the limit for many values, doubled"),
     method("known-shift", "the table though the shift was estimated"),
 ];
 

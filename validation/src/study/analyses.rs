@@ -8,6 +8,8 @@ use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Method;
+use rocking::intensity::{Measures, Settings};
+use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::certainty::Certainty;
 use super::choice::{by_rank, common_level};
@@ -23,6 +25,11 @@ use crate::figures::data::Arm;
 /// Interval at which histories are compared and drawn, in s.
 pub const HISTORY_INTERVAL_S: f64 = 0.01;
 
+/// Periods of the response spectra, in s.
+pub const SPECTRUM_PERIODS_S: [f64; 14] = [
+    0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0,
+];
+
 /// What a study knows of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
@@ -34,6 +41,9 @@ pub struct Facts {
     pub velocity_ratio_s: f64,
     /// PGA of the geometric mean of the pair over this component's.
     pub mean_over_study: Option<f64>,
+    /// Intensity measures of the component applied, its spectrum at
+    /// [`SPECTRUM_PERIODS_S`].
+    pub measures: Measures,
 }
 
 /// What the chains of a suite took.
@@ -190,7 +200,8 @@ impl Plan {
             .iter()
             .map(|m| NormalisedRecord::new(&m.study))
             .collect();
-        let facts: Vec<Facts> = suite.motions.iter().map(facts).collect();
+        let facts: Vec<Facts> =
+            suite.motions.par_iter().map(facts).collect::<Result<_, _>>()?;
         let scans = Setup::scans(&self.arms).len();
         let chains = scans * blocks.len() * records.len();
         progress.inc_length(chains as u64);
@@ -349,10 +360,19 @@ fn apart(
     })
 }
 
-fn facts(motion: &Motion) -> Facts {
+/// What a study knows of a motion's component.
+///
+/// # Errors
+/// [`StudyError`] where nothing moves.
+pub fn facts(motion: &Motion) -> Result<Facts, StudyError> {
     let study = &motion.study;
     let pga_g = study.pga_g();
-    Facts {
+    let settings = Settings::try_new(
+        STANDARD_GRAVITY_M_S2,
+        0.05,
+        SPECTRUM_PERIODS_S.to_vec(),
+    )?;
+    Ok(Facts {
         name: study.name().to_owned(),
         pga_g,
         velocity_ratio_s: study.pgv_g_s() / pga_g,
@@ -360,5 +380,6 @@ fn facts(motion: &Motion) -> Facts {
             .other
             .as_ref()
             .map(|other| (other.pga_g() / pga_g).sqrt()),
-    }
+        measures: Measures::of(study, &settings)?,
+    })
 }

@@ -18,6 +18,7 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
+use super::suites::EMBEDDED;
 use crate::figures::data::Arm;
 
 /// Everything that the figures are made of.
@@ -88,6 +89,13 @@ impl Results {
         }
         out.push(fragilities::constants(self, one)?);
         Ok(out)
+    }
+
+    /// Whether the suites are the embedded ones.
+    #[must_use]
+    pub fn embedded(&self) -> bool {
+        let own = |suite: &SuiteResults| suite.source.starts_with(EMBEDDED);
+        own(&self.ordinary) && own(&self.pulse)
     }
 
     /// The suite of that kind.

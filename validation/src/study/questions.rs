@@ -8,7 +8,9 @@ mod levels;
 mod nulls;
 mod options;
 mod power;
+mod recorded;
 mod robustness;
+mod suites;
 mod trimming;
 
 use serde_json::{Value, json};
@@ -66,6 +68,8 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         inversion::answer(results)?,
         options::answer(results, full)?,
         trimming::answer(results)?,
+        suites::answer(results)?,
+        recorded::answer(results)?,
     ])
 }
 

@@ -2,11 +2,15 @@
 
 use std::path::Path;
 
-use rocking::record::{Accelerogram, ReadOptions, Suite, SuiteOptions};
+use rocking::record::{Accelerogram, Processing, ReadOptions};
 use sha2::{Digest as _, Sha256};
 
 use super::StudyError;
+use crate::inputs::read_suite;
 use crate::synthesis::{self, Pair};
+
+/// How the source of an embedded suite begins.
+pub const EMBEDDED: &str = "embedded synthetic suite";
 
 /// The component a study uses, and the other of its pair.
 #[derive(Clone, Debug)]
@@ -38,7 +42,7 @@ impl StudySuite {
     pub fn embedded() -> Result<[Self; 2], StudyError> {
         let of = |kind, seed: &str, pairs: Vec<Pair>| Self {
             kind,
-            source: format!("embedded synthetic suite, streams {seed}"),
+            source: format!("{EMBEDDED}, streams {seed}"),
             component_rule: "the first component of each pair".into(),
             motions: pairs
                 .into_iter()
@@ -58,12 +62,13 @@ impl StudySuite {
     ///
     /// # Errors
     /// [`StudyError`] naming the file that was refused, and why.
-    pub fn read(kind: &'static str, path: &Path) -> Result<Self, StudyError> {
-        let options = SuiteOptions {
-            read: ReadOptions::default(),
-            sha256_hex: Some(sha256_hex),
-        };
-        let suite = Suite::read(path, &options)?;
+    pub fn read(
+        kind: &'static str,
+        path: &Path,
+        processing: &Processing,
+    ) -> Result<Self, StudyError> {
+        let suite = read_suite(path, ReadOptions::default())?;
+        let suite = suite.processed(processing)?;
         let motions = suite
             .study_components()
             .map(|study| Motion {
@@ -78,7 +83,11 @@ impl StudySuite {
             .collect();
         Ok(Self {
             kind,
-            source: format!("suite {}", suite.name()),
+            source: if processing.is_none() {
+                format!("suite {}", suite.name())
+            } else {
+                format!("suite {} ({processing})", suite.name())
+            },
             component_rule: suite.study_rule().to_string(),
             motions,
         })
@@ -99,11 +108,6 @@ impl StudySuite {
         }
         hex(&hash.finalize())
     }
-}
-
-/// SHA-256 of bytes, in hexadecimal.
-fn sha256_hex(bytes: &[u8]) -> String {
-    hex(&Sha256::digest(bytes))
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -3,7 +3,14 @@
 
 use serde::Serialize;
 
+use super::thin::{largest, thin};
 use super::{Heading, Table, number};
+
+/// Size of a panel for [`Chart::thinned`], in px.
+const WIDTH_PX: f64 = 560.0;
+const HEIGHT_PX: f64 = 320.0;
+/// Columns of a panel within which a line is its ends and extremes.
+const COLUMNS: usize = 1120;
 
 /// A figure of one or more panels with a shared legend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -82,6 +89,28 @@ pub enum Mark {
 }
 
 impl Chart {
+    /// The chart with no more points in its lines over linear axes than a
+    /// drawing shows.
+    #[must_use]
+    pub fn thinned(mut self) -> Self {
+        let linear = |p: &&mut ChartPanel| {
+            p.x.scale == Scale::Linear && p.y.scale == Scale::Linear
+        };
+        for panel in self.panels.iter_mut().filter(linear) {
+            let series = || panel.series.iter();
+            let wide = largest(series().flat_map(|s| &s.x));
+            let high = largest(series().flat_map(|s| &s.y));
+            let px = (WIDTH_PX / wide, HEIGHT_PX / high);
+            for series in &mut panel.series {
+                if series.interval.is_empty() {
+                    extremes(&mut series.x, &mut series.y);
+                    thin(&mut series.x, &mut series.y, px);
+                }
+            }
+        }
+        self
+    }
+
     /// `panel,series,x,y,y_low,y_high`.
     #[must_use]
     pub fn csv(&self) -> String {
@@ -107,5 +136,34 @@ impl Chart {
             }
         }
         table.finish()
+    }
+}
+
+/// Leaves, of a long line, the first, lowest, highest and last point of every
+/// stretch of it that a drawing cannot resolve.
+fn extremes(x: &mut Vec<f64>, y: &mut Vec<f64>) {
+    let stretch = y.len() / COLUMNS;
+    if stretch < 8 {
+        return;
+    }
+    let mut keep = vec![false; y.len()];
+    for start in (0..y.len()).step_by(stretch) {
+        let end = y.len().min(start + stretch);
+        let (mut low, mut high) = (start, start);
+        for i in start..end {
+            if y[i] < y[low] {
+                low = i;
+            }
+            if y[i] > y[high] {
+                high = i;
+            }
+        }
+        for i in [start, low, high, end - 1] {
+            keep[i] = true;
+        }
+    }
+    for values in [x, y] {
+        let mut keep = keep.iter();
+        values.retain(|_| keep.next() == Some(&true));
     }
 }

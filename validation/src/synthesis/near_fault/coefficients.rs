@@ -8,6 +8,15 @@
 
 /// Coefficients on 1, M, max(M - 6.5, 0), ln sqrt(R^2 + 36 km2), M times that,
 /// reverse faulting, ln Vs30, length of rupture towards the site in km.
+///
+/// The program has these eight columns and multiplies them with seven
+/// regressors; what is missing is inferred. The fifth column is M times the
+/// fourth regressor: it is nonzero for Arias intensities alone, and positive
+/// where distance lowers them most. The third is max(M - 6.5, 0) where the
+/// program has M - 6.5: the amplitude's coefficients, 0.608 and -0.608, would
+/// else leave no magnitude in it at all.
+/// "Reverse faulting" is in the program its product with the depth of the
+/// rupture's top in km, at most 1: here the top is at least 1 km deep.
 #[rustfmt::skip]
 pub(super) const REGRESSION: [[f64; 8]; 19] = [
     [1.698626, 0.60819, -0.60819, -0.576217, 0.0, 0.183071, -0.093932, 0.006571],

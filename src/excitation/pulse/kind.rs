@@ -1,0 +1,139 @@
+//! Shapes of pulses and their parameters.
+
+use thiserror::Error;
+
+/// Shape of a pulse; amplitudes in multiples of gravity.
+///
+/// Every pulse starts at t = 0 and is zero afterwards (a jump, if it does not
+/// end at zero).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PulseKind {
+    /// a sin(omega t) for one full period.
+    OneSine {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Circular frequency in rad/s.
+        omega_rad_s: f64,
+    },
+    /// a sin(omega t) for half a period.
+    HalfSine {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Circular frequency in rad/s.
+        omega_rad_s: f64,
+    },
+    /// a cos(omega t) for one full period.
+    OneCosine {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Circular frequency in rad/s.
+        omega_rad_s: f64,
+    },
+    /// Constant a.
+    Rectangle {
+        /// Acceleration over g.
+        amplitude_g: f64,
+        /// Duration in s.
+        duration_s: f64,
+    },
+    /// Isosceles triangle.
+    Triangle {
+        /// Peak acceleration over g, at half the duration.
+        amplitude_g: f64,
+        /// Duration in s.
+        duration_s: f64,
+    },
+    /// a (1 - x^2) exp(-x^2/2), x = sqrt(2) pi (t - t_c)/T, over `cycles`
+    /// periods T about the centre t_c.
+    RickerSymmetric {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Period T in s.
+        period_s: f64,
+        /// Length in periods.
+        cycles: f64,
+    },
+    /// (a / beta) (x^2 - 3) x exp(-x^2/2), x = 2 pi (t - t_c)/(sqrt(3) T),
+    /// with beta = 1.38 such that the peak is a.
+    RickerAntisymmetric {
+        /// Peak acceleration over g.
+        amplitude_g: f64,
+        /// Period T in s.
+        period_s: f64,
+        /// Length in periods.
+        cycles: f64,
+    },
+    /// Derivative of the velocity
+    /// (V/2) (1 + cos(2 pi f u/gamma)) cos(2 pi f u + nu), with
+    /// u = t - gamma/(2 f) and |u| <= gamma/(2 f).
+    MavroeidisPapageorgiou {
+        /// Velocity amplitude V over g, in s.
+        velocity_g_s: f64,
+        /// Prevailing frequency f in Hz.
+        frequency_hz: f64,
+        /// Oscillatory character gamma.
+        gamma: f64,
+        /// Phase nu in rad.
+        phase_rad: f64,
+    },
+}
+
+/// Why a pulse was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PulseError {
+    /// Amplitudes must be finite.
+    #[error("pulse amplitude {0}: expected a finite number")]
+    Amplitude(f64),
+    /// Frequencies, periods, durations and cycles must be positive.
+    #[error("pulse {what} {found}: expected a positive number")]
+    NotPositive {
+        /// The quantity.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+    },
+    /// The phase must be finite.
+    #[error("pulse phase {0} rad: expected a finite number")]
+    Phase(f64),
+    /// Gravity must be positive and finite.
+    #[error("gravity {0} m/s2: expected a positive number")]
+    Gravity(f64),
+}
+
+impl PulseKind {
+    /// The amplitude: an acceleration, or a velocity.
+    pub(super) fn amplitude(self) -> f64 {
+        match self {
+            Self::OneSine { amplitude_g: a, .. }
+            | Self::HalfSine { amplitude_g: a, .. }
+            | Self::OneCosine { amplitude_g: a, .. }
+            | Self::Rectangle { amplitude_g: a, .. }
+            | Self::Triangle { amplitude_g: a, .. }
+            | Self::RickerSymmetric { amplitude_g: a, .. }
+            | Self::RickerAntisymmetric { amplitude_g: a, .. }
+            | Self::MavroeidisPapageorgiou { velocity_g_s: a, .. } => a,
+        }
+    }
+
+    /// The same with another amplitude.
+    pub(super) fn with_amplitude(
+        mut self,
+        change: impl Fn(f64) -> f64,
+    ) -> Self {
+        match &mut self {
+            Self::OneSine { amplitude_g: a, .. }
+            | Self::HalfSine { amplitude_g: a, .. }
+            | Self::OneCosine { amplitude_g: a, .. }
+            | Self::Rectangle { amplitude_g: a, .. }
+            | Self::Triangle { amplitude_g: a, .. }
+            | Self::RickerSymmetric { amplitude_g: a, .. }
+            | Self::RickerAntisymmetric { amplitude_g: a, .. }
+            | Self::MavroeidisPapageorgiou { velocity_g_s: a, .. } => {
+                *a = change(*a);
+            }
+        }
+        self
+    }
+}

@@ -1,0 +1,248 @@
+//! What readers must not let pass: every valid file of the fuzz corpus,
+//! changed line by line and byte by byte; and the corpus itself, replayed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rocking::record::{self, ReadOptions};
+
+#[path = "../fuzz/targets.rs"]
+mod targets;
+
+fn corpus() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus")
+}
+
+/// Files of a folder, by name.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found: Vec<_> = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| {
+            let path = entry.unwrap().path();
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            (name, fs::read(path).unwrap())
+        })
+        .collect();
+    found.sort();
+    assert!(!found.is_empty(), "{}", folder.display());
+    found
+}
+
+#[test]
+fn the_corpus_gets_the_verdict_in_its_names() {
+    for (target, _) in targets::TARGETS {
+        for (name, bytes) in files(&corpus().join(target)) {
+            let verdict = targets::run(target, &bytes);
+            let valid = name.starts_with("valid-");
+            assert!(valid || name.starts_with("refused-"), "{name}");
+            assert_eq!(verdict.is_ok(), valid, "{target}/{name}: {verdict:?}");
+        }
+    }
+    let folders = fs::read_dir(corpus()).unwrap().count();
+    assert_eq!(folders, targets::TARGETS.len());
+}
+
+/// Channels of a file in g, or `None` where it is refused.
+fn channels(target: &str, bytes: &[u8]) -> Option<Vec<Vec<f64>>> {
+    let dt_s = (target == "column").then_some(0.01);
+    let options = ReadOptions { dt_s, ..ReadOptions::default() };
+    let records = record::read_all("x", bytes, &options).ok()?;
+    let samples = |r: &record::Record| r.accelerogram.samples_g().to_vec();
+    Some(records.iter().map(samples).collect())
+}
+
+/// A changed file that was read, and not as before.
+struct Passed {
+    target: &'static str,
+    file: String,
+    change: String,
+    /// Whether what was read is the beginning of what was there.
+    begins: bool,
+    /// Whether the changed file ends with the end of a line.
+    whole_lines: bool,
+}
+
+/// Reads the changed files of every valid file of `targets`.
+fn passed(
+    targets: &[&'static str],
+    changes: impl Fn(&[u8]) -> Vec<(String, Vec<u8>)>,
+) -> Vec<Passed> {
+    let mut found = Vec::new();
+    let mut tried = 0;
+    for target in targets {
+        for (file, bytes) in files(&corpus().join(target)) {
+            if !file.starts_with("valid-") {
+                continue;
+            }
+            let whole = channels(target, &bytes).unwrap();
+            for (change, changed) in changes(&bytes) {
+                tried += 1;
+                let Some(read) = channels(target, &changed) else { continue };
+                if read != whole {
+                    let (change, file) = (change.clone(), file.clone());
+                    let mut pairs = read.iter().zip(&whole);
+                    let begins = read.len() <= whole.len()
+                        && pairs.all(|(a, b)| b.starts_with(a));
+                    let whole_lines = changed.ends_with(b"\n");
+                    found.push(Passed {
+                        target,
+                        file,
+                        change,
+                        begins,
+                        whole_lines,
+                    });
+                }
+            }
+        }
+    }
+    assert!(tried > 10 * targets.len(), "{tried}");
+    found
+}
+
+fn none(found: &[Passed]) {
+    let list: Vec<String> = found
+        .iter()
+        .map(|p| format!("{}/{}: {}", p.target, p.file, p.change))
+        .collect();
+    assert!(list.is_empty(), "read differently:\n{}", list.join("\n"));
+}
+
+/// Formats that state their number of samples.
+const COUNTED: &[&str] = &["at2", "cosmos", "esm", "knet", "resorce", "smc"];
+/// Formats of fixed width, or whose seeds are; one AT2 is free text.
+const FIXED: &[&str] = &["at2", "cosmos", "knet", "resorce", "smc"];
+const FREE: &[&str] = &["column", "csv"];
+
+/// Lines with their ends.
+fn lines(bytes: &[u8]) -> Vec<&[u8]> {
+    bytes.split_inclusive(|b| *b == b'\n').collect()
+}
+
+fn with_lines(bytes: &[u8], times: usize) -> Vec<(String, Vec<u8>)> {
+    let lines = lines(bytes);
+    let changed = |at: usize| {
+        let repeat = |i: usize| if i == at { times } else { 1 };
+        let parts = lines.iter().enumerate();
+        parts.flat_map(|(i, l)| l.repeat(repeat(i))).collect()
+    };
+    (0..lines.len())
+        .map(|at| (format!("line {} {times} times", at + 1), changed(at)))
+        .collect()
+}
+
+fn dropped_and_doubled(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    let mut found = with_lines(bytes, 0);
+    found.extend(with_lines(bytes, 2));
+    // A file of a few lines is tried often enough at other places.
+    found.extend(with_lines(bytes, 3));
+    found
+}
+
+fn cut(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+    (0..bytes.len())
+        .map(|at| (format!("cut at {at}"), bytes[..at].to_vec()))
+        .collect()
+}
+
+#[test]
+fn a_dropped_or_doubled_line_never_passes() {
+    none(&passed(COUNTED, dropped_and_doubled));
+    // Two columns: the times tell, except for lines at the ends and for the
+    // head that states the unit.
+    let mut found = passed(&["csv"], |bytes| {
+        let count = lines(bytes).len();
+        let numbers = lines(bytes);
+        let numbers = numbers.iter().map(|l| l.first());
+        let head = numbers
+            .take_while(|first| !first.is_some_and(u8::is_ascii_digit))
+            .count();
+        let mut changes = with_lines(bytes, 2);
+        changes.extend(with_lines(bytes, 0).drain(head + 1..count - 1));
+        changes.extend(with_lines(bytes, 3));
+        changes
+    });
+    found.retain(|p| !p.begins);
+    none(&found);
+}
+
+#[test]
+fn a_cut_file_never_passes() {
+    // Where a file of several channels ends after one, nothing is missing
+    // in those before.
+    let mut found = passed(COUNTED, cut);
+    found.retain(|p| !(p.target == "cosmos" && p.begins));
+    none(&found);
+    // Without a count, a cut after a line's end leaves no trace.
+    let mut found = passed(FREE, cut);
+    found.retain(|p| !(p.begins && p.whole_lines));
+    none(&found);
+}
+
+/// Whether a line is numbers alone.
+fn data(line: &[u8]) -> bool {
+    line.iter().all(|b| b" \t\r\n.,;+-0123456789eEdD".contains(b))
+        && line.iter().any(u8::is_ascii_digit)
+}
+
+/// Offsets of the lines that `wanted`.
+fn offsets(bytes: &[u8], wanted: impl Fn(&[u8]) -> bool) -> Vec<usize> {
+    let mut at = 0;
+    let mut found = Vec::new();
+    for line in lines(bytes) {
+        if wanted(line) {
+            found.extend(at..at + line.len());
+        }
+        at += line.len();
+    }
+    found
+}
+
+#[test]
+fn a_number_of_another_width_never_passes() {
+    let mut found = passed(FIXED, |bytes| {
+        let mut changes = Vec::new();
+        for at in offsets(bytes, |line| data(line)) {
+            let mut narrower = bytes.to_vec();
+            narrower.remove(at);
+            changes.push((format!("without byte {at}"), narrower));
+            for with in b"0 1-." {
+                let mut wider = bytes.to_vec();
+                wider.insert(at, *with);
+                let name = format!("{:?} before {at}", char::from(*with));
+                changes.push((name, wider));
+            }
+        }
+        changes
+    });
+    found.retain(|p| p.file != "valid-free.at2");
+    none(&found);
+}
+
+#[test]
+fn a_changed_count_never_passes() {
+    // Every digit of every header line, counts and all else; the scale of
+    // counts is the one number there that makes samples.
+    none(&passed(COUNTED, |bytes| {
+        let mut changes = Vec::new();
+        let header =
+            |line: &[u8]| !data(line) && !line.starts_with(b"Scale Factor");
+        for at in offsets(bytes, header) {
+            if !bytes[at].is_ascii_digit() {
+                continue;
+            }
+            for digit in b"0123456789" {
+                let mut changed = bytes.to_vec();
+                changed[at] = *digit;
+                let name = format!("{} at {at}", char::from(*digit));
+                changes.push((name, changed));
+            }
+            let mut longer = bytes.to_vec();
+            longer.insert(at, b'1');
+            changes.push((format!("1 before {at}"), longer));
+            let mut shorter = bytes.to_vec();
+            shorter.remove(at);
+            changes.push((format!("without byte {at}"), shorter));
+        }
+        changes
+    }));
+}

@@ -1,0 +1,83 @@
+//! Suites written as files, and read back.
+
+use std::path::Path;
+use std::process::Command;
+
+use rocking::record::{Accelerogram, ReadOptions};
+use rocking_validation::{inputs, synthesis};
+
+use super::folder;
+
+fn rocking(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let out = Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap();
+    let error = String::from_utf8(out.stderr).unwrap();
+    (out.status.code().unwrap(), error)
+}
+
+#[test]
+fn exported_suites_are_read_back_bit_for_bit() {
+    let folder = folder("export", &[]);
+    let (status, error) = rocking(&folder, &["suite", "export", "out"]);
+    assert_eq!((status, error.as_str()), (0, ""));
+    let suites = [
+        ("ordinary", synthesis::ordinary().unwrap()),
+        ("pulse", synthesis::pulse().unwrap()),
+    ];
+    for (name, pairs) in suites {
+        let path = folder.join("out").join(format!("{name}.csv"));
+        let suite = inputs::read_suite(&path, ReadOptions::default()).unwrap();
+        let own = pairs.iter().flat_map(|pair| &pair.components);
+        let bits = |m: &Accelerogram| -> Vec<u64> {
+            m.samples_g().iter().map(|a| a.to_bits()).collect()
+        };
+        assert_eq!(suite.members().len(), 2 * pairs.len());
+        for (member, motion) in suite.members().iter().zip(own) {
+            assert_eq!(&member.accelerogram, motion);
+            assert_eq!(bits(&member.accelerogram), bits(motion));
+        }
+        assert_eq!(suite.both().len(), pairs.len());
+        for ((study, _), pair) in suite.both().iter().zip(&pairs) {
+            assert_eq!(study.accelerogram, pair.components[0]);
+            let mw: f64 = study.attributes["mw"].parse().unwrap();
+            assert_eq!(mw, pair.scenario.mw);
+        }
+    }
+    // Once more into the same folder, which is no longer empty.
+    let (status, error) = rocking(&folder, &["suite", "export", "out"]);
+    assert_eq!(status, 2);
+    assert!(error.contains("cannot write out"), "{error}");
+    // One of one's own, and a file changed behind the index's back.
+    let mine = ["suite", "export", "mine", "--suite", "out/pulse.csv"];
+    assert_eq!(rocking(&folder, &mine), (0, String::new()));
+    let same = |a: &str, b: &str| {
+        std::fs::read(folder.join(a)).unwrap()
+            == std::fs::read(folder.join(b)).unwrap()
+    };
+    assert!(same("out/pulse.csv", "mine/pulse.csv"));
+    let file = folder.join("mine/pulse/pulse-01-a.at2");
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, text.replacen("E-0", "E+0", 1)).unwrap();
+    let index = folder.join("mine/pulse.csv");
+    let error = inputs::read_suite(&index, ReadOptions::default());
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("has sha256"), "{error}");
+    let processed =
+        ["suite", "export", "x", "--suite", "out/pulse.csv", "--demean"];
+    assert_eq!(rocking(&folder, &processed), (0, String::new()));
+    let text = std::fs::read_to_string(folder.join("x/pulse.csv")).unwrap();
+    assert!(text.contains(",processing,") && text.contains("mean removed"));
+    let (status, error) =
+        rocking(&folder, &["suite", "export", "y", "--demean"]);
+    assert_eq!(status, 2);
+    assert!(error.contains("--demean is not used without --suite"));
+    let left: Vec<_> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .filter(|name| name.to_string_lossy().starts_with('.'))
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
+}

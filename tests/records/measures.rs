@@ -1,0 +1,140 @@
+//! Intensity measures and velocity pulses of files.
+
+use rayon::prelude::*;
+use rocking::intensity::velocity_pulse::{candidates, pulse};
+use rocking::record::Suite;
+use rocking::units::STANDARD_GRAVITY_M_S2;
+
+use super::{folder, options, real, records};
+
+/// The pulse periods of the index are those of Shahi and Baker's own list,
+/// for motions turned and processed by their database.
+#[test]
+fn pulse_periods_of_real_pairs_are_those_of_the_list() {
+    let mut counts = Vec::new();
+    for index in ["pulse.csv", "ordinary.csv"] {
+        let Some(path) = real(index) else { return };
+        let suite = Suite::read(&path, &options()).unwrap();
+        let found: Vec<(Option<f64>, Option<f64>)> = suite
+            .both()
+            .into_par_iter()
+            .map(|(study, other)| {
+                let pair = (&study.accelerogram, &other.accelerogram);
+                let all = candidates(pair.0, pair.1, STANDARD_GRAVITY_M_S2);
+                let all = all.expect("a pair of one interval");
+                let own = pulse(&all).map(|c| c.period_s);
+                (own, study.attributes["pulse_period_s"].parse().ok())
+            })
+            .collect();
+        let pairs = found.len();
+        let pulses = found.iter().filter(|(own, _)| own.is_some()).count();
+        let mut ratios: Vec<f64> = found
+            .iter()
+            .filter_map(|(own, listed)| Some((*own)? / (*listed)?))
+            .collect();
+        counts.push((pulses, pairs));
+        println!("{index}: {pulses} of {pairs} pairs have a pulse");
+        if ratios.is_empty() {
+            continue;
+        }
+        ratios.sort_by(f64::total_cmp);
+        let near = |r: &&f64| (1.0 / 1.2..=1.2).contains(*r);
+        let near = ratios.iter().filter(near).count();
+        let median = ratios[ratios.len() / 2];
+        println!(
+            "periods over the listed ones: median {median:.3}, {near} of {} \
+             within 20 %",
+            ratios.len()
+        );
+        assert!((median - 1.0).abs() < 0.02);
+        assert!(10 * near >= 9 * ratios.len());
+    }
+    // Nearly all of the pulse-type pairs, and few of the ordinary ones.
+    assert!(10 * counts[0].0 >= 9 * counts[0].1, "{counts:?}");
+    assert!(10 * counts[1].0 <= counts[1].1, "{counts:?}");
+}
+
+/// One cycle of 2 s, one value a line; its velocity peaks at 0.31 m/s for
+/// 0.1 g.
+fn cycle(scale: f64) -> String {
+    let line = |i: u32| {
+        let t = 0.01 * f64::from(i) - 3.0;
+        let moves = (0.0..2.0).contains(&t);
+        let shape = libm::cos(std::f64::consts::PI * t);
+        format!("{:.7}\n", if moves { scale * shape } else { 0.0 })
+    };
+    (0..1000).map(line).collect()
+}
+
+/// A folder with a pair, `suite.csv`, `one.txt` and `other.txt`.
+fn pair(name: &str) -> std::path::PathBuf {
+    let (one, other) = (cycle(0.2), cycle(0.1));
+    let index = "file,units,dt_s,pair\n\
+                 one.txt,g,0.01,a\nother.txt,g,0.01,a\n";
+    let files: [(&str, &[u8]); 3] = [
+        ("suite.csv", index.as_bytes()),
+        ("one.txt", one.as_bytes()),
+        ("other.txt", other.as_bytes()),
+    ];
+    folder(name, &files)
+}
+
+#[test]
+fn measures_and_pulses_of_a_pair_are_listed() {
+    let folder = pair("measures");
+    let arguments = [
+        "--json",
+        "--intensity",
+        "--periods",
+        "0.5,1",
+        "--pulses",
+        "suite.csv",
+    ];
+    let (status, out, error) = records(&folder, &arguments);
+    assert_eq!(status, 0, "{error}");
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let first = &json["records"][0]["intensity"];
+    assert!((first["pga_g"].as_f64().unwrap() - 0.2).abs() < 1e-6);
+    assert_eq!(first["spectrum"][1]["period_s"], 1.0);
+    let pair = &json["pairs"][0];
+    let rotated = &pair["intensity"]["rotd50"];
+    // The second is half the first: RotD50 is sqrt(1.25) |cos| of it.
+    let median = rotated["pga_g"].as_f64().unwrap();
+    assert!((median / 0.2 - f64::sqrt(1.25 / 2.0)).abs() < 0.01, "{median}");
+    assert_eq!(pair["velocity_pulse"]["pulse_like"], true);
+    let period = pair["velocity_pulse"]["pulse_period_s"].as_f64().unwrap();
+    assert!((period - 2.0).abs() < 0.4, "{period}");
+    let (status, out, error) = records(
+        &folder,
+        &[
+            "--intensity",
+            "--pulses",
+            "--dt",
+            "0.01",
+            "--units",
+            "g",
+            "one.txt",
+            "other.txt",
+        ],
+    );
+    assert_eq!(status, 0, "{error}");
+    for word in ["Arias(m/s)", "RotD50", "geometric mean", "velocity pulse"] {
+        assert!(out.contains(word), "{word} not in {out}");
+    }
+}
+
+#[test]
+fn what_cannot_be_asked_for_is_refused() {
+    let folder = pair("refused-measures");
+    let refused = |own: &[&str], word: &str| {
+        let arguments = [own, &["--dt", "0.01", "--units", "g", "one.txt"]];
+        let (status, out, error) = records(&folder, &arguments.concat());
+        assert_eq!(status, 2, "{own:?}");
+        assert!(error.contains(word), "{error}");
+        assert!(out.is_empty());
+    };
+    refused(&["--pulses"], "two components");
+    refused(&["--periods", "1"], "--intensity");
+    refused(&["--intensity", "--periods", "-1"], "period -1");
+    refused(&["--intensity", "--periods", "0"], "period 0");
+}

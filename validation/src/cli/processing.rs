@@ -1,0 +1,44 @@
+//! Flags that change records before they are used.
+
+use rocking::record::Processing;
+
+use super::Failure;
+
+/// What is done to records; nothing unless asked for.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct ProcessingArgs {
+    /// Take the mean off every record.
+    #[arg(long)]
+    demean: bool,
+    /// Pass what lies above this corner in Hz: Butterworth of order 4,
+    /// forwards and backwards, with 6/corner s of zeros added at both ends.
+    #[arg(long, value_name = "CORNER_HZ", allow_negative_numbers = true)]
+    high_pass: Option<f64>,
+}
+
+impl ProcessingArgs {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// [`Failure`] for a corner that is none.
+    pub fn processing(self) -> Result<Processing, Failure> {
+        Processing::try_new(self.demean, self.high_pass)
+            .map_err(|error| Failure::input(format!("--high-pass: {error}")))
+    }
+
+    /// The first flag given, to be refused where no record is read.
+    #[must_use]
+    pub fn given(self) -> Option<&'static str> {
+        if self.demean {
+            Some("--demean")
+        } else {
+            self.high_pass.map(|_| "--high-pass")
+        }
+    }
+}
+
+/// The words for results: `null` in JSON where nothing was done.
+#[must_use]
+pub fn words(processing: &Processing) -> Option<String> {
+    (!processing.is_none()).then(|| processing.to_string())
+}

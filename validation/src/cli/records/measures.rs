@@ -1,0 +1,369 @@
+//! Intensity measures and velocity pulses of listed records.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use rocking::intensity::velocity_pulse::{Candidate, candidates, pulse};
+use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
+use serde_json::{Value, json};
+
+use super::{Listed, line};
+use crate::cli::Failure;
+use crate::json::{number, optional};
+
+/// What is asked for beside the list.
+#[derive(clap::Args)]
+pub(super) struct MeasureArgs {
+    /// Intensity measures: PGD, Arias intensity, cumulative absolute
+    /// velocity, durations, mean period, response spectrum at 5 % damping;
+    /// of pairs also the geometric mean and RotD50.
+    #[arg(long)]
+    intensity: bool,
+    /// Periods of the response spectrum in s.
+    #[arg(
+        long,
+        value_name = "S,..",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        requires = "intensity"
+    )]
+    periods: Option<Vec<f64>>,
+    /// Strong velocity pulses in pairs, by Shahi and Baker (2014). Pairs are
+    /// those of a suite, or two files alone.
+    #[arg(long)]
+    pulses: bool,
+}
+
+/// Results, in the order of the records and of the pairs.
+pub(super) struct Found {
+    settings: Settings,
+    singles: Option<Vec<Result<Measures, IntensityError>>>,
+    pairs: Vec<FoundPair>,
+}
+
+struct FoundPair {
+    name: String,
+    files: [String; 2],
+    measures: Option<Result<PairMeasures, IntensityError>>,
+    candidates: Option<Result<Vec<Candidate>, IntensityError>>,
+}
+
+impl MeasureArgs {
+    /// Measures what is asked for.
+    ///
+    /// # Errors
+    /// [`Failure`] for a period that is none, or pulses without a pair.
+    pub(super) fn run(
+        &self,
+        records: &[Listed],
+        gravity_m_s2: f64,
+    ) -> Result<Found, Failure> {
+        let usual = Settings::default();
+        let periods = self.periods.as_deref().unwrap_or(usual.periods_s());
+        let settings = Settings::try_new(
+            gravity_m_s2,
+            usual.damping_ratio(),
+            periods.to_vec(),
+        )
+        .map_err(|error| Failure::input(error.to_string()))?;
+        let singles = self.intensity.then(|| {
+            records
+                .par_iter()
+                .map(|listed| Measures::of(&listed.motion, &settings))
+                .collect()
+        });
+        let pairs = if self.intensity || self.pulses {
+            pairs(records)
+        } else {
+            Vec::new()
+        };
+        if self.pulses && pairs.is_empty() {
+            return Err(Failure::input(
+                "--pulses: no two components of one motion among the \
+                 records; expected a suite with pairs, or two files alone",
+            ));
+        }
+        let pairs = pairs
+            .into_par_iter()
+            .map(|(name, [a, b])| {
+                let (first, second) = (&records[a], &records[b]);
+                let motions = (&first.motion, &second.motion);
+                FoundPair {
+                    name,
+                    files: [first.file.clone(), second.file.clone()],
+                    measures: self.intensity.then(|| {
+                        PairMeasures::of(motions.0, motions.1, &settings)
+                    }),
+                    candidates: self.pulses.then(|| {
+                        candidates(motions.0, motions.1, gravity_m_s2)
+                    }),
+                }
+            })
+            .collect();
+        Ok(Found { settings, singles, pairs })
+    }
+}
+
+/// Pairs by name, the study's component first; two records alone are one.
+fn pairs(records: &[Listed]) -> Vec<(String, [usize; 2])> {
+    let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let mut names = Vec::new();
+    for (i, listed) in records.iter().enumerate() {
+        if let Some((Some(pair), study)) = &listed.place {
+            let places = by_name.entry(pair).or_insert_with(|| {
+                names.push(pair.as_str());
+                Vec::new()
+            });
+            let at = if *study { 0 } else { places.len() };
+            places.insert(at, i);
+        }
+    }
+    let suite = records.iter().any(|listed| listed.place.is_some());
+    if let ([first, second], false) = (records, suite) {
+        let name = format!("{} + {}", first.file, second.file);
+        return vec![(name, [0, 1])];
+    }
+    names
+        .into_iter()
+        .filter_map(|name| {
+            let places = by_name.get(name)?.as_slice();
+            let both = <[usize; 2]>::try_from(places).ok()?;
+            Some((name.to_owned(), both))
+        })
+        .collect()
+}
+
+impl Found {
+    /// Adds the measures to the record's JSON.
+    pub(super) fn add_to(&self, position: usize, record: &mut Value) {
+        let own = self.singles.as_ref().and_then(|all| all.get(position));
+        if let (Some(own), Some(map)) = (own, record.as_object_mut()) {
+            let settings = &self.settings;
+            map.insert(
+                "intensity".into(),
+                outcome(own, |m| json(m, settings)),
+            );
+        }
+    }
+
+    /// The pairs as JSON; none where nothing of them was asked for.
+    pub(super) fn pairs_json(&self) -> Option<Value> {
+        let asked = self.singles.is_some() || !self.pairs.is_empty();
+        let one = |pair: &FoundPair| {
+            let settings = &self.settings;
+            let mut value = json!({ "pair": pair.name, "files": pair.files });
+            let Some(map) = value.as_object_mut() else { return value };
+            if let Some(found) = &pair.measures {
+                let both = |m: &PairMeasures| {
+                    json!({
+                        "geometric_mean": json(&m.geometric_mean, settings),
+                        "rotd50": json(&m.rotd50, settings),
+                    })
+                };
+                map.insert("intensity".into(), outcome(found, both));
+            }
+            if let Some(found) = &pair.candidates {
+                let all = |list: &Vec<Candidate>| {
+                    json!({
+                        "pulse_like": pulse(list).is_some(),
+                        "pulse_period_s":
+                            optional(pulse(list).map(|c| c.period_s)),
+                        "candidates":
+                            list.iter().map(candidate).collect::<Vec<_>>(),
+                    })
+                };
+                map.insert("velocity_pulse".into(), outcome(found, all));
+            }
+            value
+        };
+        asked.then(|| self.pairs.iter().map(one).collect())
+    }
+
+    /// The measures as tables.
+    pub(super) fn table(&self, records: &[Listed]) -> String {
+        let mut text = String::new();
+        if let Some(singles) = &self.singles {
+            let mut rows: Vec<(String, Result<&Measures, &IntensityError>)> =
+                Vec::new();
+            for (listed, found) in records.iter().zip(singles) {
+                rows.push((listed.file.clone(), found.as_ref()));
+            }
+            for pair in &self.pairs {
+                let Some(found) = &pair.measures else { continue };
+                let found = found.as_ref();
+                let name = &pair.name;
+                let mean = found.map(|m| &m.geometric_mean);
+                rows.push((format!("{name}, geometric mean"), mean));
+                rows.push((
+                    format!("{name}, RotD50"),
+                    found.map(|m| &m.rotd50),
+                ));
+            }
+            self.measures_table(&mut text, &rows);
+        }
+        self.pulse_table(&mut text);
+        text
+    }
+
+    fn measures_table(
+        &self,
+        text: &mut String,
+        rows: &[(String, Result<&Measures, &IntensityError>)],
+    ) {
+        let width = rows.iter().map(|(name, _)| name.chars().count());
+        let width = width.max().unwrap_or(0).max(4);
+        let periods: String = self
+            .settings
+            .periods_s()
+            .iter()
+            .map(|t| format!(" {:>9}", format!("SA({t})")))
+            .collect();
+        line(
+            text,
+            format_args!(
+                "\n{:width$}  {:>8} {:>9} {:>8} {:>10} {:>9} {:>9} {:>9} {:>7}{periods}",
+                "intensity",
+                "PGA (g)",
+                "PGV (m/s)",
+                "PGD (m)",
+                "Arias(m/s)",
+                "CAV (m/s)",
+                "D5-75 (s)",
+                "D5-95 (s)",
+                "T_m (s)",
+            ),
+        );
+        for (name, found) in rows {
+            let m = match found {
+                Ok(m) => m,
+                Err(error) => {
+                    line(text, format_args!("{name:width$}  {error}"));
+                    continue;
+                }
+            };
+            let spectrum: String = m
+                .spectral_acceleration_g
+                .iter()
+                .map(|a| format!(" {a:>9.4}"))
+                .collect();
+            let period = m
+                .mean_period_s
+                .map_or_else(|| "none".into(), |t| format!("{t:.3}"));
+            line(
+                text,
+                format_args!(
+                    "{name:width$}  {:>8.4} {:>9.4} {:>8.4} {:>10.4} {:>9.3} {:>9.3} {:>9.3} {period:>7}{spectrum}",
+                    m.pga_g,
+                    m.pgv_m_s,
+                    m.pgd_m,
+                    m.arias_intensity_m_s,
+                    m.cav_m_s,
+                    m.significant_duration_5_75_s,
+                    m.significant_duration_5_95_s,
+                ),
+            );
+        }
+    }
+
+    fn pulse_table(&self, text: &mut String) {
+        let rows: Vec<_> = self
+            .pairs
+            .iter()
+            .filter_map(|pair| Some((pair, pair.candidates.as_ref()?)))
+            .collect();
+        if rows.is_empty() {
+            return;
+        }
+        let width = rows.iter().map(|(pair, _)| pair.name.chars().count());
+        let width = width.max().unwrap_or(0).max(14);
+        line(
+            text,
+            format_args!(
+                "\n{:width$}  {:>5} {:>10} {:>9} {:>9} {:>9} {:>5}",
+                "velocity pulse",
+                "pulse",
+                "period (s)",
+                "time (s)",
+                "PGV (m/s)",
+                "indicator",
+                "late",
+            ),
+        );
+        for (pair, found) in rows {
+            let name = &pair.name;
+            // The pulse, or else the strongest candidate.
+            let shown = match found {
+                Ok(list) => pulse(list).or(list.first()),
+                Err(error) => {
+                    line(text, format_args!("{name:width$}  {error}"));
+                    continue;
+                }
+            };
+            let Some(c) = shown else { continue };
+            let yes = |x: bool| if x { "yes" } else { "no" };
+            line(
+                text,
+                format_args!(
+                    "{name:width$}  {:>5} {:>10.3} {:>9.2} {:>9.4} {:>9.3} {:>5}",
+                    yes(c.is_pulse()),
+                    c.period_s,
+                    c.time_s,
+                    c.pgv_m_s,
+                    c.indicator,
+                    yes(c.late),
+                ),
+            );
+        }
+    }
+}
+
+/// A value, or why there is none.
+fn outcome<T>(
+    found: &Result<T, IntensityError>,
+    show: impl Fn(&T) -> Value,
+) -> Value {
+    match found {
+        Ok(value) => show(value),
+        Err(error) => json!({ "refused": error.to_string() }),
+    }
+}
+
+fn json(m: &Measures, settings: &Settings) -> Value {
+    let spectrum: Vec<Value> = settings
+        .periods_s()
+        .iter()
+        .zip(&m.spectral_acceleration_g)
+        .map(|(t, a)| {
+            json!({
+                "period_s": number(*t),
+                "spectral_acceleration_g": number(*a),
+            })
+        })
+        .collect();
+    json!({
+        "pga_g": number(m.pga_g),
+        "pgv_m_s": number(m.pgv_m_s),
+        "pgd_m": number(m.pgd_m),
+        "arias_intensity_m_s": number(m.arias_intensity_m_s),
+        "cav_m_s": number(m.cav_m_s),
+        "significant_duration_5_75_s": number(m.significant_duration_5_75_s),
+        "significant_duration_5_95_s": number(m.significant_duration_5_95_s),
+        "mean_period_s": optional(m.mean_period_s),
+        "damping_ratio": number(settings.damping_ratio()),
+        "spectrum": spectrum,
+    })
+}
+
+fn candidate(c: &Candidate) -> Value {
+    json!({
+        "pulse": c.is_pulse(),
+        "period_s": number(c.period_s),
+        "time_s": number(c.time_s),
+        "direction_rad": number(c.direction_rad),
+        "pgv_m_s": number(c.pgv_m_s),
+        "pgv_ratio": number(c.pgv_ratio),
+        "energy_ratio": number(c.energy_ratio),
+        "indicator": number(c.indicator),
+        "late": c.late,
+    })
+}

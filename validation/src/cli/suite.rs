@@ -1,0 +1,78 @@
+//! `rocking suite`: suites as files.
+
+use std::path::PathBuf;
+
+use rocking::record::ReadOptions;
+
+use super::processing::{ProcessingArgs, words};
+use super::{Failure, print};
+use crate::files::write_new_folder;
+use crate::inputs::read_suite;
+use crate::{export, synthesis};
+
+/// Suites of records as files.
+#[derive(clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(clap::Subcommand)]
+enum Action {
+    Export(ExportArgs),
+}
+
+/// Write suites as AT2 files with an index each: the embedded ones, or one
+/// of yours. `--suite DIR/ordinary.csv` reads them back, bit for bit.
+#[derive(clap::Args)]
+struct ExportArgs {
+    /// A new folder, or an empty one.
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// A suite of yours: folder, index or zip.
+    #[arg(long, value_name = "PATH")]
+    suite: Option<PathBuf>,
+    #[command(flatten)]
+    processing: ProcessingArgs,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a suite that is refused, or a folder that is not empty.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let Action::Export(args) = &args.action;
+    let mut files = Vec::new();
+    let mut table = String::new();
+    let mut add = |name: &str, rows: Vec<export::Row<'_>>| {
+        let index = args.folder.join(format!("{name}.csv"));
+        table.push_str(&format!(
+            "{name}: {} records, index {}\n",
+            rows.len(),
+            index.display()
+        ));
+        files.extend(export::files(name, &rows)?);
+        Ok::<(), Failure>(())
+    };
+    match &args.suite {
+        Some(path) => {
+            let processing = args.processing.processing()?;
+            let suite = read_suite(path, ReadOptions::default())?;
+            let suite = suite.processed(&processing)?;
+            let done = words(&processing);
+            add(suite.name(), export::members(&suite, done.as_deref()))?;
+        }
+        None => {
+            if let Some(flag) = args.processing.given() {
+                return Err(Failure::input(format!(
+                    "{flag} is not used without --suite: the embedded \
+                     suites need no correction"
+                )));
+            }
+            add("ordinary", export::pairs(&synthesis::ordinary()?))?;
+            add("pulse", export::pairs(&synthesis::pulse()?))?;
+        }
+    }
+    write_new_folder(&args.folder, files)?;
+    print(&table)
+}

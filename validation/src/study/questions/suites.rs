@@ -1,0 +1,351 @@
+//! What can the embedded suites show, and what not? They are compared with
+//! recorded ones: with the study's own where it has any, else with the
+//! committed comparison that such a study wrote.
+
+mod compare;
+mod drawing;
+mod row;
+
+use row::{Group, Row};
+
+use super::{Answer, capital};
+use crate::figures::data::Intensity;
+use crate::report::PlainTable;
+use crate::study::StudyError;
+use crate::study::claims::median;
+use crate::study::figures::{Results, range};
+
+/// The comparison with 86 ordinary and 44 pulse-type recorded motions:
+/// medians, dispersions and intervals alone.
+const COMMITTED: &str =
+    include_str!("../../../../fixtures/comparison/suites.csv");
+
+/// Measures of motions in words and figures, by their names in the CSV, with
+/// the labels of the figure.
+const MOTIONS: [(&str, &str); 8] = [
+    ("pga_g", "PGA"),
+    ("pgv_m_s", "PGV"),
+    ("pgv_over_pga_s", "PGV/PGA"),
+    ("arias_intensity_m_s", "Arias"),
+    ("cav_m_s", "CAV"),
+    ("significant_duration_5_75_s", "*D*_{5–75}"),
+    ("significant_duration_5_95_s", "*D*_{5–95}"),
+    ("mean_period_s", "*T*_{m}"),
+];
+
+const QUESTION: &str = "What can the embedded suites show, and what not?";
+
+pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+    let own = results.embedded();
+    let rows = if own {
+        row::from_csv(COMMITTED)
+    } else {
+        // Through the file's digits: the same numbers as from the file.
+        row::from_csv(&row::to_csv(&compare::rows(results)?))
+    };
+    let kinds = [results.ordinary.kind, results.pulse.kind];
+    let mut answer = Answer::new("suites", QUESTION, words(&rows, kinds));
+    answer.csv = row::to_csv(&rows);
+    let origin = if own {
+        "The recorded suites are not part of this run: the numbers are kept \
+         from a run with its default choices on 86 ordinary and 44 \
+         pulse-type recorded motions of PEER's database, of which nothing \
+         but these medians, dispersions and intervals is kept."
+    } else {
+        "The recorded suites are those of this run; the embedded ones were \
+         run beside them with the same choices."
+    };
+    answer.tables = vec![
+        motions(&rows, &answer.answer, origin),
+        capacities(&rows, kinds),
+        accepted(&rows),
+    ];
+    answer.figures = vec![
+        drawing::motions(&rows, kinds),
+        drawing::capacities(&rows, kinds),
+    ];
+    Ok(answer)
+}
+
+/// The row of a measure of the motions.
+fn of_motion<'a>(
+    rows: &'a [Row],
+    kind: &str,
+    quantity: &str,
+) -> Option<&'a Row> {
+    rows.iter().find(|r| {
+        r.group == Group::Motion && r.suite == kind && r.quantity == quantity
+    })
+}
+
+fn of_group<'a>(
+    rows: &'a [Row],
+    group: Group,
+    kind: &str,
+    quantity: &str,
+) -> Vec<&'a Row> {
+    rows.iter()
+        .filter(|r| {
+            r.group == group && r.suite == kind && r.quantity == quantity
+        })
+        .collect()
+}
+
+fn words(rows: &[Row], kinds: [&str; 2]) -> String {
+    let mut out = Vec::new();
+    for kind in kinds {
+        let motions: Vec<String> = MOTIONS
+            .iter()
+            .filter_map(|(quantity, label)| {
+                let ratio = of_motion(rows, kind, quantity)?.ratio;
+                (!ratio.holds(1.0))
+                    .then(|| format!("{} {:.2}", plain(label), ratio.value))
+            })
+            .collect();
+        let motions = if motions.is_empty() {
+            "no measure's median differs".to_owned()
+        } else {
+            format!(
+                "medians that differ, embedded over recorded: {}",
+                motions.join(", ")
+            )
+        };
+        out.push(format!("{} motions: {motions}.", capital(kind)));
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            let own = of_group(rows, Group::Capacity, kind, intensity.name());
+            let (low, high) = range(own.iter().map(|r| r.ratio.value));
+            let same = own.iter().filter(|r| r.ratio.holds(1.0)).count();
+            let alike = own.iter().filter(|r| r.spread.holds(0.0)).count();
+            out.push(format!(
+                "Capacities in {}: medians {low:.2} to {high:.2} times the \
+                 recorded ones, {same} of {} intervals hold 1; dispersions \
+                 agree in {alike} of {}.",
+                intensity.name().to_uppercase(),
+                own.len(),
+                own.len(),
+            ));
+        }
+    }
+    out.push(
+        "So the embedded default shows how the procedure works, its \
+         numerical error, and how findings hang on its choices. It does not \
+         show levels of capacity or of motion where an interval leaves 1 \
+         out; those, and what a verdict says of real earthquakes, need \
+         recorded motions."
+            .into(),
+    );
+    out.join(" ")
+}
+
+/// A label without its marks.
+fn plain(label: &str) -> String {
+    label.replace(['*', '{', '}', '_'], "")
+}
+
+fn header(names: &[&str]) -> Vec<String> {
+    names.iter().map(|n| (*n).to_owned()).collect()
+}
+
+fn motions(rows: &[Row], answer: &str, origin: &str) -> PlainTable {
+    let shown = rows.iter().filter(|r| r.group == Group::Motion);
+    let shown = shown
+        .map(|r| {
+            vec![
+                r.suite.clone(),
+                r.quantity.replace('_', " "),
+                format!("{:.3}", r.embedded.middle),
+                format!("{:.3}", r.recorded.middle),
+                format!("{:.2}", r.ratio.value),
+                format!("{:.2} to {:.2}", r.ratio.low, r.ratio.high),
+                format!("{:.2}", r.embedded.dispersion()),
+                format!("{:.2}", r.recorded.dispersion()),
+                format!("{:.2} to {:.2}", r.spread.low, r.spread.high),
+                format!("{:.2}", r.distance),
+                format!("{:.3}", r.p_value),
+            ]
+        })
+        .collect();
+    PlainTable {
+        name: "table-suites".into(),
+        title: "Embedded motions beside recorded ones".into(),
+        reading: format!(
+            "{answer} {origin} Study components; dispersion is half the \
+             logarithm of the 84 over the 16 % quantile; intervals are of 95 \
+             %, from 2000 bootstrap draws of the records of both suites; D \
+             is Kolmogorov's and Smirnov's distance of the two samples. All \
+             rows: suites.csv."
+        ),
+        header: header(&[
+            "suite",
+            "measure",
+            "embedded median",
+            "recorded median",
+            "ratio",
+            "95 %",
+            "embedded dispersion",
+            "recorded dispersion",
+            "95 % of the difference",
+            "D",
+            "p-value",
+        ]),
+        rows: shown,
+    }
+}
+
+fn capacities(rows: &[Row], kinds: [&str; 2]) -> PlainTable {
+    let mut shown = Vec::new();
+    for kind in kinds {
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            for r in of_group(rows, Group::Capacity, kind, intensity.name()) {
+                if r.edp != 1.0 {
+                    continue;
+                }
+                shown.push(vec![
+                    kind.to_owned(),
+                    intensity.name().to_uppercase(),
+                    format!("{}", r.p_rad_s),
+                    format!("{:.2}", r.alpha_rad),
+                    format!("{:.2}", r.embedded.middle),
+                    format!("{:.2}", r.recorded.middle),
+                    format!("{:.2}", r.ratio.value),
+                    format!("{:.2} to {:.2}", r.ratio.low, r.ratio.high),
+                    format!("{:.2}", r.embedded.dispersion()),
+                    format!("{:.2}", r.recorded.dispersion()),
+                    format!("{:.2} to {:.2}", r.spread.low, r.spread.high),
+                ]);
+            }
+        }
+    }
+    PlainTable {
+        name: "table-suites-capacities".into(),
+        title: "Overturning capacities, block by block".into(),
+        reading: "At demand 1.00, with equal dimensionless steps; demands \
+                  0.15 and 0.35 are in suites.csv."
+            .into(),
+        header: header(&[
+            "suite",
+            "measure",
+            "p (rad/s)",
+            "alpha (rad)",
+            "embedded median",
+            "recorded median",
+            "ratio",
+            "95 %",
+            "embedded dispersion",
+            "recorded dispersion",
+            "95 % of the difference",
+        ]),
+        rows: shown,
+    }
+}
+
+fn accepted(rows: &[Row]) -> PlainTable {
+    let mut names: Vec<(&str, &str)> = Vec::new();
+    for r in rows.iter().filter(|r| r.group == Group::Accepted) {
+        if !names.contains(&(&r.suite, &r.quantity)) {
+            names.push((&r.suite, &r.quantity));
+        }
+    }
+    let shown = names
+        .into_iter()
+        .map(|(kind, quantity)| {
+            let own = of_group(rows, Group::Accepted, kind, quantity);
+            let of = |value: fn(&Row) -> f64| {
+                let all: Vec<f64> = own.iter().map(|r| value(r)).collect();
+                median(&all)
+            };
+            let below = |side: fn(&Row) -> row::Side| {
+                let side = |r: &&&Row| side(r).middle < side(r).low;
+                own.iter().filter(side).count().to_string()
+            };
+            let apart = of(|r| r.embedded.middle - r.recorded.middle);
+            let interval = apart
+                .interval
+                .map_or("–".into(), |(a, b)| format!("{a:.2} to {b:.2}"));
+            vec![
+                kind.to_owned(),
+                quantity.replace('_', " "),
+                own.len().to_string(),
+                format!("{:.2}", of(|r| r.embedded.middle).value),
+                format!("{:.2}", of(|r| r.recorded.middle).value),
+                format!("{:.2}", apart.value),
+                interval,
+                below(|r| r.embedded),
+                below(|r| r.recorded),
+            ]
+        })
+        .collect();
+    PlainTable {
+        name: "table-suites-accepted".into(),
+        title: "Accepted shares of both".into(),
+        reading: "Share of the demand levels at which a block's capacities \
+                  pass as lognormal: medians over blocks, the median of the \
+                  differences with its interval over blocks, and the number \
+                  of blocks whose share lies below the null band of its own \
+                  suite. Block by block: suites.csv."
+            .into(),
+        header: header(&[
+            "suite",
+            "sample",
+            "blocks",
+            "embedded",
+            "recorded",
+            "difference",
+            "95 %",
+            "embedded below its band",
+            "recorded below its band",
+        ]),
+        rows: shown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::analyses::facts;
+    use crate::study::suites::StudySuite;
+    use rocking::statistics::ExtendedSample;
+    use rocking::statistics::QuantileType;
+
+    #[test]
+    fn the_committed_comparison_is_of_these_embedded_suites() {
+        let rows = row::from_csv(COMMITTED);
+        assert_eq!(row::to_csv(&rows), COMMITTED);
+        for suite in StudySuite::embedded().expect("suites") {
+            let all: Vec<_> = suite
+                .motions
+                .iter()
+                .map(|m| facts(m).expect("moves"))
+                .collect();
+            let of =
+                |value: &dyn Fn(&crate::study::analyses::Facts) -> f64| {
+                    let values: Vec<f64> = all.iter().map(value).collect();
+                    let sample =
+                        ExtendedSample::try_new(&values).expect("sample");
+                    QuantileType::default()
+                        .of_extended(&sample, 0.5)
+                        .expect("median")
+                };
+            for (quantity, own) in [
+                ("pga_g", of(&|f| f.pga_g)),
+                (
+                    "arias_intensity_m_s",
+                    of(&|f| f.measures.arias_intensity_m_s),
+                ),
+                (
+                    "mean_period_s",
+                    of(&|f| f.measures.mean_period_s.unwrap_or(0.0)),
+                ),
+            ] {
+                let row = of_motion(&rows, suite.kind, quantity);
+                let kept = row.expect("a row").embedded.middle;
+                assert!(
+                    (own - kept).abs() < 6e-4 * own,
+                    "{} {quantity}: {own}, kept {kept}; run `rocking study` \
+                     with recorded suites and keep its suites.csv",
+                    suite.kind
+                );
+            }
+        }
+    }
+}

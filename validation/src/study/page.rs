@@ -42,13 +42,15 @@ pub fn input(
         number: "Speed".into(),
         ..shown(&timings.figure())?
     });
+    let names: Vec<&str> =
+        figures.iter().map(|f| f.drawing.heading().name.as_str()).collect();
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
         summary: summary(results, claims),
-        findings: claims.iter().map(finding).collect(),
+        findings: claims.iter().map(|c| finding(c, &names)).collect(),
         families: evidence::committed_families()?,
         tables: tables(answers)?,
         figures: drawn,
@@ -114,18 +116,54 @@ fn summary(results: &Results, claims: &[Claim]) -> Summary {
                 themselves, which for PGA are 1 by definition. A verdict \
                 needs the whole interval on one side of its margin; where \
                 there is no interval the value alone decides, and that is \
-                said by its absence. Verdicts hold for these suites."
+                said there. Verdicts hold for these suites."
             .into(),
     }
 }
 
-fn finding(claim: &Claim) -> Finding {
+/// The figures among `names` that a claim is about: those of its section, in
+/// its arm where there is one for each.
+fn shown_by(claim: &Claim, names: &[&str]) -> Vec<String> {
+    let Some((_, words)) = claim.section.split_once("Figure") else {
+        return Vec::new();
+    };
+    let numbers = words
+        .split(|c: char| !c.is_ascii_digit())
+        .filter_map(|digits| digits.parse::<u32>().ok());
+    let mut out = Vec::new();
+    for number in numbers {
+        let stem = format!("figure-{number:02}");
+        let own = claim
+            .arm
+            .map(|arm| format!("{stem}-{}", arm.letter().to_lowercase()));
+        let found = names
+            .iter()
+            .find(|name| own.as_deref() == Some(**name))
+            .or_else(|| names.iter().find(|name| name.starts_with(&stem)));
+        out.extend(found.map(|name| (*name).to_owned()));
+    }
+    out
+}
+
+/// What stands where no interval does.
+fn no_interval(claim: &Claim) -> String {
+    match (claim.suite.as_str(), claim.margin.as_str()) {
+        ("none", _) => "computed, not sampled",
+        (_, "none") => "counted, all of them",
+        _ => "none stated: the value alone decides",
+    }
+    .into()
+}
+
+fn finding(claim: &Claim, names: &[&str]) -> Finding {
     let arm = claim
         .arm
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
-    let interval = claim.measured.interval.map_or(String::new(), |(a, b)| {
-        format!("{} to {}, 95 %", rounded_text(a), rounded_text(b))
-    });
+    let interval = claim.measured.interval;
+    let interval = interval.map_or_else(
+        || no_interval(claim),
+        |(a, b)| format!("{} to {}, 95 %", rounded_text(a), rounded_text(b)),
+    );
     Finding {
         id: claim.key(),
         claim: claim.quote.clone(),
@@ -140,7 +178,7 @@ fn finding(claim: &Claim) -> Finding {
             Verdict::NotConfirmed => report::Verdict::NotConfirmed,
             Verdict::Inconclusive => report::Verdict::Inconclusive,
         },
-        figures: Vec::new(),
+        figures: shown_by(claim, names),
         remark: claim.note.clone(),
     }
 }
@@ -200,7 +238,7 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
         reading: figure.reading.clone(),
         svg: figure.drawing.svg()?,
         csv: figure.drawing.csv(),
-        csv_path: format!("{}.csv", heading.name),
+        csv_path: format!("data/{}.csv", heading.name),
     })
 }
 
@@ -213,7 +251,7 @@ fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, StudyError> {
         reading: shown.reading.clone(),
         svg: shown.chart.svg()?,
         csv: shown.chart.csv(),
-        csv_path: format!("{}.csv", heading.name),
+        csv_path: format!("data/{}.csv", heading.name),
     })
 }
 

@@ -8,6 +8,8 @@ use serde::Deserialize;
 
 #[path = "house/fixtures.rs"]
 mod fixtures;
+#[path = "house/results.rs"]
+mod results;
 #[path = "house/source.rs"]
 mod source;
 

@@ -18,6 +18,7 @@ pub mod normality;
 pub mod output;
 pub mod overturning;
 pub mod page;
+mod plain;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;

@@ -11,6 +11,7 @@ use super::credibility;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
+use super::plain;
 use super::questions::Answer;
 use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
@@ -49,7 +50,7 @@ pub fn input(
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        summary: summary(results, claims),
+        summary: summary(results, claims, &timings)?,
         findings: claims.iter().map(|c| finding(c, &names)).collect(),
         families: evidence::committed_families()?,
         tables: tables(answers)?,
@@ -80,7 +81,11 @@ fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
     Ok(tables)
 }
 
-fn summary(results: &Results, claims: &[Claim]) -> Summary {
+fn summary(
+    results: &Results,
+    claims: &[Claim],
+    timings: &Timings,
+) -> Result<Summary, StudyError> {
     let found = |suite: &SuiteResults| {
         let certainty = suite.work.certainty;
         format!(
@@ -97,7 +102,7 @@ fn summary(results: &Results, claims: &[Claim]) -> Summary {
             rounded_text(certainty.largest_shift)
         )
     };
-    Summary {
+    Ok(Summary {
         asked: "Can the slenderness of a rocking block be normalized out, \
                 and are its capacities lognormal above the intensity of \
                 uplift? Fifteen rigid blocks, p = 1, 3, 4 rad/s and alpha = \
@@ -105,6 +110,7 @@ fn summary(results: &Results, claims: &[Claim]) -> Summary {
                 of two suites."
             .into(),
         found: [
+            plain::answers(results, claims, timings)?,
             answers(claims),
             vec![found(&results.ordinary), found(&results.pulse)],
         ]
@@ -118,7 +124,7 @@ fn summary(results: &Results, claims: &[Claim]) -> Summary {
                 there is no interval the value alone decides, and that is \
                 said there. Verdicts hold for these suites."
             .into(),
-    }
+    })
 }
 
 /// The figures among `names` that a claim is about: those of its section, in

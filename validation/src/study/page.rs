@@ -115,14 +115,15 @@ fn summary(
             vec![found(&results.ordinary), found(&results.pulse)],
         ]
         .concat(),
-        trust: "Margins were fixed before any result was seen, but for one: \
-                the sharp onset for PGA was first measured by the largest \
-                intensity at a rotation of 0.005 alpha, which turned out to \
-                measure the block's size, and is now measured by the onsets \
-                themselves, which for PGA are 1 by definition. A verdict \
-                needs the whole interval on one side of its margin; where \
-                there is no interval the value alone decides, and that is \
-                said there. Verdicts hold for these suites."
+        trust: "Margins were fixed before any result was seen, but for those \
+                whose note says otherwise and one more: the sharp onset for \
+                PGA was first measured by the largest intensity at a rotation \
+                of 0.005 alpha, which turned out to measure the block's size, \
+                and is now measured by the onsets themselves, which for PGA \
+                are 1 by definition. A verdict needs the whole interval on \
+                one side of its margin; where there is no interval the value \
+                alone decides, and that is said there. Verdicts hold for \
+                these suites."
             .into(),
     })
 }

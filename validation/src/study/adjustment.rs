@@ -6,10 +6,11 @@ use super::StudyError;
 use super::claims;
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
 use super::findings::{ends, rounded, wilson};
+use crate::figures::data::Stripe;
 
-/// Figure 9, a row a box: usable count, Wilson's 95 % interval of the share
-/// that is usable, and median; the same apart by whether the adjusted
-/// slenderness is within the paper's.
+/// Figure 9, a row a box: usable count with Wilson's 95 % interval, and
+/// median; the same apart by whether the adjusted slenderness is within the
+/// paper's.
 pub(super) fn json(results: &Results) -> Result<Value, StudyError> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
@@ -27,8 +28,7 @@ pub(super) fn json(results: &Results) -> Result<Value, StudyError> {
                     "im_pga": rounded(split.im),
                     "records": stripe.records,
                     "usable": stripe.usable,
-                    "usable_share_interval":
-                        ends(Some(wilson(stripe.usable, stripe.records))),
+                    "usable_interval": count_interval(stripe),
                     "median": median.map(rounded),
                     "median_alpha_to_0.25": median_of_part(&split.within),
                     "median_alpha_above_0.25": median_of_part(&split.above),
@@ -38,6 +38,13 @@ pub(super) fn json(results: &Results) -> Result<Value, StudyError> {
         }
     }
     Ok(Value::Array(rows))
+}
+
+/// Of as many records of the kind, how many would be usable.
+fn count_interval(stripe: &Stripe) -> Value {
+    let (low, high) = wilson(stripe.usable, stripe.records);
+    let n = stripe.records as f64;
+    ends(Some((low * n, high * n)))
 }
 
 fn median_of_part(ratios: &[f64]) -> Value {

@@ -88,14 +88,20 @@ fn summary(
 ) -> Result<Summary, StudyError> {
     let found = |suite: &SuiteResults| {
         let certainty = suite.work.certainty;
-        format!(
-            "{} {} records, {} analyses; {} levels whose fate needed \
-             double-double, {} of them told wrongly in double precision, {} \
-             left open. If all of those flipped, the 16, 50 and 84 % \
-             overturning intensities would move by {} at most.",
+        let work = format!(
+            "{} {} records, {} analyses",
             suite.records.len(),
             suite.kind,
-            suite.work.analyses,
+            suite.work.analyses
+        );
+        if certainty.needed == 0 {
+            return format!("{work}; double precision tells every fate.");
+        }
+        format!(
+            "{work}; {} levels whose fate needed double-double, {} of them \
+             told wrongly in double precision, {} left open. If all of those \
+             flipped, the 16, 50 and 84 % overturning intensities would move \
+             by {} at most.",
             certainty.needed,
             certainty.moved,
             certainty.undecided,
@@ -162,6 +168,14 @@ fn no_interval(claim: &Claim) -> String {
     .into()
 }
 
+fn suite_words(claim: &Claim) -> &str {
+    match claim.suite.as_str() {
+        "none" => "no records",
+        "both" => "both suites",
+        suite => suite,
+    }
+}
+
 fn finding(claim: &Claim, names: &[&str]) -> Finding {
     let arm = claim
         .arm
@@ -175,7 +189,7 @@ fn finding(claim: &Claim, names: &[&str]) -> Finding {
         id: claim.key(),
         claim: claim.quote.clone(),
         source: format!("paper, section {}", claim.section),
-        tested_on: format!("{}, {}{arm}", claim.suite, claim.blocks),
+        tested_on: format!("{}, {}{arm}", suite_words(claim), claim.blocks),
         measure: claim.measure.clone(),
         value: rounded_text(claim.measured.value),
         interval,

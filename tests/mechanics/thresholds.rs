@@ -128,6 +128,8 @@ fn a_peak_is_the_first_of_equal_ones() {
         let found = respond(&scene, &observe).unwrap();
         assert_eq!(found.peak_ratio, 0.5);
         assert_eq!(found.peak_time_s, Some(0.0));
+        // It moves, though nothing lifted it and it met nothing yet.
+        assert_eq!(found.outcome, Outcome::Rocked { peak_ratio: 0.5 });
     }
 }
 

@@ -282,10 +282,11 @@ where
         }
         let total = self.forcing.length(piece);
         let steps = self.forcing.steps();
-        let mut boundary = if step.index + 1 >= steps {
+        let next = step.index + 1;
+        let mut boundary = if next == steps {
             total
         } else {
-            total * N::ratio(step.index as i32 + 1, steps as i32)
+            total * N::ratio(next as i32, steps as i32)
         };
         let mut stopping = false;
         if let Some(until) = self.until_s {
@@ -307,9 +308,9 @@ where
             self.stop(step.motion);
             return Some(Flight::Stopped);
         }
-        step.index += 1;
+        step.index = next;
         step.place.offset = boundary;
-        if step.index >= steps {
+        if next == steps {
             step.index = 0;
             step.place = Place { piece: piece + 1, offset: N::zero() };
         }

@@ -301,21 +301,22 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                     *x = if positive { -*x } else { *x };
                 }
                 gap[0] = gap[0] + threshold;
-                let Some(tau) = first_descent(&gap, left, Isa::best()) else {
+                // What is met at the end belongs to the next piece.
+                let Some(tau) = first_descent(&gap, left, Isa::best())
+                    .filter(|tau| *tau < left)
+                else {
                     continue;
                 };
                 // A touch is no exceedance.
                 let beyond = tau + left * N::from_f64(touch::<N>());
-                if tau < left && !(value(&gap, beyond) < N::zero()) {
+                if !(value(&gap, beyond) < N::zero()) {
                     continue;
                 }
                 if first.is_none_or(|(best, _)| tau < best) {
                     first = Some((tau, positive));
                 }
             }
-            if let Some((tau, positive)) = first
-                && tau < left
-            {
+            if let Some((tau, positive)) = first {
                 let place = Place { piece, offset: offset + tau };
                 let found = Exceedance { place, positive, crossing: true };
                 return (Some(found), scanned);

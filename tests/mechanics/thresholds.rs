@@ -54,16 +54,16 @@ fn a_record_lifts_strictly_above_the_threshold() {
 #[test]
 fn a_pulse_that_touches_the_threshold_does_not_lift() {
     // Numbers that no operation rounds.
-    let alpha = 0.25;
+    let alpha = 0.375;
     for (excess, lifts) in [(0.0, false), (1e-9, true), (-1e-9, false)] {
         for sign in [1.0, -1.0] {
             let kind = PulseKind::Triangle {
                 amplitude_g: sign * alpha * (1.0 + excess),
-                duration_s: 1.0,
+                duration_s: 1.5,
             };
             let pulse = Pulse::try_new(kind).unwrap();
             let scene = Scene {
-                block: Block::try_new(alpha, 1.5).unwrap(),
+                block: Block::try_new(alpha, 1.0).unwrap(),
                 ..scene(Excitation::Pulse(&pulse))
             };
             let found = respond(&scene, &Observe::default()).unwrap();
@@ -128,6 +128,8 @@ fn a_peak_is_the_first_of_equal_ones() {
         let found = respond(&scene, &observe).unwrap();
         assert_eq!(found.peak_ratio, 0.5);
         assert_eq!(found.peak_time_s, Some(0.0));
+        // It moves, though nothing lifted it and it met nothing yet.
+        assert_eq!(found.outcome, Outcome::Rocked { peak_ratio: 0.5 });
     }
 }
 

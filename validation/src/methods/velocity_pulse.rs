@@ -25,6 +25,9 @@ const SINES: [(f64, f64, f64); 5] = [
     (0.5, 5.3, 1.7),
 ];
 
+/// A number of a candidate.
+type Quantity = fn(&Candidate) -> f64;
+
 /// A pulse of Mavroeidis and Papageorgiou along one direction, and modulated
 /// sines, rounded to a millionth of g.
 #[derive(Deserialize)]
@@ -96,7 +99,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
     };
     let found = candidates(&first, &second, gravity_m_s2)
         .map_err(|e| MethodError::Oracle(e.to_string()))?;
-    let quantities: [(&str, fn(&Candidate) -> f64); 8] = [
+    let quantities: [(&str, Quantity); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),
         ("direction_rad", |c| c.direction_rad),

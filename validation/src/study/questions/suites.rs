@@ -43,6 +43,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         // Through the file's digits: the same numbers as from the file.
         row::from_csv(&row::to_csv(&compare::rows(results)?))
     };
+    if rows.is_empty() {
+        return Ok(Answer { csv: row::to_csv(&rows), ..none() });
+    }
     let kinds = [results.ordinary.kind, results.pulse.kind];
     let mut answer = Answer::new("suites", QUESTION, words(&rows, kinds));
     answer.csv = row::to_csv(&rows);
@@ -65,6 +68,18 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         drawing::capacities(&rows, kinds),
     ];
     Ok(answer)
+}
+
+/// What is said where no comparison is kept.
+fn none() -> Answer {
+    Answer::new(
+        "suites",
+        QUESTION,
+        "This version keeps no comparison with recorded suites; a study of \
+         recorded suites makes one. Levels of capacity and of motion of the \
+         embedded suites are those of published models, no more."
+            .into(),
+    )
 }
 
 /// The row of a measure of the motions.
@@ -311,6 +326,10 @@ mod tests {
     fn the_committed_comparison_is_of_these_embedded_suites() {
         let rows = row::from_csv(COMMITTED);
         assert_eq!(row::to_csv(&rows), COMMITTED);
+        if rows.is_empty() {
+            println!("skipped: no comparison with recorded suites is kept");
+            return;
+        }
         for suite in StudySuite::embedded().expect("suites") {
             let all: Vec<_> = suite
                 .motions

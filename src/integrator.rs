@@ -1,7 +1,7 @@
 //! Integration of a scene: block, excitation, model, and what to record.
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
-//! Eq. 1 is stepped by its Taylor polynomial, order 10, one step a sample;
+//! Eq. 1 is stepped by its Taylor polynomial, order 10 or 13, one step a sample;
 //! Eq. 2 by its exponential series, to rounding. Events are roots of the
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the
@@ -9,6 +9,7 @@
 
 mod accuracy;
 mod certify;
+pub(crate) mod class;
 mod coast;
 mod driver;
 mod dynamics;
@@ -27,6 +28,7 @@ use thiserror::Error;
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, RestIndex};
 use crate::number::dispatch::{Isa, Work as Dispatched};
+use class::{Class, SHORT, SMOOTH};
 use driver::Driver;
 use dynamics::Dynamics;
 use forcing::{PulseForcing, RecordForcing, Silence};
@@ -372,18 +374,6 @@ struct Run<'a> {
     isa: Isa,
 }
 
-/// Coefficients of the polynomial for Eq. 1 under a record: order 10, for
-/// steps to [`SHORT_STEP`]. Order 8 leaves too much of one step in six on
-/// records with sharp kinks, and taking those again costs more than it saves.
-const SHORT: usize = 11;
-/// Longest step (in 1/p) at which order 10 leaves less than rounding.
-const SHORT_STEP: f64 = 0.06;
-/// A step of 0.06 is one although p dt comes out above it.
-const GUARD: f64 = 1.0 + 1e-9;
-/// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
-/// of any step that a shorter series leaves too much of: order 13.
-pub(crate) const SMOOTH: usize = 14;
-
 impl Dispatched for Run<'_> {
     type Output = Response;
 
@@ -400,18 +390,10 @@ impl Dispatched for Run<'_> {
                 if let (Some(order), Model::Nonlinear) = (self.order, model) {
                     return self.at_order(order, dynamics, forcing);
                 }
-                match model {
-                    Model::Nonlinear if step <= SHORT_STEP * GUARD => {
-                        Driver::<_, _, SHORT, 2, SMOOTH>::new(
-                            dynamics, forcing, self.isa,
-                        )
-                        .run(self.scene, self.observe)
-                    }
-                    Model::Nonlinear | Model::Linearized => {
-                        Driver::<_, _, SMOOTH, 2, SMOOTH>::new(
-                            dynamics, forcing, self.isa,
-                        )
-                        .run(self.scene, self.observe)
+                match Class::of(model, step) {
+                    Class::Short => self.at::<SHORT>(dynamics, forcing),
+                    Class::Smooth | Class::Linearized => {
+                        self.at::<SMOOTH>(dynamics, forcing)
                     }
                 }
             }
@@ -435,6 +417,17 @@ impl Dispatched for Run<'_> {
 }
 
 impl Run<'_> {
+    /// By series of `LEN` coefficients, longer where they leave too much.
+    #[inline(always)]
+    fn at<const LEN: usize>(
+        &self,
+        dynamics: Dynamics<f64>,
+        forcing: RecordForcing<'_, f64>,
+    ) -> Response {
+        Driver::<_, _, LEN, 2, SMOOTH>::new(dynamics, forcing, self.isa)
+            .run(self.scene, self.observe)
+    }
+
     #[inline(always)]
     fn at_order(
         &self,
@@ -442,28 +435,23 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
     ) -> Response {
-        let (scene, observe) = (self.scene, self.observe);
         match order {
-            Order::Four => {
-                Driver::<_, _, 5, 2, SMOOTH>::new(dynamics, forcing, self.isa)
-                    .at_fixed_order()
-                    .run(scene, observe)
-            }
-            Order::Six => {
-                Driver::<_, _, 7, 2, SMOOTH>::new(dynamics, forcing, self.isa)
-                    .at_fixed_order()
-                    .run(scene, observe)
-            }
-            Order::Eight => {
-                Driver::<_, _, 9, 2, SMOOTH>::new(dynamics, forcing, self.isa)
-                    .at_fixed_order()
-                    .run(scene, observe)
-            }
-            Order::Ten => Driver::<_, _, SHORT, 2, SMOOTH>::new(
-                dynamics, forcing, self.isa,
-            )
-            .at_fixed_order()
-            .run(scene, observe),
+            Order::Four => self.fixed::<5>(dynamics, forcing),
+            Order::Six => self.fixed::<7>(dynamics, forcing),
+            Order::Eight => self.fixed::<9>(dynamics, forcing),
+            Order::Ten => self.fixed::<SHORT>(dynamics, forcing),
         }
+    }
+
+    /// By series of `LEN` coefficients, whatever they leave.
+    #[inline(always)]
+    fn fixed<const LEN: usize>(
+        &self,
+        dynamics: Dynamics<f64>,
+        forcing: RecordForcing<'_, f64>,
+    ) -> Response {
+        Driver::<_, _, LEN, 2, SMOOTH>::new(dynamics, forcing, self.isa)
+            .at_fixed_order()
+            .run(self.scene, self.observe)
     }
 }

@@ -60,6 +60,12 @@ pub trait Real: Number + PartialOrd + std::fmt::Debug {
     /// Nearest double.
     fn to_f64(self) -> f64;
 
+    /// The number itself where it is positive, zero elsewhere.
+    #[inline(always)]
+    fn positive_part(self) -> Self {
+        if self > Self::zero() { self } else { Self::zero() }
+    }
+
     /// Square root.
     fn sqrt(self) -> Self;
 

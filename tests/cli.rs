@@ -11,6 +11,8 @@ use serde_json::Value;
 mod diff;
 #[path = "cli/support.rs"]
 mod support;
+#[path = "cli/texts.rs"]
+mod texts;
 
 use support::{
     answer, at2, folder, json, motion, refused, refused_for, rocking,

@@ -8,6 +8,8 @@ use serde::Deserialize;
 
 #[path = "house/fixtures.rs"]
 mod fixtures;
+#[path = "house/results.rs"]
+mod results;
 #[path = "house/source.rs"]
 mod source;
 
@@ -237,6 +239,31 @@ fn every_dependency_is_used_and_in_the_readme() {
         }
     }
     pass(&problems);
+}
+
+#[test]
+fn it_stands_on_the_crates_and_folders_asked_for() {
+    let (core, harness) =
+        (manifest("Cargo.toml"), manifest("validation/Cargo.toml"));
+    for name in [
+        "statrs",
+        "rand",
+        "rand_distr",
+        "nalgebra",
+        "rayon",
+        "insta",
+        "proptest",
+        "plotters",
+    ] {
+        let there = [&core, &harness].iter().any(|m| {
+            m.dependencies.contains_key(name)
+                || m.dev_dependencies.contains_key(name)
+        });
+        assert!(there, "{name}");
+    }
+    for folder in ["src", "validation", "tests", "reports", "fixtures"] {
+        assert!(!files(folder).is_empty(), "{folder}");
+    }
 }
 
 #[test]

@@ -10,12 +10,16 @@ mod drawn;
 mod engines;
 #[path = "properties/mechanics.rs"]
 mod properties;
+#[path = "mechanics/pulses.rs"]
+mod pulses;
 #[path = "mechanics/references.rs"]
 mod references;
 #[path = "mechanics/regressions.rs"]
 mod regressions;
 #[path = "properties/running.rs"]
 mod running;
+#[path = "mechanics/thresholds.rs"]
+mod thresholds;
 
 /// A subset of the cases of `properties.rs`.
 const CASES: u32 = 5;

@@ -1,4 +1,5 @@
-//! What `rocking study` refuses, and that it then leaves nothing behind.
+//! What `rocking study` refuses, that it then leaves nothing behind, and
+//! that the committed report is what it gives.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -77,4 +78,17 @@ fn a_file_in_the_way_of_the_report() {
     std::fs::create_dir_all(&folder).expect("folder");
     std::fs::write(folder.join("input"), "mine").expect("file");
     refused("way", &args, &["input"]);
+}
+
+#[test]
+fn the_committed_report_is_what_the_study_gives() {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");
+    let output = study(&root, &["--out", "reports", "--check"]);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert!(
+        output.status.success(),
+        "{}{}",
+        text(&output.stdout),
+        text(&output.stderr)
+    );
 }

@@ -8,7 +8,8 @@ use crate::excitation::NormalisedRecord;
 use crate::ida::climb::{Aim, Climb};
 use crate::ida::levels::Level;
 use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_with};
-use crate::integrator::pool::{self, Class};
+use crate::integrator::class::Class;
+use crate::integrator::pool;
 use crate::integrator::{Response, Scene, uplift_threshold};
 use crate::number::dispatch::Isa;
 
@@ -242,7 +243,7 @@ fn queues<'a>(
     for analysis in analyses {
         for record in records {
             let p = analysis.block.frequency_rad_s();
-            let class = Class::of(analysis.model, record.dt_s() * p)
+            let class = pool::class_of(analysis.model, record.dt_s() * p)
                 .filter(|_| isa.is_wide());
             let work = work(record, analysis);
             let job = Job { index, analysis, record, work };

@@ -347,9 +347,9 @@ fn speed_at<N: Real>(d: &Dynamics<N>, u: N, level: Level<N>) -> N {
     match d.model {
         Model::Nonlinear => {
             let (s, _) = (N::ratio(1, 2) * y).sin_cos();
-            clip(N::from_f64(4.0) * s * s - q).sqrt()
+            (N::from_f64(4.0) * s * s - q).positive_part().sqrt()
         }
-        Model::Linearized => clip(y * y - q).sqrt(),
+        Model::Linearized => (y * y - q).positive_part().sqrt(),
     }
 }
 
@@ -421,11 +421,6 @@ fn stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
     carlson_rf(u1 * u1, u2 * u2, u3 * u3)
 }
 
-/// The number, or zero where rounding made it negative.
-fn clip<N: Real>(x: N) -> N {
-    if x > N::zero() { x } else { N::zero() }
-}
-
 /// Carlson's symmetric elliptic integral R_F(x, y, z) by duplication; at
 /// most one argument may vanish (DLMF 19.20, 19.36).
 fn carlson_rf<N: Real>(mut x: N, mut y: N, mut z: N) -> N {
@@ -463,3 +458,6 @@ fn carlson_rf<N: Real>(mut x: N, mut y: N, mut z: N) -> N {
         z = (z + lambda) * quarter;
     }
 }
+
+#[cfg(test)]
+mod tests;

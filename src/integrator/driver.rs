@@ -44,6 +44,21 @@ pub(crate) struct Record<N> {
     pub accuracy: Option<Accuracy>,
 }
 
+impl<N: Real> Record<N> {
+    pub fn empty() -> Self {
+        Self {
+            peak: N::zero(),
+            peak_time_s: None,
+            uplift_time_s: None,
+            rest_time_s: None,
+            impacts: Vec::new(),
+            history: Vec::new(),
+            work: Work::default(),
+            accuracy: None,
+        }
+    }
+}
+
 /// Steps by a series of `SIZE` coefficients, and by one of `HARD` where that
 /// leaves too much; the forcing's series has `F`.
 pub(crate) struct Driver<
@@ -104,21 +119,11 @@ where
 {
     #[inline(always)]
     pub fn new(dynamics: Dynamics<N>, forcing: G, isa: Isa) -> Self {
-        let record = Record {
-            peak: N::zero(),
-            peak_time_s: None,
-            uplift_time_s: None,
-            rest_time_s: None,
-            impacts: Vec::new(),
-            history: Vec::new(),
-            work: Work::default(),
-            accuracy: None,
-        };
         Self {
             dynamics,
             forcing,
             isa,
-            record,
+            record: Record::empty(),
             events: false,
             interval_s: None,
             until_s: None,
@@ -251,6 +256,21 @@ where
             Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
             Some(flight) => Stage::Landed(flight),
         }
+    }
+
+    /// From an impact elsewhere, after which the block comes to rest within
+    /// `after` (in 1/p), to the next uplift.
+    pub fn rest(&mut self, impact: Place<N>, after: N) -> Stage<N> {
+        let (place, time_s) = self.later(impact, after);
+        self.uplift(place, time_s)
+    }
+
+    /// The place some time (in 1/p) later in the same piece, and when (s).
+    #[inline(always)]
+    fn later(&self, place: Place<N>, after: N) -> (Place<N>, N) {
+        let time_s = self.time_s(place) + after / self.dynamics.p;
+        let offset = place.offset + after;
+        (Place { offset, ..place }, time_s)
     }
 
     /// One step, or the part of it up to an impact.

@@ -12,7 +12,8 @@
 //!
 //! B vanishes exactly at the uplift threshold and u is small near the base,
 //! so grazing uplifts and the last hops before rest keep their relative
-//! precision, which the variable alpha - |theta| would lose.
+//! precision, which the variable alpha - |theta| would lose. Its derivatives
+//! lose nothing in the shorter form u'' = sin(u - alpha) - f cos(u - alpha).
 
 use crate::block::{Block, Restitution};
 use crate::number::{Number, Real};
@@ -63,30 +64,36 @@ pub fn uplift_threshold(block: &Block, model: Model) -> f64 {
     }
 }
 
-/// Series of A and B from the series of f, with the uplift threshold and
-/// sine and cosine of alpha.
-#[inline(always)]
-pub(crate) fn drive<N: Number, const F: usize>(
-    model: Model,
-    (threshold, sine, cosine): (N, N, N),
-    f: &[N; F],
-) -> ([N; F], [N; F]) {
-    let (mut a, mut b) = ([N::zero(); F], *f);
-    match model {
-        Model::Nonlinear => {
-            for k in 1..F {
-                a[k] = -(f[k] * sine);
-                b[k] = f[k] * cosine;
+/// What drives a step.
+#[derive(Clone, Copy)]
+pub(crate) struct Drive<N, const F: usize> {
+    /// A and B at its start.
+    pub a: N,
+    pub b: N,
+    /// Series of f.
+    pub f: [N; F],
+    /// Sine and cosine of alpha.
+    pub sine: N,
+    pub cosine: N,
+}
+
+impl<N: Number, const F: usize> Drive<N, F> {
+    /// From the series of f, the uplift threshold, and sine and cosine of
+    /// alpha.
+    #[inline(always)]
+    pub fn new(
+        model: Model,
+        (threshold, sine, cosine): (N, N, N),
+        f: [N; F],
+    ) -> Self {
+        let (a, b) = match model {
+            Model::Nonlinear => {
+                (cosine - f[0] * sine, (threshold + f[0]) * cosine)
             }
-            a[0] = cosine - f[0] * sine;
-            b[0] = (threshold + f[0]) * cosine;
-        }
-        Model::Linearized => {
-            a[0] = N::one();
-            b[0] = threshold + f[0];
-        }
+            Model::Linearized => (N::one(), threshold + f[0]),
+        };
+        Self { a, b, f, sine, cosine }
     }
-    (a, b)
 }
 
 impl<N: Real> Dynamics<N> {
@@ -118,10 +125,10 @@ impl<N: Real> Dynamics<N> {
         }
     }
 
-    /// Series of A and B from the series of f.
+    /// What drives a step under the series of f.
     #[inline(always)]
-    pub fn drive<const F: usize>(&self, f: &[N; F]) -> ([N; F], [N; F]) {
-        drive(self.model, (self.threshold, self.sine, self.cosine), f)
+    pub fn drive<const F: usize>(&self, f: [N; F]) -> Drive<N, F> {
+        Drive::new(self.model, (self.threshold, self.sine, self.cosine), f)
     }
 
     /// Sine and cosine of alpha.

@@ -153,7 +153,6 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
         threshold: N,
     ) -> (Option<Exceedance<N>>, u64) {
         let amplitude = self.record.amplitude().abs();
-        let samples = self.record.samples();
         let bound = threshold.to_f64() * (1.0 - 1e-14);
         let mut piece = from.piece;
         let mut scanned = 0;
@@ -164,14 +163,11 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
                 continue;
             }
             scanned += 1;
-            let peak = samples[piece].abs().max(samples[piece + 1].abs());
-            if peak * amplitude > bound {
-                let offset =
-                    if piece == from.piece { from.offset } else { N::zero() };
-                let found = self.within(Place { piece, offset }, threshold);
-                if found.is_some() {
-                    return (found, scanned);
-                }
+            let offset =
+                if piece == from.piece { from.offset } else { N::zero() };
+            let found = self.within(Place { piece, offset }, threshold);
+            if found.is_some() {
+                return (found, scanned);
             }
             piece += 1;
         }
@@ -423,8 +419,8 @@ fn shape_series<N: Real, const F: usize>(
         }
         Shape::Line { at_zero, slope } => {
             out[0] = *slope * t + *at_zero;
-            if F > 1 {
-                out[1] = *slope / p;
+            if let Some(second) = out.get_mut(1) {
+                *second = *slope / p;
             }
         }
         Shape::Gauss { scale, polynomial, rate, centre_s } => {

@@ -7,17 +7,17 @@
 //! Operations and their order are the same either way, and so are the bits.
 
 mod batch;
+mod chatter;
 mod group;
 mod roots;
 mod waiting;
 
 use crate::excitation::Excitation;
+use crate::integrator::class::{Class, SHORT, SMOOTH};
 use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
-use crate::integrator::{
-    GUARD, Observe, Response, SHORT, SHORT_STEP, SMOOTH, Scene,
-};
+use crate::integrator::{Observe, Response, Scene};
 use crate::number::dispatch::{Isa, Work};
 use batch::{Batch, Solved};
 use group::{Group, WIDTH};
@@ -25,7 +25,7 @@ use waiting::{Kind, Lane, Line, Waiting};
 
 /// Groups of lanes: enough that a lane seldom waits for others, few enough
 /// that all stay in the nearest cache.
-const GROUPS: usize = 8;
+const GROUPS: usize = 12;
 
 /// Rotation to which the short sine and cosine are used.
 const SMALL: f64 = 0.785;
@@ -46,43 +46,39 @@ pub(crate) trait Source<'a> {
     fn settle(&mut self, task: Self::Task, response: &Response);
 }
 
-/// What the scenes of a pool have in common: the length of the series.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Class {
-    /// Eq. 1, steps to [`SHORT_STEP`].
-    Short,
-    /// Eq. 1, longer steps.
-    Smooth,
-    /// Eq. 2.
-    Linearized,
+/// The class of scenes that a pool takes at steps of `length` (in 1/p); none
+/// where a sample takes more than one step.
+pub(crate) fn class_of(model: Model, length: f64) -> Option<Class> {
+    (steps_of(length) == 1).then(|| Class::of(model, length))
 }
 
-impl Class {
-    /// The class of scenes of a model under records at a step of `length`
-    /// (in 1/p); none where a sample takes more than one step.
-    pub fn of(model: Model, length: f64) -> Option<Self> {
-        match model {
-            _ if steps_of(length) > 1 => None,
-            Model::Linearized => Some(Self::Linearized),
-            Model::Nonlinear if length <= SHORT_STEP * GUARD => {
-                Some(Self::Short)
-            }
-            Model::Nonlinear => Some(Self::Smooth),
-        }
-    }
+/// Work of a pool: what its screens do not tell costs more than it should,
+/// and changes nothing else.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Tally {
+    /// Steps of all groups together.
+    pub sweeps: u64,
+    /// Batches solved of each [`Kind`].
+    pub batches: [u64; 3],
+    /// Lanes solved in them, those passed on to longer series, and those
+    /// left to the scalar driver.
+    pub solved: u64,
+    pub passed: u64,
+    pub left: u64,
 }
 
 /// Makes the analyses of one class that a source gives, until it gives none;
 /// needs a [wide](Isa::is_wide) level.
-pub(crate) fn run<'a>(class: Class, isa: Isa, source: &mut impl Source<'a>) {
-    let model = match class {
-        Class::Linearized => Model::Linearized,
-        Class::Short | Class::Smooth => Model::Nonlinear,
-    };
+pub(crate) fn run<'a>(
+    class: Class,
+    isa: Isa,
+    source: &mut impl Source<'a>,
+) -> Tally {
+    let model = class.model();
     match class {
         Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
         Class::Smooth | Class::Linearized => {
-            Pool::<_, SMOOTH>::new(model, isa, source).run();
+            Pool::<_, SMOOTH>::new(model, isa, source).run()
         }
     }
 }
@@ -95,6 +91,7 @@ struct Pool<'s, 'a, S: Source<'a>, const LEN: usize> {
     slots: Vec<Option<Slot<'a, S::Task, LEN>>>,
     /// Slots in use.
     busy: usize,
+    tally: Tally,
 }
 
 type Run<'a, const LEN: usize> =
@@ -110,10 +107,11 @@ struct Slot<'a, T, const LEN: usize> {
 impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
     fn new(model: Model, isa: Isa, source: &'s mut S) -> Self {
         let slots = (0..GROUPS * WIDTH).map(|_| None).collect();
-        Self { model, isa, source, slots, busy: 0 }
+        let tally = Tally::default();
+        Self { model, isa, source, slots, busy: 0, tally }
     }
 
-    fn run(mut self) {
+    fn run(mut self) -> Tally {
         let (model, isa) = (self.model, self.isa);
         let mut groups: Vec<Group<'a>> =
             (0..GROUPS).map(|_| Group::idle()).collect();
@@ -127,14 +125,15 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 fresh = self.fill(&mut groups);
             }
             if self.busy == 0 {
-                return;
+                return self.tally;
             }
             let sweep = Sweep::<LEN> {
                 model,
                 groups: &mut groups,
                 waiting: &mut waiting,
             };
-            let Some(moved) = isa.run_wide(sweep) else { return };
+            let Some(moved) = isa.run_wide(sweep) else { return self.tally };
+            self.tally.sweeps += 1;
             // Few runs do not wait for eight of a kind.
             let enough =
                 if moved { (self.busy / 4).clamp(1, WIDTH) } else { 1 };
@@ -149,8 +148,9 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                         solved: &mut solved,
                     });
                     if done.is_none() {
-                        return;
+                        return self.tally;
                     }
+                    self.tally.batches[kind as usize] += 1;
                     fresh |= self.scatter(&mut groups, &mut waiting, &solved);
                 }
             }
@@ -235,6 +235,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             let Some(slot) = &mut self.slots[id.slot()] else { continue };
             let (group, lane) = (&mut groups[id.group], id.lane);
             if solved.left.at(i) {
+                self.tally.left += 1;
                 group.release(lane, slot);
                 if let Stage::Flying(step) = slot.stage {
                     slot.advance(step, self.isa);
@@ -243,9 +244,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 continue;
             }
             if solved.hard.at(i) {
+                self.tally.passed += 1;
                 waiting.line(Kind::Both).push(id);
                 continue;
             }
+            self.tally.solved += 1;
             if solved.turned.at(i) {
                 let place = Place {
                     piece: group.next[lane] as usize - 1,
@@ -264,6 +267,13 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             group.extra[lane] += u64::from(solved.again.at(i));
             if solved.impact.at(i) {
                 group.extra[lane] += 1;
+                if solved.rested.at(i) {
+                    slot.driver.count_impact();
+                    group.release(lane, slot);
+                    slot.rest(solved.rest[i]);
+                    settled |= self.proceed(id, groups);
+                    continue;
+                }
                 group.side[lane] = group.side[lane].flipped();
                 slot.driver.count_impact();
             } else {
@@ -342,6 +352,13 @@ impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
 }
 
 impl<T, const LEN: usize> Slot<'_, T, LEN> {
+    /// Comes to rest, some time after an impact.
+    fn rest(&mut self, after: f64) {
+        if let Stage::Flying(step) = &self.stage {
+            self.stage = self.driver.rest(step.place, after);
+        }
+    }
+
     /// A step by the scalar driver.
     fn advance(&mut self, step: Step<f64>, isa: Isa) {
         self.stage = isa.run(Alone { driver: &mut self.driver, step });

@@ -55,16 +55,13 @@ pub(crate) fn first_descent<N: Real>(
 /// True where |c_1| L + |c_2| L^2 + ... cannot outweigh the terms that keep
 /// the polynomial positive.
 #[inline(always)]
-fn surely_positive<N: Real>(c: &[N], length: N) -> bool {
+pub(crate) fn surely_positive<N: Real>(c: &[N], length: N) -> bool {
     let mut rest = N::zero();
     for k in (2..c.len()).rev() {
         rest = rest.mul_add(length, c[k].abs());
     }
-    if c.len() < 2 {
-        return true;
-    }
-    let falling = if c[1] < N::zero() { c[1] } else { N::zero() };
-    let low = falling.mul_add(length, c[0]);
+    let [start, slope, ..] = *c else { return true };
+    let low = (-(-slope).positive_part()).mul_add(length, start);
     low - rest * length * length > N::zero()
 }
 
@@ -123,13 +120,10 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
 
 /// First zero of the polynomial's first three terms, where it has one.
 #[inline(always)]
-fn parabola<N: Real>(c: &[N]) -> N {
-    if c.len() < 3 {
-        return N::zero();
-    }
-    let four = N::from_f64(4.0);
-    let root = (c[1] * c[1] - four * c[0] * c[2]).sqrt();
-    (c[0] + c[0]) / (root - c[1])
+pub(crate) fn parabola<N: Real>(c: &[N]) -> N {
+    let [start, slope, bend, ..] = *c else { return N::zero() };
+    let root = (slope * slope - N::from_f64(4.0) * start * bend).sqrt();
+    (start + start) / (root - slope)
 }
 
 /// Whether a polynomial that is positive at its start, and surely falls or
@@ -138,7 +132,7 @@ fn parabola<N: Real>(c: &[N]) -> N {
 ///
 /// Below zero it has one root, and its ends enclose it.
 #[inline(always)]
-fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
+pub(crate) fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
     if c.len() < 3 {
         return None;
     }
@@ -210,7 +204,12 @@ fn search<N: Real>(b: &[N], low: N, high: N, depth: u32) -> Option<(N, N)> {
 /// The root in [low, high] by Newton's iteration from a guess, inside a
 /// bracket whose left end is positive and whose right end is not.
 #[inline(always)]
-fn refine<N: Real>(c: &[N], mut low: N, mut high: N, guess: N) -> N {
+pub(crate) fn refine<N: Real>(
+    c: &[N],
+    mut low: N,
+    mut high: N,
+    guess: N,
+) -> N {
     let half = N::ratio(1, 2);
     let inside = guess > low && guess < high;
     let mut tau = if inside { guess } else { half * (low + high) };
@@ -240,71 +239,4 @@ fn refine<N: Real>(c: &[N], mut low: N, mut high: N, guess: N) -> N {
 }
 
 #[cfg(test)]
-mod tests {
-    use crate::number::dispatch::Isa;
-    use crate::number::double::DoubleDouble;
-    use crate::number::{Number, Real};
-
-    fn first_descent<N: Real>(c: &[N], length: N) -> Option<N> {
-        super::first_descent(c, length, Isa::best())
-    }
-
-    #[test]
-    fn tells_roots_apart_that_are_one_in_double_precision() {
-        // (1/2 - tau) (1/2 + 2^-40 - tau), and (tau - 1/2)^2 + 2^-90.
-        let [half, gap, lift] =
-            [0.5, libm::scalbn(1.0, -40), libm::scalbn(1.0, -90)]
-                .map(DoubleDouble::from_f64);
-        let one = DoubleDouble::one();
-        let pair = [half * (half + gap), -(one + gap), one];
-        let found = first_descent(&pair, one).map(|tau| tau - half);
-        assert!(found.is_some_and(|off| off.hi().abs() < 1e-19), "{found:?}");
-        let miss = [half * half + lift, -one, one];
-        assert_eq!(first_descent(&miss, one), None);
-        assert!(first_descent(&[0.25, -1.0, 1.0], 1.0).is_some());
-    }
-
-    /// Coefficients of the product of (r - tau) for the roots given.
-    fn with_roots(roots: &[f64]) -> Vec<f64> {
-        let mut c = vec![1.0];
-        for r in roots {
-            let mut next = vec![0.0; c.len() + 1];
-            for (k, x) in c.iter().enumerate() {
-                next[k] += r * x;
-                next[k + 1] -= x;
-            }
-            c = next;
-        }
-        c
-    }
-
-    #[test]
-    fn finds_the_first_of_two_crossings_in_a_step() {
-        let c = with_roots(&[0.3, 0.31]);
-        let found = first_descent(&c, 1.0);
-        assert!((found.unwrap_or(9.0) - 0.3).abs() < 1e-14);
-        // Signs at the ends are equal: a test of the ends alone misses it.
-        assert!(c[0] > 0.0 && c.iter().sum::<f64>() > 0.0);
-    }
-
-    #[test]
-    fn finds_close_pairs_and_leaves_near_misses() {
-        let c = with_roots(&[0.5, 0.5 + 1e-6]);
-        let found = first_descent(&c, 1.0).unwrap_or(9.0);
-        assert!((found - 0.5).abs() < 1e-9, "{found}");
-        // (tau - 1/2)^2 + 1e-12 never vanishes.
-        assert_eq!(first_descent(&[0.25 + 1e-12, -1.0, 1.0], 1.0), None);
-    }
-
-    #[test]
-    fn deflates_a_start_on_the_event() {
-        // tau (0.7 - tau), tau^3 (0.7 - tau)
-        assert_eq!(first_descent(&[0.0, 0.5, -1.0], 1.0), Some(0.5));
-        let triple = first_descent(&[0.0, 0.0, 0.0, 0.25, -1.0], 1.0);
-        assert_eq!(triple, Some(0.25));
-        assert_eq!(first_descent(&[0.0, 0.5, -1.0], 0.4), None);
-        assert_eq!(first_descent(&[0.0, 0.5, -1.0], 0.5), Some(0.5));
-        assert_eq!(first_descent(&[0.0, -0.5, 1.0], 0.5), Some(0.0));
-        assert_eq!(first_descent(&[0.0, 0.0], 0.5), None);
-    }
-}
+mod tests;

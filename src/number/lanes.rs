@@ -31,6 +31,12 @@ impl<const W: usize> Lanes<W> {
         Self(out)
     }
 
+    /// The larger numbers.
+    #[inline(always)]
+    pub fn max(self, other: Self) -> Self {
+        other.below(self).select(self, other)
+    }
+
     /// Square roots.
     #[inline(always)]
     pub fn sqrt(self) -> Self {

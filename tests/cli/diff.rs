@@ -63,7 +63,7 @@ const CASES: &str = r#"{
 "#;
 
 /// Two sides with results that differ by replacements in the text.
-fn sides(
+pub fn sides(
     name: &str,
     findings: &[(&str, &str)],
     cases: &[(&str, &str)],
@@ -274,4 +274,23 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
     }
     fs::write(place.join("new/findings.json"), FINDINGS).unwrap();
     refused_for(&place, "diff old new", &["new", "one of them"]);
+}
+
+#[test]
+fn without_names_the_committed_report_and_the_last_study() {
+    let files = [("reports/data/findings.json", FINDINGS)];
+    let place = folder("diff-default", &files);
+    refused_for(&place, "diff", &["rocking-report", "rocking study"]);
+    // One name alone is not enough.
+    let error = super::support::refused(&place, "diff reports");
+    assert!(error.contains("NEW"), "{error}");
+    let changed = FINDINGS.replacen("2.31,", "2.35,", 1);
+    fs::create_dir_all(place.join("rocking-report/data")).unwrap();
+    let new = place.join("rocking-report/data/findings.json");
+    fs::write(&new, changed).unwrap();
+    let (status, out, _) = run(&place, "diff");
+    assert_eq!(status, 1);
+    assert!(out.contains("2.31 to 2.35, +1.7 %"), "{out}");
+    fs::write(&new, FINDINGS).unwrap();
+    assert_eq!(run(&place, "diff").0, 0);
 }

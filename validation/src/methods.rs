@@ -13,8 +13,11 @@ mod points;
 mod precise;
 mod references;
 mod response;
+mod schemes;
+mod sines;
 mod solution;
 mod spectrum;
+mod squares;
 mod statistics;
 mod velocity_pulse;
 mod wrong;
@@ -124,16 +127,21 @@ pub const METHODS: &[(&str, Run)] = &[
     ("linear-pulse", response::linear_pulse),
     ("free-rocking", response::free_rocking),
     ("rectangular-pulse", response::rectangular_pulse),
+    ("square-waves", squares::chained),
+    ("fates-after-square-waves", squares::exclusions),
     ("overturning-edges", spectrum::edges),
     ("free-rocking-grid", closed_forms::free),
     ("linear-pulse-grid", closed_forms::pulses),
     ("critical-amplitudes", closed_forms::critical),
     ("fold", closed_forms::fold),
+    ("half-sine-approximation", sines::approximation),
+    ("many-half-cycles", sines::many),
     ("critical-durations", closed_forms::durations),
     ("invariance", invariance::invariance),
     ("similarity-defect", invariance::defect),
     ("energy-in-flight", solution::energy),
     ("order-of-convergence", convergence::order),
+    ("orders-of-naive-schemes", schemes::orders),
     ("response", fates::response),
     ("fates-over-levels", fates::levels),
     ("adjustment-on-suite", fates::adjustment),

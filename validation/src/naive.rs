@@ -7,7 +7,9 @@
 
 mod rules;
 
-pub use rules::{Events, Hold, Loss, Pushback, Rest, Rules, Threshold};
+pub use rules::{
+    Events, Hold, Loss, Pushback, Rest, Rules, STEP_P, Threshold,
+};
 
 use crate::scene::{
     Engine, EngineError, Equation, Forcing, Impact, Scene, Trace,
@@ -17,8 +19,6 @@ use crate::scene::{
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Naive(pub Rules);
 
-/// Largest step in units of 1/p.
-const STEP_P: f64 = 0.005;
 /// Speed below which the chatter's tail takes over, over p alpha.
 const CHATTER: f64 = 1e-6;
 /// Steps after which a run is given up.
@@ -229,14 +229,14 @@ impl Run<'_> {
         let start = self.pieces_s.get(self.piece).copied().unwrap_or(0.0);
         let length = self.piece_end() - start;
         if self.rules.events == Events::Located {
-            (STEP_P / self.scene.frequency_rad_s).min(
+            (self.rules.step_p / self.scene.frequency_rad_s).min(
                 match self.scene.forcing {
                     Forcing::Samples { .. } => length,
                     _ => length / 100.0,
                 },
             )
         } else {
-            (0.05 / self.scene.frequency_rad_s).min(length)
+            (10.0 * self.rules.step_p / self.scene.frequency_rad_s).min(length)
         }
     }
 
@@ -282,6 +282,11 @@ impl Run<'_> {
                     let high = if dips { turn.unwrap_or(h) } else { h };
                     stop = self.root(hop, high, |x| x.z);
                     next = self.step(hop, stop);
+                } else if self.rules.events == Events::Interpolated {
+                    let share = hop.z / (hop.z - next.z);
+                    stop = share * h;
+                    next.z = 0.0;
+                    next.w = hop.w + share * (next.w - hop.w);
                 }
                 if let (Some(s), Some(x)) = (turn, turned)
                     && s < stop

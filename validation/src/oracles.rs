@@ -5,6 +5,7 @@ pub mod free_rocking;
 pub mod linear;
 pub mod overturning;
 pub mod rectangular;
+pub mod square;
 
 #[cfg(test)]
 mod tests;

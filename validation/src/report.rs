@@ -13,7 +13,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use crate::drawing::colour;
 
 pub use figures::ShownFigure;
-pub use table::PlainTable;
+pub use table::{PlainTable, cells};
 
 const STYLE: &str = include_str!("report/page.css");
 

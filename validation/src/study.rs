@@ -1,6 +1,7 @@
 //! The whole study: 15 blocks, two suites, three arms of the intensity grid;
 //! figures, their data, and what was found about the paper's claims.
 
+mod adjustment;
 pub mod analyses;
 mod answers;
 pub mod capacities;
@@ -17,10 +18,12 @@ pub mod normality;
 pub mod output;
 pub mod overturning;
 pub mod page;
+mod plain;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
 pub mod speed;
+pub mod stale;
 pub mod stripes;
 pub mod suites;
 pub mod whole;

@@ -61,7 +61,7 @@ where
             if !(at <= tau) {
                 return;
             }
-            let at = if at > N::zero() { at } else { N::zero() };
+            let at = at.positive_part();
             self.record.history.push(HistoryPoint {
                 time_s,
                 rotation_rad: sign * value(c, at),
@@ -77,8 +77,7 @@ where
         let mut overturned = None;
         match *flight {
             Flight::Rest(_, time_s) => {
-                if self.record.work.uplifts > 0 || self.record.work.impacts > 0
-                {
+                if self.record.work.impacts > 0 {
                     self.record.rest_time_s = Some(time_s);
                 }
                 let end = self.until_s.unwrap_or(self.end_s());

@@ -36,13 +36,8 @@ where
         let rest = rest * length;
         let linear = c[1] * length;
         let spread = rest * length;
-        let (down, up) = if c[1] < N::zero() {
-            (linear, N::zero())
-        } else {
-            (N::zero(), linear)
-        };
-        let clear_of_base =
-            c[0] + down > spread || (c[0] == N::zero() && c[1] > rest);
+        let (down, up) = (-(-linear).positive_part(), linear.positive_part());
+        let clear_of_base = is_clear_of_base([c[0], c[1]], down, rest, spread);
         let clear_of_limit = c[0] + up + spread < self.dynamics.limit;
         if clear_of_base && clear_of_limit {
             return Event::None;
@@ -81,7 +76,7 @@ where
         for k in (2..LEN).rev() {
             rest = rest.mul_add(tau, c[k].abs());
         }
-        let rise = if c[1] > N::zero() { c[1] * tau } else { N::zero() };
+        let rise = (c[1] * tau).positive_part();
         if !(c[0] + rise + rest * tau * tau > self.record.peak) {
             return;
         }
@@ -184,8 +179,8 @@ where
         for piece in from.piece..self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
-            let (a, b) = self.dynamics.drive(&f);
-            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, (&a, &b));
+            let drive = self.dynamics.drive(f);
+            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, &drive);
             if let Some(tau) = first_descent(&v, left, self.isa) {
                 return self.beyond(value(&c, tau));
             }
@@ -202,6 +197,19 @@ where
     pub(super) fn beyond(&self, u: N) -> f64 {
         ((u - self.dynamics.alpha) / self.dynamics.alpha).to_f64()
     }
+}
+
+/// Whether a polynomial that starts with c_0 + c_1 tau surely stays above
+/// zero: c_1 tau adds `down` at the lowest, the other terms at most `rest`
+/// times tau, and `spread` in all.
+#[inline(always)]
+fn is_clear_of_base<N: Real>(
+    [start, slope]: [N; 2],
+    down: N,
+    rest: N,
+    spread: N,
+) -> bool {
+    start + down > spread || (start == N::zero() && slope > rest)
 }
 
 /// The margin of an overturning, compiled for each instruction-set level.
@@ -271,3 +279,6 @@ fn shift<N: Real>(c: &mut [N], by: N) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use crate::integrator::Impact;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
-use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::forcing::Forcing;
 use crate::number::Real;
 
 /// Post-impact speed over alpha p below which an observer of events lets the
@@ -11,6 +11,12 @@ use crate::number::Real;
 /// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
     if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
+}
+
+/// The number, if it is positive.
+#[inline(always)]
+fn positive<N: Real>(x: N) -> Option<N> {
+    (x > N::zero()).then_some(x)
 }
 
 impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
@@ -28,11 +34,11 @@ where
         speed: N,
         before: N,
     ) -> Option<Flight<N>> {
-        let speed = if speed > N::zero() { speed } else { N::zero() };
+        let speed = speed.positive_part();
         let side = step.motion.side.flipped();
         let w = self.dynamics.eta * speed;
         self.record.work.impacts += 1;
-        if self.events && speed > N::zero() {
+        if self.events && positive(speed).is_some() {
             self.record.impacts.push(Impact {
                 time_s: self.time_s(step.place),
                 speed_before_rad_s: speed * self.dynamics.p,
@@ -47,10 +53,8 @@ where
         step.motion = Motion { side, u: N::zero(), w };
         let left = self.forcing.length(step.place.piece) - step.place.offset;
         let time = self.chatter(&f, w, left)?;
-        let time_s = self.time_s(step.place) + time / self.dynamics.p;
-        let offset = step.place.offset + time;
-        let piece = step.place.piece;
-        Some(Flight::Rest(Place { piece, offset }, time_s))
+        let (place, time_s) = self.later(step.place, time);
+        Some(Flight::Rest(place, time_s))
     }
 
     /// Time (in 1/p) in which the impacts after one that leaves speed `w`
@@ -69,9 +73,8 @@ where
         }
         let two = N::from_f64(2.0);
         let eta = self.dynamics.eta;
-        if !(margin > N::zero()) || !(eta < N::one()) {
-            return None;
-        }
+        positive(margin)?;
+        positive(N::one() - eta)?;
         // Quick refusal before the proof.
         let scale = self.dynamics.restoring(-f[0].abs());
         let guess = two * w / (scale * (N::one() - eta));
@@ -95,17 +98,11 @@ where
         for k in (1..F).rev() {
             drift = (drift + f[k].abs()) * window;
         }
-        let least = self.dynamics.restoring(-(f[0].abs() + drift));
-        if !(least > N::zero()) {
-            return None;
-        }
+        let least = positive(self.dynamics.restoring(-(f[0].abs() + drift)))?;
         // Eq. 1 pushes outwards by at most (1 + tan alpha) u on a hop.
         let rise = w * w / least;
         let push = (N::one() + self.dynamics.threshold) * (rise + rise);
-        let least = least - push;
-        if !(least > N::zero()) {
-            return None;
-        }
+        let least = positive(least - push)?;
         let most = |f0: N| self.dynamics.restoring(f0 + drift) + push;
         let low = |f0: N| self.dynamics.restoring(f0 - drift) - push;
         let ratio = |f0: N| most(f0) / low(f0);
@@ -113,10 +110,8 @@ where
         let worst = if here > there { here } else { there };
         let eta = self.dynamics.eta;
         let decay = eta * worst.sqrt();
-        if !(decay < N::one()) {
-            return None;
-        }
-        let bound = two * w * worst.sqrt() / (least * (N::one() - decay));
+        let bound =
+            two * w * worst.sqrt() / (least * positive(N::one() - decay)?);
         if !(bound < window) {
             return None;
         }
@@ -135,3 +130,6 @@ where
         Some(two * w * hops / (N::one() - eta * eta))
     }
 }
+
+#[cfg(test)]
+mod tests;

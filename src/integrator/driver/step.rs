@@ -3,7 +3,7 @@
 use crate::integrator::Side;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
-use crate::integrator::dynamics::Model;
+use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::taylor::{expand, slope, value};
 use crate::number::dispatch::Work as Dispatched;
@@ -88,8 +88,8 @@ where
     ) -> Option<Advance<N>> {
         let Motion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
-        let (a, b) = self.dynamics.drive(&oriented);
-        let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, (&a, &b));
+        let drive = self.dynamics.drive(oriented);
+        let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, &drive);
         let (c, v) = (&c, &v);
         self.record.work.steps += 1;
         if left_by(v, length) > self.tolerance * length {
@@ -106,9 +106,7 @@ where
         }
         let (end_u, end_w) = (value(c, tau), value(v, tau));
         if self.record.accuracy.is_some() {
-            let f = self.oriented(step.place, side, step.at_threshold);
-            let (a, b) = self.dynamics.drive(&f);
-            self.track(c, v, (a[0], b[0]), tau, (end_u, end_w));
+            self.track(c, v, (drive.a, drive.b), tau, (end_u, end_w));
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
@@ -143,7 +141,7 @@ where
         &self,
         u: N,
         w: N,
-        drive: (&[N; F], &[N; F]),
+        drive: &Drive<N, F>,
     ) -> ([N; LEN], [N; LEN]) {
         let model = self.dynamics.model;
         let sine_cosine = match model {

@@ -4,9 +4,10 @@
 //! same operations in the same order; a lane whose step needs more than one
 //! plain impact is left to them.
 
-use crate::integrator::SMOOTH;
+use crate::integrator::class::SMOOTH;
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{Model, drive};
+use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::pool::chatter::Impacted;
 use crate::integrator::pool::group::{Group, WIDTH};
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::waiting::{Lane, Line};
@@ -51,6 +52,9 @@ pub(super) struct Solved {
     pub hard: Which,
     /// An impact; the others reach the end of the sample.
     pub impact: Which,
+    /// An impact with which the block comes to rest, `rest` after it.
+    pub rested: Which,
+    pub rest: Eight,
     /// The short series was tried before the longest.
     pub again: Which,
     /// The block turned, at `top` after `turn`.
@@ -74,6 +78,8 @@ impl Solved {
             left: none,
             hard: none,
             impact: none,
+            rested: none,
+            rest: zero,
             again: none,
             turned: none,
             turn: zero,
@@ -182,13 +188,13 @@ impl Batch {
         let rate = (self.ahead - self.here) * self.inverse;
         let series = [rate.mul_add(offset, self.here), rate];
         let constants = (self.threshold, self.sine, self.cosine);
-        let (a, b) = drive(model, constants, &series);
+        let drive = Drive::new(model, constants, series);
         let small = match model {
             Model::Nonlinear => self.u.sin_cos_small(),
             Model::Linearized => (self.u, Number::one()),
         };
         let (mut c, mut v): Series<SIZE> =
-            expand(model, self.u, self.w, (&a, &b), small);
+            expand(model, self.u, self.w, &drive, small);
         // Beyond it the driver takes other functions.
         let large = match model {
             Model::Nonlinear => all.but_not(self.u.below(Lanes::splat(SMALL))),
@@ -217,7 +223,7 @@ impl Batch {
         out.hard = hard.but_not(large);
         if FREE {
             out.left = left.but_not(out.hard);
-            (out.impact, out.turned) = (none, none);
+            (out.impact, out.turned, out.rested) = (none, none, none);
             (out.u, out.w) = (value(&c, h), value(&v, h));
             (out.here, out.amplitude) = (self.ahead, self.amplitude);
             (out.offset, out.length) = (zero, self.whole);
@@ -232,35 +238,39 @@ impl Batch {
         left = left.or(turning.unsure);
         let (end_u, end_w) = (value(&c, tau), value(&v, tau));
 
-        // The impact, and whether the motion may come to rest after it.
+        // The impact, and whether the motion comes to rest after it.
         let fall = zero.below(-end_w);
         let w = self.eta * fall.select(-end_w, zero);
         let there = offset + tau;
-        let f = rate.mul_add(there, self.here).abs();
-        let margin = self.threshold - f;
-        let scale = match model {
-            Model::Nonlinear => (self.threshold - f) * self.cosine,
-            Model::Linearized => self.threshold - f,
+        let ahead = self.whole - there;
+        // Neither a step of no length nor an impact of no speed is one here.
+        let plain = there.below(self.whole).and(zero.below(w));
+        left = left.or(impact.but_not(plain));
+        let top = value(&c, turning.turn);
+        let raised = turning.found.and(self.peak.below(top));
+        let impacted = Impacted {
+            model,
+            threshold: self.threshold,
+            cosine: self.cosine,
+            eta: self.eta,
+            f: -rate.mul_add(there, self.here),
+            rate,
+            w,
+            left: ahead,
+            peak: raised.select(top, self.peak),
         };
-        let guess = (w + w) / (scale * (Eight::one() - self.eta));
-        let chatter = w
-            .equals(zero)
-            .or(zero.below(margin).and(guess.below(self.whole - there)));
-        // A step of no length is none.
-        let short = there.below(self.whole);
-        let settled = chatter.or(all.but_not(short));
-        left = left.or(impact.and(settled));
+        (out.rested, out.rest) = impacted.come_to_rest(impact.and(plain));
 
         out.left = left.but_not(out.hard);
         out.impact = impact;
         out.turned = turning.found;
         out.turn = turning.turn;
-        out.top = value(&c, turning.turn);
+        out.top = top;
         out.u = impact.select(zero, end_u);
         out.w = impact.select(w, end_w);
         out.here = impact.select(-self.here, self.ahead);
         out.offset = impact.select(there, zero);
-        out.length = impact.select(self.whole - there, self.whole);
+        out.length = impact.select(ahead, self.whole);
         out.amplitude = impact.select(-self.amplitude, self.amplitude);
     }
 
@@ -325,11 +335,17 @@ impl Batch {
             return Turning { found: may, turn: zero, unsure: may };
         }
         // Only a velocity that falls all the way turns just once.
-        let descent = descent(v, tau);
-        let found = may.and(descent.one);
+        let sinking = v[0].below(zero);
+        let mut q = *v;
+        for k in 0..SIZE {
+            q[k] = sinking.select(-v[k], v[k]);
+        }
+        let descent = descent(&q, tau);
+        let found = may.and(descent.one).but_not(sinking);
         let turn = refine(v, tau, found);
         let found = found.and(turn.below(tau));
-        let none = descent.none.or(found);
+        // One that sinks may turn upwards, and if so does not turn back.
+        let none = descent.none.or(found).or(sinking.and(descent.falls));
         Turning { found, turn, unsure: may.but_not(none) }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
-use crate::integrator::dynamics::{Model, drive};
+use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::waiting::{Lane, Waiting};
 use crate::integrator::pool::{SAFETY, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
@@ -188,14 +188,14 @@ impl<'a> Group<'a> {
         let rate = (ahead - self.here) * self.inverse;
         let series = [rate.mul_add(self.offset, self.here), rate];
         let constants = (self.threshold, self.sine, self.cosine);
-        let (a, b) = drive(model, constants, &series);
+        let drive = Drive::new(model, constants, series);
         let small = match model {
             Model::Nonlinear => self.u.sin_cos_small(),
             Model::Linearized => (self.u, Number::one()),
         };
         let (c, v): ([_; LEN], [_; LEN]) =
-            expand(model, self.u, self.w, (&a, &b), small);
-        let free = self.free_of_events((&a, &b));
+            expand(model, self.u, self.w, &drive, small);
+        let free = self.free_of_events(model, &drive, ahead);
         let enough = v[LEN - 1].abs().below(self.last);
         let clear = self.active.and(free).and(enough);
         let h = self.length;
@@ -218,13 +218,18 @@ impl<'a> Group<'a> {
     #[inline(always)]
     fn free_of_events(
         &self,
-        (a, b): (&[Lanes<WIDTH>; 2], &[Lanes<WIDTH>; 2]),
+        model: Model,
+        drive: &Drive<Lanes<WIDTH>, 2>,
+        ahead: Lanes<WIDTH>,
     ) -> Mask<WIDTH> {
         let h = self.length;
         let zero = Lanes::splat(0.0);
-        // |A| sin u + |B| below the ceiling.
-        let pull = a[1].abs().mul_add(h, a[0].abs()) * self.ceiling;
-        let bend = b[0].abs() + b[1].abs().mul_add(h, pull);
+        // |A| sin u + |B| below the ceiling; both are linear in time.
+        let constants = (self.threshold, self.sine, self.cosine);
+        let end = Drive::new(model, constants, [ahead]);
+        let pull = drive.a.abs().max(end.a.abs());
+        let push = drive.b.abs().max(end.b.abs());
+        let bend = pull.mul_add(self.ceiling, push);
         let turn = bend * h * Lanes::splat(SAFETY);
         let spread = turn * h * Lanes::splat(0.5);
         let linear = self.u + self.w * h;

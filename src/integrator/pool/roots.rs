@@ -16,6 +16,8 @@ pub(super) struct Descent {
     pub none: Which,
     /// There is one, within.
     pub one: Which,
+    /// The polynomial falls all the way.
+    pub falls: Which,
 }
 
 /// First descents, where nothing need be isolated.
@@ -52,6 +54,7 @@ pub(super) fn descent<const SIZE: usize>(
     Descent {
         none: begins.and(positive.or(told.but_not(below))),
         one: begins.and(below).but_not(positive),
+        falls,
     }
 }
 
@@ -96,3 +99,6 @@ pub(super) fn refine<const SIZE: usize>(
     }
     tau
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
+use super::study::REPORT;
 use super::{Failure, print};
 use crate::diff::{Results, compare};
 
 /// What changed between two results, and whether it matters.
 ///
 /// OLD and NEW are each a folder of a study, a folder of reports, or one
-/// file: findings.json or validation.json. Verdicts come first, then numbers
+/// file: findings.json or validation.json; without them, the committed
+/// reports and what `rocking study` wrote last. Verdicts come first, then numbers
 /// by the size of their change over what it may be: the 95 % interval of a
 /// finding, the tolerance of a case; those without either come last. Ends
 /// with 1 where a verdict, a setting or a number beyond its uncertainty
@@ -16,10 +18,10 @@ use crate::diff::{Results, compare};
 #[derive(clap::Args)]
 pub struct Args {
     /// Results before.
-    #[arg(value_name = "OLD")]
+    #[arg(value_name = "OLD", requires = "new", default_value = "reports")]
     old: PathBuf,
     /// Results after.
-    #[arg(value_name = "NEW")]
+    #[arg(value_name = "NEW", default_value = REPORT)]
     new: PathBuf,
     /// Relative change that is significant where a finding states no
     /// interval.
@@ -52,6 +54,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::input(format!(
             "--relative {}: expected a share, 0 or more",
             args.relative
+        )));
+    }
+    if args.new.as_os_str() == REPORT && !args.new.exists() {
+        return Err(Failure::input(format!(
+            "no folder {REPORT}: expected what `rocking study` writes there"
         )));
     }
     let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);

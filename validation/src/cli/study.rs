@@ -1,7 +1,7 @@
 //! `rocking study`: the whole paper, from records to findings.
 
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,9 +13,12 @@ use super::way::WayArgs;
 use super::{Failure, print};
 use crate::figures::data::Arm;
 use crate::study::analyses::Plan;
-use crate::study::runs::Setup;
+use crate::study::runs::{RESTITUTION, Setup};
 use crate::study::suites::StudySuite;
-use crate::study::{Study, output};
+use crate::study::{Study, output, stale};
+
+/// Folder that a study writes to unless told otherwise.
+pub const REPORT: &str = "rocking-report";
 
 /// Repeats the whole study and writes a report: 15 blocks, two suites,
 /// Figures 1 to 18 with their data, and what was found.
@@ -32,7 +35,7 @@ pub struct Args {
     #[command(flatten)]
     processing: ProcessingArgs,
     /// Coefficient of restitution, ratio of angular velocities.
-    #[arg(long, default_value_t = 0.92, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = RESTITUTION, allow_negative_numbers = true)]
     eta: f64,
     /// When a block counts as overturned.
     #[arg(long, value_enum, default_value_t = Criterion::Alpha)]
@@ -60,10 +63,14 @@ pub struct Args {
     #[command(flatten)]
     way: WayArgs,
     /// Folder of the report.
-    #[arg(long, value_name = "DIR", default_value = "rocking-report")]
+    #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
-    /// Print the findings as JSON.
+    /// Compare with the report in that folder, write nothing, fail where a
+    /// byte differs and say what changed.
     #[arg(long)]
+    check: bool,
+    /// Print the findings as JSON.
+    #[arg(long, conflicts_with = "check")]
     json: bool,
 }
 
@@ -108,7 +115,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             }
         },
     };
-    output::check(&args.out)?;
+    if args.check {
+        // Refused before minutes are spent.
+        std::fs::read_dir(&args.out).map_err(|e| {
+            Failure::input(format!(
+                "{}: {e}; expected the folder of a report",
+                args.out.display()
+            ))
+        })?;
+    } else {
+        output::check(&args.out)?;
+    }
     // Drawn on a terminal only.
     let progress = ProgressBar::new(0);
     if let Ok(style) =
@@ -120,7 +137,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Study::run(plan, &suites, args.full, &progress)
     })??;
     progress.finish_and_clear();
-    output::write(&args.out, &study.files()?)?;
+    let files = study.files()?;
+    if args.check {
+        return check(&args.out, &files);
+    }
+    output::write(&args.out, &files)?;
     if args.json {
         print(&study.findings_text())
     } else {
@@ -129,6 +150,24 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             study.table(),
             args.out.join("index.html").display()
         ))
+    }
+}
+
+/// Fails where the report in `out` is not these files.
+fn check(out: &Path, files: &output::Files) -> Result<(), Failure> {
+    let name = out.display();
+    match stale::stale(out, files)? {
+        None => print(&format!(
+            "{name}: all {} files of the report are up to date\n",
+            files.len()
+        )),
+        Some(words) => {
+            print(&words)?;
+            Err(Failure::gate(format!(
+                "{name} is stale: `rocking study --out {name}` accepts what \
+                 is there now"
+            )))
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::{Failure, print};
 use crate::cases::{Case, Cost, FAMILIES, load_all};
+use crate::diff::{self, Results};
 use crate::files::write_atomically;
 use crate::json;
 use crate::methods::{digits, digits_csv};
@@ -111,24 +112,13 @@ fn compare(path: &Path, text: &str) -> Result<(), Failure> {
     if found == text {
         return Ok(());
     }
-    let parsed = |text: &str| -> BTreeMap<String, serde_json::Value> {
-        serde_json::from_str(text).unwrap_or_default()
-    };
-    let (old, new) = (parsed(&found), parsed(text));
-    let changed: Vec<&str> = old
-        .keys()
-        .chain(new.keys())
-        .filter(|id| old.get(*id) != new.get(*id))
-        .map(String::as_str)
-        .collect::<std::collections::BTreeSet<_>>()
-        .into_iter()
-        .collect();
+    let old = Results::from_text(path, &found)?;
+    let new = Results::from_text(path, text)?;
+    // A declared tolerance is stated for every number.
+    print(&diff::compare(&old, &new, 0.0)?.text(true))?;
     Err(Failure::gate(format!(
-        "{} is stale in {} cases:\n  {}\n`rocking validate` accepts what is \
-         there now",
-        path.display(),
-        changed.len(),
-        changed.join("\n  ")
+        "{} is stale: `rocking validate` accepts what is there now",
+        path.display()
     )))
 }
 

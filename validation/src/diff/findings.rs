@@ -9,7 +9,8 @@ use super::words::{identities, identity, intensity, quantity, section};
 use super::{Content, Item, Limit};
 use crate::report::Verdict;
 
-/// Numbers that a field `interval` beside them belongs to.
+/// Numbers that a field `interval` beside them belongs to; `x_interval`
+/// belongs to `x`.
 const MEASURED: [&str; 3] = ["value", "median_ratio", "median"];
 
 /// Texts of the section of suites that make it another suite.
@@ -242,8 +243,16 @@ impl Row {
             if field == "interval" {
                 let content = between(ends(&place(), value)?);
                 out.push(self.item(&path, content));
-            } else if let Some(interval) = map.get("interval")
-                && MEASURED.contains(&field.as_str())
+            } else if let Some(of) = field.strip_suffix("_interval")
+                && map.contains_key(of)
+            {
+                let content = between(ends(&place(), value)?);
+                out.push(self.item(&path, content));
+            } else if let Some(interval) =
+                map.get(&format!("{field}_interval")).or_else(|| {
+                    let own = MEASURED.contains(&field.as_str());
+                    map.get("interval").filter(|_| own)
+                })
             {
                 let value = amount(&place(), value)?;
                 let limit = limit(ends(&place(), interval)?);

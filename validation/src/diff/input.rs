@@ -145,7 +145,22 @@ impl Results {
         let failed =
             |source| DiffError::Read { path: path.to_owned(), source };
         let text = std::fs::read_to_string(path).map_err(failed)?;
-        let parsed: Result<Strict, _> = serde_json::from_str(&text);
+        self.parse(path, &text)
+    }
+
+    /// Results from the text of a file; `path` is only told in messages.
+    ///
+    /// # Errors
+    /// [`DiffError`] for what is no JSON, or JSON of another form.
+    pub fn from_text(path: &Path, text: &str) -> Result<Self, DiffError> {
+        let mut results =
+            Self { path: path.to_owned(), findings: None, cases: None };
+        results.parse(path, text)?;
+        Ok(results)
+    }
+
+    fn parse(&mut self, path: &Path, text: &str) -> Result<(), DiffError> {
+        let parsed: Result<Strict, _> = serde_json::from_str(text);
         let Strict(value) = parsed.map_err(|e| DiffError::Json {
             path: path.to_owned(),
             message: e.to_string(),

@@ -8,7 +8,8 @@ use super::words::percent;
 use super::{Change, Comparison, Measure, Presence};
 use crate::json::{number, optional};
 
-/// Changes within their uncertainty that are listed unless all are wanted.
+/// Changes that are listed unless all are wanted: of those within their
+/// uncertainty, and of those beyond it in a group that state none.
 const MOST: usize = 10;
 
 /// Changes by what they are listed under, in the order of the first of each.
@@ -55,8 +56,17 @@ impl Comparison {
             let _ = writeln!(out, "\n{title}");
             for (group, changes) in by_group(changes) {
                 let _ = writeln!(out, "  {group}");
-                for change in changes {
+                let blind = |c: &&&Change| c.measure == Measure::NoInterval;
+                let most = if all { changes.len() } else { MOST };
+                let left = changes.iter().filter(blind).skip(most).count();
+                for change in &changes[..changes.len() - left] {
                     let _ = writeln!(out, "    {}", change.sentence());
+                }
+                if left > 0 {
+                    let _ = writeln!(
+                        out,
+                        "    {left} more without an interval: --all"
+                    );
                 }
             }
         };

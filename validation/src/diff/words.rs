@@ -111,6 +111,12 @@ pub fn quantity(section: &str, field: &str) -> String {
         ("figure_09", "median") => {
             "median ratio of demands, adjusted over scaled".into()
         }
+        ("figure_09", "median_alpha_to_0.25") => {
+            "the same where the adjusted alpha is 0.25 at most".into()
+        }
+        ("figure_09", "median_alpha_above_0.25") => {
+            "the same where the adjusted alpha is above 0.25".into()
+        }
         ("sensitivities", "median_ratio") => {
             "median ratio of capacities, this choice over the study's".into()
         }

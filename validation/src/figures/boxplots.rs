@@ -117,8 +117,9 @@ fn ratio_range(figure: &Boxplots) -> (f64, f64) {
         notch.into_iter().chain(whiskers).chain(b.outliers.iter().copied())
     });
     let (low, high) = common::span(ends, false).unwrap_or((0.5, 1.5));
-    let low = (0.97 * low).clamp(WIDEST.0, 0.9);
-    let high = (1.03 * high).clamp(1.1, WIDEST.1);
+    // Room for a cross within the axes.
+    let low = (0.9 * low).clamp(WIDEST.0, 0.9);
+    let high = (1.12 * high).clamp(1.1, WIDEST.1);
     (low, high)
 }
 

@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 
+use super::points::state;
 use super::{Answer, Context, MethodError};
 use crate::oracles::linear::Pulse;
 use crate::oracles::overturning;
@@ -191,7 +192,7 @@ fn pulse(name: &str, a: f64, scale: f64) -> Result<Pulse, MethodError> {
 }
 
 /// The scene of a dimensionless pulse on a block (alpha, p, g).
-fn linear_scene(
+pub(super) fn linear_scene(
     pulse: Pulse,
     restitution: f64,
     [alpha, p, g]: [f64; 3],
@@ -279,7 +280,7 @@ pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-fn overturns_at_once(
+pub(super) fn overturns_at_once(
     engine: &dyn Engine,
     scene: &Scene,
 ) -> Result<bool, MethodError> {
@@ -293,7 +294,16 @@ pub(super) fn flip(
     near: f64,
     above: impl Fn(f64) -> Result<bool, MethodError>,
 ) -> Result<f64, MethodError> {
-    let (mut low, mut high) = (near * (1.0 - 1e-6), near * (1.0 + 1e-6));
+    flip_within(1e-6, near, above)
+}
+
+/// The same within `reach` of `near`.
+pub(super) fn flip_within(
+    reach: f64,
+    near: f64,
+    above: impl Fn(f64) -> Result<bool, MethodError>,
+) -> Result<f64, MethodError> {
+    let (mut low, mut high) = (near * (1.0 - reach), near * (1.0 + reach));
     if above(low)? || !above(high)? {
         return Ok(f64::NAN);
     }
@@ -326,6 +336,15 @@ pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
             Ok(trace.overturned_s.is_none())
         })?;
         extend(&mut answer, "fold", [found], [omega]);
+        let pulse = Pulse::Sine { a, omega, half_cycles: 2 };
+        let scene = linear_scene(pulse, eta, input.block, None);
+        let seen = state(context, &scene, scene.forcing.end_s())?;
+        extend(
+            &mut answer,
+            "rotation-at-pulse-end",
+            [seen.rotation_rad.abs() / scene.slenderness_rad],
+            [2.0 - 1.0 / (eta * eta)],
+        );
     }
     Ok(answer)
 }

@@ -6,13 +6,12 @@ use serde::Deserialize;
 
 use super::closed_forms::extend;
 use super::references::{self, LINEAR_PULSES, TRAJECTORIES};
-use super::response::scaled;
 use super::{Answer, Context, MethodError};
 use crate::engine;
-use crate::scene::{Criterion, Equation, Scene};
+use crate::scene::{Criterion, Scene};
 
 /// The state at an instant, by a history of that interval.
-fn state(
+pub(super) fn state(
     context: &Context,
     scene: &Scene,
     time_s: f64,
@@ -96,7 +95,8 @@ struct PulseEnds {
 /// Coordinates on the growing and the decaying manifold of the saddle,
 /// z - 1 + z' and z - 1 - z', where a pulse in Eq. 2 ends.
 pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
-    let PulseEnds { block: [alpha, p, g] } = context.input()?;
+    let PulseEnds { block } = context.input()?;
+    let [alpha, p, _] = block;
     let file = &LINEAR_PULSES;
     let all = file.read()?;
     let mut answer = Answer::default();
@@ -106,16 +106,7 @@ pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
         if end.is_null() {
             continue;
         }
-        let scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: file.f64(case, "eta")?,
-            gravity_m_s2: g,
-            equation: Equation::Linearized,
-            criterion: Criterion::HalfPi,
-            forcing: scaled(case, g * alpha, p)?,
-            until_s: None,
-        };
+        let scene = references::linear_scene(case, block, Criterion::HalfPi)?;
         let seen = state(context, &scene, scene.forcing.end_s())?;
         let side = seen.rotation_rad.signum();
         let z = side * seen.rotation_rad / alpha;

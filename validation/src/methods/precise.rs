@@ -10,11 +10,10 @@ use serde_json::Value;
 
 use super::closed_forms::equation;
 use super::references::{self, LINEAR_PULSES, RECT_PULSE, TRAJECTORIES};
-use super::response::scaled;
 use super::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
 use crate::engine::{Arithmetic, WideTrace};
-use crate::scene::{Criterion, Equation, Forcing, Scene};
+use crate::scene::{Criterion, Forcing, Scene};
 
 /// Largest error of each quantity; infinite where something is missing.
 #[derive(Default)]
@@ -184,11 +183,7 @@ struct PulseInput {
 pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
     let input: PulseInput = context.input()?;
     let file = &LINEAR_PULSES;
-    let all = file.read()?;
-    let case = file
-        .list(&all, "cases")?
-        .get(input.entry)
-        .ok_or_else(|| file.lacks(format!("no entry {}", input.entry)))?;
+    let case = &references::entry(file, input.entry)?;
     let expected = file.get(case, "expected")?;
     let mut errors = Errors::default();
     for [alpha, p, g] in input.blocks.iter().copied() {
@@ -196,16 +191,8 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
             let text = format!("block {alpha}, {p}, {g}: powers of two");
             return Err(MethodError::Input(text));
         }
-        let scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: file.f64(case, "eta")?,
-            gravity_m_s2: g,
-            equation: Equation::Linearized,
-            criterion: Criterion::Alpha,
-            forcing: scaled(case, g * alpha, p)?,
-            until_s: None,
-        };
+        let block = [alpha, p, g];
+        let scene = references::linear_scene(case, block, Criterion::Alpha)?;
         let trace = run(context, &scene)?;
         let (time, speed) = (1.0 / p, p * alpha);
         let rescaled =
@@ -327,27 +314,11 @@ pub(super) fn rectangular_pulse(
 ) -> Result<Answer, MethodError> {
     let Number { entry } = context.input()?;
     let file = &RECT_PULSE;
-    let all = file.read()?;
-    let case = file
-        .list(&all, "cases")?
-        .get(entry)
-        .ok_or_else(|| file.lacks(format!("no entry {entry}")))?;
+    let case = &references::entry(file, entry)?;
     let p = file.f64(case, "p")?;
     let mut errors = Errors::default();
     for criterion in [Criterion::HalfPi, Criterion::Alpha] {
-        let scene = Scene {
-            slenderness_rad: file.f64(case, "alpha")?,
-            frequency_rad_s: p,
-            restitution: file.f64(case, "eta")?,
-            gravity_m_s2: file.f64(&all, "g")?,
-            equation: Equation::Nonlinear,
-            criterion,
-            forcing: Forcing::Rectangle {
-                amplitude_m_s2: file.f64(case, "a0")?,
-                duration_s: file.f64(case, "td")?,
-            },
-            until_s: None,
-        };
+        let scene = references::rectangular_scene(case, criterion)?;
         let trace = run(context, &scene)?;
         let (name, key) = match criterion {
             Criterion::Alpha => ("error-of-alpha-time-p", "t_theta_eq_alpha"),

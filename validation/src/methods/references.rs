@@ -112,6 +112,100 @@ impl Reference {
     }
 }
 
+/// The entry of this number among a file's cases.
+pub(super) fn entry(
+    file: &Reference,
+    number: usize,
+) -> Result<Value, MethodError> {
+    let all = file.read()?;
+    let found = file.list(&all, "cases")?.get(number).cloned();
+    found.ok_or_else(|| file.lacks(format!("no entry {number}")))
+}
+
+/// A block (alpha, p, g) in Eq. 2 under the pulse of a dimensionless case of
+/// `linear_pulses.json`.
+pub(super) fn linear_scene(
+    case: &Value,
+    [alpha, p, g]: [f64; 3],
+    criterion: Criterion,
+) -> Result<Scene, MethodError> {
+    Ok(Scene {
+        slenderness_rad: alpha,
+        frequency_rad_s: p,
+        restitution: LINEAR_PULSES.f64(case, "eta")?,
+        gravity_m_s2: g,
+        equation: Equation::Linearized,
+        criterion,
+        forcing: scaled(case, g * alpha, p)?,
+        until_s: None,
+    })
+}
+
+/// Its pulse, in a unit of acceleration and for a frequency p.
+fn scaled(case: &Value, unit: f64, p: f64) -> Result<Forcing, MethodError> {
+    let file = &LINEAR_PULSES;
+    let get = |key| file.f64(case, key);
+    let amplitude_m_s2 =
+        if case["A"].is_null() { 0.0 } else { get("A")? * unit };
+    let rate = |key| Ok::<f64, MethodError>(get(key)? * p);
+    let time = |key| Ok::<f64, MethodError>(get(key)? / p);
+    Ok(match file.get(case, "pulse")?.as_str() {
+        Some("one_sine") => Forcing::Sine {
+            amplitude_m_s2,
+            omega_rad_s: rate("Omega")?,
+            half_cycles: 2,
+        },
+        Some("half_sine") => Forcing::Sine {
+            amplitude_m_s2,
+            omega_rad_s: rate("Omega")?,
+            half_cycles: 1,
+        },
+        Some("one_cosine") => {
+            Forcing::Cosine { amplitude_m_s2, omega_rad_s: rate("Omega")? }
+        }
+        Some("rectangular") => {
+            Forcing::Rectangle { amplitude_m_s2, duration_s: time("tau_d")? }
+        }
+        Some("triangular") => {
+            Forcing::Triangle { amplitude_m_s2, duration_s: time("tau_d")? }
+        }
+        Some(kind @ ("ricker_sym" | "ricker_anti")) => Forcing::Ricker {
+            amplitude_m_s2,
+            period_s: time("tau_p")?,
+            cycles: 4.0,
+            antisymmetric: kind == "ricker_anti",
+        },
+        Some("mavroeidis") => Forcing::Mavroeidis {
+            velocity_m_s: get("A_v")? * unit / p,
+            frequency_hz: rate("f_p")?,
+            gamma: get("gamma")?,
+            phase_rad: get("nu")?,
+        },
+        kind => return Err(file.lacks(format!("pulse {kind:?}"))),
+    })
+}
+
+/// The block and pulse of an entry of `rect_pulse.json`.
+pub(super) fn rectangular_scene(
+    case: &Value,
+    criterion: Criterion,
+) -> Result<Scene, MethodError> {
+    let file = &RECT_PULSE;
+    Ok(Scene {
+        slenderness_rad: file.f64(case, "alpha")?,
+        frequency_rad_s: file.f64(case, "p")?,
+        restitution: file.f64(case, "eta")?,
+        gravity_m_s2: file.f64(&file.read()?, "g")?,
+        equation: Equation::Nonlinear,
+        criterion,
+        forcing: Forcing::Rectangle {
+            amplitude_m_s2: file.f64(case, "a0")?,
+            duration_s: file.f64(case, "td")?,
+        },
+        until_s: None,
+    })
+}
+
 /// The trajectory of this name.
 pub(super) fn trajectory(name: &str) -> Result<Value, MethodError> {
     let file = TRAJECTORIES.read()?;

@@ -127,11 +127,7 @@ struct LinearInput {
 pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
     let input: LinearInput = context.input()?;
     let file = &LINEAR_PULSES;
-    let all = file.read()?;
-    let case = file
-        .list(&all, "cases")?
-        .get(input.entry)
-        .ok_or_else(|| file.lacks(format!("no entry {}", input.entry)))?;
+    let case = &references::entry(file, input.entry)?;
     let expected = file.get(case, "expected")?;
     let impacts = file.list(expected, "impacts")?;
     let times = file.column(impacts, "tau")?;
@@ -152,16 +148,8 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
 
     let mut answer = Answer::default();
     for [alpha, p, g] in input.blocks.iter().copied() {
-        let scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: file.f64(case, "eta")?,
-            gravity_m_s2: g,
-            equation: Equation::Linearized,
-            criterion: Criterion::Alpha,
-            forcing: scaled(case, g * alpha, p)?,
-            until_s: None,
-        };
+        let block = [alpha, p, g];
+        let scene = references::linear_scene(case, block, Criterion::Alpha)?;
         let trace = context.engine.respond(&scene)?;
         let mut block = Answer::default();
         put_impacts(
@@ -198,54 +186,6 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-/// The pulse of a dimensionless case for a block with p and g alpha.
-pub(super) fn scaled(
-    case: &Value,
-    unit: f64,
-    p: f64,
-) -> Result<Forcing, MethodError> {
-    let file = &LINEAR_PULSES;
-    let get = |key| file.f64(case, key);
-    let amplitude_m_s2 =
-        if case["A"].is_null() { 0.0 } else { get("A")? * unit };
-    let rate = |key| Ok::<f64, MethodError>(get(key)? * p);
-    let time = |key| Ok::<f64, MethodError>(get(key)? / p);
-    Ok(match file.get(case, "pulse")?.as_str() {
-        Some("one_sine") => Forcing::Sine {
-            amplitude_m_s2,
-            omega_rad_s: rate("Omega")?,
-            half_cycles: 2,
-        },
-        Some("half_sine") => Forcing::Sine {
-            amplitude_m_s2,
-            omega_rad_s: rate("Omega")?,
-            half_cycles: 1,
-        },
-        Some("one_cosine") => {
-            Forcing::Cosine { amplitude_m_s2, omega_rad_s: rate("Omega")? }
-        }
-        Some("rectangular") => {
-            Forcing::Rectangle { amplitude_m_s2, duration_s: time("tau_d")? }
-        }
-        Some("triangular") => {
-            Forcing::Triangle { amplitude_m_s2, duration_s: time("tau_d")? }
-        }
-        Some(kind @ ("ricker_sym" | "ricker_anti")) => Forcing::Ricker {
-            amplitude_m_s2,
-            period_s: time("tau_p")?,
-            cycles: 4.0,
-            antisymmetric: kind == "ricker_anti",
-        },
-        Some("mavroeidis") => Forcing::Mavroeidis {
-            velocity_m_s: get("A_v")? * unit / p,
-            frequency_hz: rate("f_p")?,
-            gamma: get("gamma")?,
-            phase_rad: get("nu")?,
-        },
-        kind => return Err(file.lacks(format!("pulse {kind:?}"))),
-    })
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FreeInput {
@@ -257,11 +197,7 @@ struct FreeInput {
 pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let input: FreeInput = context.input()?;
     let file = &FREE_ROCKING;
-    let all = file.read()?;
-    let case = file
-        .list(&all, "cases")?
-        .get(input.entry)
-        .ok_or_else(|| file.lacks(format!("no entry {}", input.entry)))?;
+    let case = &references::entry(file, input.entry)?;
     let (equation, key) = match input.equation.as_str() {
         "nonlinear" => (Equation::Nonlinear, "nonlinear"),
         "linearized" => (Equation::Linearized, "linear"),
@@ -320,27 +256,9 @@ pub(super) fn rectangular_pulse(
     }
     let input: Input = context.input()?;
     let file = &RECT_PULSE;
-    let all = file.read()?;
-    let case = file
-        .list(&all, "cases")?
-        .get(input.entry)
-        .ok_or_else(|| file.lacks(format!("no entry {}", input.entry)))?;
+    let case = &references::entry(file, input.entry)?;
     let p = file.f64(case, "p")?;
-    let scene = |criterion| -> Result<Scene, MethodError> {
-        Ok(Scene {
-            slenderness_rad: file.f64(case, "alpha")?,
-            frequency_rad_s: p,
-            restitution: file.f64(case, "eta")?,
-            gravity_m_s2: file.f64(&all, "g")?,
-            equation: Equation::Nonlinear,
-            criterion,
-            forcing: Forcing::Rectangle {
-                amplitude_m_s2: file.f64(case, "a0")?,
-                duration_s: file.f64(case, "td")?,
-            },
-            until_s: None,
-        })
-    };
+    let scene = |criterion| references::rectangular_scene(case, criterion);
     let trace = context.engine.respond(&scene(Criterion::HalfPi)?)?;
     let mut answer = Answer::default();
     answer.put("side", vec![trace.first_side], vec![-1.0]);

@@ -131,8 +131,8 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
     };
     let is = f64::from(u8::from(chosen.is_some()));
     answer.observed.insert("pulse-like".into(), vec![is]);
-    if let Some(chosen) = chosen {
-        let known = chosen.period_s * input.frequency_hz;
+    if let Some(shown) = chosen.or(found.first()) {
+        let known = shown.period_s * input.frequency_hz;
         answer.observed.insert("period-over-known".into(), vec![known]);
     }
     Ok(answer)

@@ -1,7 +1,7 @@
 //! Wrong models: what a case must be able to tell from the right one.
 
 use crate::naive::{
-    Events, Hold, Loss, Naive, Pushback, Rest, Rules, Threshold,
+    Events, Hold, Loss, Naive, Pushback, Rest, Rules, STEP_P, Threshold,
 };
 use crate::scene::{Engine, EngineError, Equation, Forcing, Scene, Trace};
 
@@ -33,6 +33,7 @@ const RIGHT: Rules = Rules {
     hold: Hold::Linear,
     threshold: Threshold::Own,
     after_end: true,
+    step_p: STEP_P,
 };
 
 /// The naive integrator without a mistake.
@@ -143,6 +144,15 @@ pub static WRONG_MODELS: &[WrongModel] = &[
         "energy-of-the-other-equation",
         "energy of Eq. 2 along Eq. 1, or of Eq. 1 along Eq. 2",
     ),
+    method(
+        "semi-infinite-sine",
+        "the condition of a sine that never ends for one that does",
+    ),
+    method(
+        "energy-whichever-way",
+        "overturning wherever the energy passes the saddle's",
+    ),
+    method("angle-alone", "overturning wherever |theta| exceeds alpha"),
     method("eta-once-in-energy", "energy times eta at an impact, not eta^2"),
     method("order-too-low", "the series stops two terms early"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),

@@ -1,5 +1,8 @@
 //! The rules of the naive integrator, and the mistakes it can make.
 
+/// Largest step in units of 1/p of the right rules.
+pub const STEP_P: f64 = 0.005;
+
 /// How impacts and overturning are noticed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Events {
@@ -8,6 +11,8 @@ pub enum Events {
     /// By the sign at the ends of steps as long as a sample, the rotation
     /// set to zero there.
     StepEnds,
+    /// By that sign, at the zero of the straight line through the ends.
+    Interpolated,
     /// As `StepEnds`, but the rotation keeps its value.
     StepEndsRotationKept,
 }
@@ -76,6 +81,9 @@ pub struct Rules {
     pub threshold: Threshold,
     /// Whether the motion goes on after the ground has stopped.
     pub after_end: bool,
+    /// Largest step in units of 1/p; ten times that where impacts are not
+    /// located.
+    pub step_p: f64,
 }
 
 impl Default for Rules {
@@ -88,6 +96,7 @@ impl Default for Rules {
             hold: Hold::Linear,
             threshold: Threshold::Own,
             after_end: true,
+            step_p: STEP_P,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{free_rocking, linear, overturning, rectangular};
+use super::{free_rocking, linear, overturning, rectangular, square};
 
 fn close(found: f64, wanted: f64, tolerance: f64) {
     let error = (found - wanted).abs() / wanted.abs().max(1.0);
@@ -166,5 +166,46 @@ fn validates_rectangular_pulses() {
         close(pulse.rotation_rad(get("td")), y, 1e-14);
         close(pulse.energy_over_saddle(y), get("energy_minus_1"), 1e-14);
         close(pulse.critical_duration_s(), get("critical_td"), 1e-14);
+    }
+}
+
+/// A rectangular pulse, and stretches of silence after it.
+#[test]
+fn validates_square_waves() {
+    let all =
+        file(include_str!("../../../fixtures/references/rect_pulse.json"));
+    for case in list(&all["cases"]) {
+        let get = |key: &str| number(&case[key]);
+        let (p, duration_p) = (get("p"), get("td") * get("p"));
+        let wave = |quiet_p: f64| square::SquareWave {
+            alpha_rad: get("alpha"),
+            eta: get("eta"),
+            stretches: vec![
+                (get("a0") / 9.81, 0.25 * duration_p),
+                (get("a0") / 9.81, 0.75 * duration_p),
+                (0.0, 0.5 * quiet_p),
+                (0.0, 0.5 * quiet_p),
+            ],
+        };
+        let end = wave(0.0).motion().end;
+        close(end.y, get("y_at_td"), 1e-14);
+        close(end.w * p, get("ydot_at_td"), 1e-14);
+        if case["outcome"] == "overturns" {
+            // On the way out it is nowhere turned back.
+            let ending = wave(0.0).ending(end);
+            assert_eq!((ending.overturned, ending.impact), (end.side, None));
+            continue;
+        }
+        let impacts = list(&case["impacts"]);
+        let last = impacts.last().expect("an impact");
+        let after = number(&last["t"]) * p - duration_p;
+        let motion = wave(after + 1e-9).motion();
+        assert_eq!(motion.impacts.len(), impacts.len());
+        for (found, impact) in motion.impacts.iter().zip(impacts) {
+            close(found.0 / p, number(&impact["t"]), 1e-13);
+            close(found.1 * p, number(&impact["speed"]), 1e-14);
+        }
+        let peak = get("peak_over_alpha") * get("alpha");
+        close(motion.peak_rad, peak, 1e-14);
     }
 }

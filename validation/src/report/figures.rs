@@ -30,9 +30,21 @@ pub struct ShownFigure {
     pub csv_path: String,
 }
 
+impl ShownFigure {
+    /// What it is called where it is named: its number, or its title if it
+    /// shares the number with others.
+    fn called(&self) -> &str {
+        if self.number.starts_with("Figure") {
+            &self.number
+        } else {
+            &self.title
+        }
+    }
+}
+
 /// The figure with title, reading and data.
 pub fn figure(shown: &ShownFigure) -> Markup {
-    let label = format!("{}, drawing", shown.number);
+    let label = format!("{}, drawing", shown.called());
     let class = if width_px(&shown.svg) > WIDE_PX {
         "scroll drawing wide"
     } else {
@@ -46,11 +58,11 @@ pub fn figure(shown: &ShownFigure) -> Markup {
             }
             figcaption { (shown.reading) }
             details {
-                summary { "Data of " (shown.number) }
+                summary { "Data of " (shown.called()) }
                 p {
                     a href=(shown.csv_path) { (shown.csv_path) }
                 }
-                (table::preview(&shown.number, &shown.csv, PREVIEW_ROWS))
+                (table::preview(shown.called(), &shown.csv, PREVIEW_ROWS))
             }
         }
     }

@@ -115,7 +115,7 @@ fn findings(findings: &[Finding], shown: &[ShownFigure]) -> Markup {
             tbody { @for f in findings { (finding(f, shown)) } }
         }
     };
-    scrolled("Findings", body)
+    scrolled("Findings, table", body)
 }
 
 /// A link to a figure, by its number where the page has it.

@@ -99,7 +99,7 @@ fn line(cells: &[String]) -> Markup {
 }
 
 /// Cells of a line of CSV; a quoted cell has no line break in it.
-fn cells(line: &str) -> Vec<String> {
+pub fn cells(line: &str) -> Vec<String> {
     let mut cells = vec![String::new()];
     let mut quoted = false;
     let mut characters = line.chars().peekable();

@@ -236,8 +236,9 @@ fn assessment(results: &Results) -> PlainTable {
             "2",
             "Error estimates and certified fates for the numerics; \
              intervals by order statistics and bootstrap for medians and \
-             differences of them.",
-            "Counts and shares have no interval. The uncertainty of the \
+             differences of them, Wilson's for shares of records.",
+            "Shares of levels or blocks, which share their records, have \
+             none. The uncertainty of the \
              coefficient of restitution is not propagated, only varied.",
         ],
         [

@@ -7,8 +7,23 @@ use std::path::{Path, PathBuf};
 
 use crate::files::WriteError;
 
-/// Files of a report by name.
+/// Files of a report by name; folders in a name are parted by `/`.
 pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// Where a report's findings lie.
+pub const FINDINGS: &str = "data/findings.json";
+
+/// Puts what a person compares into `data/`, drawings into `figures/`; the
+/// page stays on top.
+#[must_use]
+pub fn laid_out(files: Files) -> Files {
+    let place = |name: String| match name.rsplit_once('.') {
+        Some((_, "csv" | "json")) => format!("data/{name}"),
+        Some((_, "svg")) => format!("figures/{name}"),
+        _ => name,
+    };
+    files.into_iter().map(|(name, text)| (place(name), text)).collect()
+}
 
 /// Writes `files` into the folder `out`: first into a folder beside it, and
 /// only when that is complete file by file into place, `index.html` last.
@@ -19,17 +34,17 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 pub fn write(out: &Path, files: &Files) -> Result<(), WriteError> {
     let part = part_of(out);
     let attempt = || {
-        create(&part)?;
         for (name, content) in files {
             let path = part.join(name);
+            create(path.parent().unwrap_or(&part))?;
             fs::write(&path, content)
                 .map_err(|source| WriteError { path, source })?;
         }
-        create(out)?;
         let last = "index.html";
         let order = files.keys().filter(|n| *n != last);
         for name in order.chain(files.keys().filter(|n| *n == last)) {
             let path = out.join(name);
+            create(path.parent().unwrap_or(out))?;
             fs::rename(part.join(name), &path)
                 .map_err(|source| WriteError { path, source })?;
         }
@@ -81,13 +96,20 @@ mod tests {
         let mut files = Files::new();
         files.insert("index.html".into(), b"<p>".to_vec());
         files.insert("a.csv".into(), b"x\n".to_vec());
-        write(&out, &files).expect("written");
+        let files_of = |files: &Files| laid_out(files.clone());
+        let before = files_of(&files);
+        write(&out, &before).expect("written");
         files.insert("a.csv".into(), b"y\n".to_vec());
-        write(&out, &files).expect("replaced");
-        assert_eq!(fs::read(out.join("a.csv")).expect("read"), b"y\n");
+        fs::write(out.join("data/mine.csv"), b"z\n").expect("another's");
+        write(&out, &files_of(&files)).expect("replaced");
+        let there = |name: &str| fs::read(out.join(name)).expect("read");
+        assert_eq!(there("data/a.csv"), b"y\n");
+        assert_eq!(there("data/mine.csv"), b"z\n");
         let here = fs::read_dir(&root).expect("folder").count();
         assert_eq!(here, 1, "only the report itself");
         assert_eq!(fs::read_dir(&out).expect("folder").count(), 2);
+        let data = fs::read_dir(out.join("data")).expect("folder");
+        assert_eq!(data.count(), 2);
         // A file in the way is refused, and stays.
         let blocked = root.join("blocked");
         fs::write(&blocked, b"mine").expect("write");

@@ -11,6 +11,7 @@ use super::credibility;
 use super::figures::{Figure, Results};
 use super::findings::{Claim, Verdict};
 use super::grid::blocks;
+use super::plain;
 use super::questions::Answer;
 use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
@@ -42,13 +43,15 @@ pub fn input(
         number: "Speed".into(),
         ..shown(&timings.figure())?
     });
+    let names: Vec<&str> =
+        figures.iter().map(|f| f.drawing.heading().name.as_str()).collect();
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        summary: summary(results, claims),
-        findings: claims.iter().map(finding).collect(),
+        summary: summary(results, claims, &timings)?,
+        findings: claims.iter().map(|c| finding(c, &names)).collect(),
         families: evidence::committed_families()?,
         tables: tables(answers)?,
         figures: drawn,
@@ -78,24 +81,34 @@ fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
     Ok(tables)
 }
 
-fn summary(results: &Results, claims: &[Claim]) -> Summary {
+fn summary(
+    results: &Results,
+    claims: &[Claim],
+    timings: &Timings,
+) -> Result<Summary, StudyError> {
     let found = |suite: &SuiteResults| {
         let certainty = suite.work.certainty;
-        format!(
-            "{} {} records, {} analyses; {} levels whose fate needed \
-             double-double, {} of them told wrongly in double precision, {} \
-             left open. If all of those flipped, the 16, 50 and 84 % \
-             overturning intensities would move by {} at most.",
+        let work = format!(
+            "{} {} records, {} analyses",
             suite.records.len(),
             suite.kind,
-            suite.work.analyses,
+            suite.work.analyses
+        );
+        if certainty.needed == 0 {
+            return format!("{work}; double precision tells every fate.");
+        }
+        format!(
+            "{work}; {} levels whose fate needed double-double, {} of them \
+             told wrongly in double precision, {} left open. If all of those \
+             flipped, the 16, 50 and 84 % overturning intensities would move \
+             by {} at most.",
             certainty.needed,
             certainty.moved,
             certainty.undecided,
             rounded_text(certainty.largest_shift)
         )
     };
-    Summary {
+    Ok(Summary {
         asked: "Can the slenderness of a rocking block be normalized out, \
                 and are its capacities lognormal above the intensity of \
                 uplift? Fifteen rigid blocks, p = 1, 3, 4 rad/s and alpha = \
@@ -103,34 +116,80 @@ fn summary(results: &Results, claims: &[Claim]) -> Summary {
                 of two suites."
             .into(),
         found: [
+            plain::answers(results, claims, timings)?,
             answers(claims),
             vec![found(&results.ordinary), found(&results.pulse)],
         ]
         .concat(),
-        trust: "Margins were fixed before any result was seen, but for one: \
-                the sharp onset for PGA was first measured by the largest \
-                intensity at a rotation of 0.005 alpha, which turned out to \
-                measure the block's size, and is now measured by the onsets \
-                themselves, which for PGA are 1 by definition. A verdict \
-                needs the whole interval on one side of its margin; where \
-                there is no interval the value alone decides, and that is \
-                said by its absence. Verdicts hold for these suites."
+        trust: "Margins were fixed before any result was seen, but for those \
+                whose note says otherwise and one more: the sharp onset for \
+                PGA was first measured by the largest intensity at a rotation \
+                of 0.005 alpha, which turned out to measure the block's size, \
+                and is now measured by the onsets themselves, which for PGA \
+                are 1 by definition. A verdict needs the whole interval on \
+                one side of its margin; where there is no interval the value \
+                alone decides, and that is said there. Verdicts hold for \
+                these suites."
             .into(),
+    })
+}
+
+/// The figures among `names` that a claim is about: those of its section, in
+/// its arm where there is one for each.
+fn shown_by(claim: &Claim, names: &[&str]) -> Vec<String> {
+    let Some((_, words)) = claim.section.split_once("Figure") else {
+        return Vec::new();
+    };
+    let numbers = words
+        .split(|c: char| !c.is_ascii_digit())
+        .filter_map(|digits| digits.parse::<u32>().ok());
+    let mut out = Vec::new();
+    for number in numbers {
+        let stem = format!("figure-{number:02}");
+        let own = claim
+            .arm
+            .map(|arm| format!("{stem}-{}", arm.letter().to_lowercase()));
+        let found = names
+            .iter()
+            .find(|name| own.as_deref() == Some(**name))
+            .or_else(|| names.iter().find(|name| name.starts_with(&stem)));
+        out.extend(found.map(|name| (*name).to_owned()));
+    }
+    out
+}
+
+/// What stands where no interval does.
+fn no_interval(claim: &Claim) -> String {
+    match (claim.suite.as_str(), claim.margin.as_str()) {
+        ("none", _) => "computed, not sampled",
+        (_, "none") => "counted, all of them",
+        _ => "none stated: the value alone decides",
+    }
+    .into()
+}
+
+fn suite_words(claim: &Claim) -> &str {
+    match claim.suite.as_str() {
+        "none" => "no records",
+        "both" => "both suites",
+        suite => suite,
     }
 }
 
-fn finding(claim: &Claim) -> Finding {
+fn finding(claim: &Claim, names: &[&str]) -> Finding {
     let arm = claim
         .arm
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
-    let interval = claim.measured.interval.map_or(String::new(), |(a, b)| {
-        format!("{} to {}, 95 %", rounded_text(a), rounded_text(b))
-    });
+    let interval = claim.measured.interval;
+    let interval = interval.map_or_else(
+        || no_interval(claim),
+        |(a, b)| format!("{} to {}, 95 %", rounded_text(a), rounded_text(b)),
+    );
     Finding {
         id: claim.key(),
         claim: claim.quote.clone(),
         source: format!("paper, section {}", claim.section),
-        tested_on: format!("{}, {}{arm}", claim.suite, claim.blocks),
+        tested_on: format!("{}, {}{arm}", suite_words(claim), claim.blocks),
         measure: claim.measure.clone(),
         value: rounded_text(claim.measured.value),
         interval,
@@ -140,7 +199,7 @@ fn finding(claim: &Claim) -> Finding {
             Verdict::NotConfirmed => report::Verdict::NotConfirmed,
             Verdict::Inconclusive => report::Verdict::Inconclusive,
         },
-        figures: Vec::new(),
+        figures: shown_by(claim, names),
         remark: claim.note.clone(),
     }
 }
@@ -200,7 +259,7 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
         reading: figure.reading.clone(),
         svg: figure.drawing.svg()?,
         csv: figure.drawing.csv(),
-        csv_path: format!("{}.csv", heading.name),
+        csv_path: format!("data/{}.csv", heading.name),
     })
 }
 
@@ -213,7 +272,7 @@ fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, StudyError> {
         reading: shown.reading.clone(),
         svg: shown.chart.svg()?,
         csv: shown.chart.csv(),
-        csv_path: format!("{}.csv", heading.name),
+        csv_path: format!("data/{}.csv", heading.name),
     })
 }
 

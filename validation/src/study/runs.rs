@@ -15,6 +15,9 @@ use super::certainty::{Certainty, certainty};
 use crate::curves::Way;
 use crate::figures::data::Arm;
 
+/// The paper's coefficient of restitution, for every block.
+pub const RESTITUTION: f64 = 0.92;
+
 /// What holds for every analysis of a study.
 #[derive(Clone, Copy, Debug)]
 pub struct Setup {

@@ -17,6 +17,9 @@ const MANY: &str = include_str!("../../../fixtures/speed/throughput.csv");
 const CONDITIONS: &str =
     include_str!("../../../fixtures/speed/conditions.csv");
 
+/// The work that the paper's study is made of.
+const PAPER: &str = "15 blocks, Eq. 1";
+
 /// Lines of the figure: legend, tool, method, and settings left out.
 const LINES: [(&str, &str, &str, &[&str]); 7] = [
     (
@@ -169,19 +172,67 @@ impl Timings {
         Figure { drawing: Box::new(drawing), reading: self.reading() }
     }
 
-    fn reading(&self) -> String {
-        let own = self.singles.iter().find(|t| {
+    /// Our own run as shipped.
+    fn own(&self) -> Option<&Total> {
+        self.singles.iter().find(|t| {
             let [tool, _, method, setting] = &t.label;
             [tool.as_str(), method, setting] == BASE
-        });
-        let best: Vec<&Total> = LINES[1..]
+        })
+    }
+
+    /// Errors against double-double, in a sentence.
+    #[must_use]
+    pub fn accuracy(&self) -> String {
+        let Some(own) = self.own() else { return String::new() };
+        format!(
+            "Over {} analyses of the timings the peak of |theta|/alpha is \
+             off by {} (median) and by {} (90 % are below), with {} wrong \
+             fates, against double-double.",
+            own.cases,
+            digits(own.peak_error),
+            digits(own.peak_error_90),
+            own.wrong_fates
+        )
+    }
+
+    /// How fast, in a sentence.
+    #[must_use]
+    pub fn plain(&self) -> String {
+        let best = self.most_accurate();
+        let (fast, slow) = range(best.iter().map(|t| t.ratio));
+        let rate = self
+            .many
+            .iter()
+            .filter(|t| t.threads == 1 && t.work.starts_with(PAPER))
+            .map(Throughput::rate_per_s)
+            .fold(0.0, |a: f64, b| if b > a { b } else { a });
+        format!(
+            "How fast? A single analysis takes {} ms of one core, the most \
+             accurate setting of each other tool {} to {} times as long; the \
+             paper's chains of 15 blocks run at {rate:.0} analyses a second \
+             and core. {}",
+            self.own().map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
+            digits(fast),
+            digits(slow),
+            self.measured_on()
+        )
+    }
+
+    /// The most accurate setting of every other tool.
+    fn most_accurate(&self) -> Vec<&Total> {
+        LINES[1..]
             .iter()
             .filter_map(|(_, tool, method, without)| {
                 self.of(tool, method, without)
                     .into_iter()
                     .min_by(|a, b| a.peak_error.total_cmp(&b.peak_error))
             })
-            .collect();
+            .collect()
+    }
+
+    fn reading(&self) -> String {
+        let own = self.own();
+        let best = self.most_accurate();
         let (fast, slow) = range(best.iter().map(|t| t.ratio));
         let (good, bad) = range(best.iter().map(|t| t.peak_error));
         format!(

@@ -7,7 +7,7 @@ use rocking::integrator::Overturning;
 
 use super::Study;
 use super::analyses::Plan;
-use super::output::Files;
+use super::output::{FINDINGS, Files};
 use super::runs::Setup;
 use super::suites::StudySuite;
 use crate::curves::Way;
@@ -44,18 +44,18 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     }
     // Every figure with its numbers, the findings, Table 1 and the page.
     for number in 1..=18 {
-        let stem = format!("figure-{number:02}");
-        for suffix in ["svg", "csv"] {
+        for (folder, suffix) in [("figures", "svg"), ("data", "csv")] {
+            let stem = format!("{folder}/figure-{number:02}");
             let found = one
                 .keys()
                 .any(|name| name.starts_with(&stem) && name.ends_with(suffix));
             assert!(found, "{stem}: no {suffix}");
         }
     }
-    for name in ["findings.json", "table-01.csv", "index.html"] {
+    for name in [FINDINGS, "data/table-01.csv", "index.html"] {
         assert!(one.contains_key(name), "{name}");
     }
-    let text = String::from_utf8(one["findings.json"].clone()).expect("text");
+    let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
     let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     // The onset of rocking is exact for every record.
     let onset = json["claims"].as_array().expect("claims").iter();

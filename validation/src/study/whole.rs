@@ -7,18 +7,17 @@ use rocking::integrator::Overturning;
 use serde_json::{Value, json};
 
 use super::StudyError;
+use super::adjustment;
 use super::analyses::{Plan, SuiteResults};
 use super::claims;
 use super::distributions::of_suite;
-use super::figures::{
-    Figure, Results, adjusted_boxes, adjusted_split, of_arm,
-};
+use super::figures::{Figure, Results};
 use super::findings::{Claim, Findings, ends, rounded, text};
 use super::grid::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, demands,
 };
 use super::normality::ends as band_ends;
-use super::output::Files;
+use super::output::{Files, laid_out};
 use super::overturning;
 use super::page;
 use super::questions::{self, Answer};
@@ -101,7 +100,8 @@ impl Study {
         out
     }
 
-    /// The report's files: figures, their numbers, findings, page.
+    /// The report's files: `index.html`, numbers in `data/`, drawings in
+    /// `figures/`.
     ///
     /// # Errors
     /// [`StudyError`] where a figure cannot be drawn.
@@ -137,7 +137,7 @@ impl Study {
             &self.answers,
         )?;
         files.insert("index.html".into(), report::page(&input).into_bytes());
-        Ok(files)
+        Ok(laid_out(files))
     }
 }
 
@@ -208,7 +208,7 @@ fn findings(
     out.insert("questions".into(), questions::json(answers));
     let suites = [&results.ordinary, &results.pulse].map(suite);
     out.insert("suites".into(), Value::Array(suites.into()));
-    out.insert("figure_09".into(), figure_09(results)?);
+    out.insert("figure_09".into(), adjustment::json(results)?);
     out.insert("uplift_unscaled".into(), uplift(results)?);
     out.insert("accepted_shares".into(), shares(results));
     out.insert("overturning".into(), overturning::json(results));
@@ -253,41 +253,6 @@ fn suite(suite: &SuiteResults) -> Value {
             rounded(suite.work.certainty.largest_shift),
         "shown_alone": chosen,
     })
-}
-
-/// Figure 9, a row a box: usable share, count and median; the same apart by
-/// whether the adjusted slenderness is within the paper's.
-fn figure_09(results: &Results) -> Result<Value, StudyError> {
-    let suite = &results.ordinary;
-    let mut rows = Vec::new();
-    for arm in results.plan.drawn() {
-        let Some(demands) = of_arm(suite, arm) else { continue };
-        for (frequency, (p_rad_s, stripes)) in
-            adjusted_boxes(suite, arm)?.into_iter().enumerate()
-        {
-            let splits = adjusted_split(suite, demands, frequency)?;
-            for (stripe, split) in stripes.iter().zip(splits) {
-                let median = stripe.summary.as_ref().map(|b| b.median);
-                rows.push(json!({
-                    "arm": arm.letter(),
-                    "p_rad_s": rounded(p_rad_s),
-                    "im_pga": rounded(split.im),
-                    "records": stripe.records,
-                    "usable": stripe.usable,
-                    "usable_share": rounded(stripe.usable_share()),
-                    "median": median.map(rounded),
-                    "alpha_to_0.25": part(&split.within),
-                    "alpha_above_0.25": part(&split.above),
-                }));
-            }
-        }
-    }
-    Ok(json!({ "row_count": rows.len(), "rows": rows }))
-}
-
-fn part(ratios: &[f64]) -> Value {
-    let median = claims::median(ratios);
-    json!({ "usable": ratios.len(), "median": rounded(median.value) })
 }
 
 /// How many records uplift each block without being scaled.

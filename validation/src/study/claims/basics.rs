@@ -5,6 +5,7 @@ use rocking::block::Restitution;
 use super::{Claim, Context, Measured, PAPER_GRAVITY_M_S2, Results, SAME};
 use super::{StudyError, all_one, varied_ratios};
 use crate::study::grid::blocks;
+use crate::study::runs::RESTITUTION;
 use crate::study::sensitivities::Choice;
 
 /// Table 1 as printed, by frequency parameter: half diagonal, then widths
@@ -104,7 +105,7 @@ fn restitution() -> Result<Vec<Claim>, StudyError> {
     let housner = "Housner's coefficient of restitution varies within \
                    0.91 - 1.00";
     let [low, high] = [low, high].map(Measured::exact);
-    let loss = Measured::exact(1.0 - 0.92 * 0.92);
+    let loss = Measured::exact(1.0 - RESTITUTION * RESTITUTION);
     Ok(vec![
         context.claim(
             "housner-least",
@@ -127,7 +128,7 @@ fn restitution() -> Result<Vec<Claim>, StudyError> {
         context.claim(
             "energy-loss",
             "an energy loss of 15.36% per impact",
-            "1 - eta^2 for eta = 0.92",
+            &format!("1 - eta^2 for eta = {RESTITUTION}"),
             loss,
             "15.36 % to four digits",
             loss.within(0.15355, 0.15365),

@@ -1,0 +1,47 @@
+//! Which series a scene under a record is stepped by.
+
+use crate::integrator::dynamics::Model;
+
+/// Coefficients of the short series: order 10. Order 8 leaves too much of one
+/// step in six on records with sharp kinks, and taking those again costs more
+/// than it saves.
+pub(crate) const SHORT: usize = 11;
+/// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
+/// of any step that a shorter series leaves too much of: order 13.
+pub(crate) const SMOOTH: usize = 14;
+
+/// Longest step (in 1/p) of which the short series leaves less than rounding.
+const SHORT_STEP: f64 = 0.06;
+
+/// A step of 0.06 is one although p dt comes out above it.
+const GUARD: f64 = 1.0 + 1e-9;
+
+/// What scenes under records have in common: equation and order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Class {
+    /// Eq. 1, the short series.
+    Short,
+    /// Eq. 1, the long one.
+    Smooth,
+    /// Eq. 2.
+    Linearized,
+}
+
+impl Class {
+    /// The class of scenes of a model at steps of `length` (in 1/p).
+    pub fn of(model: Model, length: f64) -> Self {
+        match model {
+            Model::Linearized => Self::Linearized,
+            Model::Nonlinear if length <= SHORT_STEP * GUARD => Self::Short,
+            Model::Nonlinear => Self::Smooth,
+        }
+    }
+
+    /// Its equation of motion.
+    pub fn model(self) -> Model {
+        match self {
+            Self::Linearized => Model::Linearized,
+            Self::Short | Self::Smooth => Model::Nonlinear,
+        }
+    }
+}

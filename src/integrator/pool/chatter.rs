@@ -1,0 +1,82 @@
+//! The driver's proof that a chatter ends, in lanes: the same operations in
+//! the same order.
+
+use crate::integrator::dynamics::Model;
+use crate::integrator::pool::group::WIDTH;
+use crate::number::Number;
+use crate::number::lanes::{Lanes, Mask};
+
+type Eight = Lanes<WIDTH>;
+type Which = Mask<WIDTH>;
+
+/// Blocks just after an impact.
+pub(super) struct Impacted {
+    pub model: Model,
+    pub threshold: Eight,
+    pub cosine: Eight,
+    pub eta: Eight,
+    /// Forcing on the new side, and its rate on either.
+    pub f: Eight,
+    pub rate: Eight,
+    /// Speed, above zero.
+    pub w: Eight,
+    /// Time to the end of the sample.
+    pub left: Eight,
+    /// Largest rotation so far.
+    pub peak: Eight,
+}
+
+impl Impacted {
+    /// The blocks of `which` whose impacts provably accumulate within the
+    /// sample, and the time in which they do.
+    #[inline(always)]
+    pub fn come_to_rest(&self, which: Which) -> (Which, Eight) {
+        let (zero, one) = (Eight::zero(), Eight::one());
+        let Self { eta, f, rate, w, left, .. } = *self;
+        let size = f.abs();
+        let guess = (w + w) / (self.restoring(-size) * (one - eta));
+        let may = which
+            .and(zero.below(self.threshold - size))
+            .and(eta.below(one))
+            .and(guess.below(left));
+        if !may.any() {
+            return (may, zero);
+        }
+        let two = Eight::ratio(2, 1);
+        let window = two * guess;
+        let window = window.below(left).select(window, left);
+        let drift = rate.abs() * window;
+        let least = self.restoring(-(size + drift));
+        let ends = may.and(zero.below(least));
+        let rise = w * w / least;
+        let push = (one + self.threshold) * (rise + rise);
+        let least = least - push;
+        let ends = ends.and(zero.below(least));
+        let ratio = |f: Eight| {
+            let most = self.restoring(f + drift) + push;
+            let low = self.restoring(f - drift) - push;
+            most / low
+        };
+        let (here, there) = (ratio(f), ratio(-f));
+        let worst = there.below(here).select(here, there);
+        let decay = eta * worst.sqrt();
+        let bound = two * w * worst.sqrt() / (least * (one - decay));
+        let top = w * w / (two * least) * worst;
+        let ends = ends
+            .and(decay.below(one))
+            .and(bound.below(window))
+            .and(top.below(self.peak));
+        let (up, down) = (self.restoring(f), self.restoring(-f));
+        let hops = one / up + eta / down;
+        (ends, two * w * hops / (one - eta * eta))
+    }
+
+    /// Downward acceleration at the base under forcing `f`.
+    #[inline(always)]
+    fn restoring(&self, f: Eight) -> Eight {
+        match self.model {
+            Model::Nonlinear => (self.threshold + f) * self.cosine,
+            Model::Linearized => self.threshold + f,
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Texts that people read, as committed snapshots: a changed word is seen in
+//! the change, and accepted with `INSTA_UPDATE=always cargo test --test cli`.
+
+use insta::{Settings, assert_snapshot};
+
+use super::diff::sides;
+use super::support::{folder, run};
+
+const COMMANDS: [&str; 13] = [
+    "respond",
+    "ida",
+    "records",
+    "boxplot",
+    "capacities",
+    "compare",
+    "diff",
+    "fragility",
+    "lilliefors",
+    "quantile",
+    "speed",
+    "study",
+    "validate",
+];
+
+fn settings() -> Settings {
+    let mut settings = Settings::clone_current();
+    settings.set_snapshot_path("snapshots");
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    settings
+}
+
+#[test]
+fn help_of_every_command() {
+    let place = folder("texts-help", &[]);
+    let (status, top, error) = run(&place, "--help");
+    assert_eq!((status, error.as_str()), (0, ""));
+    settings().bind(|| assert_snapshot!("help", top));
+    for command in COMMANDS {
+        assert!(top.contains(&format!("\n  {command} ")), "{command}");
+        let (status, text, error) = run(&place, &format!("{command} --help"));
+        assert_eq!((status, error.as_str()), (0, ""), "{command}");
+        settings().bind(|| assert_snapshot!(format!("help-{command}"), text));
+    }
+}
+
+#[test]
+fn what_changed_between_two_results() {
+    let findings = [
+        ("\"eta\": 0.92", "\"eta\": 0.919"),
+        ("2.31,", "2.35,"),
+        ("3.3,", "3.31,"),
+        ("0.1536,", "0.1554,"),
+        ("\"verdict\": \"confirmed\"", "\"verdict\": \"inconclusive\""),
+    ];
+    let cases = [("\"first\": [0.5]", "\"first\": [0.6]")];
+    let place = sides("texts", &findings, &cases);
+    for (name, flags) in [
+        ("diff-text", "--all"),
+        ("diff-markdown", "--markdown --all"),
+        ("diff-json", "--json"),
+    ] {
+        let (status, text, error) =
+            run(&place, &format!("diff old new {flags}"));
+        assert_eq!(status, 1, "{error}");
+        settings().bind(|| assert_snapshot!(name, text));
+    }
+}

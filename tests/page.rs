@@ -1,0 +1,211 @@
+//! The committed page in a browser: no error, no request, no overflow,
+//! everything there and readable. Without Chromium nothing is run, and that
+//! is said; the gate installs it.
+
+#[path = "page/browser.rs"]
+mod browser;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use browser::Browser;
+use serde_json::Value;
+
+const CHECKS: &str = include_str!("page/checks.js");
+
+/// Widths of a phone, a narrow window and a desk, in px.
+const WIDTHS_PX: [u32; 3] = [360, 500, 1400];
+
+const SCHEMES: [&str; 2] = ["light", "dark"];
+
+/// Where axe-core looks as well.
+const AXE: [(u32, &str); 2] = [(360, "dark"), (1400, "light")];
+
+fn root() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    root.canonicalize().expect("repository")
+}
+
+fn started(name: &str) -> Option<Browser> {
+    let binary = browser::find();
+    if binary.is_none() {
+        eprintln!("not run: no Chromium");
+    }
+    binary.map(|binary| Browser::start(&binary, name))
+}
+
+fn lines(list: &Value) -> Vec<String> {
+    let list = list.as_array().expect("a list").iter();
+    list.map(|line| line.as_str().expect("a line").to_owned()).collect()
+}
+
+/// What is wrong with a page at one width and scheme.
+fn problems(
+    browser: &mut Browser,
+    page: &Path,
+    width_px: u32,
+    scheme: &str,
+) -> Vec<String> {
+    browser.open(page, width_px, scheme);
+    let found = browser.evaluate(CHECKS);
+    let mut problems = lines(&found["problems"]);
+    let folder = page.parent().expect("folder");
+    for file in lines(&found["files"]) {
+        if !folder.join(&file).is_file() {
+            problems.push(format!("link: {file} is no file beside the page"));
+        }
+    }
+    problems.extend(browser.events());
+    problems
+}
+
+/// Violations that axe-core finds, if the gate has put it there.
+fn axe(browser: &mut Browser) -> Option<Vec<String>> {
+    let script =
+        fs::read_to_string(root().join("target/axe/axe.min.js")).ok()?;
+    browser.evaluate(&format!("{script};0"));
+    let found = browser.evaluate(
+        "axe.run(document, {resultTypes: ['violations']}).then((found) => \
+         found.violations.map((v) => `${v.id}: ${v.help}, ${v.nodes.length} \
+         times, first ${v.nodes[0].target}`))",
+    );
+    Some(lines(&found))
+}
+
+#[test]
+fn the_committed_page_is_whole_and_readable() {
+    let Some(mut browser) = started("committed") else { return };
+    let page = root().join("reports/index.html");
+    let mut found = Vec::new();
+    for width_px in WIDTHS_PX {
+        for scheme in SCHEMES {
+            let here = problems(&mut browser, &page, width_px, scheme);
+            found.extend(
+                here.iter().map(|p| format!("{width_px} px, {scheme}: {p}")),
+            );
+            if AXE.contains(&(width_px, scheme)) {
+                match axe(&mut browser) {
+                    Some(here) => found.extend(here),
+                    None => eprintln!("not run: axe-core, no target/axe"),
+                }
+            }
+        }
+    }
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// A page with `body`, sound but for what is in it.
+fn small(name: &str, style: &str, body: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("page");
+    fs::create_dir_all(&folder).expect("folder");
+    let page = folder.join(format!("{name}.html"));
+    let text = format!(
+        "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width\">\
+         <meta name=\"color-scheme\" content=\"light dark\">\
+         <title>Small</title><style>body {{ background: Canvas; \
+         overflow-wrap: break-word }} {style}</style></head><body>\
+         <header><h1>Small</h1></header>\
+         <nav aria-label=\"Contents\"><a href=\"#main\">Main</a></nav>\
+         <main id=\"main\">{body}</main>\
+         <footer><p>End</p></footer></body></html>"
+    );
+    fs::write(&page, text).expect("page");
+    page
+}
+
+#[test]
+fn a_sound_page_has_no_problem() {
+    let Some(mut browser) = started("sound") else { return };
+    let body = "<h2>Part</h2><table><caption>Numbers</caption><tr>\
+                <th scope=\"col\">p</th></tr><tr><td>3</td></tr></table>\
+                <svg width=\"200\" height=\"100\"><title>Lines</title>\
+                <path d=\"M0 0L50 50\"/><path d=\"M0 0L90 50\"/>\
+                <path d=\"M0 9L50 50\"/></svg>";
+    let page = small("sound", "svg { max-width: 100% }", body);
+    for scheme in SCHEMES {
+        let found = problems(&mut browser, &page, 360, scheme);
+        assert!(found.is_empty(), "{scheme}: {found:?}");
+    }
+}
+
+#[test]
+fn every_defect_is_told() {
+    let Some(mut browser) = started("broken") else { return };
+    let svg = "<svg width=\"200\" height=\"100\">";
+    for (name, style, body, told) in [
+        ("wide", "", "<p style=\"width: 50rem\">x</p>", "overflow"),
+        (
+            "folded",
+            "",
+            "<details><summary>s</summary><p style=\"width: 50rem\">x</p>\
+             </details>",
+            "overflow",
+        ),
+        (
+            "error",
+            "",
+            "<script>console.error('told')</script>",
+            "console error",
+        ),
+        ("exception", "", "<script>absent()</script>", "exception"),
+        (
+            "request",
+            "",
+            "<img alt=\"a\" src=\"http://localhost:9/a.png\">",
+            "request: http",
+        ),
+        ("image", "", "<img alt=\"a\" src=\"absent.png\">", "image"),
+        ("empty", "", &format!("{svg}<title>t</title></svg>"), "is empty"),
+        (
+            "untitled",
+            "",
+            &format!("{svg}<path d=\"M0 0L9 9\"/></svg>"),
+            "without title",
+        ),
+        (
+            "clipped",
+            "",
+            &format!(
+                "{svg}<title>t</title><text x=\"190\" y=\"50\">label</text>\
+                 </svg>"
+            ),
+            "is clipped",
+        ),
+        ("heading", "", "<h3>Deep</h3>", "heading: h1 to h3"),
+        ("main", "", "<h1>Again</h1>", "landmark h1: 2"),
+        ("anchor", "", "<a href=\"#gone\">x</a>", "#gone leads nowhere"),
+        ("file", "", "<a href=\"gone.csv\">x</a>", "gone.csv is no file"),
+        ("id", "", "<p id=\"a\"></p><p id=\"a\"></p>", "id: a twice"),
+        (
+            "table",
+            "",
+            "<table><caption>c</caption><tr><td>1</td></tr></table>",
+            "without headers",
+        ),
+        (
+            "scope",
+            "",
+            "<table><caption>c</caption><tr><th>1</th></tr></table>",
+            "without scope",
+        ),
+        ("pale", "p { color: #999 }", "<p>pale</p>", "contrast: 2.85"),
+        (
+            "keyboard",
+            "",
+            "<div style=\"overflow-x: auto\"><p style=\"width: 50rem\">x</p>\
+             </div>",
+            "keyboard",
+        ),
+    ] {
+        let page = small(name, style, body);
+        let found = problems(&mut browser, &page, 360, "light");
+        let is_told = found.iter().any(|problem| problem.contains(told));
+        assert!(is_told, "{name}: {told:?} is not in {found:?}");
+    }
+    // What is readable in the light may not be in the dark.
+    let page = small("night", "footer { color: #333 }", "<h2>x</h2>");
+    assert!(problems(&mut browser, &page, 360, "light").is_empty());
+    let found = problems(&mut browser, &page, 360, "dark");
+    assert!(found.iter().any(|p| p.contains("contrast")), "{found:?}");
+}

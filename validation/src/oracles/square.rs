@@ -1,0 +1,208 @@
+//! Square waves on the nonlinear block: on every constant stretch gravity is
+//! turned by psi = atan(a/g), and the stretches are chained, through impacts
+//! too.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::bisect;
+use super::carlson::rf;
+
+/// A block under a ground acceleration that is constant by stretches, times
+/// in units of 1/p.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SquareWave {
+    /// Slenderness angle in rad.
+    pub alpha_rad: f64,
+    /// Coefficient of restitution.
+    pub eta: f64,
+    /// Acceleration over g and duration of each stretch.
+    pub stretches: Vec<(f64, f64)>,
+}
+
+/// State of rocking: theta is `side` times `y`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Sign of theta.
+    pub side: f64,
+    /// |theta| in rad.
+    pub y: f64,
+    /// Its derivative by p t.
+    pub w: f64,
+}
+
+/// What the block does from rest at t = 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    /// Times and speeds just before each impact during the wave.
+    pub impacts: Vec<(f64, f64)>,
+    /// Largest |theta| during the wave, rad.
+    pub peak_rad: f64,
+    /// State where the wave ends.
+    pub end: State,
+}
+
+/// A hop on one stretch. With u = (alpha + side psi - y)/2 the motion is
+/// u'^2 = P^2 (kappa + sin^2 u), P^2 = sqrt(1 + (a/g)^2).
+struct Hop {
+    turned: f64,
+    rate: f64,
+    kappa: f64,
+    u: f64,
+    /// Whether u grows.
+    inward: bool,
+}
+
+impl Hop {
+    fn new(alpha_rad: f64, pull: f64, state: State) -> Self {
+        let turned = alpha_rad + state.side * libm::atan(pull);
+        let rate = (1.0 + pull * pull).sqrt().sqrt();
+        let u = 0.5 * (turned - state.y);
+        let sine = libm::sin(u);
+        let speed = 0.5 * state.w / rate;
+        let kappa = speed * speed - sine * sine;
+        Self { turned, rate, kappa, u, inward: state.w < 0.0 }
+    }
+
+    /// Time of flight to |u| from the turning point, or from u = 0 where
+    /// the hop passes it.
+    fn reach(&self, u: f64) -> f64 {
+        let (s, c) = (libm::sin(u).abs(), libm::cos(u));
+        let k = self.kappa;
+        let (factor, integral) = if k < 0.0 {
+            let left = (s * s + k).max(0.0);
+            (left.sqrt(), rf(-k * c * c, -k * (1.0 + k), s * s * (1.0 + k)))
+        } else {
+            (s, rf(k * c * c, k + s * s, k))
+        };
+        factor * integral / self.rate
+    }
+
+    /// Whether the hop turns: it stays on its side of u = 0.
+    fn turns(&self) -> bool {
+        self.kappa < 0.0
+    }
+
+    /// Time on the hop's own clock, zero at the turning point or at u = 0.
+    fn clock(&self, u: f64, inward: bool) -> f64 {
+        let away = (u > 0.0) == inward;
+        if away { self.reach(u) } else { -self.reach(u) }
+    }
+
+    /// Time until u, passed inwards or outwards; infinite where it is not
+    /// ahead.
+    fn until(&self, u: f64, inward: bool) -> f64 {
+        let behind = self.turns() && (u > 0.0) != (self.u > 0.0);
+        let beyond = self.turns() && {
+            let s = libm::sin(u);
+            s * s + self.kappa < 0.0
+        };
+        let against = !self.turns() && inward != self.inward;
+        if behind || beyond || against {
+            return f64::INFINITY;
+        }
+        self.clock(u, inward) - self.clock(self.u, self.inward)
+    }
+
+    /// State `t` later.
+    fn after(&self, side: f64, t: f64) -> State {
+        let clock = self.clock(self.u, self.inward) + t;
+        let low =
+            if self.turns() { libm::asin((-self.kappa).sqrt()) } else { 0.0 };
+        let size = if clock == 0.0 {
+            low
+        } else {
+            bisect(low, FRAC_PI_2, |u| self.reach(u) - clock.abs())
+        };
+        // Before the clock's zero a turning hop comes, then it goes; one
+        // that passes u = 0 changes the sign of u there.
+        let (sign, inward) = if self.turns() {
+            (self.u.signum(), (self.u > 0.0) == (clock > 0.0))
+        } else if self.inward {
+            (clock.signum(), true)
+        } else {
+            (-clock.signum(), false)
+        };
+        let s = libm::sin(size);
+        let speed = 2.0 * self.rate * (self.kappa + s * s).max(0.0).sqrt();
+        State {
+            side,
+            y: self.turned - 2.0 * sign * size,
+            w: if inward { -speed } else { speed },
+        }
+    }
+}
+
+impl SquareWave {
+    /// Motion from rest, lifted by the first stretch.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        let first = self.stretches.first().map_or(0.0, |s| s.0);
+        let mut state = State { side: -first.signum(), y: 0.0, w: 0.0 };
+        let mut impacts = Vec::new();
+        let mut peak_rad: f64 = 0.0;
+        let mut start = 0.0;
+        for &(pull, duration) in &self.stretches {
+            let mut left = duration;
+            loop {
+                let hop = Hop::new(self.alpha_rad, pull, state);
+                let base = 0.5 * hop.turned;
+                let hit = hop.until(base, true);
+                // A hop that starts at the base and outwards is not there
+                // again at once.
+                let ahead = hit > 0.0 && hit <= left;
+                // Its top, where u is least.
+                let top = -hop.clock(hop.u, hop.inward);
+                if hop.turns() && hop.u > 0.0 && top > 0.0 && top < left {
+                    let least = libm::asin((-hop.kappa).sqrt());
+                    peak_rad = peak_rad.max(hop.turned - 2.0 * least);
+                }
+                if !ahead {
+                    state = hop.after(state.side, left);
+                    peak_rad = peak_rad.max(state.y);
+                    break;
+                }
+                let s = libm::sin(base);
+                let speed = 2.0 * hop.rate * (hop.kappa + s * s).sqrt();
+                left -= hit;
+                impacts.push((start + duration - left, speed));
+                state =
+                    State { side: -state.side, y: 0.0, w: self.eta * speed };
+            }
+            start += duration;
+        }
+        Motion { impacts, peak_rad, end: state }
+    }
+
+    /// What becomes of the block after the wave, by energy.
+    #[must_use]
+    pub fn ending(&self, end: State) -> Ending {
+        let alpha = self.alpha_rad;
+        // Above that of the base, and of the saddle above the base.
+        let above = 0.5 * end.w * end.w
+            + 2.0 * libm::sin(0.5 * end.y) * libm::sin(alpha - 0.5 * end.y);
+        let half = libm::sin(0.5 * alpha);
+        let saddle = 2.0 * half * half;
+        let passes = above > saddle;
+        let overturns = if passes { end.w > 0.0 } else { end.y > alpha };
+        if overturns {
+            return Ending { passes, overturned: end.side, impact: None };
+        }
+        let again = self.eta * self.eta * above > saddle;
+        Ending {
+            passes,
+            overturned: if again { -end.side } else { 0.0 },
+            impact: Some((2.0 * above).sqrt()),
+        }
+    }
+}
+
+/// Fate of free motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ending {
+    /// The energy exceeds that of the saddle.
+    pub passes: bool,
+    /// Side on which it overturns; zero if it stands.
+    pub overturned: f64,
+    /// Speed before its first impact, over p.
+    pub impact: Option<f64>,
+}

@@ -96,7 +96,8 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
     };
     let found = candidates(&first, &second, gravity_m_s2)
         .map_err(|e| MethodError::Oracle(e.to_string()))?;
-    let quantities: [(&str, fn(&Candidate) -> f64); 8] = [
+    type Quantity = fn(&Candidate) -> f64;
+    let quantities: [(&str, Quantity); 8] = [
         ("period_s", |c| c.period_s),
         ("time_s", |c| c.time_s),
         ("direction_rad", |c| c.direction_rad),

@@ -10,8 +10,11 @@ use rocking::record::{
 };
 use rocking_validation::{cases, inputs};
 
-/// A target: its name, and whether it accepts the bytes.
-pub const TARGETS: &[(&str, fn(&[u8]) -> Result<(), String>)] = &[
+/// Accepts the bytes, or says why not.
+pub type Target = fn(&[u8]) -> Result<(), String>;
+
+/// Targets by name.
+pub const TARGETS: &[(&str, Target)] = &[
     ("any", any),
     ("at2", |bytes| format(Format::At2, bytes)),
     ("case", case),

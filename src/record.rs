@@ -229,7 +229,8 @@ fn read_text(
 
 /// The format by content; formats that name themselves come first.
 fn format_of(text: &Text<'_>) -> Option<Format> {
-    let formats: [(fn(&Text<'_>) -> bool, Format); 8] = [
+    type Recognises = fn(&Text<'_>) -> bool;
+    let formats: [(Recognises, Format); 8] = [
         (smc::recognises, Format::Smc),
         (knet::recognises, Format::Knet),
         (esm::recognises, Format::Esm),

@@ -82,6 +82,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
                 return Err(text.on_line(index, fault));
             }
             head += 1;
+            index += 1;
+            continue;
         }
         if !announces(line) {
             index += 1;

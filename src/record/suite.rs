@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
+mod cells;
 mod error;
 mod index;
 mod pairing;

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember, SuiteOptions};
 use crate::record::text::{self, excerpt};
 use crate::record::{ReadOptions, Record, read};
@@ -52,49 +53,6 @@ pub(super) fn is_index(bytes: &[u8]) -> bool {
         names(PEER_FIRST) && names(PEER_NUMBER)
     };
     plain || lines.any(peer)
-}
-
-/// Cells of a line; `None` for a quote that does not close or stands in the
-/// middle of a cell. A doubled quote inside quotes is one quote.
-fn split(line: &str) -> Option<Vec<String>> {
-    let mut cells = Vec::new();
-    let mut rest = line;
-    loop {
-        let quoted = rest.trim_start().strip_prefix('"');
-        let (cell, after) = match quoted {
-            Some(quoted) => unquote(quoted)?,
-            None => {
-                let end = rest.find(',').unwrap_or(rest.len());
-                (rest[..end].trim().to_owned(), &rest[end..])
-            }
-        };
-        if cell.contains('"') && quoted.is_none() {
-            return None;
-        }
-        cells.push(cell);
-        match after.trim_start().strip_prefix(',') {
-            Some(more) => rest = more,
-            None if after.trim().is_empty() => return Some(cells),
-            None => return None,
-        }
-    }
-}
-
-fn unquote(quoted: &str) -> Option<(String, &str)> {
-    let mut cell = String::new();
-    let mut rest = quoted;
-    loop {
-        let end = rest.find('"')?;
-        cell.push_str(&rest[..end]);
-        rest = &rest[end + 1..];
-        match rest.strip_prefix('"') {
-            Some(more) => {
-                cell.push('"');
-                rest = more;
-            }
-            None => return Some((cell, rest)),
-        }
-    }
 }
 
 impl Index {

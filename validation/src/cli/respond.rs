@@ -108,10 +108,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         write_atomically(path, drawing(&scene, &response, name, pga_g)?)?;
     }
     let certified = if args.certify { Some(certify(&scene)?) } else { None };
-    let scene = &scene;
-    let processing = args.excitation.processing()?;
+    let (scene, done) = (&scene, args.excitation.processing()?);
     let setting =
-        Setting { args, scene, certified, gravity_m_s2, pga_g, processing };
+        Setting { args, scene, certified, gravity_m_s2, pga_g, done };
     if args.json {
         let text = serde_json::to_string_pretty(&setting.json(&response))?;
         print(&format!("{text}\n"))
@@ -200,7 +199,7 @@ struct Setting<'a> {
     gravity_m_s2: f64,
     pga_g: f64,
     /// What was done to the record.
-    processing: Option<String>,
+    done: Option<String>,
 }
 
 /// The certified outcome, `unresolved` where no engine can tell.
@@ -272,7 +271,7 @@ impl Setting<'_> {
                 "model": self.args.model.model_name(),
                 "overturn": self.args.model.overturning_name(),
                 "gravity_m_s2": number(self.gravity_m_s2),
-                "processing": self.processing,
+                "processing": self.done,
                 "pga_g": number(self.pga_g),
                 "im_pga": number(self.im_pga()),
             },
@@ -350,7 +349,7 @@ impl Setting<'_> {
                 self.gravity_m_s2
             ),
         );
-        if let Some(words) = &self.processing {
+        if let Some(words) = &self.done {
             row("record", words.clone());
         }
         row(

@@ -60,6 +60,13 @@ impl MeasureArgs {
     ) -> Result<Found, Failure> {
         let usual = Settings::default();
         let periods = self.periods.as_deref().unwrap_or(usual.periods_s());
+        // Without a record nothing is measured, and what is wrong was said of
+        // each file.
+        let gravity_m_s2 = if records.is_empty() {
+            usual.gravity_m_s2()
+        } else {
+            gravity_m_s2
+        };
         let settings = Settings::try_new(
             gravity_m_s2,
             usual.damping_ratio(),

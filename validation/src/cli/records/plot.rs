@@ -5,6 +5,7 @@ use rocking::record::Accelerogram;
 
 use super::Listed;
 use crate::cli::Failure;
+use crate::drawing::markup;
 use crate::figures::Figure as _;
 use crate::figures::data::{
     Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
@@ -46,11 +47,20 @@ fn chart(
     let samples = motion.samples_g();
     let time_s: Vec<f64> =
         (0..samples.len()).map(|i| i as f64 * dt_s).collect();
+    let shown_s = strong(motion);
+    let label = markup::escape(&motion.name().replace('_', " "));
+    let series = |x, y| Series {
+        label: label.clone(),
+        mark: Mark::Line,
+        x,
+        y,
+        interval: Vec::new(),
+    };
     let (velocity, displacement) = integrals(motion, gravity_m_s2);
     let history =
         |name: &str, symbol: &str, y: Vec<f64>, peak: String| ChartPanel {
             title: format!("{name}, peak {peak}"),
-            x: axis("*t* (s)", Scale::Linear, None),
+            x: axis("*t* (s)", Scale::Linear, Some(shown_s)),
             y: axis(symbol, Scale::Linear, None),
             series: vec![series(time_s.clone(), y)],
         };
@@ -93,7 +103,8 @@ fn chart(
         title: format!("Record {name}"),
         description: format!(
             "Acceleration, velocity and displacement of {name} against time \
-             ({done}), and its response spectrum."
+             ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
+             response spectrum."
         ),
         arm: None,
     };
@@ -104,9 +115,25 @@ fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> Axis {
     Axis { label: label.to_owned(), scale, range, categories: Vec::new() }
 }
 
-fn series(x: Vec<f64>, y: Vec<f64>) -> Series {
-    let (label, interval) = (String::new(), Vec::new());
-    Series { label, mark: Mark::Line, x, y, interval }
+/// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a
+/// tenth more either way, within the record.
+fn strong(motion: &Accelerogram) -> (f64, f64) {
+    let mut sum = 0.0;
+    let energy: Vec<f64> = motion
+        .samples_g()
+        .iter()
+        .map(|a| {
+            sum += a * a;
+            sum
+        })
+        .collect();
+    let at = |share: f64| {
+        let place = energy.iter().position(|e| *e >= share * sum);
+        place.unwrap_or(0) as f64 * motion.dt_s()
+    };
+    let (first, last) = (at(0.001), at(0.995));
+    let margin = 0.1 * (last - first) + motion.dt_s();
+    ((first - margin).max(0.0), (last + margin).min(motion.duration_s()))
 }
 
 /// Velocity (m/s) and displacement (m) at the samples, from rest, exact for

@@ -280,7 +280,9 @@ mod tests {
         let Ok(text) = std::fs::read_to_string(root.join(file)) else {
             return false;
         };
-        text.contains(&format!("#[test]\nfn {function}()"))
+        let lines: Vec<&str> = text.lines().map(str::trim).collect();
+        let head = format!("fn {function}()");
+        lines.windows(2).any(|w| w[0] == "#[test]" && w[1].starts_with(&head))
     }
 
     #[test]

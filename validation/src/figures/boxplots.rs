@@ -196,8 +196,8 @@ fn draw_box(
         panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
     }
     let edges = [
-        (b.outliers.iter().any(|x| *x > high), high, Marker::Beyond, -3.0),
-        (b.outliers.iter().any(|x| *x < low), low, Marker::BeyondLeft, 3.0),
+        (b.outliers.iter().any(|x| *x > high), high, Marker::Beyond, -8.0),
+        (b.outliers.iter().any(|x| *x < low), low, Marker::BeyondLeft, 8.0),
     ];
     for (wanted, edge, marker, inwards) in edges {
         if wanted {

@@ -265,10 +265,10 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, RecordError> {
 }
 
 fn unknown(text: &Text<'_>) -> RecordError {
-    let lines = text.lines();
-    let index = lines.iter().position(|line| !line.trim().is_empty());
-    let index = index.unwrap_or(0);
-    let found = excerpt(lines[index]);
+    let mut lines = text.lines().enumerate();
+    let first = lines.find(|(_, line)| !line.trim().is_empty());
+    let (index, line) = first.unwrap_or_default();
+    let found = excerpt(line);
     text.on_line(index, Fault::UnknownFormat { found, expected: FORMATS })
 }
 
@@ -324,7 +324,10 @@ fn complete(
     let unit_stated = unit.is_some();
     let unit = unit.unwrap_or(AccelerationUnit::Gravity);
     let per_gravity = unit.per_gravity(options.gravity_m_s2);
-    let samples = channel.samples.iter().map(|a| a / per_gravity).collect();
+    let mut samples = channel.samples;
+    for sample in &mut samples {
+        *sample /= per_gravity;
+    }
     let mut name = stem(text.file()).to_owned();
     if let Some(label) = channel.label.as_ref().filter(|_| several) {
         name = format!("{name}:{}", label.replace(' ', "_"));

@@ -318,4 +318,9 @@ fn a_zip_is_read_as_the_folder_in_it() {
     assert!(error.starts_with("rocking: half.zip: cannot be read:"));
     let (status, _, error) = records(&folder, &["peer.zip", "--json"]);
     assert_eq!((status, error.as_str()), (0, ""));
+    let zeros = "0\n".repeat(1 << 20);
+    pack("bomb.zip", &[("a.txt", AT2), ("b.txt", &zeros), ("c.txt", AT2)]);
+    let (status, _, error) = records(&folder, &["bomb.zip"]);
+    assert_eq!(status, 2);
+    assert!(error.contains("b.txt: cannot be read: unpacks to more"));
 }

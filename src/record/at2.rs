@@ -16,33 +16,34 @@ const COUNTING_LINE: &str = "a line like `NPTS= 4096, DT= .0100 SEC`";
 
 /// Whether the content is AT2's.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
-    let head = &text.lines()[..text.lines().len().min(HEADER_LINES)];
-    let named = |line: &&str| {
+    let named = |line: &str| {
         text::contains(line, "STRONG MOTION DATABASE")
             || text::contains(line, "STRONG-MOTION DATA")
             || text::contains(line, "TIME SERIES IN UNITS OF")
             || text::contains(line, "TIME HISTORY IN UNITS OF")
     };
-    head.iter().any(|line| text::after_word(line, "NPTS").is_some())
-        || head.iter().take(4).any(named)
+    counting_line(text).is_some() || text.lines().take(4).any(named)
+}
+
+fn counting_line(text: &Text<'_>) -> Option<usize> {
+    text.lines()
+        .take(HEADER_LINES)
+        .position(|line| text::after_word(line, "NPTS").is_some())
 }
 
 /// Reads the file's one channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
-    let lines = text.lines();
-    let counting = (0..lines.len().min(HEADER_LINES))
-        .find(|&i| text::after_word(lines[i], "NPTS").is_some());
-    let Some(counting) = counting else {
+    let Some(counting) = counting_line(text) else {
         return Err(text.at_end(Fault::Ends(COUNTING_LINE)));
     };
     let unit = unit(text, counting)?;
     let (count, dt) = counts(text, counting)?;
     let mut first = counting + 1;
-    while lines.get(first).is_some_and(|line| line.trim().is_empty()) {
+    while text.line(first).is_some_and(|line| line.trim().is_empty()) {
         first += 1;
     }
-    let layout = fields::infer(&lines[first.min(lines.len())..], 0);
-    let samples = fields::read(text, first, lines.len(), layout)?;
+    let layout = fields::infer(text, first, 0);
+    let samples = fields::read(text, first, text.len(), layout)?;
     text.check_count(samples.len(), count)?;
     Ok(Channel { dt, unit, samples, label: None })
 }
@@ -52,7 +53,7 @@ fn unit(
     text: &Text<'_>,
     counting: usize,
 ) -> Result<Option<AccelerationUnit>, RecordError> {
-    for (index, line) in text.lines()[..counting].iter().enumerate() {
+    for (index, line) in text.lines().take(counting).enumerate() {
         let Some(end) = after_units_of(line) else { continue };
         let other = ["VELOCITY", "DISPLACEMENT", "SPECTR"];
         if other.iter().any(|name| text::contains(&line[..end], name)) {
@@ -87,7 +88,7 @@ fn counts(
     text: &Text<'_>,
     index: usize,
 ) -> Result<(usize, Option<f64>), RecordError> {
-    let line = text.lines()[index];
+    let line = text.line(index).unwrap_or("");
     let header = |found: &str, expected| {
         text.on_line(index, Fault::Header { found: excerpt(found), expected })
     };

@@ -11,15 +11,14 @@ use super::{Channel, Fault, RecordError};
 /// Whether the first line that is no comment is one number.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
     text.lines()
-        .iter()
         .find(|line| !line.starts_with('#'))
         .is_some_and(|line| number::is_number(line.trim()))
 }
 
 /// Reads the file's one channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
-    let mut samples = Vec::with_capacity(text.lines().len());
-    for (index, line) in text.lines().iter().enumerate() {
+    let mut samples = Vec::with_capacity(text.len());
+    for (index, line) in text.lines().enumerate() {
         if line.starts_with('#') {
             continue;
         }

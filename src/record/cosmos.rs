@@ -30,7 +30,7 @@ struct Block<'a> {
 
 /// Whether any line announces a block of samples.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
-    text.lines().iter().any(|line| announces(line))
+    text.lines().any(announces)
 }
 
 fn announces(line: &str) -> bool {
@@ -61,13 +61,11 @@ fn ends_block(line: &str) -> bool {
 
 /// Reads every acceleration channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
-    let lines = text.lines();
     let mut channels = Vec::new();
     let mut head = 0;
     let mut interval = None;
     let mut index = 0;
-    while index < lines.len() {
-        let line = lines[index];
+    while let Some(line) = text.line(index) {
         if text::contains(line, "real-header values follow") {
             let (dt_s, end) = real_header(text, index)?;
             interval = Some(dt_s);
@@ -94,9 +92,9 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let samples = fields::read(text, index + 1, end, Some(block.layout))?;
         text.check_count_at(end - 1, samples.len(), block.count)?;
         after_block(text, end)?;
-        let header = &lines[head..index];
-        if let Some(at) = stated_count(header, block.count) {
-            let (found, expected) = (excerpt(header[at]), SAME_COUNT);
+        let header = || text.lines_from(head).take(index - head);
+        if let Some((at, line)) = stated_count(header(), block.count) {
+            let (found, expected) = (excerpt(line), SAME_COUNT);
             let fault = Fault::Header { found, expected };
             return Err(text.on_line(head + at, fault));
         }
@@ -110,23 +108,24 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
                 Some(dt.ok_or_else(|| {
                     text.on_line(index, Fault::IntervalMissing)
                 })?);
-            let label = Some(label(header, channels.len() + 1));
+            let label = Some(label(header(), channels.len() + 1));
             channels.push(Channel { dt, unit: Some(unit), samples, label });
         }
         head = end;
         index = end;
     }
-    let rest = (head..lines.len()).find(|&i| {
-        let line = lines[i].trim_start();
+    let rest = text.lines_from(head).any(|line| {
+        let line = line.trim_start();
         !line.is_empty() && !line.starts_with('|')
     });
-    if rest.is_some() && head > 0 {
+    if rest && head > 0 {
         return Err(text.at_end(Fault::Ends("samples after a header")));
     }
     if channels.is_empty() {
-        let first = lines.iter().position(|line| announces(line)).unwrap_or(0);
-        let fault = Fault::Quantity(excerpt(lines[first]));
-        return Err(text.on_line(first, fault));
+        let mut lines = text.lines().enumerate();
+        let first = lines.find(|(_, line)| announces(line));
+        let (first, line) = first.unwrap_or_default();
+        return Err(text.on_line(first, Fault::Quantity(excerpt(line))));
     }
     Ok(channels)
 }
@@ -140,10 +139,10 @@ impl Block<'_> {
     ) -> Result<usize, RecordError> {
         let rows = self.count.div_ceil(self.layout.per_line);
         let end = index.saturating_add(1).saturating_add(rows);
-        if end <= text.lines().len() {
+        if end <= text.len() {
             return Ok(end);
         }
-        let found = text.lines().len() - index - 1;
+        let found = text.len() - index - 1;
         let found = found.saturating_mul(self.layout.per_line);
         let expected = self.count;
         Err(text.at_end(Fault::Count { found, expected }))
@@ -152,9 +151,9 @@ impl Block<'_> {
 
 /// A block is followed by words, never by more numbers.
 fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
-    let Some(line) = text.lines().get(end) else { return Ok(()) };
-    let numbers = number::tokens(line.as_bytes());
-    if numbers.is_ok_and(|tokens| !tokens.is_empty()) {
+    let Some(line) = text.line(end) else { return Ok(()) };
+    let mut numbers = number::tokens(line.as_bytes()).peekable();
+    if numbers.peek().is_some() && numbers.all(|token| token.is_some()) {
         let expected = "the end of the samples".to_owned();
         let fault = Fault::Number { found: excerpt(line), expected };
         return Err(text.on_line(end, fault));
@@ -164,9 +163,12 @@ fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
 
 const SAME_COUNT: &str = "the number of points that announces the samples";
 
-/// Place of the header line that states another number of points.
-fn stated_count(header: &[&str], count: usize) -> Option<usize> {
-    header.iter().position(|line| {
+/// The header line that states another number of points, and its place.
+fn stated_count<'a>(
+    header: impl Iterator<Item = &'a str>,
+    count: usize,
+) -> Option<(usize, &'a str)> {
+    header.enumerate().find(|(_, line)| {
         let rest = line.trim_start().strip_prefix("No. of Points");
         let rest = rest.map(|r| r.trim_start_matches([' ', '=']));
         rest.and_then(|r| r.split_ascii_whitespace().next())
@@ -178,7 +180,7 @@ fn announced<'a>(
     text: &Text<'a>,
     index: usize,
 ) -> Result<Block<'a>, RecordError> {
-    let line = text.lines()[index];
+    let line = text.line(index).unwrap_or("");
     let header = |expected| {
         let found = excerpt(line);
         text.on_line(index, Fault::Header { found, expected })
@@ -271,7 +273,7 @@ fn layout(line: &str) -> Option<Layout> {
         .take_while(char::is_ascii_digit)
         .collect();
     let layout = Layout::even(repeat.parse().ok()?, width.parse().ok()?);
-    let sane = (1..=64).contains(&layout.width)
+    let sane = (2..=64).contains(&layout.width)
         && (1..=64).contains(&layout.per_line);
     sane.then_some(layout)
 }
@@ -282,7 +284,7 @@ fn real_header(
     text: &Text<'_>,
     index: usize,
 ) -> Result<(f64, usize), RecordError> {
-    let line = text.lines()[index];
+    let line = text.line(index).unwrap_or("");
     let header = |expected| {
         let found = excerpt(line);
         text.on_line(index, Fault::Header { found, expected })
@@ -295,7 +297,7 @@ fn real_header(
     let layout =
         layout(line).ok_or_else(|| header("a format such as (5F15.6)"))?;
     let end = index.saturating_add(1 + count.div_ceil(layout.per_line));
-    if end > text.lines().len() {
+    if end > text.len() {
         return Err(text.at_end(Fault::Ends("the real header values")));
     }
     let values = fields::read(text, index + 1, end, Some(layout))?;
@@ -315,8 +317,11 @@ fn real_header(
 
 /// The channel's name in its header: what `Chan 1: 90 deg` says, else its
 /// number.
-fn label(header: &[&str], number: usize) -> String {
-    let named = header.iter().find_map(|line| {
+fn label<'a>(
+    mut header: impl Iterator<Item = &'a str>,
+    number: usize,
+) -> String {
+    let named = header.find_map(|line| {
         let end = text::after_word(line, "chan")?;
         let rest = line[end..].trim_start();
         let digits = rest.bytes().take_while(u8::is_ascii_digit).count();

@@ -13,8 +13,8 @@ use crate::units::AccelerationUnit;
 
 /// Whether the first or second line has two numbers.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
-    let mut lines = text.lines().iter().filter(|l| !l.starts_with('#'));
-    let pair = |line: Option<&&str>| {
+    let mut lines = text.lines().filter(|l| !l.starts_with('#'));
+    let pair = |line: Option<&str>| {
         line.is_some_and(|line| {
             let parts = split(line);
             parts.len() == 2 && parts.iter().all(|p| number::is_number(p))
@@ -23,25 +23,25 @@ pub(super) fn recognises(text: &Text<'_>) -> bool {
     pair(lines.next()) || pair(lines.next())
 }
 
+/// The columns of a line; of more than two, three.
 fn split(line: &str) -> Vec<&str> {
     let line = line.trim();
     for separator in [';', ','] {
         if line.contains(separator) {
-            return line.split(separator).map(str::trim).collect();
+            return line.split(separator).map(str::trim).take(3).collect();
         }
     }
-    line.split_whitespace().collect()
+    line.split_whitespace().take(3).collect()
 }
 
 /// Reads the file's one channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
-    let mut times = Vec::new();
-    let mut samples = Vec::new();
-    let mut lines_of = Vec::new();
+    let mut times = Vec::with_capacity(text.len());
+    let mut samples = Vec::with_capacity(text.len());
     let mut decimals = 0;
     let mut unit = None;
     let mut head = true;
-    for (index, line) in text.lines().iter().enumerate() {
+    for (index, line) in text.lines().enumerate() {
         if line.starts_with('#') {
             continue;
         }
@@ -61,10 +61,9 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         decimals = decimals.max(places(time, form));
         times.push(time_s);
         samples.push(one_number(text, index, value)?.0);
-        lines_of.push(index);
     }
     text.check_ended()?;
-    let dt = step(text, &times, &lines_of, decimals)?;
+    let dt = step(text, &times, decimals)?;
     Ok(Channel { dt: Some(dt), unit, samples, label: None })
 }
 
@@ -79,13 +78,21 @@ fn places(time: &str, form: number::Form) -> i32 {
     digits.saturating_sub(power).clamp(0, 18)
 }
 
+/// Index of the line of sample `i`: what is no comment, after the header if
+/// there is one.
+fn line_of(text: &Text<'_>, times: &[f64], i: usize) -> usize {
+    let data =
+        || text.lines().enumerate().filter(|(_, l)| !l.starts_with('#'));
+    let header = data().count() - times.len();
+    data().nth(header + i).map_or(0, |(index, _)| index)
+}
+
 /// The constant step of `times`, each rounded to `places` decimals.
 ///
 /// Where the step itself has that many decimals, it is taken as written.
 fn step(
     text: &Text<'_>,
     times: &[f64],
-    lines_of: &[usize],
     places: i32,
 ) -> Result<f64, RecordError> {
     let (Some(&start), Some(&end)) = (times.first(), times.last()) else {
@@ -119,7 +126,7 @@ fn step(
     }
     if !(mean > 0.0 && allowed < 0.25 * mean) {
         let fault = Fault::Interval(format!("{mean}"));
-        return Err(text.on_line(lines_of[1], fault));
+        return Err(text.on_line(line_of(text, times, 1), fault));
     }
     if off(written).is_none() {
         return Ok(written);
@@ -134,7 +141,7 @@ fn step(
                 found_s: times[i],
                 expected_s: times[i - 1] + first,
             };
-            Err(text.on_line(lines_of[i], fault))
+            Err(text.on_line(line_of(text, times, i), fault))
         }
     }
 }

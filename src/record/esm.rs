@@ -21,22 +21,22 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     if !text::contains(quantity, "ACCELERATION")
         || text::contains(quantity, "SPECTR")
     {
-        let fault = Fault::Quantity(excerpt(text.lines()[index]));
+        let fault = Fault::Quantity(excerpt(text.line(index).unwrap_or("")));
         return Err(text.on_line(index, fault));
     }
     let (index, named) = keys::value(text, "UNITS")?;
     let unit = AccelerationUnit::parse(named)
         .ok_or_else(|| text.on_line(index, Fault::Unit(excerpt(named))))?;
-    let is_key = |line: &&str| {
+    let is_key = |line: &str| {
         let key = line.split(':').next().unwrap_or("");
         line.contains(':')
             && key.starts_with(|c: char| c.is_ascii_uppercase())
             && !key.contains(' ')
     };
-    let header = text.lines().iter().take_while(|l| is_key(l)).count();
-    let mut samples = Vec::new();
+    let header = text.lines().take_while(|l| is_key(l)).count();
+    let mut samples = Vec::with_capacity(text.len() - header);
     let mut forms = Forms::default();
-    for (index, line) in text.lines().iter().enumerate().skip(header) {
+    for (index, line) in text.lines().enumerate().skip(header) {
         let (sample, form) = one_number(text, index, line)?;
         forms.push(form);
         samples.push(sample);
@@ -49,7 +49,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         let (_, expected) = keys::number(text, peak, "")?;
         // Files differ in the digits of header and samples.
         let allowed = 1e-4 * expected.abs() + 1e-5;
-        keys::check_peak(text, &samples, expected, allowed, unit)?;
+        let peaks = samples.iter().copied();
+        keys::check_peak(text, peaks, expected, allowed, unit)?;
     }
     let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
     Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label })

@@ -38,23 +38,39 @@ impl Layout {
 ///
 /// The last line may be short. A file of one number a line is free text: its
 /// width says nothing.
-pub(super) fn infer(lines: &[&str], missing: usize) -> Option<Layout> {
-    let full = if lines.len() > 1 { &lines[..lines.len() - 1] } else { lines };
+pub(super) fn infer(
+    text: &Text<'_>,
+    first: usize,
+    missing: usize,
+) -> Option<Layout> {
+    let count = text.len().saturating_sub(first);
+    let full = if count > 1 { count - 1 } else { count };
     let mut votes: BTreeMap<Layout, usize> = BTreeMap::new();
-    for line in full {
-        let Ok(tokens) = number::tokens(line.as_bytes()) else { continue };
-        let [first, second, ..] = tokens[..] else { continue };
-        let width = second.end - first.end;
-        let layout = Layout { width, per_line: tokens.len(), missing };
-        let mut fields = tokens.iter().zip(0..);
-        if first.end + missing == width
-            && fields.all(|(token, k)| token.end == layout.field(k).end)
-        {
+    for line in text.lines_from(first).take(full) {
+        if let Some(layout) = layout_of(line, missing) {
             *votes.entry(layout).or_default() += 1;
         }
     }
-    let (layout, count) = votes.into_iter().max_by_key(|(_, n)| *n)?;
-    (2 * count >= full.len()).then_some(layout)
+    let (layout, votes) = votes.into_iter().max_by_key(|(_, n)| *n)?;
+    (2 * votes >= full).then_some(layout)
+}
+
+/// The layout of one line of two numbers or more.
+fn layout_of(line: &str, missing: usize) -> Option<Layout> {
+    let mut tokens = number::tokens(line.as_bytes());
+    let (first, second) = (tokens.next()??, tokens.next()??);
+    let width = second.end - first.end;
+    if first.end + missing != width {
+        return None;
+    }
+    let mut layout = Layout { width, per_line: 2, missing };
+    for token in tokens {
+        if token?.end != layout.field(layout.per_line).end {
+            return None;
+        }
+        layout.per_line += 1;
+    }
+    Some(layout)
 }
 
 /// Reads the numbers of `text`'s lines `first..end` by `layout`, or as free
@@ -69,7 +85,15 @@ pub(super) fn read(
     end: usize,
     layout: Option<Layout>,
 ) -> Result<Vec<f64>, RecordError> {
-    let mut samples = Vec::new();
+    // Counted first: a vector that grows takes three times the room.
+    let count = match layout {
+        Some(layout) => text.bytes(first, end) / layout.width + 1,
+        None => text
+            .lines_from(first)
+            .map(|line| number::tokens(line.as_bytes()).count())
+            .sum(),
+    };
+    let mut samples = Vec::with_capacity(count);
     let mut form = None;
     for index in first..end {
         let mut line = Line { text, index, form: &mut form };
@@ -129,7 +153,7 @@ impl Line<'_, '_> {
         samples: &mut Vec<f64>,
     ) -> Result<(), RecordError> {
         let Layout { width, per_line, missing } = layout;
-        let line = self.text.lines()[self.index].trim_end();
+        let line = self.text.line(self.index).unwrap_or("").trim_end();
         let full = width * per_line - missing;
         if line.len() > full {
             // The text may hold a character of several bytes there.
@@ -155,7 +179,7 @@ impl Line<'_, '_> {
     }
 
     fn free(&mut self, samples: &mut Vec<f64>) -> Result<(), RecordError> {
-        let line = self.text.lines()[self.index];
+        let line = self.text.line(self.index).unwrap_or("");
         let mut at = 0;
         for part in line.split([' ', '\t', ',']) {
             let mut start = 0;
@@ -206,7 +230,7 @@ impl Forms {
         if self.varied || text.is_ended() || self.count < 4 || !shorter {
             return Ok(());
         }
-        let line = text.lines().last().copied().unwrap_or("");
+        let line = text.line(text.len() - 1).unwrap_or("");
         let (found, expected) = (excerpt(line), describe(before));
         Err(text.at_end(Fault::Number { found, expected }))
     }

@@ -13,7 +13,7 @@ pub(super) fn find<'a>(
     text: &Text<'a>,
     key: &str,
 ) -> Option<(usize, &'a str)> {
-    let lines = text.lines().iter().take(HEADER_LINES);
+    let lines = text.lines().take(HEADER_LINES);
     lines.enumerate().find_map(|(index, line)| {
         let rest = line.trim_start().strip_prefix(key)?;
         let rest = rest.trim_start();
@@ -70,19 +70,19 @@ fn wrong(
     index: usize,
     expected: &'static str,
 ) -> RecordError {
-    let found = excerpt(text.lines()[index]);
+    let found = excerpt(text.line(index).unwrap_or(""));
     text.on_line(index, Fault::Header { found, expected })
 }
 
 /// The peak of `samples` against the one that the header states.
 pub(super) fn check_peak(
     text: &Text<'_>,
-    samples: &[f64],
+    samples: impl Iterator<Item = f64>,
     expected: f64,
     allowed: f64,
     unit: crate::units::AccelerationUnit,
 ) -> Result<(), RecordError> {
-    let found = samples.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+    let found = samples.fold(0.0, |peak: f64, a| peak.max(a.abs()));
     let expected = expected.abs();
     if (found - expected).abs() <= allowed {
         return Ok(());

@@ -26,10 +26,9 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let scale = scale(text)?;
     let (memo, _) = keys::value(text, "Memo.")?;
     let first = memo + 1;
-    let end = text.lines().len();
-    let lines = &text.lines()[first..];
-    let layout = fields::infer(lines, 1).or_else(|| fields::infer(lines, 0));
-    let counts = fields::read(text, first, end, layout)?;
+    let layout = fields::infer(text, first, 1);
+    let layout = layout.or_else(|| fields::infer(text, first, 0));
+    let mut samples = fields::read(text, first, text.len(), layout)?;
     let expected = frequency_hz * duration_s;
     if !(expected <= 1e9 && expected.fract() == 0.0) {
         let fault = Fault::Header {
@@ -38,8 +37,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         };
         return Err(text.on_line(memo, fault));
     }
-    text.check_count(counts.len(), expected as usize)?;
-    let samples: Vec<f64> = counts.iter().map(|count| count * scale).collect();
+    text.check_count(samples.len(), expected as usize)?;
+    for count in &mut samples {
+        *count *= scale;
+    }
     check_maximum(text, &samples)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
     let label = keys::find(text, "Dir.").map(|(_, v)| v.to_owned());
@@ -56,11 +57,11 @@ fn check_maximum(text: &Text<'_>, samples: &[f64]) -> Result<(), RecordError> {
         sum += sample;
     }
     let mean = sum / samples.len() as f64;
-    let moving: Vec<f64> = samples.iter().map(|a| a - mean).collect();
+    let moving = samples.iter().map(|a| a - mean);
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     // The mean may be that of a part, and the maximum is rounded.
     let allowed = 0.01 * expected + 0.001;
-    keys::check_peak(text, &moving, expected, allowed, unit)
+    keys::check_peak(text, moving, expected, allowed, unit)
 }
 
 /// Gal per count: `7845(gal)/8223790`.
@@ -73,7 +74,7 @@ fn scale(text: &Text<'_>) -> Result<f64, RecordError> {
     let parts = found.split_once("(gal)/");
     let ratio = parts.and_then(|(a, b)| Some(number(a)? / number(b)?));
     ratio.ok_or_else(|| {
-        let found = excerpt(text.lines()[index]);
+        let found = excerpt(text.line(index).unwrap_or(""));
         let expected = "a scale factor such as 3920(gal)/6182761";
         text.on_line(index, Fault::Header { found, expected })
     })

@@ -60,21 +60,21 @@ pub(super) fn token_at(bytes: &[u8], start: usize) -> Option<Token> {
     Some(Token { start, end, form: Form { decimals, exponent } })
 }
 
-/// All numbers of a line, glued ones too; `Err` gives the byte of whatever
-/// is neither a number nor a separator.
-pub(super) fn tokens(line: &[u8]) -> Result<Vec<Token>, usize> {
-    let mut found = Vec::new();
+/// All numbers of a line, glued ones too; `None` ends them at whatever is
+/// neither a number nor a separator.
+pub(super) fn tokens(line: &[u8]) -> impl Iterator<Item = Option<Token>> {
     let mut at = 0;
-    while at < line.len() {
-        if matches!(line[at], b' ' | b'\t' | b',') {
+    std::iter::from_fn(move || {
+        while matches!(line.get(at), Some(b' ' | b'\t' | b',')) {
             at += 1;
-            continue;
         }
-        let token = token_at(line, at).ok_or(at)?;
-        at = token.end;
-        found.push(token);
-    }
-    Ok(found)
+        if at >= line.len() {
+            return None;
+        }
+        let token = token_at(line, at);
+        at = token.map_or(line.len(), |token| token.end);
+        Some(token)
+    })
 }
 
 /// What a text is as a number.

@@ -20,13 +20,12 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let count = keys::count(text, "Number of Data")?;
     let title = text
         .lines()
-        .iter()
         .take(HEADER_LINES)
         .position(|line| text::contains(line, "time series in"))
         .ok_or_else(|| {
             text.at_end(Fault::Ends("a line `Acceleration time series in`"))
         })?;
-    let line = text.lines()[title];
+    let line = text.line(title).unwrap_or("");
     // The database writes "Accelaration".
     if !text::contains(line, "accel") {
         return Err(text.on_line(title, Fault::Quantity(excerpt(line))));
@@ -34,7 +33,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let named = line.split_ascii_whitespace().next_back().unwrap_or("");
     let unit = AccelerationUnit::parse(named)
         .ok_or_else(|| text.on_line(title, Fault::Unit(excerpt(named))))?;
-    let end = text.lines().len();
+    let end = text.len();
     let samples = fields::read(text, title + 1, end, Some(LAYOUT))?;
     text.check_count(samples.len(), count)?;
     let peak = "PGA (m/s/s)";
@@ -42,7 +41,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     if si && keys::find(text, peak).is_some() {
         let expected = keys::positive(text, peak, "")?;
         // The header has the samples' digits.
-        keys::check_peak(text, &samples, expected, 1e-6 * expected, unit)?;
+        let peaks = samples.iter().copied();
+        keys::check_peak(text, peaks, expected, 1e-6 * expected, unit)?;
     }
     let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
     Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label })

@@ -24,20 +24,25 @@ const KINDS: [&str; 6] = [
 
 /// Whether the first line names one of the format's kinds.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
-    let line = text.lines()[0].trim_start().to_ascii_uppercase();
+    let line = first_line(text).trim_start().to_ascii_uppercase();
     KINDS.iter().any(|kind| line.starts_with(kind))
+}
+
+fn first_line<'a>(text: &Text<'a>) -> &'a str {
+    text.line(0).unwrap_or("")
 }
 
 /// Reads the file's one channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
-    let lines = text.lines();
-    let kind = lines[0].trim_start().to_ascii_uppercase();
+    let kind = first_line(text).trim_start().to_ascii_uppercase();
     if !KINDS[..2].iter().any(|k| kind.starts_with(k)) {
-        return Err(text.on_line(0, Fault::Quantity(excerpt(lines[0]))));
+        return Err(
+            text.on_line(0, Fault::Quantity(excerpt(first_line(text))))
+        );
     }
     let reals = TEXT_LINES + INTEGER_LINES;
     let comments = reals + REAL_LINES;
-    if lines.len() <= comments {
+    if text.len() <= comments {
         return Err(text.at_end(Fault::Ends("27 header lines and samples")));
     }
     let integers = fields::read(text, TEXT_LINES, reals, Some(INTEGERS))?;
@@ -60,10 +65,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let expected = count(17)?;
     let reals = fields::read(text, reals, comments, Some(REALS))?;
     let dt = interval(text, &reals)?;
-    if first >= lines.len() {
+    if first >= text.len() {
         return Err(text.at_end(Fault::Count { found: 0, expected }));
     }
-    let samples = fields::read(text, first, lines.len(), Some(SAMPLES))?;
+    let samples = fields::read(text, first, text.len(), Some(SAMPLES))?;
     text.check_count(samples.len(), expected)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
     Ok(Channel { dt: Some(dt), unit, samples, label: None })

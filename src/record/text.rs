@@ -7,7 +7,10 @@ use super::{Fault, RecordError};
 /// Lines of one file; faults are built here, so that each carries its place.
 pub(super) struct Text<'a> {
     file: &'a str,
-    lines: Vec<&'a str>,
+    text: &'a str,
+    /// Byte at which each line begins, and the end of the last: of two
+    /// bytes that a line has at least, a slice would take sixteen.
+    starts: Vec<u32>,
     ended: bool,
 }
 
@@ -32,8 +35,15 @@ pub(super) fn decode<'a>(
     }
     Ok(match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
-        Err(_) => Cow::Owned(bytes.iter().map(|&b| char::from(b)).collect()),
+        Err(_) => Cow::Owned(latin_1(bytes)),
     })
+}
+
+fn latin_1(bytes: &[u8]) -> String {
+    let wide = bytes.iter().filter(|b| !b.is_ascii()).count();
+    let mut text = String::with_capacity(bytes.len() + wide);
+    text.extend(bytes.iter().map(|&b| char::from(b)));
+    text
 }
 
 impl Fault {
@@ -50,19 +60,28 @@ impl<'a> Text<'a> {
         file: &'a str,
         text: &'a str,
     ) -> Result<Self, RecordError> {
-        let separator = if text.contains('\n') { '\n' } else { '\r' };
-        // Counted first: a vector that grows takes three times the room.
-        let count = text.matches(separator).count();
-        let mut lines = Vec::with_capacity(count + 1);
-        let split = text.split(separator);
-        lines.extend(split.map(|line| line.trim_end_matches('\r')));
-        while lines.last().is_some_and(|line: &&str| line.trim().is_empty()) {
-            lines.pop();
+        if u32::try_from(text.len()).is_err() {
+            let reason = "a text of more than 4 GiB".to_owned();
+            return Err(Fault::Unreadable(reason).whole(file));
         }
-        if lines.is_empty() {
+        let separator = if text.contains('\n') { b'\n' } else { b'\r' };
+        let kept = text.trim_end();
+        if kept.is_empty() {
             return Err(Fault::Empty.whole(file));
         }
-        Ok(Self { file, lines, ended: text.ends_with(['\n', '\r']) })
+        // Counted first: a vector that grows takes three times the room.
+        let count = kept.bytes().filter(|b| *b == separator).count();
+        let mut starts = Vec::with_capacity(count + 2);
+        starts.push(0);
+        let ends = (1_u32..).zip(kept.bytes());
+        starts.extend(ends.filter(|(_, b)| *b == separator).map(|(i, _)| i));
+        // The last line's blanks belong to it.
+        let rest = &text.as_bytes()[kept.len()..];
+        let end = rest.iter().position(|b| *b == separator);
+        let end = kept.len() + end.map_or(rest.len(), |at| at + 1);
+        starts.extend(u32::try_from(end));
+        let ended = text.ends_with(['\n', '\r']);
+        Ok(Self { file, text, starts, ended })
     }
 
     /// Name of the file.
@@ -70,10 +89,38 @@ impl<'a> Text<'a> {
         self.file
     }
 
-    /// Lines without their ends; blank lines at the end of the file are
-    /// left out. Index i is line i + 1.
-    pub(super) fn lines(&self) -> &[&'a str] {
-        &self.lines
+    /// Number of lines; blank lines at the end of the file are left out.
+    pub(super) fn len(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Bytes of the lines `first..end`, their ends included.
+    pub(super) fn bytes(&self, first: usize, end: usize) -> usize {
+        let start = |index: usize| self.starts.get(index).copied();
+        let bytes = start(first).zip(start(end)).map(|(a, b)| b - a);
+        bytes.unwrap_or(0) as usize
+    }
+
+    /// The line of index `index`, line `index` + 1 of the file, without its
+    /// end; `None` after the last.
+    pub(super) fn line(&self, index: usize) -> Option<&'a str> {
+        let (start, end) =
+            (self.starts.get(index)?, self.starts.get(index + 1)?);
+        let line = &self.text[*start as usize..*end as usize];
+        Some(line.trim_end_matches(['\r', '\n']))
+    }
+
+    /// Lines from index `first` on.
+    pub(super) fn lines_from(
+        &self,
+        first: usize,
+    ) -> impl Iterator<Item = &'a str> {
+        (first..).map_while(|index| self.line(index))
+    }
+
+    /// All lines.
+    pub(super) fn lines(&self) -> impl Iterator<Item = &'a str> {
+        self.lines_from(0)
     }
 
     /// Whether the text ends with the end of a line.
@@ -109,7 +156,7 @@ impl<'a> Text<'a> {
 
     /// A fault at the end of the file.
     pub(super) fn at_end(&self, fault: Fault) -> RecordError {
-        self.on_line(self.lines.len() - 1, fault)
+        self.on_line(self.len() - 1, fault)
     }
 
     /// The number of samples found in the file against the stated one.
@@ -118,7 +165,7 @@ impl<'a> Text<'a> {
         found: usize,
         expected: usize,
     ) -> Result<(), RecordError> {
-        self.check_count_at(self.lines.len() - 1, found, expected)
+        self.check_count_at(self.len() - 1, found, expected)
     }
 
     /// The number of samples found up to the line of index `index` against

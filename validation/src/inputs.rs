@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{Read, Seek};
+use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 
 use rocking::record::{
@@ -11,8 +11,19 @@ use rocking::record::{
 use sha2::{Digest, Sha256};
 use zip::ZipArchive;
 
-/// Unpacked bytes of one file beyond which an archive is refused.
-const LARGEST_FILE: u64 = 256 << 20;
+/// The index in an archive as PEER's site delivers it.
+const SEARCH_RESULTS: &str = "_SearchResults.csv";
+
+/// How many times its size an archive may unpack to: records shrink to a
+/// third or a fourth, such with as many zeros again to a sixth.
+const LARGEST_RATIO: u64 = 6;
+
+/// What an archive of any size may unpack to, in bytes.
+const SMALLEST_LIMIT: u64 = 1 << 20;
+
+/// The part of that which is left to an index, whose cells take more memory
+/// than samples.
+const INDEX_PART: u64 = 12;
 
 /// SHA-256 of `bytes` in hexadecimal.
 ///
@@ -67,17 +78,25 @@ pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
 
 /// Reads every record of the zip `archive`, which `shown` names in messages.
 ///
+/// All that is read from it may be six times its size and an index half of
+/// it (1 MiB and 85 KiB, if it is small), so that 1 MiB takes less than
+/// 64 MiB of memory, whoever packed it.
+///
 /// # Errors
 /// As [`survey`].
 pub fn survey_zip(
     shown: &str,
-    archive: impl Read + Seek,
+    mut archive: impl Read + Seek,
     options: &SuiteOptions,
 ) -> Result<Survey, SuiteError> {
     let unreadable = |reason: String| SuiteError::Unreadable {
         path: shown.to_owned(),
         reason,
     };
+    let size = archive.seek(SeekFrom::End(0));
+    let size = size.map_err(|e| unreadable(e.to_string()))?;
+    let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
+    let index_limit = left / INDEX_PART;
     let mut archive =
         ZipArchive::new(archive).map_err(|e| unreadable(e.to_string()))?;
     let mut names = Vec::new();
@@ -86,7 +105,11 @@ pub fn survey_zip(
     }
     let (base, names) = contents(names);
     Survey::of_files(shown, &names, options, |name| {
-        unpacked(&mut archive, &format!("{base}{name}")).map_err(|reason| {
+        let limit = if name == SEARCH_RESULTS { index_limit } else { left };
+        let bytes = unpacked(&mut archive, &format!("{base}{name}"), limit);
+        // What was too large was read, too: a thousand such take no longer.
+        left -= bytes.as_ref().map_or(left, |b| left.min(b.len() as u64));
+        bytes.map_err(|reason| {
             RecordError::unreadable(&format!("{shown}/{name}"), reason)
         })
     })
@@ -97,7 +120,7 @@ pub fn survey_zip(
 fn contents(names: Vec<String>) -> (String, Vec<String>) {
     let base = names
         .iter()
-        .find_map(|name| name.strip_suffix("_SearchResults.csv"))
+        .find_map(|name| name.strip_suffix(SEARCH_RESULTS))
         .unwrap_or("")
         .to_owned();
     let hidden = |name: &str| {
@@ -122,18 +145,25 @@ pub fn is_zip(path: &Path) -> bool {
         .is_ok_and(|()| start == *b"PK\x03\x04")
 }
 
-/// One file of an archive, if it is no larger than records are.
+/// One file of an archive, if it is no larger than `limit` bytes.
 fn unpacked(
     archive: &mut ZipArchive<impl Read + Seek>,
     name: &str,
+    limit: u64,
 ) -> Result<Vec<u8>, String> {
     let file = archive.by_name(name).map_err(|e| e.to_string())?;
-    let mut bytes = Vec::new();
-    let limit = LARGEST_FILE + 1;
-    let read = file.take(limit).read_to_end(&mut bytes);
+    // What the archive says of the size is a hint, and may be false.
+    let hint = file.size().min(limit) as usize + 1;
+    let mut bytes = Vec::with_capacity(hint);
+    let read = file.take(limit + 1).read_to_end(&mut bytes);
     read.map_err(|e| e.to_string())?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        return Err(format!("more than {LARGEST_FILE} bytes when unpacked"));
+    if bytes.len() as u64 > limit {
+        return Err(format!(
+            "unpacks to more than the {limit} bytes left to it: expected at \
+             most {LARGEST_RATIO} times the archive's size for all files and \
+             half of its size for an index; what is larger is read from the \
+             unpacked folder",
+        ));
     }
     Ok(bytes)
 }

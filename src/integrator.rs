@@ -1,7 +1,7 @@
 //! Integration of a scene: block, excitation, model, and what to record.
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
-//! Eq. 1 is stepped by its Taylor polynomial, order 10 or 13, one step a sample;
+//! Eq. 1 is stepped by its Taylor polynomial, order 9 or 13, one step a sample;
 //! Eq. 2 by its exponential series, to rounding. Events are roots of the
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the
@@ -158,7 +158,7 @@ pub struct Work {
     pub steps: u64,
     /// Impacts solved.
     pub impacts: u64,
-    /// Turning points located.
+    /// Turning points above all before.
     pub turning_points: u64,
     /// Uplifts from rest.
     pub uplifts: u64,
@@ -439,7 +439,7 @@ impl Run<'_> {
             Order::Four => self.fixed::<5>(dynamics, forcing),
             Order::Six => self.fixed::<7>(dynamics, forcing),
             Order::Eight => self.fixed::<9>(dynamics, forcing),
-            Order::Ten => self.fixed::<SHORT>(dynamics, forcing),
+            Order::Ten => self.fixed::<11>(dynamics, forcing),
         }
     }
 

@@ -19,8 +19,9 @@ use crate::number::Real;
 use crate::number::dispatch::Isa;
 use step::Advance;
 
-/// Truncation allowed per unit of time, in roundoffs of the slenderness
-/// angle: what rounding does anyway.
+/// Truncation allowed in a step, in roundoffs of the velocity and of what the
+/// slenderness angle's own acceleration changes in it: what rounding does
+/// anyway.
 const TRUNCATION_SHARE: f64 = 0.5;
 
 /// State of a block in motion, in units of 1/p: u = |theta| on a side.
@@ -75,7 +76,7 @@ pub(crate) struct Driver<
     events: bool,
     interval_s: Option<f64>,
     until_s: Option<N>,
-    /// Truncation allowed per unit of p-time.
+    /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
 }
 
@@ -127,8 +128,7 @@ where
             events: false,
             interval_s: None,
             until_s: None,
-            tolerance: dynamics.alpha
-                * N::from_f64(TRUNCATION_SHARE * N::ROUNDOFF),
+            tolerance: N::from_f64(TRUNCATION_SHARE * N::ROUNDOFF),
         }
     }
 
@@ -204,7 +204,7 @@ where
         self.record.work.impacts += 1;
     }
 
-    /// Truncation allowed per unit of p-time.
+    /// Truncation allowed in a step, as a share of the velocity.
     #[inline(always)]
     pub fn tolerance(&self) -> N {
         self.tolerance

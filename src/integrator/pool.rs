@@ -25,7 +25,7 @@ use waiting::{Kind, Lane, Line, Waiting};
 
 /// Groups of lanes: enough that a lane seldom waits for others, few enough
 /// that all stay in the nearest cache.
-const GROUPS: usize = 12;
+const GROUPS: usize = 16;
 
 /// Rotation to which the short sine and cosine are used.
 const SMALL: f64 = 0.785;
@@ -134,10 +134,10 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
             };
             let Some(moved) = isa.run_wide(sweep) else { return self.tally };
             self.tally.sweeps += 1;
-            // Few runs do not wait for eight of a kind.
-            let enough =
-                if moved { (self.busy / 4).clamp(1, WIDTH) } else { 1 };
+            // Few runs do not wait for many of a kind.
+            let most = if moved { (self.busy / 4).max(1) } else { 1 };
             for kind in [Kind::Hard, Kind::Events, Kind::Both] {
+                let enough = kind.worth().min(most);
                 while waiting.line(kind).count >= enough {
                     let line = waiting.line(kind);
                     batch.gather(line, &groups, &self.slots);
@@ -298,12 +298,16 @@ impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
     #[inline(always)]
     fn run(self) -> bool {
         let mut moved = false;
-        for (k, group) in self.groups.iter_mut().enumerate() {
+        let (mut stopped, mut hard) = ([0; GROUPS], [0; GROUPS]);
+        for (k, group) in self.groups.iter_mut().enumerate().take(GROUPS) {
             if !group.is_idle() {
                 moved = true;
-                group.step::<LEN>(self.model).park(k, self.waiting);
+                let parked = group.step::<LEN>(self.model);
+                [stopped[k], hard[k], ..] = parked.to_le_bytes();
             }
         }
+        // All groups together: one branch that nobody can predict.
+        self.waiting.park(stopped, hard);
         moved
     }
 }

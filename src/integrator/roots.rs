@@ -88,7 +88,7 @@ impl<N: Real> Work for Isolation<'_, N> {
 #[inline(always)]
 fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
     if let Some(below) = ends_below(c, length) {
-        return below.then(|| refine(c, N::zero(), length, parabola(c)));
+        return below.then(|| refine(c, N::zero(), length, guess(c)));
     }
     let n = c.len() - 1;
     // Bernstein coefficients on [0, length]:
@@ -115,15 +115,22 @@ fn isolated<N: Real>(c: &[N], length: N) -> Option<N> {
         // Isolation saw a contact that is none.
         return None;
     }
-    Some(refine(c, low, high, parabola(c)))
+    Some(refine(c, low, high, guess(c)))
 }
 
-/// First zero of the polynomial's first three terms, where it has one.
+/// Where the first root is sought: that of the first three terms, moved by
+/// what the next two say there.
 #[inline(always)]
-pub(crate) fn parabola<N: Real>(c: &[N]) -> N {
+pub(crate) fn guess<N: Real>(c: &[N]) -> N {
     let [start, slope, bend, ..] = *c else { return N::zero() };
     let root = (slope * slope - N::from_f64(4.0) * start * bend).sqrt();
-    (start + start) / (root - slope)
+    let tau = (start + start) / (root - slope);
+    let [_, _, _, third, fourth, ..] = *c else { return tau };
+    let beyond = fourth.mul_add(tau, third) * (tau * tau);
+    let steep =
+        fourth.mul_add(N::from_f64(4.0) * tau, N::from_f64(3.0) * third);
+    let steep = steep.mul_add(tau, bend + bend).mul_add(tau, slope);
+    tau - beyond * tau / steep
 }
 
 /// Whether a polynomial that is positive at its start, and surely falls or
@@ -224,10 +231,12 @@ pub(crate) fn refine<N: Real>(
         }
         let step = here / slope(c, tau);
         let next = tau - step;
-        let inside = next > low && next < high;
-        if inside && step.abs() <= tau.abs() * N::from_f64(N::NEWTON_STEP) {
+        // A step below the last digit ends on the bracket.
+        let close = step.abs() <= tau.abs() * N::from_f64(N::NEWTON_STEP);
+        if close && next >= low && next <= high {
             return next;
         }
+        let inside = next > low && next < high;
         let width = high - low;
         let next = if inside { next } else { half * (low + high) };
         if !(width > high * N::from_f64(2.0 * N::ROUNDOFF)) {

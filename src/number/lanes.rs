@@ -37,6 +37,12 @@ impl<const W: usize> Lanes<W> {
         other.below(self).select(self, other)
     }
 
+    /// The smaller numbers.
+    #[inline(always)]
+    pub fn min(self, other: Self) -> Self {
+        self.below(other).select(self, other)
+    }
+
     /// Square roots.
     #[inline(always)]
     pub fn sqrt(self) -> Self {
@@ -53,6 +59,16 @@ impl<const W: usize> Lanes<W> {
         let mut out = [0; W];
         for lane in 0..W {
             out[lane] = ones(self.0[lane] < other.0[lane]);
+        }
+        Mask(out)
+    }
+
+    /// Lanes in which this is at most `other`.
+    #[inline(always)]
+    pub fn at_most(self, other: Self) -> Mask<W> {
+        let mut out = [0; W];
+        for lane in 0..W {
+            out[lane] = ones(self.0[lane] <= other.0[lane]);
         }
         Mask(out)
     }
@@ -107,12 +123,13 @@ impl<const W: usize> Mask<W> {
         any != 0
     }
 
-    /// Bit k set where lane k is true.
+    /// Bit k set where lane k is true, and bit W + k where that of `other`
+    /// is, too.
     #[inline(always)]
-    pub fn bits(self) -> u64 {
+    pub fn bits_with(self, other: Self) -> u64 {
         let mut bits = 0;
-        for (lane, x) in self.0.iter().enumerate() {
-            bits |= x & (1 << lane);
+        for (lane, (x, y)) in self.0.iter().zip(other.0).enumerate() {
+            bits |= x & (1 << lane | y & 1 << (W + lane));
         }
         bits
     }

@@ -140,10 +140,11 @@ where
         }
     }
 
-    /// Counts a turning point at `u`, `tau` after a place.
+    /// Counts a turning point at `u`, `tau` after a place, if it is the
+    /// highest.
     pub fn raise_peak(&mut self, u: N, place: Place<N>, tau: N) {
-        self.record.work.turning_points += 1;
         if u > self.record.peak {
+            self.record.work.turning_points += 1;
             self.record.peak = u;
             let offset = place.offset + tau;
             let time_s = self.time_s(Place { offset, ..place });

@@ -92,7 +92,7 @@ where
         let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, &drive);
         let (c, v) = (&c, &v);
         self.record.work.steps += 1;
-        if left_by(v, length) > self.tolerance * length {
+        if left_by(v, length) > self.allowed(w, length) {
             return None;
         }
         let event = self.first_event(c, length);
@@ -203,11 +203,18 @@ where
         accuracy.step(j, tau, [error_u, error_w]);
     }
 
+    /// Error of the velocity that a step of `length` from a velocity `w` may
+    /// leave.
+    #[inline(always)]
+    fn allowed(&self, w: N, length: N) -> N {
+        self.tolerance * self.dynamics.alpha.mul_add(length, w.abs())
+    }
+
     /// Last of `LEN` coefficients of the velocity that leaves as much as is
-    /// allowed over a step of `length`.
+    /// allowed over a step of `length`, per unit of the velocity.
     #[inline(always)]
     pub fn last_allowed<const LEN: usize>(&self, length: N) -> N {
-        self.tolerance * length / last_term(N::one(), LEN, length)
+        self.tolerance / last_term(N::one(), LEN, length)
     }
 }
 

@@ -38,7 +38,8 @@ pub(super) struct Batch {
     peak: Eight,
     limit: Eight,
     eta: Eight,
-    /// Truncation allowed per unit of p-time.
+    alpha: Eight,
+    /// Truncation allowed in a step, as a share of the velocity.
     tolerance: Eight,
 }
 
@@ -136,6 +137,7 @@ impl Batch {
             peak: zero,
             limit: zero,
             eta: zero,
+            alpha: zero,
             tolerance: zero,
         }
     }
@@ -169,6 +171,7 @@ impl Batch {
                 let dynamics = slot.driver.dynamics();
                 out.limit[i] = dynamics.limit;
                 out.eta[i] = dynamics.eta;
+                out.alpha[i] = dynamics.alpha;
                 out.tolerance[i] = slot.driver.tolerance();
             }
         }
@@ -201,7 +204,7 @@ impl Batch {
             Model::Linearized => none,
         };
         let mut left = large;
-        let allowed = self.tolerance * h;
+        let allowed = self.tolerance * self.alpha.mul_add(h, self.w.abs());
         let again = allowed.below(last_term(v[LEN - 1].abs(), LEN, h));
         let mut hard = none;
         if SIZE > LEN {

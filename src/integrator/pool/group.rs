@@ -3,11 +3,14 @@
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model};
-use crate::integrator::pool::waiting::{Lane, Waiting};
 use crate::integrator::pool::{SAFETY, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
 use crate::number::Number;
 use crate::number::lanes::{Lanes, Mask};
+
+/// Share of its start above which a rotation that sinks surely ends above the
+/// base.
+const STAYS: f64 = 1e-9;
 
 /// Lanes stepped at once.
 pub(super) const WIDTH: usize = 8;
@@ -30,8 +33,10 @@ pub(super) struct Group<'a> {
     pub threshold: Lanes<WIDTH>,
     pub sine: Lanes<WIDTH>,
     pub cosine: Lanes<WIDTH>,
-    /// Largest last coefficient of the velocity that leaves little enough.
+    /// Largest last coefficient of the velocity that leaves little enough, in
+    /// units of |w| + `least`.
     last: Lanes<WIDTH>,
+    least: Lanes<WIDTH>,
     /// Rotation that nothing may reach.
     ceiling: Lanes<WIDTH>,
     /// Largest rotation at a turning point so far.
@@ -48,28 +53,9 @@ pub(super) struct Group<'a> {
     active: Mask<WIDTH>,
 }
 
-/// Lanes that did not take a step, a bit each.
-pub(super) struct Parked {
-    /// All of them.
-    stopped: u64,
-    /// Those in which the series leaves too much and nothing happens.
-    hard: u64,
-}
-
-impl Parked {
-    /// Lets them wait for others.
-    #[inline(always)]
-    pub fn park(&self, group: usize, waiting: &mut Waiting) {
-        let mut left = self.stopped;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            // An index, not a branch: nobody can predict it.
-            let kind = 1 - ((self.hard >> lane) & 1) as usize;
-            waiting.lines[kind].push(Lane { group, lane });
-        }
-    }
-}
+/// Lanes that did not take a step, a bit each; those in which the series
+/// leaves too much and nothing happens have another bit, `WIDTH` above.
+pub(super) type Parked = u64;
 
 impl<'a> Group<'a> {
     pub fn idle() -> Self {
@@ -87,6 +73,7 @@ impl<'a> Group<'a> {
             sine: zero,
             cosine: zero,
             last: zero,
+            least: zero,
             ceiling: zero,
             peak: zero,
             side: [Side::Positive; WIDTH],
@@ -167,6 +154,7 @@ impl<'a> Group<'a> {
         self.first[lane] = piece as u64 + 1;
         self.extra[lane] = 0;
         self.last[lane] = driver.last_allowed::<LEN>(h) / SAFETY;
+        self.least[lane] = dynamics.alpha * h;
         self.ceiling[lane] = dynamics.limit.min(SMALL);
         self.peak[lane] = driver.peak();
         self.active.set(lane, true);
@@ -176,13 +164,10 @@ impl<'a> Group<'a> {
     /// events.
     #[inline(always)]
     pub fn step<const LEN: usize>(&mut self, model: Model) -> Parked {
-        let mut ahead = Lanes::splat(f64::NAN);
+        let mut ahead = Lanes::splat(0.0);
         for lane in 0..WIDTH {
-            if let Some(sample) =
-                self.samples[lane].get(self.next[lane] as usize)
-            {
-                ahead[lane] = *sample;
-            }
+            let sample = self.samples[lane].get(self.next[lane] as usize);
+            ahead[lane] = *sample.unwrap_or(&f64::NAN);
         }
         let ahead = ahead * self.amplitude;
         let rate = (ahead - self.here) * self.inverse;
@@ -195,12 +180,14 @@ impl<'a> Group<'a> {
         };
         let (c, v): ([_; LEN], [_; LEN]) =
             expand(model, self.u, self.w, &drive, small);
-        let free = self.free_of_events(model, &drive, ahead);
-        let enough = v[LEN - 1].abs().below(self.last);
-        let clear = self.active.and(free).and(enough);
         let h = self.length;
-        self.u = clear.select(value(&c, h), self.u);
-        self.w = clear.select(value(&v, h), self.w);
+        let end = (value(&c, h), value(&v, h));
+        let free = self.free_of_events(model, &drive, ahead, end);
+        let size = self.w.abs() + self.least;
+        let enough = v[LEN - 1].abs().below(self.last * size);
+        let clear = self.active.and(free).and(enough);
+        self.u = clear.select(end.0, self.u);
+        self.w = clear.select(end.1, self.w);
         self.here = clear.select(ahead, self.here);
         self.offset = clear.select(Number::zero(), self.offset);
         self.length = clear.select(self.whole, self.length);
@@ -209,37 +196,59 @@ impl<'a> Group<'a> {
         }
         let stopped = self.active.but_not(clear);
         self.active = clear;
-        Parked { stopped: stopped.bits(), hard: free.bits() }
+        stopped.bits_with(free)
     }
 
-    /// Lanes in which the step meets no base, no limit, and no turning point
-    /// above the peak: with |u''| below a bound M, u(tau) lies within
-    /// M tau^2/2 of u_0 + w_0 tau, and the velocity within M tau of w_0.
+    /// Lanes in which the step to `end` meets no base, no limit, and no
+    /// turning point above the peak.
+    ///
+    /// With |u''| below M and |u'''| below N, the rotation lies within
+    /// M tau^2/2 of its tangent at the start and within M h^2/8 of its chord,
+    /// and the velocity within N h^2/8 of its own.
     #[inline(always)]
     fn free_of_events(
         &self,
         model: Model,
         drive: &Drive<Lanes<WIDTH>, 2>,
         ahead: Lanes<WIDTH>,
+        end: (Lanes<WIDTH>, Lanes<WIDTH>),
     ) -> Mask<WIDTH> {
         let h = self.length;
         let zero = Lanes::splat(0.0);
         // |A| sin u + |B| below the ceiling; both are linear in time.
         let constants = (self.threshold, self.sine, self.cosine);
-        let end = Drive::new(model, constants, [ahead]);
-        let pull = drive.a.abs().max(end.a.abs());
-        let push = drive.b.abs().max(end.b.abs());
+        let last = Drive::new(model, constants, [ahead]);
+        let pull = drive.a.abs().max(last.a.abs());
+        let push = drive.b.abs().max(last.b.abs());
         let bend = pull.mul_add(self.ceiling, push);
         let turn = bend * h * Lanes::splat(SAFETY);
-        let spread = turn * h * Lanes::splat(0.5);
+        let sag = turn * h * Lanes::splat(0.125);
+        let spread = sag * Lanes::splat(4.0);
+        // |w| (|A| + |B| sin u) + |f'|, with |w| below its own bound.
+        let speed = self.w.abs();
+        let stiff = push.mul_add(self.ceiling, pull);
+        let bent = (speed + turn).mul_add(stiff, drive.f[1].abs());
+        let bow = bent * (h * h) * Lanes::splat(0.125 * SAFETY);
+
         let linear = self.u + self.w * h;
         let (low, high) = (linear - spread, linear + spread);
-        let outside = self.u.below(zero);
-        let above = high.below(self.ceiling).and(self.u.below(self.ceiling));
-        let turning = high
+        let rises = bow.below(self.w.min(end.1));
+        let sinks = self.w.max(end.1).below(-bow);
+        // By more than the root finder's rounding.
+        let stays = (self.u * Lanes::splat(STAYS)).below(end.0);
+        let above_base = zero
+            .below(low)
+            .or(sag.below(self.u.min(end.0)))
+            .or(rises)
+            .or(sinks.and(stays));
+        let below_limit =
+            high.below(self.ceiling).and(self.u.below(self.ceiling));
+        let below_peak = (self.u.max(end.0) + sag)
             .below(self.peak)
-            .and(self.u.below(self.peak))
-            .or(turn.below(self.w.abs()));
-        zero.below(low).and(above).and(turning).but_not(outside)
+            .or(turn.below(speed))
+            .or(rises)
+            .or(sinks);
+        let outside = self.u.below(zero);
+        above_base.and(below_limit).and(below_peak).but_not(outside)
     }
 }

@@ -69,7 +69,16 @@ pub(super) fn refine<const SIZE: usize>(
     let zero = Eight::zero();
     let (mut low, mut high) = (zero, high);
     let root = (q[1] * q[1] - Lanes::splat(4.0) * q[0] * q[2]).sqrt();
-    let guess = (q[0] + q[0]) / (root - q[1]);
+    let mut guess = (q[0] + q[0]) / (root - q[1]);
+    if SIZE > 4 {
+        let [third, fourth] = [q[3], q[4]];
+        let beyond = fourth.mul_add(guess, third) * (guess * guess);
+        let steep = fourth
+            .mul_add(Lanes::splat(4.0) * guess, Lanes::splat(3.0) * third)
+            .mul_add(guess, q[2] + q[2])
+            .mul_add(guess, q[1]);
+        guess = guess - beyond * guess / steep;
+    }
     let inside = low.below(guess).and(guess.below(high));
     let mut tau = inside.select(guess, half * (low + high));
     let mut open = which;
@@ -85,15 +94,17 @@ pub(super) fn refine<const SIZE: usize>(
         open = open.and(above.or(under));
         let step = here / slope(q, tau);
         let next = tau - step;
-        let inside = low.below(next).and(next.below(high));
         let bound = tau.abs() * Lanes::splat(f64::NEWTON_STEP);
-        let done = open.and(inside).but_not(bound.below(step.abs()));
+        let close = step.abs().at_most(bound);
+        let within = low.at_most(next).and(next.at_most(high));
+        let done = open.and(close).and(within);
         tau = done.select(next, tau);
         open = open.but_not(done);
         let wide =
             (high * Lanes::splat(2.0 * f64::ROUNDOFF)).below(high - low);
         tau = open.but_not(wide).select(high, tau);
         open = open.and(wide);
+        let inside = low.below(next).and(next.below(high));
         let next = inside.select(next, half * (low + high));
         tau = open.select(next, tau);
     }

@@ -14,12 +14,41 @@ pub(super) enum Kind {
     Both,
 }
 
+impl Kind {
+    /// Lanes that are worth a batch: where they come seldom, those that wait
+    /// for more cost more than lanes of the batch that stay empty.
+    pub fn worth(self) -> usize {
+        match self {
+            Self::Hard => 5,
+            Self::Events => WIDTH,
+            Self::Both => 2,
+        }
+    }
+}
+
 /// Lanes that wait for others of their [`Kind`], in the order of kinds.
 pub(super) struct Waiting {
     pub lines: [Line; 3],
 }
 
 impl Waiting {
+    /// Takes the lanes that stopped, a bit each, a byte a group; what happens
+    /// in those that are not hard is to be seen.
+    #[inline(always)]
+    pub fn park(&mut self, stopped: [u8; GROUPS], hard: [u8; GROUPS]) {
+        const { assert!(GROUPS * WIDTH == u128::BITS as usize) };
+        let mut left = u128::from_le_bytes(stopped);
+        let hard = u128::from_le_bytes(hard);
+        while left != 0 {
+            let slot = left.trailing_zeros() as usize;
+            left &= left - 1;
+            // An index, not a branch: nobody can predict it.
+            let kind = 1 - (hard >> slot & 1) as usize;
+            let (group, lane) = (slot / WIDTH, slot % WIDTH);
+            self.lines[kind].push(Lane { group, lane });
+        }
+    }
+
     pub fn line(&mut self, kind: Kind) -> &mut Line {
         &mut self.lines[kind as usize]
     }

@@ -1,4 +1,4 @@
-use super::{ends_below, parabola, refine, surely_positive};
+use super::{ends_below, guess, refine, surely_positive};
 use crate::integrator::taylor::value;
 use crate::number::dispatch::Isa;
 use crate::number::double::DoubleDouble;
@@ -236,10 +236,23 @@ fn a_parabola_has_its_first_root() {
         if c[0] < 0.0 {
             c.iter_mut().for_each(|x| *x = -*x);
         }
-        let gap = parabola(&c) / roots[0] - 1.0;
+        let gap = guess(&c) / roots[0] - 1.0;
         assert!(gap.abs() < 1e-15, "{roots:?} {gap:e}");
     }
-    assert_eq!(parabola(&[1.0, -2.0]), 0.0);
+    assert_eq!(guess(&[1.0, -2.0]), 0.0);
+}
+
+/// The third and fourth terms of a step are small: what is left of the guess
+/// is of the next.
+#[test]
+fn a_guess_knows_of_five_terms() {
+    for (fifth, left) in [(0.0, 2e-7), (0.02, 1e-5)] {
+        let c = [0.1, -1.0, -0.3, 0.05, -0.02, fifth];
+        let root = refine(&c, 0.0, 1.0, 0.1);
+        let gap = (guess(&c) / root - 1.0).abs();
+        let three = (guess(&c[..3]) / root - 1.0).abs();
+        assert!(gap < left && three > 3e-5, "{gap:e} {three:e}");
+    }
 }
 
 #[test]

@@ -143,7 +143,7 @@ fn many(args: &Args) -> Result<Vec<Throughput>, Failure> {
     let blocks = blocks()?;
     let bar = progress(16);
     let mut all = vec![
-        kernel("kernel in lanes, Eq. 1, order 10", Model::Nonlinear, 1e-3)?,
+        kernel("kernel in lanes, Eq. 1, order 9", Model::Nonlinear, 1e-3)?,
         kernel("kernel in lanes, Eq. 1, order 13", Model::Nonlinear, 0.061)?,
         kernel("kernel in lanes, Eq. 2", Model::Linearized, 1e-3)?,
     ];

@@ -61,10 +61,10 @@ fn the_screen_of_the_base_tells_what_is_sure_and_no_more() {
     assert!(!screen([-0.1, 0.3], 0.0, 0.25, 0.25));
 }
 
-/// Turning points are looked for where one may raise the peak, and nowhere
-/// else: 0.25 + 0.125 tau - 0.125 tau^2 reaches at most 0.5 by its bound.
+/// Turning points count where they raise the peak, and nowhere else: 0.25 +
+/// 0.125 tau - 0.125 tau^2 reaches at most 0.5 by its bound, and 0.28125.
 #[test]
-fn turning_points_cost_work_only_where_they_may_count() {
+fn turning_points_count_where_they_raise_the_peak() {
     let c = [0.25, 0.125, -0.125, 0.0];
     let v = [0.125, -0.25, 0.0, 0.0];
     let counted = |v: [f64; 4], peak: f64| {
@@ -75,7 +75,8 @@ fn turning_points_cost_work_only_where_they_may_count() {
         (driver.record.work.turning_points, driver.record.peak)
     };
     assert_eq!(counted(v, 0.5), (0, 0.5));
-    assert_eq!(counted(v, 0.5_f64.next_down()), (1, 0.5_f64.next_down()));
+    assert_eq!(counted(v, 0.281_25), (0, 0.281_25));
+    assert_eq!(counted(v, 0.281_25_f64.next_down()), (1, 0.281_25));
     assert_eq!(counted(v, 0.0), (1, 0.281_25));
     // A velocity that surely keeps its sign has none; one that may lose it
     // at the very end is looked at, and turns at no point inside.

@@ -61,7 +61,7 @@ fn lanes_decide_and_solve_as_the_scalar_root_finder() {
             assert_eq!(told.none.at(lane), none, "{c:?}");
             assert_eq!(told.one.at(lane), one, "{c:?}");
             if one {
-                let start = roots::parabola(c);
+                let start = roots::guess(c);
                 let due = roots::refine(c, 0.0, length, start);
                 assert_eq!(tau[lane].to_bits(), due.to_bits(), "{c:?}");
             }

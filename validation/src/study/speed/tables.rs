@@ -10,7 +10,7 @@ const USES: [(&str, &str); 6] = [
     ("order 4", "a first look; not for results"),
     ("order 6", "exploring large numbers of analyses"),
     ("order 8", "statistics of many analyses"),
-    ("order 10", "as the default, at a fixed order"),
+    ("order 10", "one above the default's own order, fixed"),
     ("as shipped", "everything; lengthens its series where a step needs it"),
     ("order 27", "single fates that double precision cannot tell: --certify"),
 ];

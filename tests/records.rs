@@ -318,6 +318,16 @@ fn a_zip_is_read_as_the_folder_in_it() {
     assert!(error.starts_with("rocking: half.zip: cannot be read:"));
     let (status, _, error) = records(&folder, &["peer.zip", "--json"]);
     assert_eq!((status, error.as_str()), (0, ""));
+    // A damaged file does not take the room of those after it.
+    let mut damaged = std::fs::read(folder.join("flat.zip")).unwrap();
+    let name = b"in/A_000.AT2";
+    let at = damaged.windows(name.len()).position(|w| w == name).unwrap();
+    damaged[at + name.len() + 40] ^= 0xff;
+    std::fs::write(folder.join("damaged.zip"), damaged).unwrap();
+    let (status, out, error) = records(&folder, &["damaged.zip"]);
+    assert_eq!(status, 2, "{out}");
+    assert!(error.contains("A_000.AT2"), "{error}");
+    assert!(!error.contains("A_090.AT2") && !error.contains("unpacks"));
     let zeros = "0\n".repeat(1 << 20);
     pack("bomb.zip", &[("a.txt", AT2), ("b.txt", &zeros), ("c.txt", AT2)]);
     let (status, _, error) = records(&folder, &["bomb.zip"]);

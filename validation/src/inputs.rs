@@ -106,10 +106,12 @@ pub fn survey_zip(
     let (base, names) = contents(names);
     Survey::of_files(shown, &names, options, |name| {
         let limit = if name == SEARCH_RESULTS { index_limit } else { left };
-        let bytes = unpacked(&mut archive, &format!("{base}{name}"), limit);
-        // What was too large was read, too: a thousand such take no longer.
-        left -= bytes.as_ref().map_or(left, |b| left.min(b.len() as u64));
-        bytes.map_err(|reason| {
+        let mut bytes = Vec::new();
+        let path = format!("{base}{name}");
+        let done = unpack(&mut archive, &path, limit, &mut bytes);
+        // What is refused was read, too: a thousand such take no longer.
+        left = left.saturating_sub(bytes.len() as u64);
+        done.map(|()| bytes).map_err(|reason| {
             RecordError::unreadable(&format!("{shown}/{name}"), reason)
         })
     })
@@ -145,17 +147,18 @@ pub fn is_zip(path: &Path) -> bool {
         .is_ok_and(|()| start == *b"PK\x03\x04")
 }
 
-/// One file of an archive, if it is no larger than `limit` bytes.
-fn unpacked(
+/// Reads one file of an archive, if it is no larger than `limit` bytes; what
+/// was read of another is left in `bytes`.
+fn unpack(
     archive: &mut ZipArchive<impl Read + Seek>,
     name: &str,
     limit: u64,
-) -> Result<Vec<u8>, String> {
+    bytes: &mut Vec<u8>,
+) -> Result<(), String> {
     let file = archive.by_name(name).map_err(|e| e.to_string())?;
     // What the archive says of the size is a hint, and may be false.
-    let hint = file.size().min(limit) as usize + 1;
-    let mut bytes = Vec::with_capacity(hint);
-    let read = file.take(limit + 1).read_to_end(&mut bytes);
+    bytes.reserve(file.size().min(limit) as usize + 1);
+    let read = file.take(limit + 1).read_to_end(bytes);
     read.map_err(|e| e.to_string())?;
     if bytes.len() as u64 > limit {
         return Err(format!(
@@ -165,5 +168,5 @@ fn unpacked(
              unpacked folder",
         ));
     }
-    Ok(bytes)
+    Ok(())
 }

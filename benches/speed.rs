@@ -38,7 +38,7 @@ fn main() {
 /// The block in the middle of the paper's fifteen.
 fn middle() -> Vec<Analysis> {
     let block = Block::try_new(0.15, 3.0).expect("block");
-    analyses(&[block], Model::Nonlinear).expect("analyses")
+    analyses(&[block], Model::Nonlinear, None).expect("analyses")
 }
 
 /// Curves on a pool of its own; items are analyses.
@@ -206,12 +206,19 @@ mod one_block {
 }
 
 /// 15 blocks, all embedded records, 0.01 g: arm A of the study.
-#[divan::bench(args = ["Eq. 1", "Eq. 2"], sample_count = 2)]
-fn whole_study(bencher: Bencher, equation: &str) {
-    let model =
-        if equation == "Eq. 1" { Model::Nonlinear } else { Model::Linearized };
+#[divan::bench(
+    args = ["Eq. 1", "Eq. 1, order 8", "Eq. 1, order 6", "Eq. 2"],
+    sample_count = 2
+)]
+fn whole_study(bencher: Bencher, work: &str) {
+    let (model, order) = match work {
+        "Eq. 2" => (Model::Linearized, None),
+        "Eq. 1, order 8" => (Model::Nonlinear, Some(Order::Eight)),
+        "Eq. 1, order 6" => (Model::Nonlinear, Some(Order::Six)),
+        _ => (Model::Nonlinear, None),
+    };
     let blocks = blocks().expect("blocks");
-    let all = analyses(&blocks, model).expect("analyses");
+    let all = analyses(&blocks, model, order).expect("analyses");
     let threads = rayon::current_num_threads();
     ida(bencher, threads, &RECORDS, &all);
 }

@@ -6,19 +6,19 @@
 //! p PGV/PGA.
 
 mod batch;
+mod certified;
 mod climb;
 mod levels;
 
-use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::integrator::{
-    Certified, Engine, Model, Observe, Outcome, Overturning, SceneError,
-    certify, respond, respond_with,
+    Model, Observe, Order, Outcome, Overturning, SceneError, respond_as,
 };
 use crate::number::dispatch::Isa;
+pub use certified::{Certification, certified_curve, certified_curves};
 use climb::Climb;
 use levels::Levels;
 
@@ -71,6 +71,10 @@ pub struct Analysis {
     pub highest_im: f64,
     /// Levels above the first overturning are looked at up to here.
     pub resurrections: Option<Resurrections>,
+    /// Order at which Eq. 1 is stepped whatever that leaves; none: as high
+    /// as each step needs for double precision. Certified curves are always
+    /// made as each step needs.
+    pub order: Option<Order>,
 }
 
 /// How far up resurrections are sought.
@@ -103,6 +107,7 @@ impl Analysis {
             refine: None,
             highest_im: HIGHEST_IM,
             resurrections: None,
+            order: None,
         }
     }
 }
@@ -262,49 +267,12 @@ fn curve_with(
 ) -> Result<IdaCurve, IdaError> {
     let mut climb = Climb::start(record, analysis)?;
     while let Some((aim, level)) = climb.next(false)? {
-        let response = respond_with(&level.scene, &Observe::default(), isa)?;
+        let observe = Observe::default();
+        let response =
+            respond_as(&level.scene, &observe, analysis.order, isa)?;
         climb.accept(aim, level.point(&response)?);
     }
     Ok(climb.finish())
-}
-
-/// What certification did to a curve.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Certification {
-    /// Analyses whose fate double precision could not tell.
-    pub needed: u64,
-    /// Those of them that double precision had told wrongly.
-    pub moved: u64,
-    /// Those that double-double could not tell either.
-    pub unresolved: u64,
-}
-
-impl Certification {
-    fn add(&mut self, fate: &Certified) {
-        self.needed += u64::from(fate.by == Engine::DoubleDouble);
-        self.moved += u64::from(fate.moved());
-        self.unresolved += u64::from(!fate.decided);
-    }
-}
-
-/// [`curve`] with every fate certified: where the margin does not clear the
-/// error in double precision, the outcome is that of a run in double-double
-/// (see [`certify`]), and the chain goes on from it.
-///
-/// # Errors
-/// As [`curve`].
-pub fn certified_curve(
-    record: &NormalisedRecord,
-    analysis: &Analysis,
-) -> Result<(IdaCurve, Certification), IdaError> {
-    let mut climb = Climb::start(record, analysis)?;
-    let mut count = Certification::default();
-    while let Some((aim, level)) = climb.next(false)? {
-        let fate = certify(&level.scene)?;
-        count.add(&fate);
-        climb.accept(aim, level.certified(&fate));
-    }
-    Ok((climb.finish(), count))
 }
 
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
@@ -345,34 +313,6 @@ fn curves_reporting(
     batch::curves(records, analyses, isa, &|| done())
 }
 
-/// [`curves`] with every fate certified, as [`certified_curve`].
-///
-/// # Errors
-/// As [`curves`].
-pub fn certified_curves(
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-    done: impl Fn() + Sync,
-) -> Result<Vec<Vec<(IdaCurve, Certification)>>, IdaError> {
-    // Rayon steals single chains, so that their order matters little here.
-    let chains: Vec<(usize, usize)> = (0..analyses.len())
-        .flat_map(|a| (0..records.len()).map(move |r| (a, r)))
-        .collect();
-    let flat: Vec<Result<_, IdaError>> = chains
-        .par_iter()
-        .with_max_len(1)
-        .map(|&(a, r)| {
-            let result = certified_curve(&records[r], &analyses[a]);
-            done();
-            result
-        })
-        .collect();
-    let mut flat = flat.into_iter();
-    (0..analyses.len())
-        .map(|_| flat.by_ref().take(records.len()).collect())
-        .collect()
-}
-
 /// Engineering demand parameter at one intensity, whatever happens below it:
 /// peak |theta|/alpha, infinite when overturned.
 ///
@@ -391,7 +331,9 @@ pub fn at(
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
     let level = levels.at(im)?;
-    let response = respond(&level.scene, &Observe::default())?;
+    let observe = Observe::default();
+    let response =
+        respond_as(&level.scene, &observe, analysis.order, Isa::best())?;
     level.point(&response)
 }
 

@@ -274,8 +274,7 @@ pub fn respond_with(
     observe: &Observe,
     isa: Isa,
 ) -> Result<Response, SceneError> {
-    check(scene, observe)?;
-    run(scene, observe, None, isa)
+    respond_as(scene, observe, None, isa)
 }
 
 pub(crate) fn check(
@@ -303,9 +302,8 @@ pub(crate) fn check(
     Ok(())
 }
 
-/// Order of the Taylor polynomial under a record, for convergence and speed
-/// studies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Order of the Taylor polynomial under a record, where it is fixed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Order {
     /// Order 4.
     Four,
@@ -327,8 +325,18 @@ pub fn respond_at_order(
     observe: &Observe,
     order: Order,
 ) -> Result<Response, SceneError> {
+    respond_as(scene, observe, Some(order), Isa::best())
+}
+
+/// [`respond_with`], at a fixed order if one is given.
+pub(crate) fn respond_as(
+    scene: &Scene<'_>,
+    observe: &Observe,
+    order: Option<Order>,
+    isa: Isa,
+) -> Result<Response, SceneError> {
     check(scene, observe)?;
-    run(scene, observe, Some(order), Isa::best())
+    run(scene, observe, order, isa)
 }
 
 fn run(
@@ -387,13 +395,13 @@ impl Dispatched for Run<'_> {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
-                if let (Some(order), Model::Nonlinear) = (self.order, model) {
-                    return self.at_order(order, dynamics, forcing);
-                }
-                match Class::of(model, step) {
+                match Class::of(model, step, self.order) {
                     Class::Short => self.at::<SHORT>(dynamics, forcing),
                     Class::Smooth | Class::Linearized => {
                         self.at::<SMOOTH>(dynamics, forcing)
+                    }
+                    Class::Fixed(order) => {
+                        self.at_order(order, dynamics, forcing)
                     }
                 }
             }

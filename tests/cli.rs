@@ -104,6 +104,14 @@ fn bad_numbers_are_refused_with_their_flag() {
     ] {
         refused_for(&place, arguments, &[name]);
     }
+    for (flags, words) in [
+        ("--order 5", "possible values: 4, 6, 8, 10"),
+        ("--order 6 --certify", "cannot be used with"),
+    ] {
+        let ida = "ida --alpha 0.1 --p 3 --suite s --out o.csv";
+        let error = refused(&place, &format!("{ida} {flags}"));
+        assert!(error.contains(words), "{flags}: {error}");
+    }
     for (flag, value) in [
         ("--eta", "0"),
         ("--eta", "1.01"),
@@ -331,18 +339,26 @@ fn threads_and_engine_do_not_change_a_byte() {
         let table = fs::read(place.join(format!("{name}.csv"))).unwrap();
         (out, table)
     };
-    let (summary, table) = ida("1", "--threads 1");
-    assert!(table.len() > 2_000, "{summary}");
-    for (name, how) in [
-        ("2", "--threads 2"),
-        ("5", "--threads 5"),
-        ("baseline", "--isa baseline --threads 1"),
-        ("scalar", "--engine scalar --threads 2"),
-    ] {
-        let (other, same) = ida(name, how);
-        assert_eq!(other.replace(&format!("{name}.csv"), "1.csv"), summary);
-        assert!(same == table, "{how}");
+    let mut tables = Vec::new();
+    for order in ["", " --order 4", " --order 6", " --order 8"] {
+        let (summary, table) = ida("1", &format!("--threads 1{order}"));
+        assert!(table.len() > 2_000, "{summary}");
+        for (name, how) in [
+            ("2", "--threads 2"),
+            ("5", "--threads 5"),
+            ("baseline", "--isa baseline --threads 1"),
+            ("scalar", "--engine scalar --threads 2"),
+        ] {
+            let (other, same) = ida(name, &format!("{how}{order}"));
+            let other = other.replace(&format!("{name}.csv"), "1.csv");
+            assert_eq!(other, summary);
+            assert!(same == table, "{how}{order}");
+        }
+        tables.push(table);
     }
+    // An order is kept: its error shows.
+    tables.dedup();
+    assert_eq!(tables.len(), 4);
 }
 
 #[test]

@@ -243,7 +243,8 @@ fn queues<'a>(
     for analysis in analyses {
         for record in records {
             let p = analysis.block.frequency_rad_s();
-            let class = pool::class_of(analysis.model, record.dt_s() * p)
+            let length = record.dt_s() * p;
+            let class = pool::class_of(analysis.model, length, analysis.order)
                 .filter(|_| isa.is_wide());
             let work = work(record, analysis);
             let job = Job { index, analysis, record, work };

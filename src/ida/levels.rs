@@ -5,9 +5,10 @@ use crate::block::Block;
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::ida::{Analysis, Grid, IdaError, IdaPoint, Method, Resurrections};
 use crate::integrator::{
-    self, Certified, Model, Observe, Response, Scene, respond,
+    self, Certified, Model, Observe, Order, Response, Scene, respond_as,
     uplift_threshold,
 };
+use crate::number::dispatch::Isa;
 
 /// Margins below this are worth an error estimate.
 const NEAR: f64 = 1e-6;
@@ -27,6 +28,7 @@ pub(super) struct Level<'a> {
     /// PGA applied, multiples of gravity.
     pga_g: f64,
     pub scene: Scene<'a>,
+    order: Option<Order>,
 }
 
 impl<'a> Levels<'a> {
@@ -129,7 +131,7 @@ impl<'a> Levels<'a> {
             initial_ratio: 0.0,
         };
         integrator::check(&scene, &Observe::default())?;
-        Ok(Level { im, pga_g: amplitude, scene })
+        Ok(Level { im, pga_g: amplitude, scene, order: analysis.order })
     }
 }
 
@@ -138,7 +140,8 @@ impl Level<'_> {
     pub fn point(&self, response: &Response) -> Result<IdaPoint, IdaError> {
         let resolved = response.fate_margin > NEAR || {
             let careful = Observe { accuracy: true, ..Observe::default() };
-            respond(&self.scene, &careful)?.is_resolved()
+            respond_as(&self.scene, &careful, self.order, Isa::best())?
+                .is_resolved()
         };
         Ok(IdaPoint {
             im: self.im,

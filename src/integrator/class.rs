@@ -1,5 +1,6 @@
 //! Which series a scene under a record is stepped by.
 
+use crate::integrator::Order;
 use crate::integrator::dynamics::Model;
 
 /// Coefficients of the short series: order 9. Order 8 leaves too much of one
@@ -26,15 +27,21 @@ pub(crate) enum Class {
     Smooth,
     /// Eq. 2.
     Linearized,
+    /// Eq. 1 at an order that is kept whatever a step leaves.
+    Fixed(Order),
 }
 
 impl Class {
-    /// The class of scenes of a model at steps of `length` (in 1/p).
-    pub fn of(model: Model, length: f64) -> Self {
-        match model {
-            Model::Linearized => Self::Linearized,
-            Model::Nonlinear if length <= SHORT_STEP * GUARD => Self::Short,
-            Model::Nonlinear => Self::Smooth,
+    /// The class of scenes of a model at steps of `length` (in 1/p), Eq. 1 at
+    /// a fixed order if one is given.
+    pub fn of(model: Model, length: f64, order: Option<Order>) -> Self {
+        match (model, order) {
+            (Model::Linearized, _) => Self::Linearized,
+            (Model::Nonlinear, Some(order)) => Self::Fixed(order),
+            (Model::Nonlinear, None) if length <= SHORT_STEP * GUARD => {
+                Self::Short
+            }
+            (Model::Nonlinear, None) => Self::Smooth,
         }
     }
 
@@ -42,7 +49,7 @@ impl Class {
     pub fn model(self) -> Model {
         match self {
             Self::Linearized => Model::Linearized,
-            Self::Short | Self::Smooth => Model::Nonlinear,
+            Self::Short | Self::Smooth | Self::Fixed(_) => Model::Nonlinear,
         }
     }
 }

@@ -17,7 +17,7 @@ use crate::integrator::class::{Class, SHORT, SMOOTH};
 use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
-use crate::integrator::{Observe, Response, Scene};
+use crate::integrator::{Observe, Order, Response, Scene};
 use crate::number::dispatch::{Isa, Work};
 use batch::{Batch, Solved};
 use group::{Group, WIDTH};
@@ -46,10 +46,14 @@ pub(crate) trait Source<'a> {
     fn settle(&mut self, task: Self::Task, response: &Response);
 }
 
-/// The class of scenes that a pool takes at steps of `length` (in 1/p); none
-/// where a sample takes more than one step.
-pub(crate) fn class_of(model: Model, length: f64) -> Option<Class> {
-    (steps_of(length) == 1).then(|| Class::of(model, length))
+/// The class of scenes that a pool takes at steps of `length` (in 1/p), at a
+/// fixed order if one is given; none where a sample takes more than one step.
+pub(crate) fn class_of(
+    model: Model,
+    length: f64,
+    order: Option<Order>,
+) -> Option<Class> {
+    (steps_of(length) == 1).then(|| Class::of(model, length, order))
 }
 
 /// Work of a pool: what its screens do not tell costs more than it should,
@@ -74,18 +78,30 @@ pub(crate) fn run<'a>(
     isa: Isa,
     source: &mut impl Source<'a>,
 ) -> Tally {
-    let model = class.model();
     match class {
-        Class::Short => Pool::<_, SHORT>::new(model, isa, source).run(),
+        Class::Short => go::<_, SHORT, SMOOTH>(class, isa, source),
         Class::Smooth | Class::Linearized => {
-            Pool::<_, SMOOTH>::new(model, isa, source).run()
+            go::<_, SMOOTH, SMOOTH>(class, isa, source)
         }
+        Class::Fixed(Order::Four) => go::<_, 5, 5>(class, isa, source),
+        Class::Fixed(Order::Six) => go::<_, 7, 7>(class, isa, source),
+        Class::Fixed(Order::Eight) => go::<_, 9, 9>(class, isa, source),
+        Class::Fixed(Order::Ten) => go::<_, 11, 11>(class, isa, source),
     }
 }
 
-/// Runs in their slots.
-struct Pool<'s, 'a, S: Source<'a>, const LEN: usize> {
-    model: Model,
+fn go<'a, S: Source<'a>, const LEN: usize, const HARD: usize>(
+    class: Class,
+    isa: Isa,
+    source: &mut S,
+) -> Tally {
+    Pool::<_, LEN, HARD>::new(class, isa, source).run()
+}
+
+/// Runs in their slots, by series of `LEN` coefficients, and of `HARD` where
+/// those leave too much.
+struct Pool<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize> {
+    class: Class,
     isa: Isa,
     source: &'s mut S,
     slots: Vec<Option<Slot<'a, S::Task, LEN>>>,
@@ -104,15 +120,17 @@ struct Slot<'a, T, const LEN: usize> {
     stage: Stage<f64>,
 }
 
-impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
-    fn new(model: Model, isa: Isa, source: &'s mut S) -> Self {
+impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
+    Pool<'s, 'a, S, LEN, HARD>
+{
+    fn new(class: Class, isa: Isa, source: &'s mut S) -> Self {
         let slots = (0..GROUPS * WIDTH).map(|_| None).collect();
         let tally = Tally::default();
-        Self { model, isa, source, slots, busy: 0, tally }
+        Self { class, isa, source, slots, busy: 0, tally }
     }
 
     fn run(mut self) -> Tally {
-        let (model, isa) = (self.model, self.isa);
+        let (model, isa) = (self.class.model(), self.isa);
         let mut groups: Vec<Group<'a>> =
             (0..GROUPS).map(|_| Group::idle()).collect();
         let mut waiting = Waiting { lines: [Line::EMPTY; 3] };
@@ -141,7 +159,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
                 while waiting.line(kind).count >= enough {
                     let line = waiting.line(kind);
                     batch.gather(line, &groups, &self.slots);
-                    let done = isa.run_wide(Solve::<LEN> {
+                    let done = isa.run_wide(Solve::<LEN, HARD> {
                         model,
                         kind,
                         batch: &batch,
@@ -185,6 +203,9 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize> Pool<'s, 'a, S, LEN> {
         let forcing =
             RecordForcing::new(record, index, block.frequency_rad_s());
         let mut driver = Driver::new(dynamics, forcing, self.isa);
+        if let Class::Fixed(_) = self.class {
+            driver = driver.at_fixed_order();
+        }
         let stage = driver.begin(&scene, &Observe::default());
         Some(Slot { task, driver, stage })
     }
@@ -313,14 +334,14 @@ impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
 }
 
 /// The steps of a batch.
-struct Solve<'b, const LEN: usize> {
+struct Solve<'b, const LEN: usize, const HARD: usize> {
     model: Model,
     kind: Kind,
     batch: &'b Batch,
     solved: &'b mut Solved,
 }
 
-impl<const LEN: usize> Work for Solve<'_, LEN> {
+impl<const LEN: usize, const HARD: usize> Work for Solve<'_, LEN, HARD> {
     type Output = ();
 
     #[inline(always)]
@@ -328,13 +349,14 @@ impl<const LEN: usize> Work for Solve<'_, LEN> {
         let Self { model, kind, batch, solved } = self;
         match kind {
             Kind::Hard => {
-                batch.solve::<LEN, SMOOTH, true>(model, solved);
+                batch.solve::<LEN, HARD, HARD, true>(model, solved);
             }
-            Kind::Events => {
-                batch.solve::<LEN, LEN, false>(model, solved);
+            Kind::Both if HARD > LEN => {
+                batch.solve::<LEN, HARD, HARD, false>(model, solved);
             }
-            Kind::Both => {
-                batch.solve::<LEN, SMOOTH, false>(model, solved);
+            // No lane waits for both where there is no longer series.
+            Kind::Events | Kind::Both => {
+                batch.solve::<LEN, HARD, LEN, false>(model, solved);
             }
         }
     }

@@ -3,6 +3,23 @@
 use crate::integrator::dynamics::{Drive, Model};
 use crate::number::Number;
 
+/// A loop from 1 that is written out for lanes: compilers do not unroll loops
+/// of this length, and then coefficients do not stay in registers.
+macro_rules! written_out {
+    (1..$end:expr, |$k:ident| $body:expr) => {
+        written_out!(@ $end, $k, $body, 1 2 3 4 5 6 7 8 9 10 11 12);
+        for $k in if N::LANES { 13 } else { 1 }..$end {
+            $body;
+        }
+    };
+    (@ $end:expr, $k:ident, $body:expr, $($index:literal)*) => {
+        $(if N::LANES && $index < $end {
+            let $k: usize = $index;
+            $body;
+        })*
+    };
+}
+
 /// Coefficients of u(tau) and of u'(tau) about the step's start, `LEN` of
 /// each (order `LEN - 1` in both).
 ///
@@ -45,16 +62,7 @@ fn nonlinear<N: Number, const LEN: usize, const F: usize>(
     let (across, along) = (drive.sine, drive.cosine);
     series.sine[0] = (-cosine).mul_add(across, sine * along);
     series.cosine[0] = sine.mul_add(across, cosine * along);
-    // Written out for lanes: loops in loops of this length are not unrolled.
-    macro_rules! first {
-        ($($k:literal)*) => {
-            $(if N::LANES && $k < LEN - 1 { series.extend($k, &drive.f); })*
-        };
-    }
-    first!(1 2 3 4 5 6 7 8 9 10 11 12);
-    for k in if N::LANES { 13 } else { 1 }..LEN - 1 {
-        series.extend(k, &drive.f);
-    }
+    written_out!(1..LEN - 1, |k| series.extend(k, &drive.f));
     (series.c, series.velocity)
 }
 
@@ -108,7 +116,7 @@ fn linearized<N: Number, const LEN: usize, const F: usize>(
     c[0] = u;
     c[1] = w;
     velocity[0] = w;
-    for k in 0..LEN - 1 {
+    let mut extend = |k: usize| {
         let force = match k {
             0 => c[0] - drive.b,
             _ if k < F => c[k] - drive.f[k],
@@ -118,7 +126,9 @@ fn linearized<N: Number, const LEN: usize, const F: usize>(
         if k + 2 < LEN {
             c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
         }
-    }
+    };
+    extend(0);
+    written_out!(1..LEN - 1, |k| extend(k));
     (c, velocity)
 }
 

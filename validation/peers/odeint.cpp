@@ -105,14 +105,16 @@ Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
     };
 }
 
-// `odeint singles FOLDER` or `odeint chains FOLDER`.
-int main(int, char** argv) {
+// `odeint singles FOLDER`, or `odeint chains FOLDER WORK RTOL...`.
+int main(int argc, char** argv) {
     const bool singles = std::string(argv[1]) == "singles";
     const std::string version = std::to_string(BOOST_VERSION / 100000) + "." +
                                 std::to_string(BOOST_VERSION / 100 % 1000);
+    std::vector<std::string> tolerances{"1e-06", "1e-09", "1e-12"};
     if (singles) header();
+    else tolerances.assign(argv + 4, argv + argc);
     for (bool stops : {false, true})
-        for (const char* rtol : {"1e-06", "1e-09", "1e-12"}) {
+        for (const std::string& rtol : tolerances) {
             const double relative = std::stod(rtol);
             auto own = [&](const Scene& scene, long& work) {
                 return flights(scene, work, relative, stops);
@@ -124,8 +126,9 @@ int main(int, char** argv) {
                             rtol,
                         argv[2], own);
             else
-                measure_chains("\"p = 3, alpha = 0.15, Boost.odeint " + method +
-                                   ", rtol " + rtol + "\"",
+                measure_chains("\"" + std::string(argv[3]) +
+                                   ", Boost.odeint " + method + ", rtol " +
+                                   rtol + "\"",
                                argv[2], own);
         }
 }

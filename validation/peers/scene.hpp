@@ -158,7 +158,8 @@ using Flights = std::function<Flight(const Scene&, long&)>;
 
 inline std::vector<std::string> files(const std::string& folder) {
     std::vector<std::string> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
+    using Entries = std::filesystem::recursive_directory_iterator;
+    for (const auto& entry : Entries(folder))
         if (entry.path().extension() == ".txt") paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     return paths;

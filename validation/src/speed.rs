@@ -8,6 +8,7 @@ pub mod answers;
 pub mod cases;
 pub mod clock;
 pub mod export;
+pub mod many;
 pub mod measured;
 pub mod rest;
 pub mod singles;

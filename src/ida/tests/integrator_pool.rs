@@ -79,7 +79,7 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
         (0.03, Model::Nonlinear, Class::Smooth, SMOOTH),
         (0.02, Model::Linearized, Class::Linearized, LINEARIZED),
     ] {
-        assert_eq!(class_of(model, p * dt_s), Some(class));
+        assert_eq!(class_of(model, p * dt_s, None), Some(class));
         let records = [0.0, 1.0, 2.0].map(|seed| wave(seed, dt_s));
         let mut left = Vec::new();
         for record in &records {

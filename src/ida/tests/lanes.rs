@@ -1,7 +1,7 @@
 use crate::block::{Block, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::ida::{Analysis, Grid, Method, Resurrections, curve, curves_with};
-use crate::integrator::{Model, Overturning};
+use crate::integrator::{Model, Order, Overturning};
 use crate::number::dispatch::Isa;
 use crate::record::{Accelerogram, AccelerogramError};
 
@@ -49,6 +49,10 @@ fn panel() -> Result<Vec<Analysis>, Box<dyn std::error::Error>> {
             ..paper
         });
         out.push(Analysis { model: Model::Linearized, grid: im, ..paper });
+        for order in [Order::Four, Order::Six, Order::Eight, Order::Ten] {
+            let order = Some(order);
+            out.push(Analysis { order, grid: im, highest_im: 12.0, ..paper });
+        }
     }
     Ok(out)
 }

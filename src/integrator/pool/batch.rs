@@ -4,7 +4,6 @@
 //! same operations in the same order; a lane whose step needs more than one
 //! plain impact is left to them.
 
-use crate::integrator::class::SMOOTH;
 use crate::integrator::driver::last_term;
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::chatter::Impacted;
@@ -178,9 +177,15 @@ impl Batch {
     }
 
     /// Solves the steps by series of `SIZE` coefficients, the class' own
-    /// being `LEN`; nothing happens in them if they are `FREE`.
+    /// being `LEN` and its longest `HARD`; nothing happens in them if they
+    /// are `FREE`.
     #[inline(always)]
-    pub fn solve<const LEN: usize, const SIZE: usize, const FREE: bool>(
+    pub fn solve<
+        const LEN: usize,
+        const HARD: usize,
+        const SIZE: usize,
+        const FREE: bool,
+    >(
         &self,
         model: Model,
         out: &mut Solved,
@@ -215,7 +220,7 @@ impl Batch {
             }
             let last = last_term(v[SIZE - 1].abs(), SIZE, h);
             left = left.or(allowed.below(last));
-        } else if LEN < SMOOTH {
+        } else if LEN < HARD {
             hard = again;
         } else {
             left = left.or(again);

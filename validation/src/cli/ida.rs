@@ -18,6 +18,7 @@ use serde_json::json;
 
 use refine::Refine;
 
+use super::order::OrderName;
 use super::processing::{ProcessingArgs, words};
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
@@ -75,6 +76,10 @@ pub struct Args {
     /// double precision cannot.
     #[arg(long)]
     certify: bool,
+    /// Step Eq. 1 at this order of the Taylor polynomial, whatever it leaves
+    /// [default: as high as each step needs for double precision].
+    #[arg(long, value_enum, conflicts_with = "certify")]
+    order: Option<OrderName>,
     /// Threads [default: all].
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -158,6 +163,7 @@ impl Args {
             refine: self.refine.map_or(Some(REFINEMENT), Refine::width),
             highest_im: HIGHEST_IM,
             resurrections,
+            order: self.order.map(OrderName::order),
         })
     }
 
@@ -332,6 +338,7 @@ fn summary_json(
         "processing": processing,
         "records": table.len(),
         "study_components": suite.study_rule().to_string(),
+        "order": args.order.map(OrderName::name),
         "analyses": counts.analyses,
         "overturned_curves": counts.overturned,
         "median_overturning_im": optional(median_overturning(table)),
@@ -370,6 +377,9 @@ fn summary(
     }
     row("records", table.len().to_string());
     row("study components", suite.study_rule().to_string());
+    if let Some(order) = args.order {
+        row("order", format!("{}, whatever it leaves", order.name()));
+    }
     row("analyses", counts.analyses.to_string());
     row("overturned", format!("{} of {}", counts.overturned, table.len()));
     if let Some(median) = median_overturning(table) {

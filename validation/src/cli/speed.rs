@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::integrator::Model;
 use rocking::number::dispatch::Isa;
@@ -11,18 +10,17 @@ use rocking::record::ReadOptions;
 use serde_json::{Value, json};
 
 use super::{Failure, print, progress};
+use crate::curves::Way;
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
 use crate::speed::clock::peak_memory_mib;
+use crate::speed::many;
 use crate::speed::measured::{Total, read_answers, text, totals};
 use crate::speed::singles::{BASE, ORDERS};
-use crate::speed::throughput::{
-    self, Throughput, analyses, at_order, in_lanes, kernel, lilliefors,
-    on_threads, one_by_one, samples_of,
-};
+use crate::speed::throughput::{self, Job, Throughput, analyses, on_threads};
 use crate::speed::{export, singles};
 use crate::study::grid::blocks;
 use crate::study::suites::StudySuite;
@@ -36,9 +34,9 @@ use crate::study::suites::StudySuite;
 #[derive(clap::Args)]
 pub struct Args {
     /// Suite of the throughput measurement: a folder of records, an index,
-    /// or a zip [default: both embedded suites].
+    /// or a zip; may be given more than once [default: both embedded suites].
     #[arg(long, value_name = "PATH")]
-    suite: Option<PathBuf>,
+    suite: Vec<PathBuf>,
     /// The single analyses alone.
     #[arg(long, conflicts_with = "suite")]
     singles: bool,
@@ -53,7 +51,7 @@ pub struct Args {
         long,
         value_name = "DIR",
         hide = true,
-        conflicts_with_all = ["suite", "singles", "out", "throughput", "answers", "json"]
+        conflicts_with_all = ["singles", "out", "throughput", "answers", "json"]
     )]
     export: Option<PathBuf>,
     /// Judge the answers of other tools beside our own.
@@ -73,11 +71,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let cases = cases::all()?;
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
-        let (block, records) = (middle()?, records(args)?);
-        let analyses = analyses(&[block], Model::Nonlinear)?;
-        let (_, found) = in_lanes("", 1, &records, &analyses)?;
+        let records = records(args)?;
+        let analyses = analyses(&blocks()?, Model::Nonlinear, None)?;
+        let threads = rayon::current_num_threads();
+        let way = Way::default();
+        let job = Job { analyses: &analyses, records: &records, way, threads };
+        let (_, found) = job.measure("")?;
         for (analysis, found) in analyses.iter().zip(&found) {
-            let folder = folder.join("chains");
+            let block = &analysis.block;
+            let (p, alpha) =
+                (block.frequency_rad_s(), block.slenderness_rad());
+            let folder = folder.join(format!("chains/p{p}-a{alpha:.2}"));
             export::chains(&folder, analysis, &records, found)?;
         }
         return Ok(());
@@ -94,7 +98,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         write_atomically(path, text(&rows)?)?;
     }
     let singles = totals(&rows, BASE);
-    let many = if args.singles { Vec::new() } else { many(args)? };
+    let many = if args.singles {
+        Vec::new()
+    } else {
+        let records = records(args)?;
+        let bar = progress(many::STEPS);
+        let all = many::measure(&records, &|| bar.inc(1))?;
+        bar.finish_and_clear();
+        all
+    };
     if let Some(path) = &args.throughput {
         write_atomically(path, throughput::text(&many)?)?;
     }
@@ -117,76 +129,23 @@ fn with_references(cases: Vec<Case>) -> Result<Vec<(Case, Answer)>, Failure> {
 }
 
 fn records(args: &Args) -> Result<Vec<NormalisedRecord>, Failure> {
-    if let Some(path) = &args.suite {
-        let suite = read_suite(path, ReadOptions::default())?;
-        return Ok(suite
-            .study_components()
-            .map(|member| NormalisedRecord::new(&member.accelerogram))
-            .collect());
+    if !args.suite.is_empty() {
+        let mut records = Vec::new();
+        for path in &args.suite {
+            let suite = read_suite(path, ReadOptions::default())?;
+            records.extend(
+                suite
+                    .study_components()
+                    .map(|member| NormalisedRecord::new(&member.accelerogram)),
+            );
+        }
+        return Ok(records);
     }
     Ok(StudySuite::embedded()?
         .iter()
         .flat_map(|suite| &suite.motions)
         .map(|motion| NormalisedRecord::new(&motion.study))
         .collect())
-}
-
-/// The block in the middle of the fifteen, for comparisons with tools that
-/// would take hours for all.
-fn middle() -> Result<Block, Failure> {
-    Ok(Block::try_new(0.15, 3.0)?)
-}
-
-/// Everything that takes many analyses.
-fn many(args: &Args) -> Result<Vec<Throughput>, Failure> {
-    let records = records(args)?;
-    let blocks = blocks()?;
-    let bar = progress(16);
-    let mut all = vec![
-        kernel("kernel in lanes, Eq. 1, order 9", Model::Nonlinear, 1e-3)?,
-        kernel("kernel in lanes, Eq. 1, order 13", Model::Nonlinear, 0.061)?,
-        kernel("kernel in lanes, Eq. 2", Model::Linearized, 1e-3)?,
-    ];
-    bar.inc(3);
-    let one = analyses(&[middle()?], Model::Nonlinear)?;
-    let name = |how: &str| format!("p = 3, alpha = 0.15, {how}");
-    all.push(in_lanes(&name("in lanes"), 1, &records, &one)?.0);
-    all.push(one_by_one(&name("one by one"), &records, &one)?);
-    bar.inc(2);
-    let threads = rayon::current_num_threads();
-    for (model, words) in
-        [(Model::Nonlinear, "Eq. 1"), (Model::Linearized, "Eq. 2")]
-    {
-        let analyses = analyses(&blocks, model)?;
-        let name = |how: &str| format!("15 blocks, {words}, {how}");
-        let (mut lanes, found) =
-            in_lanes(&name("in lanes"), 1, &records, &analyses)?;
-        bar.inc(1);
-        let steps = Some(samples_of(&records, &analyses, &found)?);
-        let mut each = one_by_one(&name("one by one"), &records, &analyses)?;
-        bar.inc(1);
-        lanes.samples = steps;
-        each.samples = steps;
-        all.push(lanes);
-        all.push(each);
-        let orders = ORDERS.iter().filter(|_| model == Model::Nonlinear);
-        for (setting, order) in orders {
-            let Some(order) = *order else { continue };
-            let name = name(&format!("one by one, {setting}"));
-            all.push(at_order(&name, &records, &analyses, &found, order)?);
-            bar.inc(1);
-        }
-        if threads > 1 {
-            let name = name("in lanes");
-            let (mut own, _) = in_lanes(&name, threads, &records, &analyses)?;
-            own.samples = steps;
-            all.push(own);
-        }
-        bar.inc(1);
-    }
-    all.push(lilliefors()?);
-    bar.finish_and_clear();
-    Ok(all)
 }
 
 fn machine(

@@ -6,8 +6,7 @@ use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
 use rocking::integrator::{
-    Model, Observe, Order, Overturning, Scene, SceneError, respond,
-    respond_at_order,
+    Model, Observe, Order, Overturning, Scene, respond,
 };
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
@@ -52,17 +51,32 @@ impl Throughput {
     }
 }
 
-/// The paper's analysis of every block in one of the two equations.
+/// Analyses and how they are made.
+#[derive(Clone, Copy)]
+pub struct Job<'a> {
+    /// The analyses, each of every record.
+    pub analyses: &'a [Analysis],
+    /// The records.
+    pub records: &'a [NormalisedRecord],
+    /// In lanes or one by one.
+    pub way: Way,
+    /// Threads.
+    pub threads: usize,
+}
+
+/// The paper's analysis of every block in one of the two equations, at an
+/// order if one is given.
 ///
 /// # Errors
 /// None in practice: the blocks are in range.
 pub fn analyses(
     blocks: &[Block],
     model: Model,
+    order: Option<Order>,
 ) -> Result<Vec<Analysis>, BlockError> {
     let restitution = Restitution::constant(ETA)?;
     let paper = |block: &Block| Analysis::paper(*block, restitution);
-    Ok(blocks.iter().map(|b| Analysis { model, ..paper(b) }).collect())
+    Ok(blocks.iter().map(|b| Analysis { model, order, ..paper(b) }).collect())
 }
 
 /// Processor time of `work` on a pool of that many threads.
@@ -81,54 +95,39 @@ pub fn on_threads<T: Send>(
     }))
 }
 
-/// Curves in lanes.
-///
-/// # Errors
-/// [`SpeedError`] for a record that cannot be analysed.
-pub fn in_lanes(
-    work: &str,
-    threads: usize,
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
-    let (cpu_s, found) = on_threads(threads, || {
-        Way::default().curves(records, analyses, &|| ())
-    })?;
-    let found = found?;
-    let all = found.iter().flatten();
-    let count = all.map(|c| c.analyses).fold(0, u64::saturating_add);
-    let work = work.into();
-    let measure =
-        Throughput { work, threads, cpu_s, count, samples: None, moved: None };
-    Ok((measure, found))
+impl Job<'_> {
+    /// Makes the curves, and says how long that took.
+    ///
+    /// # Errors
+    /// [`SpeedError`] for a record that cannot be analysed.
+    pub fn measure(
+        &self,
+        work: &str,
+    ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
+        let Self { analyses, records, way, threads } = *self;
+        let (cpu_s, found) =
+            on_threads(threads, || way.curves(records, analyses, &|| ()))?;
+        let found = found?;
+        let all = found.iter().flatten();
+        let count = all.map(|c| c.analyses).fold(0, u64::saturating_add);
+        let measured = Throughput {
+            work: work.into(),
+            threads,
+            cpu_s,
+            count,
+            samples: None,
+            moved: None,
+        };
+        Ok((measured, found))
+    }
 }
 
-/// The same curves one analysis at a time, on one thread.
-///
-/// # Errors
-/// [`SpeedError`] for a record that cannot be analysed.
-pub fn one_by_one(
-    work: &str,
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-) -> Result<Throughput, SpeedError> {
-    let chains =
-        analyses.iter().flat_map(|a| records.iter().map(move |r| (r, a)));
-    let (cpu_s, found) = on_threads(1, || {
-        chains
-            .map(|(r, a)| curve(r, a).map(|c| c.analyses))
-            .collect::<Result<Vec<u64>, _>>()
-    })?;
-    let count = found?.into_iter().fold(0, u64::saturating_add);
-    let work = work.into();
-    Ok(Throughput {
-        work,
-        threads: 1,
-        cpu_s,
-        count,
-        samples: None,
-        moved: None,
-    })
+/// Chains whose first overturning is at another level than those of `base`.
+#[must_use]
+pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
+    let level = |c: &IdaCurve| c.overturning.map(|first| first.scanned_im);
+    let both = found.iter().flatten().zip(base.iter().flatten());
+    both.filter(|(own, other)| level(own) != level(other)).count() as u64
 }
 
 /// Steps that the analyses of some curves took.
@@ -176,51 +175,6 @@ fn scene<'a>(
     }
 }
 
-/// The levels of some curves one by one at an order, up to the first that
-/// overturns at that order.
-///
-/// # Errors
-/// [`SpeedError`] for a record that cannot be analysed.
-pub fn at_order(
-    work: &str,
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-    found: &[Vec<IdaCurve>],
-    order: Order,
-) -> Result<Throughput, SpeedError> {
-    let climb = || -> Result<(u64, u64), SceneError> {
-        let (mut count, mut moved) = (0, 0);
-        for (analysis, curves) in analyses.iter().zip(found) {
-            for (record, curve) in records.iter().zip(curves) {
-                let mut same = true;
-                for point in &curve.points {
-                    let scene = scene(analysis, record, point.pga_g);
-                    let seen = Observe::default();
-                    let own = respond_at_order(&scene, &seen, order)?;
-                    count += 1;
-                    let overturned = own.outcome.is_overturned();
-                    same = overturned == point.outcome.is_overturned();
-                    if overturned {
-                        break;
-                    }
-                }
-                moved += u64::from(!same);
-            }
-        }
-        Ok((count, moved))
-    };
-    let (cpu_s, done) = on_threads(1, climb)?;
-    let (count, moved) = done?;
-    Ok(Throughput {
-        work: work.into(),
-        threads: 1,
-        cpu_s,
-        count,
-        samples: None,
-        moved: Some(moved),
-    })
-}
-
 /// The measurements as CSV.
 ///
 /// # Errors
@@ -250,6 +204,7 @@ pub fn parse(text: &str) -> Result<Vec<Throughput>, csv::Error> {
 pub fn kernel(
     work: &str,
     model: Model,
+    order: Option<Order>,
     step: f64,
 ) -> Result<Throughput, SpeedError> {
     const CHAINS: usize = 64;
@@ -262,7 +217,8 @@ pub fn kernel(
     let record = Accelerogram::try_new("push", step, samples.collect())?;
     let records = vec![NormalisedRecord::new(&record); CHAINS];
     let restitution = Restitution::constant(0.9995)?;
-    let paper = Analysis { model, ..Analysis::paper(block, restitution) };
+    let paper =
+        Analysis { model, order, ..Analysis::paper(block, restitution) };
     // The one level a little below overturning.
     let grid = Grid::Im { step: 0.01 };
     let tried = curve(&records[0], &Analysis { grid, ..paper })?;
@@ -271,9 +227,15 @@ pub fn kernel(
     let grid = Grid::Im { step: level };
     let highest_im = 1.0 + 1.5 * level;
     let one = [Analysis { grid, highest_im, ..paper }];
-    let (mut least, found) = in_lanes(work, 1, &records, &one)?;
+    let job = Job {
+        analyses: &one,
+        records: &records,
+        way: Way::default(),
+        threads: 1,
+    };
+    let (mut least, found) = job.measure(work)?;
     for _ in 0..2 {
-        let (again, _) = in_lanes(work, 1, &records, &one)?;
+        let (again, _) = job.measure(work)?;
         least.cpu_s = least.cpu_s.min(again.cpu_s);
     }
     let samples = Some(samples_of(&records, &one, &found)?);

@@ -1,8 +1,9 @@
 //! The timings as tables.
 
-use super::{Timings, digits};
+use super::{PAPER, Timings, digits};
 use crate::report::PlainTable;
 use crate::speed::measured::Total;
+use crate::speed::singles::BASE;
 use crate::speed::throughput::Throughput;
 
 /// What our own settings are for.
@@ -63,11 +64,16 @@ impl Timings {
     }
 
     fn settings(&self) -> PlainTable {
-        let moved = |setting: &str| {
-            let name = format!("15 blocks, Eq. 1, one by one, {setting}");
-            let row = self.many.iter().find(|t| t.work == name)?;
-            Some(row.moved?.to_string())
+        let shipped = self.of_many(PAPER).map(Throughput::rate_per_s);
+        let many = |setting: &str| {
+            if setting == BASE[2] {
+                return self.of_many(PAPER);
+            }
+            self.of_many(&format!("{PAPER}, {setting}"))
         };
+        let moved = |setting| Some(many(setting)?.moved?.to_string());
+        let in_lanes =
+            |setting| Some(digits(shipped? / many(setting)?.rate_per_s()));
         let rows = self
             .singles
             .iter()
@@ -86,6 +92,7 @@ impl Timings {
                         setting.to_owned()
                     },
                     digits(t.ratio),
+                    in_lanes(setting).unwrap_or_default(),
                     unless(t.peak_error),
                     unless(t.peak_error_90),
                     moved(setting).unwrap_or_default(),
@@ -98,12 +105,14 @@ impl Timings {
             "Which of our settings when",
             "Moved: of the chains of 15 blocks and all embedded records \
              (0.01 g steps), those whose first overturning is at another \
-             level than as shipped. Orders are chosen by the library's \
-             respond_at_order; commands run as shipped."
+             level than as shipped. An order is chosen by ida --order or, \
+             in the library, by Analysis::order and respond_at_order; the \
+             other commands, and this study, run as shipped."
                 .into(),
             &[
                 "setting",
-                "time / as shipped",
+                "single analyses: time / as shipped",
+                "many, in lanes: time / as shipped",
                 "peak error",
                 "90 % below",
                 "chains moved",
@@ -150,7 +159,7 @@ impl Timings {
         )
     }
 
-    /// The same work in lanes on one thread.
+    /// The same work in lanes on one thread, as shipped.
     pub(super) fn base(&self, of: &Throughput) -> Option<&Throughput> {
         self.many.iter().find(|t| {
             let prefix = t.work.strip_suffix("in lanes");

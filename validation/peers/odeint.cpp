@@ -52,8 +52,10 @@ Flight flights(const Scene& scene, long& work, double rtol, bool stops) {
             double stop = scene.end + 60;
             if (t < scene.end) stop = scene.end;
             if (stops) {
+                // The quotient may come out just below a whole number.
                 size_t k = size_t(t / scene.dt);
-                if (t < scene.end && double(k + 1) * scene.dt - t < 1e-12) k++;
+                if (t >= scene.end) k = scene.slope.size();
+                else if (double(k + 1) * scene.dt - t < 1e-12) k++;
                 if (k < scene.slope.size()) {
                     stop = double(k + 1) * scene.dt;
                     f0 = scene.f[k], slope = scene.slope[k];

@@ -121,6 +121,9 @@ struct Result {
 
 using Flight = std::function<Landing(double t, double side, double w)>;
 
+// Fifty times those of any analysis: a tool that bounces on the spot fails.
+constexpr size_t MOST_IMPACTS = 100000;
+
 inline Result run(const Scene& scene, const Flight& flight) {
     const double inf = std::numeric_limits<double>::infinity();
     double peak = 0, t = 0;
@@ -137,6 +140,8 @@ inline Result run(const Scene& scene, const Flight& flight) {
                 throw std::runtime_error(scene.name + ": a flight failed");
             if (t > scene.end) return {peak / scene.alpha, impacts};
             impacts.push_back(t);
+            if (impacts.size() > MOST_IMPACTS)
+                throw std::runtime_error(scene.name + ": impacts without end");
             side = -side;
             w = -scene.eta * end.w;
             if (auto rest = scene.chatter(t, side, w)) {
@@ -192,6 +197,7 @@ inline void measure_chains(const std::string& label, const std::string& folder,
         moved += !same;
     }
     std::printf("%s,1,%.4g,%ld,,%ld\n", label.c_str(), total, count, moved);
+    std::fflush(stdout);
 }
 
 // Runs all cases and prints a line for each; the time is the least of five.

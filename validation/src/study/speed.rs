@@ -14,6 +14,8 @@ use crate::speed::throughput::{self, Throughput};
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
 const MANY: &str = include_str!("../../../fixtures/speed/throughput.csv");
+const WINDOW_STEP: &str =
+    include_str!("../../../fixtures/speed/window-step.csv");
 const CONDITIONS: &str =
     include_str!("../../../fixtures/speed/conditions.csv");
 
@@ -47,6 +49,8 @@ pub struct Timings {
     singles: Vec<Total>,
     many: Vec<Throughput>,
     conditions: Vec<(String, String)>,
+    /// Header and rows of a trial.
+    window_step: (Vec<String>, Vec<Vec<String>>),
 }
 
 impl Timings {
@@ -62,6 +66,7 @@ impl Timings {
             singles: totals(&measured::parse(SINGLES)?, BASE),
             many: throughput::parse(MANY)?,
             conditions: pairs?,
+            window_step: table(WINDOW_STEP)?,
         })
     }
 
@@ -263,6 +268,14 @@ impl Timings {
             self.measured_on()
         )
     }
+}
+
+/// Header and rows.
+fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers()?.iter().map(str::to_owned).collect();
+    let rows = reader.deserialize().collect::<Result<_, _>>()?;
+    Ok((header, rows))
 }
 
 fn logarithmic(label: &str) -> Axis {

@@ -9,6 +9,8 @@ use serde_json::Value;
 
 #[path = "cli/diff.rs"]
 mod diff;
+#[path = "cli/order.rs"]
+mod order;
 #[path = "cli/support.rs"]
 mod support;
 #[path = "cli/texts.rs"]
@@ -103,14 +105,6 @@ fn bad_numbers_are_refused_with_their_flag() {
         ("study --refine -1 --out report", "-1"),
     ] {
         refused_for(&place, arguments, &[name]);
-    }
-    for (flags, words) in [
-        ("--order 5", "possible values: 4, 6, 8, 10"),
-        ("--order 6 --certify", "cannot be used with"),
-    ] {
-        let ida = "ida --alpha 0.1 --p 3 --suite s --out o.csv";
-        let error = refused(&place, &format!("{ida} {flags}"));
-        assert!(error.contains(words), "{flags}: {error}");
     }
     for (flag, value) in [
         ("--eta", "0"),

@@ -26,9 +26,9 @@ impl Certification {
     }
 }
 
-/// [`curve`](crate::ida::curve) with every fate certified: where the margin does not clear the
-/// error in double precision, the outcome is that of a run in double-double
-/// (see [`certify`]), and the chain goes on from it.
+/// [`curve`](crate::ida::curve) with every fate certified: where the margin
+/// does not clear the error in double precision, the outcome is that of a run
+/// in double-double (see [`certify`]), and the chain goes on from it.
 ///
 /// # Errors
 /// As [`curve`](crate::ida::curve).
@@ -46,7 +46,8 @@ pub fn certified_curve(
     Ok((climb.finish(), count))
 }
 
-/// [`curves`](crate::ida::curves) with every fate certified, as [`certified_curve`].
+/// [`curves`](crate::ida::curves) with every fate certified, as
+/// [`certified_curve`].
 ///
 /// # Errors
 /// As [`curves`](crate::ida::curves).

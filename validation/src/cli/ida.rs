@@ -150,10 +150,11 @@ impl Args {
             Some(im) => Resurrections::To(im),
             None => Resurrections::Multiple(3.0),
         });
+        let model = self.model.model();
         Ok(Analysis {
             block,
             restitution: self.model.restitution(&block)?,
-            model: self.model.model(),
+            model,
             overturning: self.model.overturning(),
             grid,
             method: match self.by {
@@ -163,7 +164,7 @@ impl Args {
             refine: self.refine.map_or(Some(REFINEMENT), Refine::width),
             highest_im: HIGHEST_IM,
             resurrections,
-            order: self.order.map(OrderName::order),
+            order: self.order.map(|name| name.order(model)).transpose()?,
         })
     }
 

@@ -1,7 +1,9 @@
 //! The flag that trades error for speed.
 
 use clap::ValueEnum;
-use rocking::integrator::Order;
+use rocking::integrator::{Model, Order};
+
+use super::Failure;
 
 /// An order of the Taylor polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -22,14 +24,21 @@ pub enum OrderName {
 
 impl OrderName {
     /// The order.
-    #[must_use]
-    pub fn order(self) -> Order {
-        match self {
+    ///
+    /// # Errors
+    /// [`Failure`] for Eq. 2, which has no choice of it.
+    pub fn order(self, model: Model) -> Result<Order, Failure> {
+        if model == Model::Linearized {
+            return Err(Failure::input(
+                "--order is for Eq. 1; --model linearized has no choice of it",
+            ));
+        }
+        Ok(match self {
             Self::Four => Order::Four,
             Self::Six => Order::Six,
             Self::Eight => Order::Eight,
             Self::Ten => Order::Ten,
-        }
+        })
     }
 
     /// Its name.

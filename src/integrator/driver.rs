@@ -198,10 +198,10 @@ where
         self.record.work.steps += steps;
     }
 
-    /// Counts an impact solved elsewhere.
+    /// Counts impacts solved elsewhere.
     #[inline(always)]
-    pub fn count_impact(&mut self) {
-        self.record.work.impacts += 1;
+    pub fn count_impacts(&mut self, impacts: u64) {
+        self.record.work.impacts += impacts;
     }
 
     /// Truncation allowed in a step, as a share of the velocity.

@@ -23,6 +23,9 @@ use batch::{Batch, Solved};
 use group::{Group, WIDTH};
 use waiting::{Kind, Lane, Line, Waiting};
 
+/// All lanes.
+type Groups<'a> = [Group<'a>; GROUPS];
+
 /// Groups of lanes: enough that a lane seldom waits for others, few enough
 /// that all stay in the nearest cache.
 const GROUPS: usize = 16;
@@ -131,8 +134,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
 
     fn run(mut self) -> Tally {
         let (model, isa) = (self.class.model(), self.isa);
-        let mut groups: Vec<Group<'a>> =
-            (0..GROUPS).map(|_| Group::idle()).collect();
+        let mut groups = std::array::from_fn(|_| Group::idle());
         let mut waiting = Waiting { lines: [Line::EMPTY; 3] };
         let mut batch = Batch::empty();
         let mut solved = Solved::nothing();
@@ -176,7 +178,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
     }
 
     /// Gives empty slots something to do; true if something was settled.
-    fn fill(&mut self, groups: &mut [Group<'a>]) -> bool {
+    fn fill(&mut self, groups: &mut Groups<'a>) -> bool {
         let mut settled = false;
         for slot in 0..self.slots.len() {
             if self.slots[slot].is_some() {
@@ -187,8 +189,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 break;
             }
             self.busy += 1;
-            let lane = Lane { group: slot / WIDTH, lane: slot % WIDTH };
-            settled |= self.proceed(lane, groups);
+            settled |= self.proceed(Lane::of(slot), groups);
         }
         settled
     }
@@ -212,7 +213,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
 
     /// Goes on, by the scalar driver, until the run is in free flight or
     /// nothing is left for its slot; true if something was settled.
-    fn proceed(&mut self, lane: Lane, groups: &mut [Group<'a>]) -> bool {
+    fn proceed(&mut self, lane: Lane, groups: &mut Groups<'a>) -> bool {
         let mut settled = false;
         let k = lane.slot();
         while let Some(slot) = &mut self.slots[k] {
@@ -222,7 +223,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                         && step.place.offset
                             < slot.driver.forcing().step() =>
                 {
-                    groups[lane.group].load(lane.lane, slot);
+                    groups[lane.group()].load(lane.lane(), slot);
                     break;
                 }
                 Stage::Flying(step) => slot.advance(step, self.isa),
@@ -246,17 +247,17 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
     #[inline(always)]
     fn scatter(
         &mut self,
-        groups: &mut [Group<'a>],
+        groups: &mut Groups<'a>,
         waiting: &mut Waiting,
         solved: &Solved,
     ) -> bool {
         let mut settled = false;
         for i in 0..solved.count {
             let id = solved.lanes[i];
-            let Some(slot) = &mut self.slots[id.slot()] else { continue };
-            let (group, lane) = (&mut groups[id.group], id.lane);
+            let (group, lane) = (&mut groups[id.group()], id.lane());
             if solved.left.at(i) {
                 self.tally.left += 1;
+                let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 group.release(lane, slot);
                 if let Stage::Flying(step) = slot.stage {
                     slot.advance(step, self.isa);
@@ -271,6 +272,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             }
             self.tally.solved += 1;
             if solved.turned.at(i) {
+                let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 let place = Place {
                     piece: group.next[lane] as usize - 1,
                     offset: group.offset[lane],
@@ -288,15 +290,17 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             group.extra[lane] += u64::from(solved.again.at(i));
             if solved.impact.at(i) {
                 group.extra[lane] += 1;
+                group.impacts[lane] += 1;
                 if solved.rested.at(i) {
-                    slot.driver.count_impact();
+                    let Some(slot) = &mut self.slots[id.slot()] else {
+                        continue;
+                    };
                     group.release(lane, slot);
                     slot.rest(solved.rest[i]);
                     settled |= self.proceed(id, groups);
                     continue;
                 }
                 group.side[lane] = group.side[lane].flipped();
-                slot.driver.count_impact();
             } else {
                 group.next[lane] += 1;
             }
@@ -320,7 +324,7 @@ impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
     fn run(self) -> bool {
         let mut moved = false;
         let (mut stopped, mut hard) = ([0; GROUPS], [0; GROUPS]);
-        for (k, group) in self.groups.iter_mut().enumerate().take(GROUPS) {
+        for (k, group) in self.groups.iter_mut().enumerate() {
             if !group.is_idle() {
                 moved = true;
                 let parked = group.step::<LEN>(self.model);

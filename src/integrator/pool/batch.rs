@@ -10,7 +10,7 @@ use crate::integrator::pool::chatter::Impacted;
 use crate::integrator::pool::group::{Group, WIDTH};
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::waiting::{Lane, Line};
-use crate::integrator::pool::{SMALL, Slot};
+use crate::integrator::pool::{GROUPS, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
 use crate::number::Number;
 use crate::number::lanes::{Lanes, Mask};
@@ -73,7 +73,7 @@ impl Solved {
     pub fn nothing() -> Self {
         let (zero, none) = (Lanes::splat(0.0), Mask::splat(false));
         Self {
-            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            lanes: [Lane::of(0); WIDTH],
             count: 0,
             left: none,
             hard: none,
@@ -119,7 +119,7 @@ impl Batch {
     pub fn empty() -> Self {
         let zero = Lanes::splat(0.0);
         Self {
-            lanes: [Lane { group: 0, lane: 0 }; WIDTH],
+            lanes: [Lane::of(0); WIDTH],
             count: 0,
             u: zero,
             w: zero,
@@ -145,14 +145,14 @@ impl Batch {
     pub fn gather<T, const LEN: usize>(
         &mut self,
         line: &mut Line,
-        groups: &[Group<'_>],
+        groups: &[Group<'_>; GROUPS],
         slots: &[Option<Slot<'_, T, LEN>>],
     ) {
         (self.lanes, self.count) = line.take();
         let out = self;
         let lanes = out.lanes;
         for (i, id) in lanes.iter().take(out.count).enumerate() {
-            let (group, lane) = (&groups[id.group], id.lane);
+            let (group, lane) = (&groups[id.group()], id.lane());
             out.u[i] = group.u[lane];
             out.w[i] = group.w[lane];
             out.here[i] = group.here[lane];

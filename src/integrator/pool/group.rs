@@ -49,6 +49,8 @@ pub(super) struct Group<'a> {
     first: [u64; WIDTH],
     /// Steps taken here beside one for each sample.
     pub extra: [u64; WIDTH],
+    /// Impacts here.
+    pub impacts: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
     active: Mask<WIDTH>,
 }
@@ -81,6 +83,7 @@ impl<'a> Group<'a> {
             next: [0; WIDTH],
             first: [0; WIDTH],
             extra: [0; WIDTH],
+            impacts: [0; WIDTH],
             active: Mask::splat(false),
         }
     }
@@ -113,6 +116,7 @@ impl<'a> Group<'a> {
     ) {
         let steps = self.next[lane] - self.first[lane] + self.extra[lane];
         slot.driver.count_steps(steps);
+        slot.driver.count_impacts(self.impacts[lane]);
         self.samples[lane] = &[];
         self.active.set(lane, false);
         let Stage::Flying(step) = &mut slot.stage else { return };
@@ -152,7 +156,7 @@ impl<'a> Group<'a> {
         self.samples[lane] = samples;
         self.next[lane] = piece as u64 + 1;
         self.first[lane] = piece as u64 + 1;
-        self.extra[lane] = 0;
+        (self.extra[lane], self.impacts[lane]) = (0, 0);
         self.last[lane] = driver.last_allowed::<LEN>(h) / SAFETY;
         self.least[lane] = dynamics.alpha * h;
         self.ceiling[lane] = dynamics.limit.min(SMALL);

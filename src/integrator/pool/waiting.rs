@@ -44,8 +44,7 @@ impl Waiting {
             left &= left - 1;
             // An index, not a branch: nobody can predict it.
             let kind = 1 - (hard >> slot & 1) as usize;
-            let (group, lane) = (slot / WIDTH, slot % WIDTH);
-            self.lines[kind].push(Lane { group, lane });
+            self.lines[kind].push(Lane::of(slot));
         }
     }
 
@@ -54,29 +53,33 @@ impl Waiting {
     }
 }
 
-/// Lanes in a line: there is room for all of them.
+/// Lanes in a line, a ring: there is room for all of them.
 pub(super) struct Line {
     lanes: [Lane; GROUPS * WIDTH],
+    first: usize,
     pub count: usize,
 }
 
 impl Line {
     pub const EMPTY: Self =
-        Self { lanes: [Lane { group: 0, lane: 0 }; GROUPS * WIDTH], count: 0 };
+        Self { lanes: [Lane(0); GROUPS * WIDTH], first: 0, count: 0 };
 
     #[inline(always)]
     pub fn push(&mut self, lane: Lane) {
-        self.lanes[self.count % (GROUPS * WIDTH)] = lane;
+        self.lanes[(self.first + self.count) % (GROUPS * WIDTH)] = lane;
         self.count += 1;
     }
 
-    /// Takes up to eight out, those that wait longest first.
+    /// Takes up to eight out, those that wait longest first; the others are
+    /// the first once more.
     #[inline(always)]
     pub fn take(&mut self) -> ([Lane; WIDTH], usize) {
         let taken = self.count.min(WIDTH);
-        let mut lanes = [Lane { group: 0, lane: 0 }; WIDTH];
-        lanes[..taken].copy_from_slice(&self.lanes[..taken]);
-        self.lanes.copy_within(taken..self.count, 0);
+        let lanes = std::array::from_fn(|i| {
+            let i = if i < taken { i } else { 0 };
+            self.lanes[(self.first + i) % (GROUPS * WIDTH)]
+        });
+        self.first = (self.first + taken) % (GROUPS * WIDTH);
         self.count -= taken;
         (lanes, taken)
     }
@@ -84,13 +87,27 @@ impl Line {
 
 /// A lane of a group.
 #[derive(Clone, Copy)]
-pub(super) struct Lane {
-    pub group: usize,
-    pub lane: usize,
-}
+pub(super) struct Lane(u8);
 
 impl Lane {
+    #[inline(always)]
+    pub fn of(slot: usize) -> Self {
+        const { assert!(GROUPS * WIDTH <= 1 << u8::BITS) };
+        Self(slot as u8)
+    }
+
+    #[inline(always)]
     pub fn slot(self) -> usize {
-        self.group * WIDTH + self.lane
+        usize::from(self.0) % (GROUPS * WIDTH)
+    }
+
+    #[inline(always)]
+    pub fn group(self) -> usize {
+        self.slot() / WIDTH
+    }
+
+    #[inline(always)]
+    pub fn lane(self) -> usize {
+        self.slot() % WIDTH
     }
 }

@@ -43,6 +43,29 @@ fn draws_the_same_bytes_twice() {
     }
 }
 
+/// A ratio of times means little beside another error: ours is that of a
+/// setting that is no worse than the peer's in any of them, and a peer that
+/// errs less leaves fewer settings, in the end none.
+#[test]
+fn ratios_are_at_no_larger_error() {
+    let mut kept = Timings::kept().expect("tables");
+    let mut peer = kept.of_many(PEER).expect("work").clone();
+    let quick = |kept: &Timings, peer: &Throughput| {
+        kept.no_worse(peer).map(|(setting, _)| setting.to_owned())
+    };
+    let told = quick(&kept, &peer).expect("a setting");
+    assert!(kept.plain().contains(&format!("; at {told}, where no error")));
+
+    let moved = kept.of_many(&format!("{PAPER}, {told}")).expect("work").moved;
+    peer.moved = moved.map(|n| n - 1);
+    assert_ne!(quick(&kept, &peer), Some(told));
+    let theirs = |t: &&mut Total| t.label[0] == PEER_SETTING[0];
+    for total in kept.singles.iter_mut().filter(theirs) {
+        total.peak_error = 0.0;
+    }
+    assert_eq!(quick(&kept, &peer), None);
+}
+
 #[test]
 fn numbers_are_short() {
     let shown = [0.0, 2.84e-16, 0.0171, 1.0, 9703.4, f64::NAN];

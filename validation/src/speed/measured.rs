@@ -200,8 +200,12 @@ pub struct Total {
     pub peak_error: f64,
     /// The error of the peak that nine in ten stay below.
     pub peak_error_90: f64,
+    /// The largest.
+    pub peak_error_worst: f64,
     /// Median error of impact times in s.
     pub impact_error_s: f64,
+    /// The largest.
+    pub impact_error_worst_s: f64,
     /// Wrong fates.
     pub wrong_fates: usize,
     /// Cases with another number of impacts.
@@ -242,6 +246,7 @@ pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
             };
             let peaks: Vec<f64> =
                 of.iter().filter_map(|row| row.peak_error).collect();
+            let impacts = each(&|row| row.impact_error_s);
             let times = each(&|row| row.cpu_s);
             let mean =
                 times.iter().fold(0.0, |sum, t| sum + t) / times.len() as f64;
@@ -252,8 +257,10 @@ pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
                 mean_cpu_s: mean,
                 work: at(each(&|row| row.work as f64), 0.5),
                 peak_error: at(peaks.clone(), 0.5),
-                peak_error_90: at(peaks, 0.9),
-                impact_error_s: at(each(&|row| row.impact_error_s), 0.5),
+                peak_error_90: at(peaks.clone(), 0.9),
+                peak_error_worst: at(peaks, 1.0),
+                impact_error_s: at(impacts.clone(), 0.5),
+                impact_error_worst_s: at(impacts, 1.0),
                 wrong_fates: of.iter().filter(|r| !r.right_fate).count(),
                 other_impacts: of.iter().filter(|r| !r.same_impacts).count(),
                 ratio: at(each(&|row| row.cpu_s / base_s(&row.case)), 0.5),

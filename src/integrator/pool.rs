@@ -18,9 +18,10 @@ use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene};
-use crate::number::dispatch::{Isa, Work};
+use crate::number::dispatch::{Isa, WideWork, Work};
+use crate::number::lanes::{Several, WIDTH};
 use batch::{Batch, Solved};
-use group::{Group, WIDTH};
+use group::Group;
 use waiting::{Kind, Lane, Line, Waiting};
 
 /// All lanes.
@@ -253,9 +254,9 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
     ) -> bool {
         let mut settled = false;
         for i in 0..solved.count {
-            let id = solved.lanes[i];
+            let (id, bit) = (solved.lanes[i], 1 << i);
             let (group, lane) = (&mut groups[id.group()], id.lane());
-            if solved.left.at(i) {
+            if solved.left & bit != 0 {
                 self.tally.left += 1;
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 group.release(lane, slot);
@@ -265,13 +266,13 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 settled |= self.proceed(id, groups);
                 continue;
             }
-            if solved.hard.at(i) {
+            if solved.hard & bit != 0 {
                 self.tally.passed += 1;
                 waiting.line(Kind::Both).push(id);
                 continue;
             }
             self.tally.solved += 1;
-            if solved.turned.at(i) {
+            if solved.turned & bit != 0 {
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 let place = Place {
                     piece: group.next[lane] as usize - 1,
@@ -287,11 +288,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             group.offset[lane] = solved.offset[i];
             group.length[lane] = solved.length[i];
             group.amplitude[lane] = solved.amplitude[i];
-            group.extra[lane] += u64::from(solved.again.at(i));
-            if solved.impact.at(i) {
+            group.extra[lane] += u64::from(solved.again >> i & 1);
+            if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                if solved.rested.at(i) {
+                if solved.rested & bit != 0 {
                     let Some(slot) = &mut self.slots[id.slot()] else {
                         continue;
                     };
@@ -317,18 +318,29 @@ struct Sweep<'g, 'a, const LEN: usize> {
     waiting: &'g mut Waiting,
 }
 
-impl<const LEN: usize> Work for Sweep<'_, '_, LEN> {
+impl<const LEN: usize> WideWork for Sweep<'_, '_, LEN> {
     type Output = bool;
 
     #[inline(always)]
-    fn run(self) -> bool {
+    fn run<V: Several>(self) -> bool {
+        match self.model {
+            Model::Nonlinear => self.step::<V>(Model::Nonlinear),
+            Model::Linearized => self.step::<V>(Model::Linearized),
+        }
+    }
+}
+
+impl<const LEN: usize> Sweep<'_, '_, LEN> {
+    /// The model, a constant here, is not asked for in the loop.
+    #[inline(always)]
+    fn step<V: Several>(self, model: Model) -> bool {
         let mut moved = false;
         let (mut stopped, mut hard) = ([0; GROUPS], [0; GROUPS]);
         for (k, group) in self.groups.iter_mut().enumerate() {
             if !group.is_idle() {
                 moved = true;
-                let parked = group.step::<LEN>(self.model);
-                [stopped[k], hard[k], ..] = parked.to_le_bytes();
+                let parked = group.step::<V, LEN>(model);
+                (stopped[k], hard[k]) = (parked.lanes, parked.hard);
             }
         }
         // All groups together: one branch that nobody can predict.
@@ -345,22 +357,22 @@ struct Solve<'b, const LEN: usize, const HARD: usize> {
     solved: &'b mut Solved,
 }
 
-impl<const LEN: usize, const HARD: usize> Work for Solve<'_, LEN, HARD> {
+impl<const LEN: usize, const HARD: usize> WideWork for Solve<'_, LEN, HARD> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<V: Several>(self) {
         let Self { model, kind, batch, solved } = self;
         match kind {
             Kind::Hard => {
-                batch.solve::<LEN, HARD, HARD, true>(model, solved);
+                batch.solve::<V, LEN, HARD, HARD, true>(model, solved);
             }
             Kind::Both if HARD > LEN => {
-                batch.solve::<LEN, HARD, HARD, false>(model, solved);
+                batch.solve::<V, LEN, HARD, HARD, false>(model, solved);
             }
             // No lane waits for both where there is no longer series.
             Kind::Events | Kind::Both => {
-                batch.solve::<LEN, HARD, LEN, false>(model, solved);
+                batch.solve::<V, LEN, HARD, LEN, false>(model, solved);
             }
         }
     }

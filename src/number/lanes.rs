@@ -8,22 +8,118 @@ use std::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 use crate::number::{Number, sin_cos_polynomials};
 
-/// `W` doubles on which every operation acts one by one: each has the bits
-/// that it would have alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
-pub(crate) struct Lanes<const W: usize>(pub [f64; W]);
+/// Numbers in as many lanes.
+pub(crate) const WIDTH: usize = 8;
 
-impl<const W: usize> Lanes<W> {
-    /// The same number in every lane.
-    #[inline(always)]
-    pub fn splat(x: f64) -> Self {
-        Self([x; W])
-    }
+/// Numbers in lanes, on which every operation acts one by one: each has the
+/// bits that it would have alone.
+pub(crate) trait Several: Number {
+    /// A truth in every lane.
+    type Truths: Truths<Self>;
+
+    /// From memory.
+    fn load(from: &Lanes) -> Self;
+
+    /// From places in memory.
+    fn gather(from: [&f64; WIDTH]) -> Self;
+
+    /// To memory.
+    fn store(self, to: &mut Lanes);
 
     /// Absolute values.
+    fn abs(self) -> Self;
+
+    /// The larger numbers.
+    fn max(self, other: Self) -> Self;
+
+    /// The smaller numbers.
+    fn min(self, other: Self) -> Self;
+
+    /// Square roots.
+    fn sqrt(self) -> Self;
+
+    /// Lanes in which this is less than `other`.
+    fn below(self, other: Self) -> Self::Truths;
+
+    /// Lanes in which this is at most `other`.
+    fn at_most(self, other: Self) -> Self::Truths;
+
+    /// Lanes in which this equals `other`.
+    fn equals(self, other: Self) -> Self::Truths;
+}
+
+/// A truth in every lane.
+pub(crate) trait Truths<N>: Copy {
+    /// True in the lanes whose bits are set.
+    fn of(bits: u8) -> Self;
+
+    /// A bit for each lane.
+    fn bits(self) -> u8;
+
+    /// Where it is false.
+    fn not(self) -> Self;
+
+    /// Where both are true.
+    fn and(self, other: Self) -> Self;
+
+    /// Where either is true.
+    fn or(self, other: Self) -> Self;
+
+    /// Where this is true and `other` is not.
+    fn but_not(self, other: Self) -> Self;
+
+    /// `yes` where it is true, `no` where it is not.
+    fn select(self, yes: N, no: N) -> N;
+
+    /// Counts the lanes in which it is true.
+    fn count(self, counts: &mut [u64; WIDTH]);
+
+    /// The same truth in every lane.
     #[inline(always)]
-    pub fn abs(self) -> Self {
+    fn splat(truth: bool) -> Self {
+        Self::of(if truth { u8::MAX } else { 0 })
+    }
+
+    /// True if any lane's is.
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.bits() != 0
+    }
+}
+
+/// Numbers in lanes where no instruction set is known to have them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct Lanes(pub [f64; WIDTH]);
+
+impl Lanes {
+    /// The same number in every lane.
+    #[inline(always)]
+    pub const fn splat(x: f64) -> Self {
+        Self([x; WIDTH])
+    }
+}
+
+impl Several for Lanes {
+    type Truths = Mask;
+
+    #[inline(always)]
+    fn load(from: &Lanes) -> Self {
+        *from
+    }
+
+    #[inline(always)]
+    fn gather(from: [&f64; WIDTH]) -> Self {
+        Self(from.map(|x| *x))
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut Lanes) {
+        *to = self;
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
         let mut out = self.0;
         for x in &mut out {
             *x = x.abs();
@@ -31,21 +127,18 @@ impl<const W: usize> Lanes<W> {
         Self(out)
     }
 
-    /// The larger numbers.
     #[inline(always)]
-    pub fn max(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         other.below(self).select(self, other)
     }
 
-    /// The smaller numbers.
     #[inline(always)]
-    pub fn min(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         self.below(other).select(self, other)
     }
 
-    /// Square roots.
     #[inline(always)]
-    pub fn sqrt(self) -> Self {
+    fn sqrt(self) -> Self {
         let mut out = self.0;
         for x in &mut out {
             *x = x.sqrt();
@@ -53,31 +146,28 @@ impl<const W: usize> Lanes<W> {
         Self(out)
     }
 
-    /// Lanes in which this is less than `other`.
     #[inline(always)]
-    pub fn below(self, other: Self) -> Mask<W> {
-        let mut out = [0; W];
-        for lane in 0..W {
+    fn below(self, other: Self) -> Mask {
+        let mut out = [0; WIDTH];
+        for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] < other.0[lane]);
         }
         Mask(out)
     }
 
-    /// Lanes in which this is at most `other`.
     #[inline(always)]
-    pub fn at_most(self, other: Self) -> Mask<W> {
-        let mut out = [0; W];
-        for lane in 0..W {
+    fn at_most(self, other: Self) -> Mask {
+        let mut out = [0; WIDTH];
+        for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] <= other.0[lane]);
         }
         Mask(out)
     }
 
-    /// Lanes in which this equals `other`.
     #[inline(always)]
-    pub fn equals(self, other: Self) -> Mask<W> {
-        let mut out = [0; W];
-        for lane in 0..W {
+    fn equals(self, other: Self) -> Mask {
+        let mut out = [0; WIDTH];
+        for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] == other.0[lane]);
         }
         Mask(out)
@@ -92,30 +182,29 @@ fn ones(truth: bool) -> u64 {
 /// A truth in every lane, as all its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(align(64))]
-pub(crate) struct Mask<const W: usize>([u64; W]);
+pub(crate) struct Mask([u64; WIDTH]);
 
-impl<const W: usize> Mask<W> {
-    /// The same truth in every lane.
+impl Truths<Lanes> for Mask {
     #[inline(always)]
-    pub fn splat(truth: bool) -> Self {
-        Self([ones(truth); W])
+    fn of(bits: u8) -> Self {
+        let mut out = [0; WIDTH];
+        for lane in 0..WIDTH {
+            out[lane] = ones(bits & 1 << lane != 0);
+        }
+        Self(out)
     }
 
-    /// Sets the truth of a lane.
     #[inline(always)]
-    pub fn set(&mut self, lane: usize, truth: bool) {
-        self.0[lane] = ones(truth);
+    fn bits(self) -> u8 {
+        let mut bits = 0;
+        for lane in 0..WIDTH {
+            bits |= self.0[lane] & 1 << lane;
+        }
+        bits as u8
     }
 
-    /// The truth of a lane.
     #[inline(always)]
-    pub fn at(self, lane: usize) -> bool {
-        self.0[lane] != 0
-    }
-
-    /// True if any lane's is.
-    #[inline(always)]
-    pub fn any(self) -> bool {
+    fn any(self) -> bool {
         let mut any = 0;
         for x in self.0 {
             any |= x;
@@ -123,20 +212,8 @@ impl<const W: usize> Mask<W> {
         any != 0
     }
 
-    /// Bit k set where lane k is true, and bit W + k where that of `other`
-    /// is, too.
     #[inline(always)]
-    pub fn bits_with(self, other: Self) -> u64 {
-        let mut bits = 0;
-        for (lane, (x, y)) in self.0.iter().zip(other.0).enumerate() {
-            bits |= x & (1 << lane | y & 1 << (W + lane));
-        }
-        bits
-    }
-
-    /// Where it is false.
-    #[inline(always)]
-    pub fn not(self) -> Self {
+    fn not(self) -> Self {
         let mut out = self.0;
         for x in &mut out {
             *x = !*x;
@@ -144,9 +221,8 @@ impl<const W: usize> Mask<W> {
         Self(out)
     }
 
-    /// Where both are true.
     #[inline(always)]
-    pub fn and(self, other: Self) -> Self {
+    fn and(self, other: Self) -> Self {
         let mut out = self.0;
         for (x, y) in out.iter_mut().zip(other.0) {
             *x &= y;
@@ -154,9 +230,8 @@ impl<const W: usize> Mask<W> {
         Self(out)
     }
 
-    /// Where either is true.
     #[inline(always)]
-    pub fn or(self, other: Self) -> Self {
+    fn or(self, other: Self) -> Self {
         let mut out = self.0;
         for (x, y) in out.iter_mut().zip(other.0) {
             *x |= y;
@@ -164,9 +239,8 @@ impl<const W: usize> Mask<W> {
         Self(out)
     }
 
-    /// Where this is true and `other` is not.
     #[inline(always)]
-    pub fn but_not(self, other: Self) -> Self {
+    fn but_not(self, other: Self) -> Self {
         let mut out = self.0;
         for (x, y) in out.iter_mut().zip(other.0) {
             *x &= !y;
@@ -174,21 +248,10 @@ impl<const W: usize> Mask<W> {
         Self(out)
     }
 
-    /// One where it is true, zero where it is not.
     #[inline(always)]
-    pub fn count(self) -> [u64; W] {
-        let mut out = self.0;
-        for x in &mut out {
-            *x &= 1;
-        }
-        out
-    }
-
-    /// `yes` where it is true, `no` where it is not.
-    #[inline(always)]
-    pub fn select(self, yes: Lanes<W>, no: Lanes<W>) -> Lanes<W> {
+    fn select(self, yes: Lanes, no: Lanes) -> Lanes {
         let mut out = no.0;
-        for lane in 0..W {
+        for lane in 0..WIDTH {
             let mask = self.0[lane];
             let bits = (yes.0[lane].to_bits() & mask)
                 | (no.0[lane].to_bits() & !mask);
@@ -196,9 +259,16 @@ impl<const W: usize> Mask<W> {
         }
         Lanes(out)
     }
+
+    #[inline(always)]
+    fn count(self, counts: &mut [u64; WIDTH]) {
+        for (count, x) in counts.iter_mut().zip(self.0) {
+            *count += x & 1;
+        }
+    }
 }
 
-impl<const W: usize> Index<usize> for Lanes<W> {
+impl Index<usize> for Lanes {
     type Output = f64;
 
     #[inline(always)]
@@ -207,7 +277,7 @@ impl<const W: usize> Index<usize> for Lanes<W> {
     }
 }
 
-impl<const W: usize> IndexMut<usize> for Lanes<W> {
+impl IndexMut<usize> for Lanes {
     #[inline(always)]
     fn index_mut(&mut self, lane: usize) -> &mut f64 {
         &mut self.0[lane]
@@ -216,7 +286,7 @@ impl<const W: usize> IndexMut<usize> for Lanes<W> {
 
 macro_rules! lane_by_lane {
     ($($operation:ident $method:ident $symbol:tt;)*) => {$(
-        impl<const W: usize> $operation for Lanes<W> {
+        impl $operation for Lanes {
             type Output = Self;
 
             #[inline(always)]
@@ -238,7 +308,7 @@ lane_by_lane! {
     Div div /=;
 }
 
-impl<const W: usize> Neg for Lanes<W> {
+impl Neg for Lanes {
     type Output = Self;
 
     #[inline(always)]
@@ -251,7 +321,7 @@ impl<const W: usize> Neg for Lanes<W> {
     }
 }
 
-impl<const W: usize> Number for Lanes<W> {
+impl Number for Lanes {
     const LANES: bool = true;
 
     #[inline(always)]

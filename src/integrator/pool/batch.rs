@@ -7,39 +7,38 @@
 use crate::integrator::driver::last_term;
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::chatter::Impacted;
-use crate::integrator::pool::group::{Group, WIDTH};
+use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::waiting::{Lane, Line};
 use crate::integrator::pool::{GROUPS, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
-use crate::number::Number;
-use crate::number::lanes::{Lanes, Mask};
+use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
 
-type Eight = Lanes<WIDTH>;
-type Which = Mask<WIDTH>;
+/// A bit for each lane of a batch.
+type Bits = u8;
 
 /// Lanes gathered from the groups.
 pub(super) struct Batch {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
-    u: Eight,
-    w: Eight,
-    here: Eight,
-    ahead: Eight,
-    offset: Eight,
-    length: Eight,
-    amplitude: Eight,
-    whole: Eight,
-    inverse: Eight,
-    threshold: Eight,
-    sine: Eight,
-    cosine: Eight,
-    peak: Eight,
-    limit: Eight,
-    eta: Eight,
-    alpha: Eight,
+    u: Lanes,
+    w: Lanes,
+    here: Lanes,
+    ahead: Lanes,
+    offset: Lanes,
+    length: Lanes,
+    amplitude: Lanes,
+    whole: Lanes,
+    inverse: Lanes,
+    threshold: Lanes,
+    sine: Lanes,
+    cosine: Lanes,
+    peak: Lanes,
+    limit: Lanes,
+    eta: Lanes,
+    alpha: Lanes,
     /// Truncation allowed in a step, as a share of the velocity.
-    tolerance: Eight,
+    tolerance: Lanes,
 }
 
 /// What became of the lanes of a batch.
@@ -47,31 +46,31 @@ pub(super) struct Solved {
     pub lanes: [Lane; WIDTH],
     pub count: usize,
     /// Not solved: left to the scalar driver.
-    pub left: Which,
+    pub left: Bits,
     /// Not solved: for the longest series.
-    pub hard: Which,
+    pub hard: Bits,
     /// An impact; the others reach the end of the sample.
-    pub impact: Which,
+    pub impact: Bits,
     /// An impact with which the block comes to rest, `rest` after it.
-    pub rested: Which,
-    pub rest: Eight,
+    pub rested: Bits,
+    pub rest: Lanes,
     /// The short series was tried before the longest.
-    pub again: Which,
+    pub again: Bits,
     /// The block turned, at `top` after `turn`.
-    pub turned: Which,
-    pub turn: Eight,
-    pub top: Eight,
-    pub u: Eight,
-    pub w: Eight,
-    pub here: Eight,
-    pub offset: Eight,
-    pub length: Eight,
-    pub amplitude: Eight,
+    pub turned: Bits,
+    pub turn: Lanes,
+    pub top: Lanes,
+    pub u: Lanes,
+    pub w: Lanes,
+    pub here: Lanes,
+    pub offset: Lanes,
+    pub length: Lanes,
+    pub amplitude: Lanes,
 }
 
 impl Solved {
     pub fn nothing() -> Self {
-        let (zero, none) = (Lanes::splat(0.0), Mask::splat(false));
+        let (zero, none) = (Lanes::splat(0.0), 0);
         Self {
             lanes: [Lane::of(0); WIDTH],
             count: 0,
@@ -95,24 +94,24 @@ impl Solved {
 }
 
 /// Coefficients of rotation and velocity.
-type Series<const SIZE: usize> = ([Eight; SIZE], [Eight; SIZE]);
+type Series<V, const SIZE: usize> = ([V; SIZE], [V; SIZE]);
 
 /// A turning point of a step.
-struct Turning {
+struct Turning<V: Several> {
     /// There surely is one, at `turn`.
-    found: Which,
-    turn: Eight,
+    found: V::Truths,
+    turn: V,
     /// It takes more to tell.
-    unsure: Which,
+    unsure: V::Truths,
 }
 
 /// The first impact of a step.
-struct FirstImpact {
+struct FirstImpact<V: Several> {
     /// There surely is one, at `tau`.
-    found: Which,
-    tau: Eight,
+    found: V::Truths,
+    tau: V,
     /// It takes more to tell.
-    unsure: Which,
+    unsure: V::Truths,
 }
 
 impl Batch {
@@ -181,6 +180,7 @@ impl Batch {
     /// are `FREE`.
     #[inline(always)]
     pub fn solve<
+        V: Several,
         const LEN: usize,
         const HARD: usize,
         const SIZE: usize,
@@ -190,26 +190,32 @@ impl Batch {
         model: Model,
         out: &mut Solved,
     ) {
-        let zero = Eight::zero();
-        let (all, none) = (Mask::splat(true), Mask::splat(false));
-        let (h, offset) = (self.length, self.offset);
-        let rate = (self.ahead - self.here) * self.inverse;
-        let series = [rate.mul_add(offset, self.here), rate];
-        let constants = (self.threshold, self.sine, self.cosine);
+        let zero = V::zero();
+        let (all, none) = (V::Truths::splat(true), V::Truths::splat(false));
+        let (h, offset) = (V::load(&self.length), V::load(&self.offset));
+        let (u, w) = (V::load(&self.u), V::load(&self.w));
+        let (here, ahead) = (V::load(&self.here), V::load(&self.ahead));
+        let whole = V::load(&self.whole);
+        let rate = (ahead - here) * V::load(&self.inverse);
+        let series = [rate.mul_add(offset, here), rate];
+        let threshold = V::load(&self.threshold);
+        let cosine = V::load(&self.cosine);
+        let constants = (threshold, V::load(&self.sine), cosine);
         let drive = Drive::new(model, constants, series);
         let small = match model {
-            Model::Nonlinear => self.u.sin_cos_small(),
-            Model::Linearized => (self.u, Number::one()),
+            Model::Nonlinear => u.sin_cos_small(),
+            Model::Linearized => (u, V::one()),
         };
-        let (mut c, mut v): Series<SIZE> =
-            expand(model, self.u, self.w, &drive, small);
+        let (mut c, mut v): Series<V, SIZE> =
+            expand(model, u, w, &drive, small);
         // Beyond it the driver takes other functions.
         let large = match model {
-            Model::Nonlinear => all.but_not(self.u.below(Lanes::splat(SMALL))),
+            Model::Nonlinear => all.but_not(u.below(V::from_f64(SMALL))),
             Model::Linearized => none,
         };
         let mut left = large;
-        let allowed = self.tolerance * self.alpha.mul_add(h, self.w.abs());
+        let tolerance = V::load(&self.tolerance);
+        let allowed = tolerance * V::load(&self.alpha).mul_add(h, w.abs());
         let again = allowed.below(last_term(v[LEN - 1].abs(), LEN, h));
         let mut hard = none;
         if SIZE > LEN {
@@ -227,14 +233,19 @@ impl Batch {
         }
         out.lanes = self.lanes;
         out.count = self.count;
-        out.again = if SIZE > LEN { again } else { none };
-        out.hard = hard.but_not(large);
+        out.again = if SIZE > LEN { again.bits() } else { 0 };
+        hard = hard.but_not(large);
+        out.hard = hard.bits();
+        let amplitude = V::load(&self.amplitude);
         if FREE {
-            out.left = left.but_not(out.hard);
-            (out.impact, out.turned, out.rested) = (none, none, none);
-            (out.u, out.w) = (value(&c, h), value(&v, h));
-            (out.here, out.amplitude) = (self.ahead, self.amplitude);
-            (out.offset, out.length) = (zero, self.whole);
+            out.left = left.but_not(hard).bits();
+            (out.impact, out.turned, out.rested) = (0, 0, 0);
+            value(&c, h).store(&mut out.u);
+            value(&v, h).store(&mut out.w);
+            ahead.store(&mut out.here);
+            amplitude.store(&mut out.amplitude);
+            zero.store(&mut out.offset);
+            whole.store(&mut out.length);
             return;
         }
 
@@ -248,48 +259,52 @@ impl Batch {
 
         // The impact, and whether the motion comes to rest after it.
         let fall = zero.below(-end_w);
-        let w = self.eta * fall.select(-end_w, zero);
+        let eta = V::load(&self.eta);
+        let w = eta * fall.select(-end_w, zero);
         let there = offset + tau;
-        let ahead = self.whole - there;
+        let rest = whole - there;
         // Neither a step of no length nor an impact of no speed is one here.
-        let plain = there.below(self.whole).and(zero.below(w));
+        let plain = there.below(whole).and(zero.below(w));
         left = left.or(impact.but_not(plain));
         let top = value(&c, turning.turn);
-        let raised = turning.found.and(self.peak.below(top));
+        let peak = V::load(&self.peak);
+        let raised = turning.found.and(peak.below(top));
         let impacted = Impacted {
             model,
-            threshold: self.threshold,
-            cosine: self.cosine,
-            eta: self.eta,
-            f: -rate.mul_add(there, self.here),
+            threshold,
+            cosine,
+            eta,
+            f: -rate.mul_add(there, here),
             rate,
             w,
-            left: ahead,
-            peak: raised.select(top, self.peak),
+            left: rest,
+            peak: raised.select(top, peak),
         };
-        (out.rested, out.rest) = impacted.come_to_rest(impact.and(plain));
+        let (rested, after) = impacted.come_to_rest(impact.and(plain));
+        out.rested = rested.bits();
+        after.store(&mut out.rest);
 
-        out.left = left.but_not(out.hard);
-        out.impact = impact;
-        out.turned = turning.found;
-        out.turn = turning.turn;
-        out.top = top;
-        out.u = impact.select(zero, end_u);
-        out.w = impact.select(w, end_w);
-        out.here = impact.select(-self.here, self.ahead);
-        out.offset = impact.select(there, zero);
-        out.length = impact.select(ahead, self.whole);
-        out.amplitude = impact.select(-self.amplitude, self.amplitude);
+        out.left = left.but_not(hard).bits();
+        out.impact = impact.bits();
+        out.turned = turning.found.bits();
+        turning.turn.store(&mut out.turn);
+        top.store(&mut out.top);
+        impact.select(zero, end_u).store(&mut out.u);
+        impact.select(w, end_w).store(&mut out.w);
+        impact.select(-here, ahead).store(&mut out.here);
+        impact.select(there, zero).store(&mut out.offset);
+        impact.select(rest, whole).store(&mut out.length);
+        impact.select(-amplitude, amplitude).store(&mut out.amplitude);
     }
 
     /// The first impact, as the driver and its root finder see it.
     #[inline(always)]
-    fn first_impact<const SIZE: usize>(
+    fn first_impact<V: Several, const SIZE: usize>(
         &self,
-        c: &[Eight; SIZE],
-    ) -> FirstImpact {
-        let zero = Eight::zero();
-        let h = self.length;
+        c: &[V; SIZE],
+    ) -> FirstImpact<V> {
+        let zero = V::zero();
+        let h = V::load(&self.length);
         let mut rest = zero;
         for k in (2..SIZE).rev() {
             rest = rest.mul_add(h, c[k].abs());
@@ -303,7 +318,7 @@ impl Batch {
         let at_base = c[0].equals(zero);
         let clear_of_base =
             spread.below(c[0] + down).or(at_base.and(rest.below(c[1])));
-        let clear_of_limit = (c[0] + up + spread).below(self.limit);
+        let clear_of_limit = (c[0] + up + spread).below(V::load(&self.limit));
 
         // A start on the base is divided out.
         let mut q = *c;
@@ -321,13 +336,13 @@ impl Batch {
 
     /// A turning point before `tau` that may be above the peak.
     #[inline(always)]
-    fn turning<const SIZE: usize>(
+    fn turning<V: Several, const SIZE: usize>(
         &self,
-        c: &[Eight; SIZE],
-        v: &[Eight; SIZE],
-        tau: Eight,
-    ) -> Turning {
-        let zero = Eight::zero();
+        c: &[V; SIZE],
+        v: &[V; SIZE],
+        tau: V,
+    ) -> Turning<V> {
+        let zero = V::zero();
         let (mut rest, mut variation) = (zero, zero);
         for k in (1..SIZE).rev() {
             if k > 1 {
@@ -338,7 +353,7 @@ impl Batch {
         let rise = zero.below(c[1]).select(c[1] * tau, zero);
         let high = c[0] + rise + rest * tau * tau;
         let may =
-            self.peak.below(high).but_not((variation * tau).below(v[0].abs()));
+            V::load(&self.peak).below(high).but_not((variation * tau).below(v[0].abs()));
         if !may.any() {
             return Turning { found: may, turn: zero, unsure: may };
         }

@@ -2,36 +2,31 @@
 //! the same order.
 
 use crate::integrator::dynamics::Model;
-use crate::integrator::pool::group::WIDTH;
-use crate::number::Number;
-use crate::number::lanes::{Lanes, Mask};
-
-type Eight = Lanes<WIDTH>;
-type Which = Mask<WIDTH>;
+use crate::number::lanes::{Several, Truths};
 
 /// Blocks just after an impact.
-pub(super) struct Impacted {
+pub(super) struct Impacted<V> {
     pub model: Model,
-    pub threshold: Eight,
-    pub cosine: Eight,
-    pub eta: Eight,
+    pub threshold: V,
+    pub cosine: V,
+    pub eta: V,
     /// Forcing on the new side, and its rate on either.
-    pub f: Eight,
-    pub rate: Eight,
+    pub f: V,
+    pub rate: V,
     /// Speed, above zero.
-    pub w: Eight,
+    pub w: V,
     /// Time to the end of the sample.
-    pub left: Eight,
+    pub left: V,
     /// Largest rotation so far.
-    pub peak: Eight,
+    pub peak: V,
 }
 
-impl Impacted {
+impl<V: Several> Impacted<V> {
     /// The blocks of `which` whose impacts provably accumulate within the
     /// sample, and the time in which they do.
     #[inline(always)]
-    pub fn come_to_rest(&self, which: Which) -> (Which, Eight) {
-        let (zero, one) = (Eight::zero(), Eight::one());
+    pub fn come_to_rest(&self, which: V::Truths) -> (V::Truths, V) {
+        let (zero, one) = (V::zero(), V::one());
         let Self { eta, f, rate, w, left, .. } = *self;
         let size = f.abs();
         let guess = (w + w) / (self.restoring(-size) * (one - eta));
@@ -42,7 +37,7 @@ impl Impacted {
         if !may.any() {
             return (may, zero);
         }
-        let two = Eight::ratio(2, 1);
+        let two = V::ratio(2, 1);
         let window = two * guess;
         let window = window.below(left).select(window, left);
         let drift = rate.abs() * window;
@@ -52,7 +47,7 @@ impl Impacted {
         let push = (one + self.threshold) * (rise + rise);
         let least = least - push;
         let ends = ends.and(zero.below(least));
-        let ratio = |f: Eight| {
+        let ratio = |f: V| {
             let most = self.restoring(f + drift) + push;
             let low = self.restoring(f - drift) - push;
             most / low
@@ -73,7 +68,7 @@ impl Impacted {
 
     /// Downward acceleration at the base under forcing `f`.
     #[inline(always)]
-    fn restoring(&self, f: Eight) -> Eight {
+    fn restoring(&self, f: V) -> V {
         match self.model {
             Model::Nonlinear => (self.threshold + f) * self.cosine,
             Model::Linearized => self.threshold + f,

@@ -5,42 +5,38 @@ use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::{SAFETY, SMALL, Slot};
 use crate::integrator::taylor::{expand, value};
-use crate::number::Number;
-use crate::number::lanes::{Lanes, Mask};
+use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
 
 /// Share of its start above which a rotation that sinks surely ends above the
 /// base.
 const STAYS: f64 = 1e-9;
 
-/// Lanes stepped at once.
-pub(super) const WIDTH: usize = 8;
-
 /// Motion and constants of the runs in the lanes of a group.
 pub(super) struct Group<'a> {
-    pub u: Lanes<WIDTH>,
-    pub w: Lanes<WIDTH>,
+    pub u: Lanes,
+    pub w: Lanes,
     /// Forcing at the start of the sample, on the side of the rotation.
-    pub here: Lanes<WIDTH>,
+    pub here: Lanes,
     /// Start of the step within the sample.
-    pub offset: Lanes<WIDTH>,
+    pub offset: Lanes,
     /// Length of the step.
-    pub length: Lanes<WIDTH>,
+    pub length: Lanes,
     /// Amplitude with the sign of the side.
-    pub amplitude: Lanes<WIDTH>,
+    pub amplitude: Lanes,
     /// Length of the sample, and one over it.
-    pub whole: Lanes<WIDTH>,
-    pub inverse: Lanes<WIDTH>,
-    pub threshold: Lanes<WIDTH>,
-    pub sine: Lanes<WIDTH>,
-    pub cosine: Lanes<WIDTH>,
+    pub whole: Lanes,
+    pub inverse: Lanes,
+    pub threshold: Lanes,
+    pub sine: Lanes,
+    pub cosine: Lanes,
     /// Largest last coefficient of the velocity that leaves little enough, in
     /// units of |w| + `least`.
-    last: Lanes<WIDTH>,
-    least: Lanes<WIDTH>,
+    last: Lanes,
+    least: Lanes,
     /// Rotation that nothing may reach.
-    ceiling: Lanes<WIDTH>,
+    ceiling: Lanes,
     /// Largest rotation at a turning point so far.
-    pub peak: Lanes<WIDTH>,
+    pub peak: Lanes,
     pub side: [Side; WIDTH],
     pub samples: [&'a [f64]; WIDTH],
     /// Sample at the end of the step.
@@ -52,12 +48,15 @@ pub(super) struct Group<'a> {
     /// Impacts here.
     pub impacts: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
-    active: Mask<WIDTH>,
+    active: u8,
 }
 
-/// Lanes that did not take a step, a bit each; those in which the series
-/// leaves too much and nothing happens have another bit, `WIDTH` above.
-pub(super) type Parked = u64;
+/// Lanes that did not take a step, a bit each.
+pub(super) struct Parked {
+    pub lanes: u8,
+    /// Those in which the series leaves too much and nothing happens.
+    pub hard: u8,
+}
 
 impl<'a> Group<'a> {
     pub fn idle() -> Self {
@@ -84,20 +83,20 @@ impl<'a> Group<'a> {
             first: [0; WIDTH],
             extra: [0; WIDTH],
             impacts: [0; WIDTH],
-            active: Mask::splat(false),
+            active: 0,
         }
     }
 
     /// True when no lane flies.
     #[inline(always)]
     pub fn is_idle(&self) -> bool {
-        !self.active.any()
+        self.active == 0
     }
 
     /// Lets a lane fly.
     #[inline(always)]
     pub fn resume(&mut self, lane: usize) {
-        self.active.set(lane, true);
+        self.active |= 1 << lane;
     }
 
     /// Sample ahead of a lane, scaled; not a number beyond the record.
@@ -118,7 +117,7 @@ impl<'a> Group<'a> {
         slot.driver.count_steps(steps);
         slot.driver.count_impacts(self.impacts[lane]);
         self.samples[lane] = &[];
-        self.active.set(lane, false);
+        self.active &= !(1 << lane);
         let Stage::Flying(step) = &mut slot.stage else { return };
         step.place.piece = self.next[lane] as usize - 1;
         step.place.offset = self.offset[lane];
@@ -161,46 +160,56 @@ impl<'a> Group<'a> {
         self.least[lane] = dynamics.alpha * h;
         self.ceiling[lane] = dynamics.limit.min(SMALL);
         self.peak[lane] = driver.peak();
-        self.active.set(lane, true);
+        self.active |= 1 << lane;
     }
 
     /// One step, to the end of the sample, in every lane that is clear of
     /// events.
     #[inline(always)]
-    pub fn step<const LEN: usize>(&mut self, model: Model) -> Parked {
-        let mut ahead = Lanes::splat(0.0);
-        for lane in 0..WIDTH {
+    pub fn step<V: Several, const LEN: usize>(
+        &mut self,
+        model: Model,
+    ) -> Parked {
+        let ahead = V::gather(std::array::from_fn(|lane| {
             let sample = self.samples[lane].get(self.next[lane] as usize);
-            ahead[lane] = *sample.unwrap_or(&f64::NAN);
-        }
-        let ahead = ahead * self.amplitude;
-        let rate = (ahead - self.here) * self.inverse;
-        let series = [rate.mul_add(self.offset, self.here), rate];
-        let constants = (self.threshold, self.sine, self.cosine);
-        let drive = Drive::new(model, constants, series);
+            sample.unwrap_or(&f64::NAN)
+        }));
+        let ahead = ahead * V::load(&self.amplitude);
+        let (u, w) = (V::load(&self.u), V::load(&self.w));
+        let here = V::load(&self.here);
+        let rate = (ahead - here) * V::load(&self.inverse);
+        let series = [rate.mul_add(V::load(&self.offset), here), rate];
+        let drive = Drive::new(model, self.constants::<V>(), series);
         let small = match model {
-            Model::Nonlinear => self.u.sin_cos_small(),
-            Model::Linearized => (self.u, Number::one()),
+            Model::Nonlinear => u.sin_cos_small(),
+            Model::Linearized => (u, V::one()),
         };
         let (c, v): ([_; LEN], [_; LEN]) =
-            expand(model, self.u, self.w, &drive, small);
-        let h = self.length;
+            expand(model, u, w, &drive, small);
+        let h = V::load(&self.length);
         let end = (value(&c, h), value(&v, h));
         let free = self.free_of_events(model, &drive, ahead, end);
-        let size = self.w.abs() + self.least;
-        let enough = v[LEN - 1].abs().below(self.last * size);
-        let clear = self.active.and(free).and(enough);
-        self.u = clear.select(end.0, self.u);
-        self.w = clear.select(end.1, self.w);
-        self.here = clear.select(ahead, self.here);
-        self.offset = clear.select(Number::zero(), self.offset);
-        self.length = clear.select(self.whole, self.length);
-        for (next, count) in self.next.iter_mut().zip(clear.count()) {
-            *next += count;
-        }
-        let stopped = self.active.but_not(clear);
-        self.active = clear;
-        stopped.bits_with(free)
+        let size = w.abs() + V::load(&self.least);
+        let enough = v[LEN - 1].abs().below(V::load(&self.last) * size);
+        let active = V::Truths::of(self.active);
+        let clear = active.and(free).and(enough);
+        clear.select(end.0, u).store(&mut self.u);
+        clear.select(end.1, w).store(&mut self.w);
+        clear.select(ahead, here).store(&mut self.here);
+        let offset = clear.select(V::zero(), V::load(&self.offset));
+        offset.store(&mut self.offset);
+        clear.select(V::load(&self.whole), h).store(&mut self.length);
+        clear.count(&mut self.next);
+        let stopped = active.but_not(clear);
+        self.active = clear.bits();
+        Parked { lanes: stopped.bits(), hard: stopped.and(free).bits() }
+    }
+
+    /// Threshold, and sine and cosine of the slenderness angle.
+    #[inline(always)]
+    fn constants<V: Several>(&self) -> (V, V, V) {
+        let Self { threshold, sine, cosine, .. } = self;
+        (V::load(threshold), V::load(sine), V::load(cosine))
     }
 
     /// Lanes in which the step to `end` meets no base, no limit, and no
@@ -210,49 +219,51 @@ impl<'a> Group<'a> {
     /// M tau^2/2 of its tangent at the start and within M h^2/8 of its chord,
     /// and the velocity within N h^2/8 of its own.
     #[inline(always)]
-    fn free_of_events(
+    fn free_of_events<V: Several>(
         &self,
         model: Model,
-        drive: &Drive<Lanes<WIDTH>, 2>,
-        ahead: Lanes<WIDTH>,
-        end: (Lanes<WIDTH>, Lanes<WIDTH>),
-    ) -> Mask<WIDTH> {
-        let h = self.length;
-        let zero = Lanes::splat(0.0);
+        drive: &Drive<V, 2>,
+        ahead: V,
+        end: (V, V),
+    ) -> V::Truths {
+        let (u, w) = (V::load(&self.u), V::load(&self.w));
+        let h = V::load(&self.length);
+        let ceiling = V::load(&self.ceiling);
+        let zero = V::zero();
         // |A| sin u + |B| below the ceiling; both are linear in time.
-        let constants = (self.threshold, self.sine, self.cosine);
-        let last = Drive::new(model, constants, [ahead]);
+        let last = Drive::new(model, self.constants::<V>(), [ahead]);
+        let (more, eighth) =
+            (h * V::from_f64(SAFETY), h * V::from_f64(0.125));
         let pull = drive.a.abs().max(last.a.abs());
         let push = drive.b.abs().max(last.b.abs());
-        let bend = pull.mul_add(self.ceiling, push);
-        let turn = bend * h * Lanes::splat(SAFETY);
-        let sag = turn * h * Lanes::splat(0.125);
-        let spread = sag * Lanes::splat(4.0);
+        let bend = pull.mul_add(ceiling, push);
+        let turn = bend * more;
+        let sag = turn * eighth;
         // |w| (|A| + |B| sin u) + |f'|, with |w| below its own bound.
-        let speed = self.w.abs();
-        let stiff = push.mul_add(self.ceiling, pull);
+        let speed = w.abs();
+        let stiff = push.mul_add(ceiling, pull);
         let bent = (speed + turn).mul_add(stiff, drive.f[1].abs());
-        let bow = bent * (h * h) * Lanes::splat(0.125 * SAFETY);
+        let bow = bent * (more * eighth);
 
-        let linear = self.u + self.w * h;
-        let (low, high) = (linear - spread, linear + spread);
-        let rises = bow.below(self.w.min(end.1));
-        let sinks = self.w.max(end.1).below(-bow);
+        let linear = w.mul_add(h, u);
+        let low = sag.mul_add(V::from_f64(-4.0), linear);
+        let high = sag.mul_add(V::from_f64(4.0), linear);
+        let rises = bow.below(w.min(end.1));
+        let sinks = w.max(end.1).below(-bow);
         // By more than the root finder's rounding.
-        let stays = (self.u * Lanes::splat(STAYS)).below(end.0);
+        let stays = (u * V::from_f64(STAYS)).below(end.0);
         let above_base = zero
             .below(low)
-            .or(sag.below(self.u.min(end.0)))
+            .or(sag.below(u.min(end.0)))
             .or(rises)
             .or(sinks.and(stays));
-        let below_limit =
-            high.below(self.ceiling).and(self.u.below(self.ceiling));
-        let below_peak = (self.u.max(end.0) + sag)
-            .below(self.peak)
+        let below_limit = high.below(ceiling).and(u.below(ceiling));
+        let below_peak = (u.max(end.0) + sag)
+            .below(V::load(&self.peak))
             .or(turn.below(speed))
             .or(rises)
             .or(sinks);
-        let outside = self.u.below(zero);
+        let outside = u.below(zero);
         above_base.and(below_limit).and(below_peak).but_not(outside)
     }
 }

@@ -1,40 +1,36 @@
 //! The scalar root finder's plain cases, in lanes: the same operations in
 //! the same order.
 
-use crate::integrator::pool::group::WIDTH;
 use crate::integrator::roots::{NEAR_END, NEWTON_LIMIT, SURELY};
 use crate::integrator::taylor::{slope, value};
-use crate::number::lanes::{Lanes, Mask};
-use crate::number::{Number, Real};
-
-type Eight = Lanes<WIDTH>;
-type Which = Mask<WIDTH>;
+use crate::number::Real;
+use crate::number::lanes::{Several, Truths};
 
 /// What is told of the first descent of polynomials over a length.
-pub(super) struct Descent {
+pub(super) struct Descent<T> {
     /// There is none.
-    pub none: Which,
+    pub none: T,
     /// There is one, within.
-    pub one: Which,
+    pub one: T,
     /// The polynomial falls all the way.
-    pub falls: Which,
+    pub falls: T,
 }
 
 /// First descents, where nothing need be isolated.
 #[inline(always)]
-pub(super) fn descent<const SIZE: usize>(
-    q: &[Eight; SIZE],
-    length: Eight,
-) -> Descent {
-    let zero = Eight::zero();
+pub(super) fn descent<V: Several, const SIZE: usize>(
+    q: &[V; SIZE],
+    length: V,
+) -> Descent<V::Truths> {
+    let zero = V::zero();
     let (mut rest, mut steep, mut bent) = (zero, zero, zero);
     for k in (2..SIZE).rev() {
         let size = q[k].abs();
         rest = rest.mul_add(length, size);
-        let slope = size * Eight::ratio(k as i32, 1);
+        let slope = size * V::ratio(k as i32, 1);
         steep = steep.mul_add(length, slope);
         if k > 2 {
-            let bend = slope * Eight::ratio(k as i32 - 1, 1);
+            let bend = slope * V::ratio(k as i32 - 1, 1);
             bent = bent.mul_add(length, bend);
         }
     }
@@ -43,12 +39,12 @@ pub(super) fn descent<const SIZE: usize>(
     let low = falling.mul_add(length, q[0]);
     let positive = zero.below(low - rest * length * length);
 
-    let falls = q[1].below(steep * length * Lanes::splat(SURELY));
+    let falls = q[1].below(steep * length * V::from_f64(SURELY));
     let twice = q[2] + q[2];
-    let concave = twice.below(bent * length * Lanes::splat(SURELY));
+    let concave = twice.below(bent * length * V::from_f64(SURELY));
     let end = value(q, length);
     let size = q[0].abs() + q[1].abs() * length;
-    let clear = (size * Lanes::splat(NEAR_END)).below(end.abs());
+    let clear = (size * V::from_f64(NEAR_END)).below(end.abs());
     let told = falls.or(concave).and(clear);
     let below = told.and(end.below(zero));
     Descent {
@@ -60,21 +56,21 @@ pub(super) fn descent<const SIZE: usize>(
 
 /// The roots in (0, high) of polynomials that have one.
 #[inline(always)]
-pub(super) fn refine<const SIZE: usize>(
-    q: &[Eight; SIZE],
-    high: Eight,
-    which: Which,
-) -> Eight {
-    let half = Eight::ratio(1, 2);
-    let zero = Eight::zero();
+pub(super) fn refine<V: Several, const SIZE: usize>(
+    q: &[V; SIZE],
+    high: V,
+    which: V::Truths,
+) -> V {
+    let half = V::ratio(1, 2);
+    let zero = V::zero();
     let (mut low, mut high) = (zero, high);
-    let root = (q[1] * q[1] - Lanes::splat(4.0) * q[0] * q[2]).sqrt();
+    let root = (q[1] * q[1] - V::from_f64(4.0) * q[0] * q[2]).sqrt();
     let mut guess = (q[0] + q[0]) / (root - q[1]);
     if SIZE > 4 {
         let [third, fourth] = [q[3], q[4]];
         let beyond = fourth.mul_add(guess, third) * (guess * guess);
         let steep = fourth
-            .mul_add(Lanes::splat(4.0) * guess, Lanes::splat(3.0) * third)
+            .mul_add(V::from_f64(4.0) * guess, V::from_f64(3.0) * third)
             .mul_add(guess, q[2] + q[2])
             .mul_add(guess, q[1]);
         guess = guess - beyond * guess / steep;
@@ -94,14 +90,14 @@ pub(super) fn refine<const SIZE: usize>(
         open = open.and(above.or(under));
         let step = here / slope(q, tau);
         let next = tau - step;
-        let bound = tau.abs() * Lanes::splat(f64::NEWTON_STEP);
+        let bound = tau.abs() * V::from_f64(f64::NEWTON_STEP);
         let close = step.abs().at_most(bound);
         let within = low.at_most(next).and(next.at_most(high));
         let done = open.and(close).and(within);
         tau = done.select(next, tau);
         open = open.but_not(done);
         let wide =
-            (high * Lanes::splat(2.0 * f64::ROUNDOFF)).below(high - low);
+            (high * V::from_f64(2.0 * f64::ROUNDOFF)).below(high - low);
         tau = open.but_not(wide).select(high, tau);
         open = open.and(wide);
         let inside = low.below(next).and(next.below(high));

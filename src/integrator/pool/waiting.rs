@@ -1,7 +1,7 @@
 //! Lanes that wait until eight of a kind can be solved together.
 
 use crate::integrator::pool::GROUPS;
-use crate::integrator::pool::group::WIDTH;
+use crate::number::lanes::WIDTH;
 
 /// What lanes wait for.
 #[derive(Clone, Copy)]

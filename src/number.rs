@@ -138,9 +138,9 @@ fn sin_cos_polynomials<N: Number>(x: N) -> (N, N) {
         s = s.mul_add(z, N::from_f64(SINE[k]));
         c = c.mul_add(z, N::from_f64(COSINE[k]));
     }
-    let half = z * N::from_f64(0.5);
     let sine = (s * z).mul_add(x, x);
-    let cosine = (c * z).mul_add(z, N::one() - half);
+    let half = z.mul_add(N::from_f64(-0.5), N::one());
+    let cosine = (c * z).mul_add(z, half);
     (sine, cosine)
 }
 

@@ -88,7 +88,7 @@ impl<N: Number, const F: usize> Drive<N, F> {
     ) -> Self {
         let (a, b) = match model {
             Model::Nonlinear => {
-                (cosine - f[0] * sine, (threshold + f[0]) * cosine)
+                ((-f[0]).mul_add(sine, cosine), (threshold + f[0]) * cosine)
             }
             Model::Linearized => (N::one(), threshold + f[0]),
         };

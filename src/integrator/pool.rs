@@ -10,18 +10,20 @@ mod batch;
 mod chatter;
 mod group;
 mod roots;
+mod slot;
 mod waiting;
 
 use crate::excitation::Excitation;
 use crate::integrator::class::{Class, SHORT, SMOOTH};
-use crate::integrator::driver::{Driver, Stage, Step};
+use crate::integrator::driver::{Driver, Stage};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene};
-use crate::number::dispatch::{Isa, WideWork, Work};
+use crate::number::dispatch::{Isa, WideWork};
 use crate::number::lanes::{Several, WIDTH};
 use batch::{Batch, Solved};
 use group::Group;
+use slot::Slot;
 use waiting::{Kind, Lane, Line, Waiting};
 
 /// All lanes.
@@ -112,16 +114,6 @@ struct Pool<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize> {
     /// Slots in use.
     busy: usize,
     tally: Tally,
-}
-
-type Run<'a, const LEN: usize> =
-    Driver<f64, RecordForcing<'a, f64>, LEN, 2, SMOOTH>;
-
-/// A run in its slot.
-struct Slot<'a, T, const LEN: usize> {
-    task: T,
-    driver: Run<'a, LEN>,
-    stage: Stage<f64>,
 }
 
 impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
@@ -375,34 +367,5 @@ impl<const LEN: usize, const HARD: usize> WideWork for Solve<'_, LEN, HARD> {
                 batch.solve::<V, LEN, HARD, LEN, false>(model, solved);
             }
         }
-    }
-}
-
-/// A step by the scalar driver.
-struct Alone<'r, 'a, const LEN: usize> {
-    driver: &'r mut Run<'a, LEN>,
-    step: Step<f64>,
-}
-
-impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
-    type Output = Stage<f64>;
-
-    #[inline(always)]
-    fn run(self) -> Stage<f64> {
-        self.driver.proceed(self.step)
-    }
-}
-
-impl<T, const LEN: usize> Slot<'_, T, LEN> {
-    /// Comes to rest, some time after an impact.
-    fn rest(&mut self, after: f64) {
-        if let Stage::Flying(step) = &self.stage {
-            self.stage = self.driver.rest(step.place, after);
-        }
-    }
-
-    /// A step by the scalar driver.
-    fn advance(&mut self, step: Step<f64>, isa: Isa) {
-        self.stage = isa.run(Alone { driver: &mut self.driver, step });
     }
 }

@@ -125,7 +125,9 @@ pub(crate) fn guess<N: Real>(c: &[N]) -> N {
     let [start, slope, bend, ..] = *c else { return N::zero() };
     let root = (slope * slope - N::from_f64(4.0) * start * bend).sqrt();
     let tau = (start + start) / (root - slope);
-    let [_, _, _, third, fourth, ..] = *c else { return tau };
+    // Where a start on the event was divided out there may be no fourth.
+    let [_, _, _, third, ref beyond @ ..] = *c else { return tau };
+    let fourth = beyond.first().copied().unwrap_or(N::zero());
     let beyond = fourth.mul_add(tau, third) * (tau * tau);
     let steep =
         fourth.mul_add(N::from_f64(4.0) * tau, N::from_f64(3.0) * third);

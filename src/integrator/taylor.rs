@@ -20,116 +20,191 @@ macro_rules! written_out {
     };
 }
 
-/// Coefficients of u(tau) and of u'(tau) about the step's start, `LEN` of
-/// each (order `LEN - 1` in both).
+/// Polynomials of a step in units of its length h: u(x h) and u'(x h) for x
+/// in [0, 1], `LEN` coefficients of each (order `LEN - 1` in both).
 ///
-/// The first derivative of the velocity is A sin u - B cos u, from
-/// `sine_cosine` of the start; the others are those of S - f C, and the
-/// series of S = sin(u - alpha) and C = cos(u - alpha) follow from S' = u' C
-/// and C' = -u' S. For Eq. 2, u'' = u - B.
+/// In these units a polynomial's value at the step's end is the sum of its
+/// coefficients, and the last of them is the size of the last term.
+#[derive(Clone, Copy)]
+pub(crate) struct Series<N, const LEN: usize> {
+    /// Rotation.
+    pub c: [N; LEN],
+    /// Velocity.
+    pub v: [N; LEN],
+}
+
+/// The series of a step of length `h`.
+///
+/// With d = u - u_0, Eq. 1 reads u'' = G cos d + H sin d, where
+/// G = sin(u_0 - alpha) - f cos(u_0 - alpha) and
+/// H = cos(u_0 - alpha) + f sin(u_0 - alpha) are as long as the series of f;
+/// their first coefficients are A sin u_0 - B cos u_0 and
+/// A cos u_0 + B sin u_0. The series of sin d and 1 - cos d follow from
+/// (sin d)' = u' - u' (1 - cos d) and (1 - cos d)' = u' sin d. For Eq. 2,
+/// u'' = u - B.
 #[inline(always)]
 pub(crate) fn expand<N: Number, const LEN: usize, const F: usize>(
     model: Model,
-    u: N,
-    w: N,
+    (u, w): (N, N),
+    h: N,
     drive: &Drive<N, F>,
     sine_cosine: (N, N),
-) -> ([N; LEN], [N; LEN]) {
+) -> Series<N, LEN> {
     match model {
-        Model::Nonlinear => nonlinear(u, w, drive, sine_cosine),
-        Model::Linearized => linearized(u, w, drive),
+        Model::Nonlinear => nonlinear((u, w), h, drive, sine_cosine),
+        Model::Linearized => linearized((u, w), h, drive),
     }
 }
 
 #[inline(always)]
 fn nonlinear<N: Number, const LEN: usize, const F: usize>(
-    u: N,
-    w: N,
+    motion: (N, N),
+    h: N,
     drive: &Drive<N, F>,
     (sine, cosine): (N, N),
-) -> ([N; LEN], [N; LEN]) {
-    let mut series = Series {
-        c: [N::zero(); LEN],
-        velocity: [N::zero(); LEN],
-        sine: [N::zero(); LEN],
-        cosine: [N::zero(); LEN],
-    };
-    series.c[0] = u;
-    series.c[1] = w;
-    series.velocity[0] = w;
-    series.velocity[1] = (-drive.b).mul_add(cosine, drive.a * sine);
-    series.c[2] = series.velocity[1] * N::ratio(1, 2);
+) -> Series<N, LEN> {
+    let (a, b) = (drive.a, drive.b);
     let (across, along) = (drive.sine, drive.cosine);
-    series.sine[0] = (-cosine).mul_add(across, sine * along);
-    series.cosine[0] = sine.mul_add(across, cosine * along);
-    written_out!(1..LEN - 1, |k| series.extend(k, &drive.f));
-    (series.c, series.velocity)
-}
-
-/// Series of u, u', sin(u - alpha) and cos(u - alpha).
-struct Series<N, const LEN: usize> {
-    c: [N; LEN],
-    velocity: [N; LEN],
-    sine: [N; LEN],
-    cosine: [N; LEN],
-}
-
-impl<N: Number, const LEN: usize> Series<N, LEN> {
-    /// Sine and cosine of order `k`, at least 1, and velocity of the next.
-    #[inline(always)]
-    fn extend<const F: usize>(&mut self, k: usize, f: &[N; F]) {
-        // In every sum the terms that are known last come last: the sums
-        // wait for nothing else.
-        let Self { c, velocity, sine, cosine } = self;
-        let start = usize::from(k > 1);
-        let mut s = velocity[start] * cosine[k - 1 - start];
-        let mut t = velocity[start] * sine[k - 1 - start];
-        for j in 2..k {
-            s = velocity[j].mul_add(cosine[k - 1 - j], s);
-            t = velocity[j].mul_add(sine[k - 1 - j], t);
-        }
-        if k > 1 {
-            s = velocity[0].mul_add(cosine[k - 1], s);
-            t = velocity[0].mul_add(sine[k - 1], t);
-        }
-        sine[k] = s * N::ratio(1, k as i32);
-        cosine[k] = t * N::ratio(-1, k as i32);
-        let mut force = sine[k];
-        for j in (0..F.min(k + 1)).rev() {
-            force = (-f[j]).mul_add(cosine[k - j], force);
-        }
-        velocity[k + 1] = force * N::ratio(1, k as i32 + 1);
-        if k + 2 < LEN {
-            c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
-        }
+    let sine_0 = (-cosine).mul_add(across, sine * along);
+    let cosine_0 = sine.mul_add(across, cosine * along);
+    let mut force = Force { even: [N::zero(); F], odd: [N::zero(); F] };
+    force.even[0] = (-b).mul_add(cosine, a * sine);
+    force.odd[0] = drive.f[0].mul_add(sine_0, cosine_0);
+    let mut power = h;
+    for j in 1..F {
+        let f = drive.f[j] * power;
+        force.even[j] = -(f * cosine_0);
+        force.odd[j] = f * sine_0;
+        power = power * h;
     }
+    let mut series = Series::begin(motion, force.even[0], h);
+    let mut turn = Turn { sine: [N::zero(); LEN], fall: [N::zero(); LEN] };
+    turn.sine[1] = series.c[1];
+    written_out!(1..LEN - 1, |k| {
+        series.extend(k, force.order(k, &turn), h);
+        turn.extend(k + 1, &series, h);
+    });
+    series
 }
 
 #[inline(always)]
 fn linearized<N: Number, const LEN: usize, const F: usize>(
-    u: N,
-    w: N,
+    motion: (N, N),
+    h: N,
     drive: &Drive<N, F>,
-) -> ([N; LEN], [N; LEN]) {
-    let mut c = [N::zero(); LEN];
-    let mut velocity = [N::zero(); LEN];
-    c[0] = u;
-    c[1] = w;
-    velocity[0] = w;
-    let mut extend = |k: usize| {
-        let force = match k {
-            0 => c[0] - drive.b,
-            _ if k < F => c[k] - drive.f[k],
-            _ => c[k],
+) -> Series<N, LEN> {
+    let mut f = drive.f;
+    let mut power = h;
+    for x in &mut f[1..] {
+        *x = *x * power;
+        power = power * h;
+    }
+    let mut series = Series::begin(motion, motion.0 - drive.b, h);
+    written_out!(1..LEN - 1, |k| {
+        let u = series.c[k];
+        series.extend(k, if k < F { u - f[k] } else { u }, h);
+    });
+    series
+}
+
+/// Series of G and H.
+struct Force<N, const F: usize> {
+    even: [N; F],
+    odd: [N; F],
+}
+
+impl<N: Number, const F: usize> Force<N, F> {
+    /// Coefficient `k`, at least 1, of G cos d + H sin d.
+    #[inline(always)]
+    fn order<const LEN: usize>(&self, k: usize, turn: &Turn<N, LEN>) -> N {
+        // In every sum the terms that are known last come last: the sums
+        // wait for nothing else.
+        let Self { even, odd } = self;
+        let Turn { sine, fall } = turn;
+        let (mut sum, known) = if k < F {
+            (even[k], k)
+        } else {
+            let last = F - 1;
+            let mut sum = odd[last] * sine[k - last];
+            if k > F {
+                sum = (-even[last]).mul_add(fall[k - last], sum);
+            }
+            (sum, last)
         };
-        velocity[k + 1] = force * N::ratio(1, k as i32 + 1);
-        if k + 2 < LEN {
-            c[k + 2] = velocity[k + 1] * N::ratio(1, k as i32 + 2);
+        for j in (0..known).rev() {
+            if k - j > 1 {
+                sum = (-even[j]).mul_add(fall[k - j], sum);
+            }
+            sum = odd[j].mul_add(sine[k - j], sum);
         }
-    };
-    extend(0);
-    written_out!(1..LEN - 1, |k| extend(k));
-    (c, velocity)
+        sum
+    }
+}
+
+/// Series of sin d and 1 - cos d.
+struct Turn<N, const LEN: usize> {
+    sine: [N; LEN],
+    fall: [N; LEN],
+}
+
+impl<N: Number, const LEN: usize> Turn<N, LEN> {
+    /// Coefficient `n`, at least 2, from a motion known to it.
+    #[inline(always)]
+    fn extend(&mut self, n: usize, series: &Series<N, LEN>, h: N) {
+        let Self { sine, fall } = self;
+        let v = &series.v;
+        let step = h * N::ratio(1, n as i32);
+        sine[n] = series.c[n];
+        if n > 2 {
+            let mut sum = v[n - 3] * fall[2];
+            for j in 3..n {
+                sum = v[n - 1 - j].mul_add(fall[j], sum);
+            }
+            sine[n] = (-sum).mul_add(step, sine[n]);
+        }
+        let mut sum = v[n - 2] * sine[1];
+        for j in 2..n {
+            sum = v[n - 1 - j].mul_add(sine[j], sum);
+        }
+        fall[n] = sum * step;
+    }
+}
+
+impl<N: Number, const LEN: usize> Series<N, LEN> {
+    /// Motion to first order, from its acceleration.
+    #[inline(always)]
+    fn begin((u, w): (N, N), force: N, h: N) -> Self {
+        let (mut c, mut v) = ([N::zero(); LEN], [N::zero(); LEN]);
+        (c[0], v[0]) = (u, w);
+        (c[1], v[1]) = (w * h, force * h);
+        Self { c, v }
+    }
+
+    /// Motion of order `k + 1`, at least 2, from its acceleration of order
+    /// `k`.
+    #[inline(always)]
+    fn extend(&mut self, k: usize, force: N, h: N) {
+        let step = h * N::ratio(1, k as i32 + 1);
+        self.v[k + 1] = force * step;
+        self.c[k + 1] = self.v[k] * step;
+    }
+
+    /// Motion at the end of the step.
+    #[inline(always)]
+    pub fn end(&self) -> (N, N) {
+        (total(&self.c), total(&self.v))
+    }
+}
+
+/// Value at the end of the step: the coefficients' sum, small ones first but
+/// for the two that are seldom known last.
+#[inline(always)]
+pub(crate) fn total<N: Number, const LEN: usize>(c: &[N; LEN]) -> N {
+    let mut sum = c[2];
+    for x in &c[3..] {
+        sum = sum + *x;
+    }
+    c[0] + (c[1] + sum)
 }
 
 /// Value of the polynomial `c` at `tau`.

@@ -3,11 +3,12 @@
 //! Every fused multiply-add in a result path is explicit, so all levels give
 //! the same bits; the level decides the speed alone (a fused operation is a
 //! library call where the instruction set has none). An [`Isa`] is made by
-//! detection only, which is what makes the `unsafe` calls here sound. This is
-//! the only file of the crate with `unsafe`.
+//! detection only, which is what makes the `unsafe` calls here sound: of the
+//! levels' functions, and of the instructions by which lanes are registers.
+//! This is the only file of the crate with `unsafe`.
 #![expect(
     unsafe_code,
-    reason = "calling a #[target_feature] function is unsafe; detection makes it sound"
+    reason = "functions and instructions of a level are unsafe to call; detection makes it sound"
 )]
 
 use crate::number::lanes::{Lanes, Several};
@@ -286,6 +287,15 @@ mod vectors {
         }
 
         #[inline(always)]
+        fn unlike(self, other: Self, third: Self) -> Bits {
+            Bits(level!({
+                let pair = _mm512_xor_pd(self.0, other.0);
+                let signs = _mm512_or_pd(pair, third.0);
+                _mm512_movepi64_mask(_mm512_castpd_si512(signs))
+            }))
+        }
+
+        #[inline(always)]
         fn at_most(self, other: Self) -> Bits {
             Bits(level!(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0)))
         }
@@ -338,8 +348,7 @@ mod vectors {
                 let place = counts.as_mut_ptr().cast();
                 let before = _mm512_loadu_epi64(place);
                 let one = _mm512_set1_epi64(1);
-                let after =
-                    _mm512_mask_add_epi64(before, self.0, before, one);
+                let after = _mm512_mask_add_epi64(before, self.0, before, one);
                 _mm512_storeu_epi64(place, after);
             });
         }

@@ -41,6 +41,10 @@ pub(crate) trait Several: Number {
     /// Lanes in which this is less than `other`.
     fn below(self, other: Self) -> Self::Truths;
 
+    /// Lanes in which this and `other` have different signs, or `third` has a
+    /// negative one.
+    fn unlike(self, other: Self, third: Self) -> Self::Truths;
+
     /// Lanes in which this is at most `other`.
     fn at_most(self, other: Self) -> Self::Truths;
 
@@ -151,6 +155,17 @@ impl Several for Lanes {
         let mut out = [0; WIDTH];
         for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] < other.0[lane]);
+        }
+        Mask(out)
+    }
+
+    #[inline(always)]
+    fn unlike(self, other: Self, third: Self) -> Mask {
+        let mut out = [0; WIDTH];
+        for lane in 0..WIDTH {
+            let pair = self.0[lane].to_bits() ^ other.0[lane].to_bits();
+            let signs = pair | third.0[lane].to_bits();
+            out[lane] = ones((signs as i64) < 0);
         }
         Mask(out)
     }
@@ -348,3 +363,6 @@ impl Number for Lanes {
         sin_cos_polynomials(self)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,7 +4,7 @@ use crate::integrator::coast::{Coast, coast};
 use crate::integrator::driver::{Driver, Flight, Motion, Stage, Step};
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::{Forcing, Place, Silence};
-use crate::integrator::taylor::value;
+use crate::integrator::taylor::{Series, value};
 use crate::integrator::{HistoryPoint, Outcome, Response, Side};
 use crate::number::Real;
 
@@ -40,13 +40,12 @@ where
         }
     }
 
-    /// Points of a history within a step.
+    /// Points of a history within the time `tau` of a step of some length.
     #[inline(never)]
     pub(super) fn sample_step<const LEN: usize>(
         &mut self,
-        c: &[N; LEN],
-        v: &[N; LEN],
-        tau: N,
+        series: &Series<N, LEN>,
+        (tau, length): (N, N),
         place: Place<N>,
         side: Side,
     ) {
@@ -61,11 +60,11 @@ where
             if !(at <= tau) {
                 return;
             }
-            let at = at.positive_part();
+            let x = at.positive_part() / length;
             self.record.history.push(HistoryPoint {
                 time_s,
-                rotation_rad: sign * value(c, at),
-                velocity_rad_s: sign * (value(v, at) * p),
+                rotation_rad: sign * value(&series.c, x),
+                velocity_rad_s: sign * (value(&series.v, x) * p),
             });
         }
     }

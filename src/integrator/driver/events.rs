@@ -5,11 +5,11 @@ use crate::integrator::driver::{Driver, Motion};
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::roots::first_descent;
-use crate::integrator::taylor::value;
+use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
 use crate::number::dispatch::Work as Dispatched;
 
-/// What happened in a step.
+/// What happened in a step, and after which part of it.
 pub(super) enum Event<N> {
     None,
     Impact(N),
@@ -21,100 +21,95 @@ where
     N: Real,
     G: Forcing<N, F>,
 {
-    /// First impact or overturning in (0, length].
+    /// First impact or overturning, in parts of the step: in (0, 1].
     #[inline(always)]
     pub(super) fn first_event<const LEN: usize>(
         &self,
         c: &[N; LEN],
-        length: N,
     ) -> Event<N> {
-        // Bound on |u(tau) - u_0 - w_0 tau| / tau over the step.
+        // Bound on |u - c_0 - c_1 x| / x over the step.
         let mut rest = N::zero();
         for k in (2..LEN).rev() {
-            rest = rest.mul_add(length, c[k].abs());
+            rest = rest + c[k].abs();
         }
-        let rest = rest * length;
-        let linear = c[1] * length;
-        let spread = rest * length;
-        let (down, up) = (-(-linear).positive_part(), linear.positive_part());
-        let clear_of_base = is_clear_of_base([c[0], c[1]], down, rest, spread);
-        let clear_of_limit = c[0] + up + spread < self.dynamics.limit;
+        let (down, up) = (-(-c[1]).positive_part(), c[1].positive_part());
+        let clear_of_base = is_clear_of_base([c[0], c[1]], down, rest);
+        let clear_of_limit = c[0] + up + rest < self.dynamics.limit;
         if clear_of_base && clear_of_limit {
             return Event::None;
         }
         let impact = if clear_of_base {
             None
         } else {
-            first_descent(c, length, self.isa)
+            first_descent(c, N::one(), self.isa)
         };
         let overturning = if clear_of_limit {
             None
         } else {
             let mut gap = c.map(|x| -x);
             gap[0] = self.dynamics.limit - c[0];
-            first_descent(&gap, length, self.isa)
+            first_descent(&gap, N::one(), self.isa)
         };
         match (impact, overturning) {
             (None, None) => Event::None,
-            (Some(tau), None) => Event::Impact(tau),
-            (None, Some(tau)) => Event::Overturning(tau),
+            (Some(x), None) => Event::Impact(x),
+            (None, Some(x)) => Event::Overturning(x),
             (Some(i), Some(o)) if i < o => Event::Impact(i),
             (Some(_), Some(o)) => Event::Overturning(o),
         }
     }
 
-    /// Raises the peak by the turning points in (0, tau).
+    /// Raises the peak by the turning points in the part (0, `x`) of a step
+    /// from a place, of some length.
     #[inline(always)]
     pub(super) fn turning_points<const LEN: usize>(
         &mut self,
-        c: &[N; LEN],
-        v: &[N; LEN],
-        tau: N,
-        place: Place<N>,
+        series: &Series<N, LEN>,
+        x: N,
+        step: (Place<N>, N),
     ) {
+        let Series { c, v } = series;
         let mut rest = N::zero();
         for k in (2..LEN).rev() {
-            rest = rest.mul_add(tau, c[k].abs());
+            rest = rest.mul_add(x, c[k].abs());
         }
-        let rise = (c[1] * tau).positive_part();
-        if !(c[0] + rise + rest * tau * tau > self.record.peak) {
+        let rise = (c[1] * x).positive_part();
+        if !(c[0] + rise + rest * x * x > self.record.peak) {
             return;
         }
         let mut variation = N::zero();
         for k in (1..LEN).rev() {
-            variation = variation.mul_add(tau, v[k].abs());
+            variation = variation.mul_add(x, v[k].abs());
         }
-        if v[0].abs() > variation * tau {
+        if v[0].abs() > variation * x {
             return;
         }
-        self.raise_by_turning(c, v, tau, place);
+        self.raise_by_turning(series, x, step);
     }
 
     #[inline(never)]
     pub(super) fn raise_by_turning<const LEN: usize>(
         &mut self,
-        c: &[N; LEN],
-        v: &[N; LEN],
-        tau: N,
-        place: Place<N>,
+        series: &Series<N, LEN>,
+        x: N,
+        step: (Place<N>, N),
     ) {
         let isa = self.isa;
-        isa.run(Turning { driver: self, c, v, tau, place });
+        isa.run(Turning { driver: self, series, x, step });
     }
 
     #[inline(always)]
     pub(super) fn locate_turning_points<const LEN: usize>(
         &mut self,
-        c: &[N; LEN],
-        v: &[N; LEN],
-        tau: N,
-        place: Place<N>,
+        series: &Series<N, LEN>,
+        x: N,
+        (place, length): (Place<N>, N),
     ) {
         let mut at = N::zero();
-        let mut v = *v;
+        let Series { c, mut v } = *series;
         // At most LEN turning points lie in a step.
         for _ in 0..LEN {
-            let left = tau - at;
+            let left = x - at;
             let first = v.iter().find(|x| **x != N::zero());
             let Some(first) = first else { return };
             let rising = *first > N::zero();
@@ -129,7 +124,7 @@ where
             }
             at = at + turn;
             if rising {
-                self.raise_peak(value(c, at), place, at);
+                self.raise_peak(value(&c, at), place, at * length);
             }
             if !rising {
                 v = v.map(|x| -x);
@@ -181,11 +176,11 @@ where
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
             let drive = self.dynamics.drive(f);
-            let (c, v): ([N; HARD], [N; HARD]) = self.expand(u, w, &drive);
-            if let Some(tau) = first_descent(&v, left, self.isa) {
-                return self.beyond(value(&c, tau));
+            let series: Series<N, HARD> = self.expand((u, w), left, &drive);
+            if let Some(x) = first_descent(&series.v, N::one(), self.isa) {
+                return self.beyond(value(&series.c, x));
             }
-            (u, w) = (value(&c, left), value(&v, left));
+            (u, w) = series.end();
             if !(u < N::right_angle()) {
                 return f64::INFINITY;
             }
@@ -200,17 +195,16 @@ where
     }
 }
 
-/// Whether a polynomial that starts with c_0 + c_1 tau surely stays above
-/// zero: c_1 tau adds `down` at the lowest, the other terms at most `rest`
-/// times tau, and `spread` in all.
+/// Whether a polynomial that starts with c_0 + c_1 x surely stays above zero
+/// to x = 1: c_1 x adds `down` at the lowest, the other terms at most `rest`
+/// times x.
 #[inline(always)]
 fn is_clear_of_base<N: Real>(
     [start, slope]: [N; 2],
     down: N,
     rest: N,
-    spread: N,
 ) -> bool {
-    start + down > spread || (start == N::zero() && slope > rest)
+    start + down > rest || (start == N::zero() && slope > rest)
 }
 
 /// The margin of an overturning, compiled for each instruction-set level.
@@ -245,10 +239,9 @@ struct Turning<
     const HARD: usize,
 > {
     driver: &'d mut Driver<N, G, SIZE, F, HARD>,
-    c: &'d [N; LEN],
-    v: &'d [N; LEN],
-    tau: N,
-    place: Place<N>,
+    series: &'d Series<N, LEN>,
+    x: N,
+    step: (Place<N>, N),
 }
 
 impl<
@@ -267,8 +260,8 @@ where
 
     #[inline(always)]
     fn run(self) {
-        let Self { driver, c, v, tau, place } = self;
-        driver.locate_turning_points(c, v, tau, place);
+        let Self { driver, series, x, step } = self;
+        driver.locate_turning_points(series, x, step);
     }
 }
 

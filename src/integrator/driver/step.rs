@@ -5,7 +5,7 @@ use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, Place};
-use crate::integrator::taylor::{expand, slope, value};
+use crate::integrator::taylor::{Series, expand, slope, value};
 use crate::number::dispatch::Work as Dispatched;
 use crate::number::{Number, Real};
 
@@ -89,24 +89,27 @@ where
         let Motion { side, u, w } = step.motion;
         let oriented = self.oriented(step.place, side, step.at_threshold);
         let drive = self.dynamics.drive(oriented);
-        let (c, v): ([N; LEN], [N; LEN]) = self.expand(u, w, &drive);
-        let (c, v) = (&c, &v);
+        let series: Series<N, LEN> = self.expand((u, w), length, &drive);
+        let Series { c, v } = &series;
         self.record.work.steps += 1;
         if left_by(v, length) > self.allowed(w, length) {
             return None;
         }
-        let event = self.first_event(c, length);
-        let tau = match event {
-            Event::None => length,
-            Event::Impact(tau) | Event::Overturning(tau) => tau,
+        let event = self.first_event(c);
+        let (x, tau, (end_u, end_w)) = match event {
+            Event::None => (N::one(), length, series.end()),
+            Event::Impact(x) | Event::Overturning(x) => {
+                (x, x * length, (value(c, x), value(v, x)))
+            }
         };
-        self.turning_points(c, v, tau, step.place);
+        self.turning_points(&series, x, (step.place, length));
         if self.interval_s.is_some() {
-            self.sample_step(c, v, tau, step.place, side);
+            self.sample_step(&series, (tau, length), step.place, side);
         }
-        let (end_u, end_w) = (value(c, tau), value(v, tau));
         if self.record.accuracy.is_some() {
-            self.track(c, v, (drive.a, drive.b), tau, (end_u, end_w));
+            let last = left_by(v, tau) * power(x, LEN - 1);
+            let ends = [(u, w), (end_u, end_w)];
+            self.track(ends, (drive.a, drive.b), tau, last);
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
@@ -126,7 +129,7 @@ where
                 }))
             }
             Event::Impact(_) => {
-                let before = slope(v, tau);
+                let before = slope(v, x) / length;
                 Some(
                     self.impact(step, -end_w, before)
                         .map_or(Advance::Bounced, Advance::Ended),
@@ -139,10 +142,10 @@ where
     #[inline(always)]
     pub(super) fn expand<const LEN: usize>(
         &self,
-        u: N,
-        w: N,
+        (u, w): (N, N),
+        length: N,
         drive: &Drive<N, F>,
-    ) -> ([N; LEN], [N; LEN]) {
+    ) -> Series<N, LEN> {
         let model = self.dynamics.model;
         let sine_cosine = match model {
             // Beyond pi/4 the short polynomials lose digits.
@@ -150,7 +153,7 @@ where
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, N::one()),
         };
-        expand(model, u, w, drive, sine_cosine)
+        expand(model, (u, w), length, drive, sine_cosine)
     }
 
     /// Series of s a/g about a place.
@@ -171,21 +174,21 @@ where
         series
     }
 
-    /// Accumulates the error of a step.
+    /// Accumulates the error of a step between two motions, whose series
+    /// leaves `last`.
     #[inline(never)]
-    pub(super) fn track<const LEN: usize>(
+    pub(super) fn track(
         &mut self,
-        c: &[N; LEN],
-        v: &[N; LEN],
+        [from, (u, w)]: [(N, N); 2],
         drive: (N, N),
         tau: N,
-        (u, w): (N, N),
+        last: N,
     ) {
         let model = self.dynamics.model;
         let Some(accuracy) = &mut self.record.accuracy else { return };
         let (a, b) = (drive.0.to_f64(), drive.1.to_f64());
-        let u0 = c[0].to_f64();
-        let last = left_by(v, tau).to_f64();
+        let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
+        let last = last.to_f64();
         let tau = tau.to_f64();
         let (j, force) = match model {
             Model::Nonlinear => {
@@ -198,7 +201,7 @@ where
         let size = force + self.dynamics.threshold.to_f64();
         let unit = N::ROUNDOFF;
         let error_u = unit * u.to_f64().abs().max(u0) + last * tau;
-        let speed = w.to_f64().abs().max(c[1].to_f64().abs());
+        let speed = w.to_f64().abs().max(w0.abs());
         let error_w = unit * (speed + size * tau) + last;
         accuracy.step(j, tau, [error_u, error_w]);
     }
@@ -210,11 +213,11 @@ where
         self.tolerance * self.dynamics.alpha.mul_add(length, w.abs())
     }
 
-    /// Last of `LEN` coefficients of the velocity that leaves as much as is
-    /// allowed over a step of `length`, per unit of the velocity.
+    /// Last coefficient of the velocity that leaves as much as is allowed
+    /// over a step of `length`, per unit of the velocity.
     #[inline(always)]
-    pub fn last_allowed<const LEN: usize>(&self, length: N) -> N {
-        self.tolerance / last_term(N::one(), LEN, length)
+    pub fn last_allowed(&self, length: N) -> N {
+        self.tolerance / last_term(N::one(), length)
     }
 }
 
@@ -243,22 +246,17 @@ where
 /// coefficient of the velocity is at most about a quarter of its last one
 /// (1/`LEN` for the motion alone; the rest allows for strong forcing).
 #[inline(always)]
-fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], tau: N) -> N {
-    last_term(v[LEN - 1].abs(), LEN, tau)
+fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
+    last_term(v[LEN - 1].abs(), length)
 }
 
-/// That estimate from the size of the last of `count` coefficients.
+/// That estimate from the size of the last coefficient.
 #[inline(always)]
-pub(crate) fn last_term<N: Number>(last: N, count: usize, tau: N) -> N {
-    let mut power = N::ratio(1, 4) * last;
-    let mut base = tau;
-    let mut left = count;
-    while left > 0 {
-        if left % 2 == 1 {
-            power = power * base;
-        }
-        base = base * base;
-        left /= 2;
-    }
-    power
+pub(crate) fn last_term<N: Number>(last: N, length: N) -> N {
+    N::ratio(1, 4) * last * length
+}
+
+/// x to the power `n`.
+fn power<N: Number>(x: N, n: usize) -> N {
+    (0..n).fold(N::one(), |power, _| power * x)
 }

@@ -9,9 +9,10 @@ use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::chatter::Impacted;
 use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
+use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::waiting::{Lane, Line};
-use crate::integrator::pool::{GROUPS, SMALL, Slot};
-use crate::integrator::taylor::{expand, value};
+use crate::integrator::pool::{GROUPS, SMALL};
+use crate::integrator::taylor::{Series, expand, total, value};
 use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
 
 /// A bit for each lane of a batch.
@@ -93,23 +94,20 @@ impl Solved {
     }
 }
 
-/// Coefficients of rotation and velocity.
-type Series<V, const SIZE: usize> = ([V; SIZE], [V; SIZE]);
-
 /// A turning point of a step.
 struct Turning<V: Several> {
-    /// There surely is one, at `turn`.
+    /// There surely is one, after the part `x`.
     found: V::Truths,
-    turn: V,
+    x: V,
     /// It takes more to tell.
     unsure: V::Truths,
 }
 
 /// The first impact of a step.
 struct FirstImpact<V: Several> {
-    /// There surely is one, at `tau`.
+    /// There surely is one, after the part `x`.
     found: V::Truths,
-    tau: V,
+    x: V,
     /// It takes more to tell.
     unsure: V::Truths,
 }
@@ -197,17 +195,17 @@ impl Batch {
         let (here, ahead) = (V::load(&self.here), V::load(&self.ahead));
         let whole = V::load(&self.whole);
         let rate = (ahead - here) * V::load(&self.inverse);
-        let series = [rate.mul_add(offset, here), rate];
+        let forcing = [rate.mul_add(offset, here), rate];
         let threshold = V::load(&self.threshold);
         let cosine = V::load(&self.cosine);
         let constants = (threshold, V::load(&self.sine), cosine);
-        let drive = Drive::new(model, constants, series);
+        let drive = Drive::new(model, constants, forcing);
         let small = match model {
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, V::one()),
         };
-        let (mut c, mut v): Series<V, SIZE> =
-            expand(model, u, w, &drive, small);
+        let Series { mut c, mut v }: Series<V, SIZE> =
+            expand(model, (u, w), h, &drive, small);
         // Beyond it the driver takes other functions.
         let large = match model {
             Model::Nonlinear => all.but_not(u.below(V::from_f64(SMALL))),
@@ -216,7 +214,7 @@ impl Batch {
         let mut left = large;
         let tolerance = V::load(&self.tolerance);
         let allowed = tolerance * V::load(&self.alpha).mul_add(h, w.abs());
-        let again = allowed.below(last_term(v[LEN - 1].abs(), LEN, h));
+        let again = allowed.below(last_term(v[LEN - 1].abs(), h));
         let mut hard = none;
         if SIZE > LEN {
             // Where the class' own series is enough, it is it.
@@ -224,7 +222,7 @@ impl Batch {
                 c[k] = again.select(c[k], zero);
                 v[k] = again.select(v[k], zero);
             }
-            let last = last_term(v[SIZE - 1].abs(), SIZE, h);
+            let last = last_term(v[SIZE - 1].abs(), h);
             left = left.or(allowed.below(last));
         } else if LEN < HARD {
             hard = again;
@@ -240,8 +238,8 @@ impl Batch {
         if FREE {
             out.left = left.but_not(hard).bits();
             (out.impact, out.turned, out.rested) = (0, 0, 0);
-            value(&c, h).store(&mut out.u);
-            value(&v, h).store(&mut out.w);
+            total(&c).store(&mut out.u);
+            total(&v).store(&mut out.w);
             ahead.store(&mut out.here);
             amplitude.store(&mut out.amplitude);
             zero.store(&mut out.offset);
@@ -252,21 +250,21 @@ impl Batch {
         let first = self.first_impact(&c);
         left = left.or(first.unsure);
         let impact = first.found;
-        let tau = impact.select(first.tau, h);
-        let turning = self.turning(&c, &v, tau);
+        let x = impact.select(first.x, V::one());
+        let turning = self.turning(&c, &v, x);
         left = left.or(turning.unsure);
-        let (end_u, end_w) = (value(&c, tau), value(&v, tau));
+        let end_w = impact.select(value(&v, x), total(&v));
 
         // The impact, and whether the motion comes to rest after it.
         let fall = zero.below(-end_w);
         let eta = V::load(&self.eta);
         let w = eta * fall.select(-end_w, zero);
-        let there = offset + tau;
+        let there = offset + x * h;
         let rest = whole - there;
         // Neither a step of no length nor an impact of no speed is one here.
         let plain = there.below(whole).and(zero.below(w));
         left = left.or(impact.but_not(plain));
-        let top = value(&c, turning.turn);
+        let top = value(&c, turning.x);
         let peak = V::load(&self.peak);
         let raised = turning.found.and(peak.below(top));
         let impacted = Impacted {
@@ -287,9 +285,9 @@ impl Batch {
         out.left = left.but_not(hard).bits();
         out.impact = impact.bits();
         out.turned = turning.found.bits();
-        turning.turn.store(&mut out.turn);
+        (turning.x * h).store(&mut out.turn);
         top.store(&mut out.top);
-        impact.select(zero, end_u).store(&mut out.u);
+        impact.select(zero, total(&c)).store(&mut out.u);
         impact.select(w, end_w).store(&mut out.w);
         impact.select(-here, ahead).store(&mut out.here);
         impact.select(there, zero).store(&mut out.offset);
@@ -303,22 +301,18 @@ impl Batch {
         &self,
         c: &[V; SIZE],
     ) -> FirstImpact<V> {
-        let zero = V::zero();
-        let h = V::load(&self.length);
+        let (zero, one) = (V::zero(), V::one());
         let mut rest = zero;
         for k in (2..SIZE).rev() {
-            rest = rest.mul_add(h, c[k].abs());
+            rest = rest + c[k].abs();
         }
-        let rest = rest * h;
-        let linear = c[1] * h;
-        let spread = rest * h;
         let falling = c[1].below(zero);
-        let down = falling.select(linear, zero);
-        let up = falling.select(zero, linear);
+        let down = falling.select(c[1], zero);
+        let up = falling.select(zero, c[1]);
         let at_base = c[0].equals(zero);
         let clear_of_base =
-            spread.below(c[0] + down).or(at_base.and(rest.below(c[1])));
-        let clear_of_limit = (c[0] + up + spread).below(V::load(&self.limit));
+            rest.below(c[0] + down).or(at_base.and(rest.below(c[1])));
+        let clear_of_limit = (c[0] + up + rest).below(V::load(&self.limit));
 
         // A start on the base is divided out.
         let mut q = *c;
@@ -326,36 +320,37 @@ impl Batch {
             let next = if k + 1 < SIZE { c[k + 1] } else { zero };
             q[k] = at_base.select(next, c[k]);
         }
-        let descent = descent(&q, h);
+        let descent = descent(&q, one);
         let none = clear_of_base.or(descent.none);
         let sure = clear_of_limit.and(none.or(descent.one));
         let found = sure.but_not(none);
-        let tau = refine(&q, h, found);
-        FirstImpact { found, tau, unsure: sure.not() }
+        let x = refine(&q, one, found);
+        FirstImpact { found, x, unsure: sure.not() }
     }
 
-    /// A turning point before `tau` that may be above the peak.
+    /// A turning point in the part (0, `x`) that may be above the peak.
     #[inline(always)]
     fn turning<V: Several, const SIZE: usize>(
         &self,
         c: &[V; SIZE],
         v: &[V; SIZE],
-        tau: V,
+        x: V,
     ) -> Turning<V> {
         let zero = V::zero();
         let (mut rest, mut variation) = (zero, zero);
         for k in (1..SIZE).rev() {
             if k > 1 {
-                rest = rest.mul_add(tau, c[k].abs());
+                rest = rest.mul_add(x, c[k].abs());
             }
-            variation = variation.mul_add(tau, v[k].abs());
+            variation = variation.mul_add(x, v[k].abs());
         }
-        let rise = zero.below(c[1]).select(c[1] * tau, zero);
-        let high = c[0] + rise + rest * tau * tau;
-        let may =
-            V::load(&self.peak).below(high).but_not((variation * tau).below(v[0].abs()));
+        let rise = zero.below(c[1]).select(c[1] * x, zero);
+        let high = c[0] + rise + rest * x * x;
+        let may = V::load(&self.peak)
+            .below(high)
+            .but_not((variation * x).below(v[0].abs()));
         if !may.any() {
-            return Turning { found: may, turn: zero, unsure: may };
+            return Turning { found: may, x: zero, unsure: may };
         }
         // Only a velocity that falls all the way turns just once.
         let sinking = v[0].below(zero);
@@ -363,12 +358,12 @@ impl Batch {
         for k in 0..SIZE {
             q[k] = sinking.select(-v[k], v[k]);
         }
-        let descent = descent(&q, tau);
+        let descent = descent(&q, x);
         let found = may.and(descent.one).but_not(sinking);
-        let turn = refine(v, tau, found);
-        let found = found.and(turn.below(tau));
+        let turn = refine(v, x, found);
+        let found = found.and(turn.below(x));
         // One that sinks may turn upwards, and if so does not turn back.
         let none = descent.none.or(found).or(sinking.and(descent.falls));
-        Turning { found, turn, unsure: may.but_not(none) }
+        Turning { found, x: turn, unsure: may.but_not(none) }
     }
 }

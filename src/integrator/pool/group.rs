@@ -3,8 +3,9 @@
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model};
-use crate::integrator::pool::{SAFETY, SMALL, Slot};
-use crate::integrator::taylor::{expand, value};
+use crate::integrator::pool::slot::Slot;
+use crate::integrator::pool::{SAFETY, SMALL};
+use crate::integrator::taylor::{Series, expand};
 use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
 
 /// Share of its start above which a rotation that sinks surely ends above the
@@ -35,6 +36,8 @@ pub(super) struct Group<'a> {
     least: Lanes,
     /// Rotation that nothing may reach.
     ceiling: Lanes,
+    /// Largest |u - alpha| up to it.
+    tilt: Lanes,
     /// Largest rotation at a turning point so far.
     pub peak: Lanes,
     pub side: [Side; WIDTH],
@@ -76,6 +79,7 @@ impl<'a> Group<'a> {
             last: zero,
             least: zero,
             ceiling: zero,
+            tilt: zero,
             peak: zero,
             side: [Side::Positive; WIDTH],
             samples: [&[]; WIDTH],
@@ -156,9 +160,11 @@ impl<'a> Group<'a> {
         self.next[lane] = piece as u64 + 1;
         self.first[lane] = piece as u64 + 1;
         (self.extra[lane], self.impacts[lane]) = (0, 0);
-        self.last[lane] = driver.last_allowed::<LEN>(h) / SAFETY;
+        self.last[lane] = driver.last_allowed(h) / SAFETY;
         self.least[lane] = dynamics.alpha * h;
-        self.ceiling[lane] = dynamics.limit.min(SMALL);
+        let ceiling = dynamics.limit.min(SMALL);
+        self.ceiling[lane] = ceiling;
+        self.tilt[lane] = dynamics.alpha.max(ceiling - dynamics.alpha);
         self.peak[lane] = driver.peak();
         self.active |= 1 << lane;
     }
@@ -178,19 +184,20 @@ impl<'a> Group<'a> {
         let (u, w) = (V::load(&self.u), V::load(&self.w));
         let here = V::load(&self.here);
         let rate = (ahead - here) * V::load(&self.inverse);
-        let series = [rate.mul_add(V::load(&self.offset), here), rate];
-        let drive = Drive::new(model, self.constants::<V>(), series);
+        let forcing = [rate.mul_add(V::load(&self.offset), here), rate];
+        let Self { threshold, sine, cosine, .. } = self;
+        let constants = (V::load(threshold), V::load(sine), V::load(cosine));
+        let drive = Drive::new(model, constants, forcing);
         let small = match model {
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, V::one()),
         };
-        let (c, v): ([_; LEN], [_; LEN]) =
-            expand(model, u, w, &drive, small);
         let h = V::load(&self.length);
-        let end = (value(&c, h), value(&v, h));
-        let free = self.free_of_events(model, &drive, ahead, end);
+        let series: Series<V, LEN> = expand(model, (u, w), h, &drive, small);
+        let end = series.end();
+        let free = self.free_of_events(forcing, ahead, end);
         let size = w.abs() + V::load(&self.least);
-        let enough = v[LEN - 1].abs().below(V::load(&self.last) * size);
+        let enough = series.v[LEN - 1].abs().below(V::load(&self.last) * size);
         let active = V::Truths::of(self.active);
         let clear = active.and(free).and(enough);
         clear.select(end.0, u).store(&mut self.u);
@@ -205,65 +212,44 @@ impl<'a> Group<'a> {
         Parked { lanes: stopped.bits(), hard: stopped.and(free).bits() }
     }
 
-    /// Threshold, and sine and cosine of the slenderness angle.
-    #[inline(always)]
-    fn constants<V: Several>(&self) -> (V, V, V) {
-        let Self { threshold, sine, cosine, .. } = self;
-        (V::load(threshold), V::load(sine), V::load(cosine))
-    }
-
-    /// Lanes in which the step to `end` meets no base, no limit, and no
-    /// turning point above the peak.
+    /// Lanes in which a step under forcing `f`, which ends at `ahead`, to
+    /// `end` meets no base, no limit, and no turning point above the peak.
     ///
-    /// With |u''| below M and |u'''| below N, the rotation lies within
-    /// M tau^2/2 of its tangent at the start and within M h^2/8 of its chord,
-    /// and the velocity within N h^2/8 of its own.
+    /// With |u''| = |sin(u - alpha) - f cos(u - alpha)| below M, the rotation
+    /// lies within M h^2/8 of its chord; with
+    /// |u'''| = |u' (cos(u - alpha) + f sin(u - alpha)) - f' cos(u - alpha)|
+    /// below N, so does the velocity within N h^2/8. (Eq. 2 has less of
+    /// either.) Were the limit passed, M would grow by less than is passed.
     #[inline(always)]
     fn free_of_events<V: Several>(
         &self,
-        model: Model,
-        drive: &Drive<V, 2>,
+        [f, rate]: [V; 2],
         ahead: V,
         end: (V, V),
     ) -> V::Truths {
         let (u, w) = (V::load(&self.u), V::load(&self.w));
         let h = V::load(&self.length);
-        let ceiling = V::load(&self.ceiling);
-        let zero = V::zero();
-        // |A| sin u + |B| below the ceiling; both are linear in time.
-        let last = Drive::new(model, self.constants::<V>(), [ahead]);
-        let (more, eighth) =
-            (h * V::from_f64(SAFETY), h * V::from_f64(0.125));
-        let pull = drive.a.abs().max(last.a.abs());
-        let push = drive.b.abs().max(last.b.abs());
-        let bend = pull.mul_add(ceiling, push);
-        let turn = bend * more;
+        let eighth = h * V::from_f64(0.125 * SAFETY);
+        // Linear in time, so largest at an end.
+        let push = f.abs().max(ahead.abs());
+        let tilt = V::load(&self.tilt);
+        let bend = push + tilt;
+        let turn = bend * h;
         let sag = turn * eighth;
-        // |w| (|A| + |B| sin u) + |f'|, with |w| below its own bound.
         let speed = w.abs();
-        let stiff = push.mul_add(ceiling, pull);
-        let bent = (speed + turn).mul_add(stiff, drive.f[1].abs());
-        let bow = bent * (more * eighth);
+        let stiff = push.mul_add(tilt, V::one());
+        let bent = (speed + turn).mul_add(stiff, rate.abs());
+        let bow = bent * (h * eighth);
 
-        let linear = w.mul_add(h, u);
-        let low = sag.mul_add(V::from_f64(-4.0), linear);
-        let high = sag.mul_add(V::from_f64(4.0), linear);
-        let rises = bow.below(w.min(end.1));
-        let sinks = w.max(end.1).below(-bow);
+        // A start below the base is not free.
+        let turns = w.unlike(end.1, u);
+        let goes_on = bow.below(speed.min(end.1.abs())).but_not(turns);
         // By more than the root finder's rounding.
         let stays = (u * V::from_f64(STAYS)).below(end.0);
-        let above_base = zero
-            .below(low)
-            .or(sag.below(u.min(end.0)))
-            .or(rises)
-            .or(sinks.and(stays));
-        let below_limit = high.below(ceiling).and(u.below(ceiling));
-        let below_peak = (u.max(end.0) + sag)
-            .below(V::load(&self.peak))
-            .or(turn.below(speed))
-            .or(rises)
-            .or(sinks);
-        let outside = u.below(zero);
-        above_base.and(below_limit).and(below_peak).but_not(outside)
+        let above_base = sag.below(u.min(end.0)).or(goes_on.and(stays));
+        let top = u.max(end.0) + sag;
+        let below_limit = top.below(V::load(&self.ceiling));
+        let below_peak = top.below(V::load(&self.peak)).or(goes_on);
+        above_base.and(below_limit).and(below_peak)
     }
 }

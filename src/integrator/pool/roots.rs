@@ -66,8 +66,8 @@ pub(super) fn refine<V: Several, const SIZE: usize>(
     let (mut low, mut high) = (zero, high);
     let root = (q[1] * q[1] - V::from_f64(4.0) * q[0] * q[2]).sqrt();
     let mut guess = (q[0] + q[0]) / (root - q[1]);
-    if SIZE > 4 {
-        let [third, fourth] = [q[3], q[4]];
+    if SIZE > 3 {
+        let (third, fourth) = (q[3], if SIZE > 4 { q[4] } else { zero });
         let beyond = fourth.mul_add(guess, third) * (guess * guess);
         let steep = fourth
             .mul_add(V::from_f64(4.0) * guess, V::from_f64(3.0) * third)
@@ -96,8 +96,7 @@ pub(super) fn refine<V: Several, const SIZE: usize>(
         let done = open.and(close).and(within);
         tau = done.select(next, tau);
         open = open.but_not(done);
-        let wide =
-            (high * V::from_f64(2.0 * f64::ROUNDOFF)).below(high - low);
+        let wide = (high * V::from_f64(2.0 * f64::ROUNDOFF)).below(high - low);
         tau = open.but_not(wide).select(high, tau);
         open = open.and(wide);
         let inside = low.below(next).and(next.below(high));

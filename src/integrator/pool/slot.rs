@@ -1,0 +1,46 @@
+//! A run in its slot, and what the scalar driver does with it.
+
+use crate::integrator::class::SMOOTH;
+use crate::integrator::driver::{Driver, Stage, Step};
+use crate::integrator::forcing::RecordForcing;
+use crate::number::dispatch::{Isa, Work};
+
+/// What drives a run.
+pub(super) type Run<'a, const LEN: usize> =
+    Driver<f64, RecordForcing<'a, f64>, LEN, 2, SMOOTH>;
+
+/// A run in its slot.
+pub(super) struct Slot<'a, T, const LEN: usize> {
+    pub task: T,
+    pub driver: Run<'a, LEN>,
+    pub stage: Stage<f64>,
+}
+
+impl<T, const LEN: usize> Slot<'_, T, LEN> {
+    /// Comes to rest, some time after an impact.
+    pub fn rest(&mut self, after: f64) {
+        if let Stage::Flying(step) = &self.stage {
+            self.stage = self.driver.rest(step.place, after);
+        }
+    }
+
+    /// A step by the scalar driver.
+    pub fn advance(&mut self, step: Step<f64>, isa: Isa) {
+        self.stage = isa.run(Alone { driver: &mut self.driver, step });
+    }
+}
+
+/// A step by the scalar driver.
+struct Alone<'r, 'a, const LEN: usize> {
+    driver: &'r mut Run<'a, LEN>,
+    step: Step<f64>,
+}
+
+impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
+    type Output = Stage<f64>;
+
+    #[inline(always)]
+    fn run(self) -> Stage<f64> {
+        self.driver.proceed(self.step)
+    }
+}

@@ -47,12 +47,8 @@ impl<V: Several> Impacted<V> {
         let push = (one + self.threshold) * (rise + rise);
         let least = least - push;
         let ends = ends.and(zero.below(least));
-        let ratio = |f: V| {
-            let most = self.restoring(f + drift) + push;
-            let low = self.restoring(f - drift) - push;
-            most / low
-        };
-        let (here, there) = (ratio(f), ratio(-f));
+        let here = self.unevenness(f, drift, push);
+        let there = self.unevenness(-f, drift, push);
         let worst = there.below(here).select(here, there);
         let decay = eta * worst.sqrt();
         let bound = two * w * worst.sqrt() / (least * (one - decay));
@@ -64,6 +60,14 @@ impl<V: Several> Impacted<V> {
         let (up, down) = (self.restoring(f), self.restoring(-f));
         let hops = one / up + eta / down;
         (ends, two * w * hops / (one - eta * eta))
+    }
+
+    /// Largest over least downward acceleration, about forcing `f`.
+    #[inline(always)]
+    fn unevenness(&self, f: V, drift: V, push: V) -> V {
+        let most = self.restoring(f + drift) + push;
+        let low = self.restoring(f - drift) - push;
+        most / low
     }
 
     /// Downward acceleration at the base under forcing `f`.

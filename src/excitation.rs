@@ -6,6 +6,7 @@ mod rest_index;
 pub(crate) use pulse::Shape;
 
 pub use pulse::{Pulse, PulseError, PulseKind};
+pub(crate) use rest_index::Left;
 pub use rest_index::RestIndex;
 
 use crate::number::Number;

@@ -15,7 +15,7 @@ use thiserror::Error;
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::integrator::{
-    Model, Observe, Order, Outcome, Overturning, SceneError, respond_as,
+    Model, Order, Outcome, Overturning, SceneError, respond_peak_as,
 };
 use crate::number::dispatch::Isa;
 pub use certified::{Certification, certified_curve, certified_curves};
@@ -267,9 +267,7 @@ fn curve_with(
 ) -> Result<IdaCurve, IdaError> {
     let mut climb = Climb::start(record, analysis)?;
     while let Some((aim, level)) = climb.next(false)? {
-        let observe = Observe::default();
-        let response =
-            respond_as(&level.scene, &observe, analysis.order, isa)?;
+        let response = respond_peak_as(&level.scene, analysis.order, isa)?;
         climb.accept(aim, level.point(&response)?);
     }
     Ok(climb.finish())
@@ -331,9 +329,8 @@ pub fn at(
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
     let level = levels.at(im)?;
-    let observe = Observe::default();
-    let response =
-        respond_as(&level.scene, &observe, analysis.order, Isa::best())?;
+    let order = analysis.order;
+    let response = respond_peak_as(&level.scene, order, Isa::best())?;
     level.point(&response)
 }
 

@@ -1,7 +1,7 @@
 //! Integration of a scene: block, excitation, model, and what to record.
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
-//! Eq. 1 is stepped by its Taylor polynomial, order 9 or 13, one step a sample;
+//! Eq. 1 is stepped by its Taylor polynomial, order 8 to 13, one step a sample;
 //! Eq. 2 by its exponential series, to rounding. Events are roots of the
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the
@@ -28,7 +28,7 @@ use thiserror::Error;
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, RestIndex};
 use crate::number::dispatch::{Isa, Work as Dispatched};
-use class::{Class, SHORT, SMOOTH};
+use class::{Class, LONGEST};
 use driver::Driver;
 use dynamics::Dynamics;
 use forcing::{PulseForcing, RecordForcing, Silence};
@@ -274,7 +274,63 @@ pub fn respond_with(
     observe: &Observe,
     isa: Isa,
 ) -> Result<Response, SceneError> {
-    respond_as(scene, observe, None, isa)
+    check(scene, observe)?;
+    run(scene, observe, Method { order: None, isa, peak_only: false })
+}
+
+/// What became of the block, and its peak: [`respond`] that ends as soon as
+/// nothing can change either, on which the work alone depends.
+///
+/// Fate margin, peak and its time, and first uplift are those of [`respond`],
+/// to the last bit; nothing tells when the block comes to rest.
+///
+/// # Errors
+/// As [`respond`].
+///
+/// ```
+/// use rocking::block::{Block, Restitution};
+/// use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+/// use rocking::integrator::{
+///     Model, Observe, Overturning, Scene, respond, respond_peak,
+/// };
+/// use rocking::record::Accelerogram;
+/// // A second of shaking, then nine that hardly move the ground.
+/// let sample = |k: u32| match k {
+///     0..100 => 0.15 * libm::sin(0.1 * f64::from(k)),
+///     _ => 0.001 * libm::sin(f64::from(k)),
+/// };
+/// let samples = (0..1000).map(sample).collect();
+/// let record = NormalisedRecord::new(
+///     &Accelerogram::try_new("example", 0.01, samples)?,
+/// );
+/// let scene = Scene {
+///     block: Block::try_new(0.1, 3.0)?,
+///     restitution: Restitution::constant(0.92)?,
+///     model: Model::Nonlinear,
+///     overturning: Overturning::Alpha,
+///     excitation: Excitation::Record(ScaledRecord::to_pga(&record, 0.15)),
+///     initial_ratio: 0.0,
+/// };
+/// let peak = respond_peak(&scene)?;
+/// let whole = respond(&scene, &Observe::default())?;
+/// assert_eq!(peak.outcome, whole.outcome);
+/// assert!(peak.work.steps < whole.work.steps);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn respond_peak(scene: &Scene<'_>) -> Result<Response, SceneError> {
+    respond_peak_as(scene, None, Isa::best())
+}
+
+/// [`respond_peak`] at an instruction-set level, Eq. 1 at a fixed order if one
+/// is given.
+pub(crate) fn respond_peak_as(
+    scene: &Scene<'_>,
+    order: Option<Order>,
+    isa: Isa,
+) -> Result<Response, SceneError> {
+    let observe = Observe::default();
+    check(scene, &observe)?;
+    run(scene, &observe, Method { order, isa, peak_only: true })
 }
 
 pub(crate) fn check(
@@ -336,18 +392,25 @@ pub(crate) fn respond_as(
     isa: Isa,
 ) -> Result<Response, SceneError> {
     check(scene, observe)?;
-    run(scene, observe, order, isa)
+    run(scene, observe, Method { order, isa, peak_only: false })
+}
+
+/// How a scene is run.
+#[derive(Clone, Copy)]
+struct Method {
+    order: Option<Order>,
+    isa: Isa,
+    peak_only: bool,
 }
 
 fn run(
     scene: &Scene<'_>,
     observe: &Observe,
-    order: Option<Order>,
-    isa: Isa,
+    method: Method,
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    Ok(isa.run(Run { scene, observe, index, order, isa }))
+    Ok(method.isa.run(Run { scene, observe, index, method }))
 }
 
 /// Index of a record that brings none.
@@ -378,8 +441,7 @@ struct Run<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     index: Option<&'a RestIndex>,
-    order: Option<Order>,
-    isa: Isa,
+    method: Method,
 }
 
 impl Dispatched for Run<'_> {
@@ -395,10 +457,12 @@ impl Dispatched for Run<'_> {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
-                match Class::of(model, step, self.order) {
-                    Class::Short => self.at::<SHORT>(dynamics, forcing),
-                    Class::Smooth | Class::Linearized => {
-                        self.at::<SMOOTH>(dynamics, forcing)
+                match Class::of(model, step, self.method.order) {
+                    Class::Eight => self.at::<9>(dynamics, forcing),
+                    Class::Nine => self.at::<10>(dynamics, forcing),
+                    Class::Ten => self.at::<11>(dynamics, forcing),
+                    Class::Longest | Class::Linearized => {
+                        self.at::<LONGEST>(dynamics, forcing)
                     }
                     Class::Fixed(order) => {
                         self.at_order(order, dynamics, forcing)
@@ -407,16 +471,18 @@ impl Dispatched for Run<'_> {
             }
             (Excitation::Pulse(pulse), _) => {
                 let forcing = PulseForcing::new(pulse, p);
-                Driver::<_, _, SMOOTH, SMOOTH, SMOOTH>::new(
-                    dynamics, forcing, self.isa,
+                Driver::<_, _, LONGEST, LONGEST, LONGEST>::new(
+                    dynamics,
+                    forcing,
+                    self.method.isa,
                 )
                 .run(self.scene, self.observe)
             }
             (Excitation::Record(_) | Excitation::Free, _) => {
-                Driver::<_, _, SMOOTH, 1, SMOOTH>::new(
+                Driver::<_, _, LONGEST, 1, LONGEST>::new(
                     dynamics,
                     Silence::nothing(),
-                    self.isa,
+                    self.method.isa,
                 )
                 .run(self.scene, self.observe)
             }
@@ -432,8 +498,7 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
     ) -> Response {
-        Driver::<_, _, LEN, 2, SMOOTH>::new(dynamics, forcing, self.isa)
-            .run(self.scene, self.observe)
+        self.driver::<LEN>(dynamics, forcing).run(self.scene, self.observe)
     }
 
     #[inline(always)]
@@ -458,8 +523,18 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
     ) -> Response {
-        Driver::<_, _, LEN, 2, SMOOTH>::new(dynamics, forcing, self.isa)
-            .at_fixed_order()
+        self.driver::<LEN>(dynamics, forcing)
+            .within(f64::INFINITY)
             .run(self.scene, self.observe)
+    }
+
+    #[inline(always)]
+    fn driver<'r, const LEN: usize>(
+        &self,
+        dynamics: Dynamics<f64>,
+        forcing: RecordForcing<'r, f64>,
+    ) -> Driver<f64, RecordForcing<'r, f64>, LEN, 2, LONGEST> {
+        let driver = Driver::new(dynamics, forcing, self.method.isa);
+        if self.method.peak_only { driver.for_peak() } else { driver }
     }
 }

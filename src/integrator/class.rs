@@ -1,19 +1,19 @@
 //! Which series a scene under a record is stepped by.
 
 use crate::integrator::Order;
+use crate::integrator::driver::tolerance;
 use crate::integrator::dynamics::Model;
 
-/// Coefficients of the short series: order 9. Order 8 leaves too much of one
-/// step in fourteen on records with sharp kinks, and taking those again costs
-/// more than it saves.
-pub(crate) const SHORT: usize = 10;
-/// Coefficients of pulses, of Eq. 2 (whose series is the exponential's), and
-/// of any step that a shorter series leaves too much of: order 13.
-pub(crate) const SMOOTH: usize = 14;
+/// Coefficients of the longest series, order 13: that of pulses, of Eq. 2
+/// (whose series is the exponential's), of long steps, and of any step that a
+/// shorter series leaves too much of.
+pub(crate) const LONGEST: usize = 14;
 
-/// Longest step (in 1/p) of which the short series leaves less than rounding,
-/// most of the time.
-const SHORT_STEP: f64 = 0.045;
+/// Longest steps (in 1/p) of which the series of orders 8, 9 and 10 leave
+/// less than rounding most of the time: of one step in a hundred or less they
+/// do not, on records with sharp kinks too. Those are taken again, which
+/// costs as much as five others.
+const LONGEST_STEPS: [f64; 3] = [0.0075, 0.015, 0.045];
 
 /// A step of that length is one although p dt comes out above it.
 const GUARD: f64 = 1.0 + 1e-9;
@@ -21,10 +21,14 @@ const GUARD: f64 = 1.0 + 1e-9;
 /// What scenes under records have in common: equation and order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
-    /// Eq. 1, the short series.
-    Short,
-    /// Eq. 1, the long one.
-    Smooth,
+    /// Eq. 1 at order 8, at the longest where that leaves too much of a step.
+    Eight,
+    /// Likewise, order 9.
+    Nine,
+    /// Likewise, order 10.
+    Ten,
+    /// Eq. 1 at the longest series.
+    Longest,
     /// Eq. 2.
     Linearized,
     /// Eq. 1 at an order that is kept whatever a step leaves.
@@ -38,10 +42,23 @@ impl Class {
         match (model, order) {
             (Model::Linearized, _) => Self::Linearized,
             (Model::Nonlinear, Some(order)) => Self::Fixed(order),
-            (Model::Nonlinear, None) if length <= SHORT_STEP * GUARD => {
-                Self::Short
+            (Model::Nonlinear, None) => {
+                let fits = |longest: &f64| length <= longest * GUARD;
+                match LONGEST_STEPS.iter().position(fits) {
+                    Some(0) => Self::Eight,
+                    Some(1) => Self::Nine,
+                    Some(_) => Self::Ten,
+                    None => Self::Longest,
+                }
             }
-            (Model::Nonlinear, None) => Self::Smooth,
+        }
+    }
+
+    /// Truncation allowed in a step, as a share of the velocity.
+    pub fn tolerance(self) -> f64 {
+        match self {
+            Self::Fixed(_) => f64::INFINITY,
+            _ => tolerance::<f64>(),
         }
     }
 
@@ -49,7 +66,7 @@ impl Class {
     pub fn model(self) -> Model {
         match self {
             Self::Linearized => Model::Linearized,
-            Self::Short | Self::Smooth | Self::Fixed(_) => Model::Nonlinear,
+            _ => Model::Nonlinear,
         }
     }
 }

@@ -6,11 +6,11 @@ mod events;
 mod impact;
 mod step;
 
-pub(crate) use impact::tail_speed;
+pub(crate) use impact::{is_settled, tail_speed};
 pub(crate) use step::last_term;
 
 use crate::integrator::accuracy::Accuracy;
-use crate::integrator::dynamics::Dynamics;
+use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::{
     HistoryPoint, Impact, Observe, Response, Scene, Side, Work,
@@ -23,6 +23,11 @@ use step::Advance;
 /// slenderness angle's own acceleration changes in it: what rounding does
 /// anyway.
 const TRUNCATION_SHARE: f64 = 0.5;
+
+/// Truncation allowed in a step, as a share of the velocity.
+pub(crate) fn tolerance<N: Real>() -> f64 {
+    TRUNCATION_SHARE * N::ROUNDOFF
+}
 
 /// State of a block in motion, in units of 1/p: u = |theta| on a side.
 #[derive(Clone, Copy, Debug)]
@@ -78,6 +83,8 @@ pub(crate) struct Driver<
     until_s: Option<N>,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
+    /// Nothing but outcome and peak is asked for.
+    peak_only: bool,
 }
 
 /// How a flight through the excitation ended.
@@ -87,6 +94,9 @@ pub(crate) enum Flight<N> {
     Rest(Place<N>, N),
     /// Overturned.
     Overturned { time_s: N, side: Side, margin: f64 },
+    /// Nothing that the excitation has left can overturn the block or raise
+    /// its peak.
+    Settled,
     /// The excitation ended in flight.
     End(Motion<N>),
     /// The observation ended in flight.
@@ -128,14 +138,23 @@ where
             events: false,
             interval_s: None,
             until_s: None,
-            tolerance: N::from_f64(TRUNCATION_SHARE * N::ROUNDOFF),
+            tolerance: N::from_f64(tolerance::<N>()),
+            peak_only: false,
         }
     }
 
-    /// Keeps the order whatever a step leaves.
+    /// Ends as soon as outcome and peak are known, which nothing but them may
+    /// be asked for.
     #[inline(always)]
-    pub fn at_fixed_order(mut self) -> Self {
-        self.tolerance = N::one() / N::zero();
+    pub fn for_peak(mut self) -> Self {
+        self.peak_only = self.dynamics.overturning == Overturning::Alpha;
+        self
+    }
+
+    /// With a truncation allowed in a step, as a share of the velocity.
+    #[inline(always)]
+    pub fn within(mut self, tolerance: f64) -> Self {
+        self.tolerance = N::from_f64(tolerance);
         self
     }
 
@@ -204,12 +223,6 @@ where
         self.record.work.impacts += impacts;
     }
 
-    /// Truncation allowed in a step, as a share of the velocity.
-    #[inline(always)]
-    pub fn tolerance(&self) -> N {
-        self.tolerance
-    }
-
     fn observe(&mut self, observe: &Observe) {
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
@@ -221,6 +234,9 @@ where
     /// From a place at rest to the next uplift, if there is one.
     #[inline(always)]
     fn uplift(&mut self, from: Place<N>, since_s: N) -> Stage<N> {
+        if self.is_settled(from.piece, N::zero()) {
+            return Stage::Landed(Flight::Settled);
+        }
         let (found, scans) =
             self.forcing.exceedance(from, self.dynamics.threshold);
         self.record.work.rest_scans += scans;

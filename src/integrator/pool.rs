@@ -1,4 +1,4 @@
-//! Many analyses under records at once.
+//! Many analyses under records at once, of which outcome and peak are asked.
 //!
 //! Slots hold runs, eight to a group. Whole samples in free flight are
 //! stepped in all lanes of a group together; a lane in which something may
@@ -14,8 +14,8 @@ mod slot;
 mod waiting;
 
 use crate::excitation::Excitation;
-use crate::integrator::class::{Class, SHORT, SMOOTH};
-use crate::integrator::driver::{Driver, Stage};
+use crate::integrator::class::{Class, LONGEST};
+use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene};
@@ -85,9 +85,11 @@ pub(crate) fn run<'a>(
     source: &mut impl Source<'a>,
 ) -> Tally {
     match class {
-        Class::Short => go::<_, SHORT, SMOOTH>(class, isa, source),
-        Class::Smooth | Class::Linearized => {
-            go::<_, SMOOTH, SMOOTH>(class, isa, source)
+        Class::Eight => go::<_, 9, LONGEST>(class, isa, source),
+        Class::Nine => go::<_, 10, LONGEST>(class, isa, source),
+        Class::Ten => go::<_, 11, LONGEST>(class, isa, source),
+        Class::Longest | Class::Linearized => {
+            go::<_, LONGEST, LONGEST>(class, isa, source)
         }
         Class::Fixed(Order::Four) => go::<_, 5, 5>(class, isa, source),
         Class::Fixed(Order::Six) => go::<_, 7, 7>(class, isa, source),
@@ -157,6 +159,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                     let done = isa.run_wide(Solve::<LEN, HARD> {
                         model,
                         kind,
+                        tolerance: self.class.tolerance(),
                         batch: &batch,
                         solved: &mut solved,
                     });
@@ -196,12 +199,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
         let forcing =
             RecordForcing::new(record, index, block.frequency_rad_s());
-        let mut driver = Driver::new(dynamics, forcing, self.isa);
-        if let Class::Fixed(_) = self.class {
-            driver = driver.at_fixed_order();
-        }
+        let mut driver = Driver::new(dynamics, forcing, self.isa)
+            .for_peak()
+            .within(self.class.tolerance());
         let stage = driver.begin(&scene, &Observe::default());
-        Some(Slot { task, driver, stage })
+        Some(Slot::new(task, driver, stage))
     }
 
     /// Goes on, by the scalar driver, until the run is in free flight or
@@ -273,23 +275,27 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 let (u, tau) = (solved.top[i], solved.turn[i]);
                 slot.driver.raise_peak(u, place, tau);
                 group.peak[lane] = slot.driver.peak();
+                group.calm[lane] = slot.calm_from();
             }
             group.u[lane] = solved.u[i];
             group.w[lane] = solved.w[i];
             group.here[lane] = solved.here[i];
             group.offset[lane] = solved.offset[i];
-            group.length[lane] = solved.length[i];
             group.amplitude[lane] = solved.amplitude[i];
             group.extra[lane] += u64::from(solved.again >> i & 1);
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                if solved.rested & bit != 0 {
+                if (solved.rested | solved.settled) & bit != 0 {
                     let Some(slot) = &mut self.slots[id.slot()] else {
                         continue;
                     };
                     group.release(lane, slot);
-                    slot.rest(solved.rest[i]);
+                    if solved.settled & bit != 0 {
+                        slot.stage = Stage::Landed(Flight::Settled);
+                    } else {
+                        slot.rest(solved.rest[i]);
+                    }
                     settled |= self.proceed(id, groups);
                     continue;
                 }
@@ -345,6 +351,7 @@ impl<const LEN: usize> Sweep<'_, '_, LEN> {
 struct Solve<'b, const LEN: usize, const HARD: usize> {
     model: Model,
     kind: Kind,
+    tolerance: f64,
     batch: &'b Batch,
     solved: &'b mut Solved,
 }
@@ -354,17 +361,23 @@ impl<const LEN: usize, const HARD: usize> WideWork for Solve<'_, LEN, HARD> {
 
     #[inline(always)]
     fn run<V: Several>(self) {
-        let Self { model, kind, batch, solved } = self;
+        let Self { model, kind, tolerance, batch, solved } = self;
         match kind {
             Kind::Hard => {
-                batch.solve::<V, LEN, HARD, HARD, true>(model, solved);
+                batch.solve::<V, LEN, HARD, HARD, true>(
+                    model, tolerance, solved,
+                );
             }
             Kind::Both if HARD > LEN => {
-                batch.solve::<V, LEN, HARD, HARD, false>(model, solved);
+                batch.solve::<V, LEN, HARD, HARD, false>(
+                    model, tolerance, solved,
+                );
             }
             // No lane waits for both where there is no longer series.
             Kind::Events | Kind::Both => {
-                batch.solve::<V, LEN, HARD, LEN, false>(model, solved);
+                batch.solve::<V, LEN, HARD, LEN, false>(
+                    model, tolerance, solved,
+                );
             }
         }
     }

@@ -82,6 +82,7 @@ where
                 let end = self.until_s.unwrap_or(self.end_s());
                 self.sample_rest(end);
             }
+            Flight::Settled => {}
             Flight::Stopped => {
                 if let Some(until) = self.until_s {
                     self.sample_rest(until);

@@ -176,7 +176,7 @@ where
             let left = self.forcing.length(piece) - offset;
             let f = self.oriented(Place { piece, offset }, side, false);
             let drive = self.dynamics.drive(f);
-            let series: Series<N, HARD> = self.expand((u, w), left, &drive);
+            let series: Series<N, SIZE> = self.expand((u, w), left, &drive);
             if let Some(x) = first_descent(&series.v, N::one(), self.isa) {
                 return self.beyond(value(&series.c, x));
             }

@@ -1,7 +1,9 @@
 //! The impact, and the proof that a chatter ends.
 
+use crate::excitation::Left;
 use crate::integrator::Impact;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
+use crate::integrator::dynamics::{Dynamics, least_potential, most_energy};
 use crate::integrator::forcing::Forcing;
 use crate::number::Real;
 
@@ -11,6 +13,18 @@ use crate::number::Real;
 /// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
     if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
+}
+
+/// True where a block that moves at `w` on the base surely stays below the
+/// rotation of the energy `hill`.
+#[inline(always)]
+pub(crate) fn is_settled<N: Real>(
+    alpha: N,
+    w: N,
+    left: Left<N>,
+    hill: N,
+) -> bool {
+    most_energy(alpha, w, left) < hill
 }
 
 /// The number, if it is positive.
@@ -51,10 +65,39 @@ where
             accuracy.impact(eta, speed.to_f64(), before.to_f64(), after);
         }
         step.motion = Motion { side, u: N::zero(), w };
+        if self.is_settled(step.place.piece, w) {
+            return Some(Flight::Settled);
+        }
         let left = self.forcing.length(step.place.piece) - step.place.offset;
         let time = self.chatter(&f, w, left)?;
         let (place, time_s) = self.later(step.place, time);
         Some(Flight::Rest(place, time_s))
+    }
+
+    /// True where what is left of the excitation from a piece on can neither
+    /// overturn the block nor raise its peak, if it is asked for nothing else
+    /// and moves at `w` on the base.
+    #[inline(always)]
+    pub(super) fn is_settled(&self, piece: usize, w: N) -> bool {
+        is_settled(self.dynamics.alpha, w, self.left(piece), self.hill())
+    }
+
+    /// What is left of the excitation from a piece on; no end of it where
+    /// more than outcome and peak is asked for.
+    #[inline(always)]
+    pub fn left(&self, piece: usize) -> Left<N> {
+        let left =
+            if self.peak_only { self.forcing.left(piece) } else { None };
+        let endless = N::one() / N::zero();
+        left.unwrap_or(Left { speed: endless, travel: endless })
+    }
+
+    /// Lower bound of the energy that takes a block to its peak.
+    #[inline(always)]
+    pub fn hill(&self) -> N {
+        let Dynamics { model, alpha, .. } = self.dynamics;
+        let angle = self.dynamics.sine_cosine();
+        least_potential(model, alpha, angle, self.record.peak)
     }
 
     /// Time (in 1/p) in which the impacts after one that leaves speed `w`

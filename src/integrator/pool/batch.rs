@@ -4,8 +4,11 @@
 //! same operations in the same order; a lane whose step needs more than one
 //! plain impact is left to them.
 
+use crate::excitation::Left;
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::dynamics::{
+    Drive, Model, least_potential, most_energy,
+};
 use crate::integrator::pool::chatter::Impacted;
 use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
@@ -27,7 +30,6 @@ pub(super) struct Batch {
     here: Lanes,
     ahead: Lanes,
     offset: Lanes,
-    length: Lanes,
     amplitude: Lanes,
     whole: Lanes,
     inverse: Lanes,
@@ -38,8 +40,10 @@ pub(super) struct Batch {
     limit: Lanes,
     eta: Lanes,
     alpha: Lanes,
-    /// Truncation allowed in a step, as a share of the velocity.
-    tolerance: Lanes,
+    /// What is left of the excitation; no end of it where that is surely too
+    /// much for the peak to be known.
+    speed: Lanes,
+    travel: Lanes,
 }
 
 /// What became of the lanes of a batch.
@@ -55,6 +59,8 @@ pub(super) struct Solved {
     /// An impact with which the block comes to rest, `rest` after it.
     pub rested: Bits,
     pub rest: Lanes,
+    /// An impact after which outcome and peak are known.
+    pub settled: Bits,
     /// The short series was tried before the longest.
     pub again: Bits,
     /// The block turned, at `top` after `turn`.
@@ -65,7 +71,6 @@ pub(super) struct Solved {
     pub w: Lanes,
     pub here: Lanes,
     pub offset: Lanes,
-    pub length: Lanes,
     pub amplitude: Lanes,
 }
 
@@ -80,6 +85,7 @@ impl Solved {
             impact: none,
             rested: none,
             rest: zero,
+            settled: none,
             again: none,
             turned: none,
             turn: zero,
@@ -88,7 +94,6 @@ impl Solved {
             w: zero,
             here: zero,
             offset: zero,
-            length: zero,
             amplitude: zero,
         }
     }
@@ -123,7 +128,6 @@ impl Batch {
             here: zero,
             ahead: zero,
             offset: zero,
-            length: zero,
             amplitude: zero,
             whole: zero,
             inverse: zero,
@@ -134,7 +138,8 @@ impl Batch {
             limit: zero,
             eta: zero,
             alpha: zero,
-            tolerance: zero,
+            speed: zero,
+            travel: zero,
         }
     }
 
@@ -155,7 +160,6 @@ impl Batch {
             out.here[i] = group.here[lane];
             out.ahead[i] = group.ahead(lane);
             out.offset[i] = group.offset[lane];
-            out.length[i] = group.length[lane];
             out.amplitude[i] = group.amplitude[lane];
             out.whole[i] = group.whole[lane];
             out.inverse[i] = group.inverse[lane];
@@ -163,18 +167,22 @@ impl Batch {
             out.sine[i] = group.sine[lane];
             out.cosine[i] = group.cosine[lane];
             out.peak[i] = group.peak[lane];
-            if let Some(slot) = &slots[id.slot()] {
-                let dynamics = slot.driver.dynamics();
-                out.limit[i] = dynamics.limit;
-                out.eta[i] = dynamics.eta;
-                out.alpha[i] = dynamics.alpha;
-                out.tolerance[i] = slot.driver.tolerance();
+            out.limit[i] = group.limit[lane];
+            out.eta[i] = group.eta[lane];
+            out.alpha[i] = group.alpha[lane];
+            (out.speed[i], out.travel[i]) = (f64::INFINITY, f64::INFINITY);
+            if !group.is_shaken(lane)
+                && let Some(slot) = &slots[id.slot()]
+            {
+                let left = slot.driver.left(group.piece(lane));
+                (out.speed[i], out.travel[i]) = (left.speed, left.travel);
             }
         }
     }
 
     /// Solves the steps by series of `SIZE` coefficients, the class' own
-    /// being `LEN` and its longest `HARD`; nothing happens in them if they
+    /// being `LEN` and its longest `HARD`, truncated by at most `tolerance` as
+    /// a share of the velocity; nothing happens in them if they
     /// are `FREE`.
     #[inline(always)]
     pub fn solve<
@@ -186,19 +194,21 @@ impl Batch {
     >(
         &self,
         model: Model,
+        tolerance: f64,
         out: &mut Solved,
     ) {
         let zero = V::zero();
         let (all, none) = (V::Truths::splat(true), V::Truths::splat(false));
-        let (h, offset) = (V::load(&self.length), V::load(&self.offset));
         let (u, w) = (V::load(&self.u), V::load(&self.w));
         let (here, ahead) = (V::load(&self.here), V::load(&self.ahead));
-        let whole = V::load(&self.whole);
+        let (whole, offset) = (V::load(&self.whole), V::load(&self.offset));
+        let h = whole - offset;
         let rate = (ahead - here) * V::load(&self.inverse);
         let forcing = [rate.mul_add(offset, here), rate];
         let threshold = V::load(&self.threshold);
         let cosine = V::load(&self.cosine);
-        let constants = (threshold, V::load(&self.sine), cosine);
+        let sine = V::load(&self.sine);
+        let constants = (threshold, sine, cosine);
         let drive = Drive::new(model, constants, forcing);
         let small = match model {
             Model::Nonlinear => u.sin_cos_small(),
@@ -212,8 +222,9 @@ impl Batch {
             Model::Linearized => none,
         };
         let mut left = large;
-        let tolerance = V::load(&self.tolerance);
-        let allowed = tolerance * V::load(&self.alpha).mul_add(h, w.abs());
+        let (tolerance, alpha) =
+            (V::from_f64(tolerance), V::load(&self.alpha));
+        let allowed = tolerance * alpha.mul_add(h, w.abs());
         let again = allowed.below(last_term(v[LEN - 1].abs(), h));
         let mut hard = none;
         if SIZE > LEN {
@@ -237,13 +248,13 @@ impl Batch {
         let amplitude = V::load(&self.amplitude);
         if FREE {
             out.left = left.but_not(hard).bits();
-            (out.impact, out.turned, out.rested) = (0, 0, 0);
+            (out.impact, out.turned) = (0, 0);
+            (out.rested, out.settled) = (0, 0);
             total(&c).store(&mut out.u);
             total(&v).store(&mut out.w);
             ahead.store(&mut out.here);
             amplitude.store(&mut out.amplitude);
             zero.store(&mut out.offset);
-            whole.store(&mut out.length);
             return;
         }
 
@@ -267,6 +278,12 @@ impl Batch {
         let top = value(&c, turning.x);
         let peak = V::load(&self.peak);
         let raised = turning.found.and(peak.below(top));
+        let peak = raised.select(top, peak);
+        let hill = least_potential(model, alpha, (sine, cosine), peak);
+        let (speed, travel) = (V::load(&self.speed), V::load(&self.travel));
+        let ground = Left { speed, travel };
+        let settled = most_energy(alpha, w, ground).below(hill);
+        out.settled = impact.and(settled).bits();
         let impacted = Impacted {
             model,
             threshold,
@@ -276,7 +293,7 @@ impl Batch {
             rate,
             w,
             left: rest,
-            peak: raised.select(top, peak),
+            peak,
         };
         let (rested, after) = impacted.come_to_rest(impact.and(plain));
         out.rested = rested.bits();
@@ -291,7 +308,6 @@ impl Batch {
         impact.select(w, end_w).store(&mut out.w);
         impact.select(-here, ahead).store(&mut out.here);
         impact.select(there, zero).store(&mut out.offset);
-        impact.select(rest, whole).store(&mut out.length);
         impact.select(-amplitude, amplitude).store(&mut out.amplitude);
     }
 

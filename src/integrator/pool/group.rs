@@ -20,8 +20,6 @@ pub(super) struct Group<'a> {
     pub here: Lanes,
     /// Start of the step within the sample.
     pub offset: Lanes,
-    /// Length of the step.
-    pub length: Lanes,
     /// Amplitude with the sign of the side.
     pub amplitude: Lanes,
     /// Length of the sample, and one over it.
@@ -40,6 +38,9 @@ pub(super) struct Group<'a> {
     tilt: Lanes,
     /// Largest rotation at a turning point so far.
     pub peak: Lanes,
+    pub limit: Lanes,
+    pub eta: Lanes,
+    pub alpha: Lanes,
     pub side: [Side; WIDTH],
     pub samples: [&'a [f64]; WIDTH],
     /// Sample at the end of the step.
@@ -50,6 +51,8 @@ pub(super) struct Group<'a> {
     pub extra: [u64; WIDTH],
     /// Impacts here.
     pub impacts: [u64; WIDTH],
+    /// Piece before which the excitation may raise the peak of any block.
+    pub calm: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
     active: u8,
 }
@@ -69,7 +72,6 @@ impl<'a> Group<'a> {
             w: zero,
             here: zero,
             offset: zero,
-            length: zero,
             amplitude: zero,
             whole: zero,
             inverse: zero,
@@ -81,12 +83,16 @@ impl<'a> Group<'a> {
             ceiling: zero,
             tilt: zero,
             peak: zero,
+            limit: zero,
+            eta: zero,
+            alpha: zero,
             side: [Side::Positive; WIDTH],
             samples: [&[]; WIDTH],
             next: [0; WIDTH],
             first: [0; WIDTH],
             extra: [0; WIDTH],
             impacts: [0; WIDTH],
+            calm: [0; WIDTH],
             active: 0,
         }
     }
@@ -110,6 +116,19 @@ impl<'a> Group<'a> {
         sample.map_or(f64::NAN, |sample| *sample * self.amplitude[lane])
     }
 
+    /// Piece of the record in which a lane is.
+    #[inline(always)]
+    pub fn piece(&self, lane: usize) -> usize {
+        self.next[lane] as usize - 1
+    }
+
+    /// True where what is left of the record can surely not be too little to
+    /// raise the peak.
+    #[inline(always)]
+    pub fn is_shaken(&self, lane: usize) -> bool {
+        self.next[lane] <= self.calm[lane]
+    }
+
     /// Gives a lane's motion back to its run.
     #[inline(always)]
     pub fn release<T, const LEN: usize>(
@@ -123,7 +142,7 @@ impl<'a> Group<'a> {
         self.samples[lane] = &[];
         self.active &= !(1 << lane);
         let Stage::Flying(step) = &mut slot.stage else { return };
-        step.place.piece = self.next[lane] as usize - 1;
+        step.place.piece = self.piece(lane);
         step.place.offset = self.offset[lane];
         step.motion.u = self.u[lane];
         step.motion.w = self.w[lane];
@@ -135,8 +154,9 @@ impl<'a> Group<'a> {
     pub fn load<T, const LEN: usize>(
         &mut self,
         lane: usize,
-        slot: &Slot<'a, T, LEN>,
+        slot: &mut Slot<'a, T, LEN>,
     ) {
+        self.calm[lane] = slot.calm_from();
         let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
             return;
         };
@@ -151,7 +171,6 @@ impl<'a> Group<'a> {
         self.here[lane] = samples[piece] * amplitude;
         self.amplitude[lane] = amplitude;
         self.offset[lane] = step.place.offset;
-        self.length[lane] = h - step.place.offset;
         self.whole[lane] = h;
         self.inverse[lane] = forcing.inverse();
         self.threshold[lane] = dynamics.threshold;
@@ -166,6 +185,9 @@ impl<'a> Group<'a> {
         self.ceiling[lane] = ceiling;
         self.tilt[lane] = dynamics.alpha.max(ceiling - dynamics.alpha);
         self.peak[lane] = driver.peak();
+        self.limit[lane] = dynamics.limit;
+        self.eta[lane] = dynamics.eta;
+        self.alpha[lane] = dynamics.alpha;
         self.active |= 1 << lane;
     }
 
@@ -184,7 +206,9 @@ impl<'a> Group<'a> {
         let (u, w) = (V::load(&self.u), V::load(&self.w));
         let here = V::load(&self.here);
         let rate = (ahead - here) * V::load(&self.inverse);
-        let forcing = [rate.mul_add(V::load(&self.offset), here), rate];
+        let offset = V::load(&self.offset);
+        let h = V::load(&self.whole) - offset;
+        let forcing = [rate.mul_add(offset, here), rate];
         let Self { threshold, sine, cosine, .. } = self;
         let constants = (V::load(threshold), V::load(sine), V::load(cosine));
         let drive = Drive::new(model, constants, forcing);
@@ -192,10 +216,9 @@ impl<'a> Group<'a> {
             Model::Nonlinear => u.sin_cos_small(),
             Model::Linearized => (u, V::one()),
         };
-        let h = V::load(&self.length);
         let series: Series<V, LEN> = expand(model, (u, w), h, &drive, small);
         let end = series.end();
-        let free = self.free_of_events(forcing, ahead, end);
+        let free = self.free_of_events(forcing, ahead, h, end);
         let size = w.abs() + V::load(&self.least);
         let enough = series.v[LEN - 1].abs().below(V::load(&self.last) * size);
         let active = V::Truths::of(self.active);
@@ -203,9 +226,7 @@ impl<'a> Group<'a> {
         clear.select(end.0, u).store(&mut self.u);
         clear.select(end.1, w).store(&mut self.w);
         clear.select(ahead, here).store(&mut self.here);
-        let offset = clear.select(V::zero(), V::load(&self.offset));
-        offset.store(&mut self.offset);
-        clear.select(V::load(&self.whole), h).store(&mut self.length);
+        clear.select(V::zero(), offset).store(&mut self.offset);
         clear.count(&mut self.next);
         let stopped = active.but_not(clear);
         self.active = clear.bits();
@@ -225,10 +246,10 @@ impl<'a> Group<'a> {
         &self,
         [f, rate]: [V; 2],
         ahead: V,
+        h: V,
         end: (V, V),
     ) -> V::Truths {
         let (u, w) = (V::load(&self.u), V::load(&self.w));
-        let h = V::load(&self.length);
         let eighth = h * V::from_f64(0.125 * SAFETY);
         // Linear in time, so largest at an end.
         let push = f.abs().max(ahead.abs());

@@ -1,27 +1,43 @@
 //! A run in its slot, and what the scalar driver does with it.
 
-use crate::integrator::class::SMOOTH;
-use crate::integrator::driver::{Driver, Stage, Step};
+use crate::integrator::class::LONGEST;
+use crate::integrator::driver::{Driver, Stage, Step, is_settled};
 use crate::integrator::forcing::RecordForcing;
 use crate::number::dispatch::{Isa, Work};
 
 /// What drives a run.
 pub(super) type Run<'a, const LEN: usize> =
-    Driver<f64, RecordForcing<'a, f64>, LEN, 2, SMOOTH>;
+    Driver<f64, RecordForcing<'a, f64>, LEN, 2, LONGEST>;
 
 /// A run in its slot.
 pub(super) struct Slot<'a, T, const LEN: usize> {
     pub task: T,
     pub driver: Run<'a, LEN>,
     pub stage: Stage<f64>,
+    /// What [`calm_from`](Self::calm_from) was last: peaks only rise.
+    calm: usize,
 }
 
-impl<T, const LEN: usize> Slot<'_, T, LEN> {
+impl<'a, T, const LEN: usize> Slot<'a, T, LEN> {
+    pub fn new(task: T, driver: Run<'a, LEN>, stage: Stage<f64>) -> Self {
+        Self { task, driver, stage, calm: usize::MAX }
+    }
+
     /// Comes to rest, some time after an impact.
     pub fn rest(&mut self, after: f64) {
         if let Stage::Flying(step) = &self.stage {
             self.stage = self.driver.rest(step.place, after);
         }
+    }
+
+    /// First piece from which on nothing that is left could raise the peak
+    /// of a block at rest.
+    #[inline(always)]
+    pub fn calm_from(&mut self) -> u64 {
+        let (hill, alpha) = (self.driver.hill(), self.driver.dynamics().alpha);
+        let is_little = |left| is_settled(alpha, 0.0, left, hill);
+        self.calm = self.driver.forcing().calm_from(self.calm, is_little);
+        self.calm as u64
     }
 
     /// A step by the scalar driver.

@@ -5,9 +5,7 @@ use rayon::prelude::*;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
-use rocking::integrator::{
-    Model, Observe, Order, Overturning, Scene, respond,
-};
+use rocking::integrator::{Model, Order, Overturning, Scene, respond_peak};
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
@@ -169,7 +167,7 @@ pub fn samples_of(
             let mut steps = 0;
             for point in &curve.points {
                 let scene = scene(analysis, record, point.pga_g);
-                steps += respond(&scene, &Observe::default())?.work.steps;
+                steps += respond_peak(&scene)?.work.steps;
             }
             Ok(steps)
         })
@@ -186,7 +184,7 @@ fn scene<'a>(
         block: analysis.block,
         restitution: analysis.restitution,
         model: analysis.model,
-        overturning: Overturning::Alpha,
+        overturning: analysis.overturning,
         excitation: Excitation::Record(ScaledRecord::to_pga(record, pga_g)),
         initial_ratio: 0.0,
     }
@@ -234,8 +232,14 @@ pub fn kernel(
     let record = Accelerogram::try_new("push", step, samples.collect())?;
     let records = vec![NormalisedRecord::new(&record); CHAINS];
     let restitution = Restitution::constant(0.9995)?;
-    let paper =
-        Analysis { model, order, ..Analysis::paper(block, restitution) };
+    // By the other criterion a run goes on when its peak is known.
+    let overturning = Overturning::HalfPi;
+    let paper = Analysis {
+        model,
+        order,
+        overturning,
+        ..Analysis::paper(block, restitution)
+    };
     // The one level a little below overturning.
     let grid = Grid::Im { step: 0.01 };
     let tried = curve(&records[0], &Analysis { grid, ..paper })?;

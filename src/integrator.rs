@@ -17,6 +17,7 @@ mod forcing;
 pub(crate) mod pool;
 mod precise;
 mod roots;
+mod run;
 mod taylor;
 
 pub use certify::{Certified, Engine, certify};
@@ -26,12 +27,9 @@ pub use precise::{respond_in, respond_precise};
 use thiserror::Error;
 
 use crate::block::{Block, Restitution};
-use crate::excitation::{Excitation, RestIndex};
-use crate::number::dispatch::{Isa, Work as Dispatched};
-use class::{Class, LONGEST};
-use driver::Driver;
-use dynamics::Dynamics;
-use forcing::{PulseForcing, RecordForcing, Silence};
+use crate::excitation::Excitation;
+use crate::number::dispatch::Isa;
+use run::{Method, run};
 
 /// A scene: what is integrated.
 #[derive(Clone, Copy, Debug)]
@@ -393,148 +391,4 @@ pub(crate) fn respond_as(
 ) -> Result<Response, SceneError> {
     check(scene, observe)?;
     run(scene, observe, Method { order, isa, peak_only: false })
-}
-
-/// How a scene is run.
-#[derive(Clone, Copy)]
-struct Method {
-    order: Option<Order>,
-    isa: Isa,
-    peak_only: bool,
-}
-
-fn run(
-    scene: &Scene<'_>,
-    observe: &Observe,
-    method: Method,
-) -> Result<Response, SceneError> {
-    let own = own_index(scene);
-    let index = index_of(scene, own.as_ref());
-    Ok(method.isa.run(Run { scene, observe, index, method }))
-}
-
-/// Index of a record that brings none.
-fn own_index(scene: &Scene<'_>) -> Option<RestIndex> {
-    match scene.excitation {
-        Excitation::Record(record) if record.index().is_none() => {
-            Some(RestIndex::new(record.samples()))
-        }
-        Excitation::Record(_) | Excitation::Pulse(_) | Excitation::Free => {
-            None
-        }
-    }
-}
-
-/// The record's index, or its own; none without a record.
-fn index_of<'a>(
-    scene: &Scene<'a>,
-    own: Option<&'a RestIndex>,
-) -> Option<&'a RestIndex> {
-    match scene.excitation {
-        Excitation::Record(record) => record.index().or(own),
-        Excitation::Pulse(_) | Excitation::Free => None,
-    }
-}
-
-/// One run, compiled for each instruction-set level.
-struct Run<'a> {
-    scene: &'a Scene<'a>,
-    observe: &'a Observe,
-    index: Option<&'a RestIndex>,
-    method: Method,
-}
-
-impl Dispatched for Run<'_> {
-    type Output = Response;
-
-    #[inline(always)]
-    fn run(self) -> Response {
-        let Scene { block, restitution, model, overturning, .. } = *self.scene;
-        let p = block.frequency_rad_s();
-        let dynamics =
-            Dynamics::<f64>::new(&block, restitution, model, overturning);
-        match (self.scene.excitation, self.index) {
-            (Excitation::Record(record), Some(index)) => {
-                let forcing = RecordForcing::new(record, index, p);
-                let step = forcing.step();
-                match Class::of(model, step, self.method.order) {
-                    Class::Eight => self.at::<9>(dynamics, forcing),
-                    Class::Nine => self.at::<10>(dynamics, forcing),
-                    Class::Ten => self.at::<11>(dynamics, forcing),
-                    Class::Longest | Class::Linearized => {
-                        self.at::<LONGEST>(dynamics, forcing)
-                    }
-                    Class::Fixed(order) => {
-                        self.at_order(order, dynamics, forcing)
-                    }
-                }
-            }
-            (Excitation::Pulse(pulse), _) => {
-                let forcing = PulseForcing::new(pulse, p);
-                Driver::<_, _, LONGEST, LONGEST, LONGEST>::new(
-                    dynamics,
-                    forcing,
-                    self.method.isa,
-                )
-                .run(self.scene, self.observe)
-            }
-            (Excitation::Record(_) | Excitation::Free, _) => {
-                Driver::<_, _, LONGEST, 1, LONGEST>::new(
-                    dynamics,
-                    Silence::nothing(),
-                    self.method.isa,
-                )
-                .run(self.scene, self.observe)
-            }
-        }
-    }
-}
-
-impl Run<'_> {
-    /// By series of `LEN` coefficients, longer where they leave too much.
-    #[inline(always)]
-    fn at<const LEN: usize>(
-        &self,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'_, f64>,
-    ) -> Response {
-        self.driver::<LEN>(dynamics, forcing).run(self.scene, self.observe)
-    }
-
-    #[inline(always)]
-    fn at_order(
-        &self,
-        order: Order,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'_, f64>,
-    ) -> Response {
-        match order {
-            Order::Four => self.fixed::<5>(dynamics, forcing),
-            Order::Six => self.fixed::<7>(dynamics, forcing),
-            Order::Eight => self.fixed::<9>(dynamics, forcing),
-            Order::Ten => self.fixed::<11>(dynamics, forcing),
-        }
-    }
-
-    /// By series of `LEN` coefficients, whatever they leave.
-    #[inline(always)]
-    fn fixed<const LEN: usize>(
-        &self,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'_, f64>,
-    ) -> Response {
-        self.driver::<LEN>(dynamics, forcing)
-            .within(f64::INFINITY)
-            .run(self.scene, self.observe)
-    }
-
-    #[inline(always)]
-    fn driver<'r, const LEN: usize>(
-        &self,
-        dynamics: Dynamics<f64>,
-        forcing: RecordForcing<'r, f64>,
-    ) -> Driver<f64, RecordForcing<'r, f64>, LEN, 2, LONGEST> {
-        let driver = Driver::new(dynamics, forcing, self.method.isa);
-        if self.method.peak_only { driver.for_peak() } else { driver }
-    }
 }

@@ -4,9 +4,8 @@ use crate::excitation::Excitation;
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::{PulseForcing, RecordForcing, Silence};
-use crate::integrator::{
-    Observe, Response, Scene, SceneError, check, index_of, own_index,
-};
+use crate::integrator::run::{index_of, own_index};
+use crate::integrator::{Observe, Response, Scene, SceneError, check};
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 use crate::number::double::DoubleDouble;

@@ -272,8 +272,7 @@ pub fn respond_with(
     observe: &Observe,
     isa: Isa,
 ) -> Result<Response, SceneError> {
-    check(scene, observe)?;
-    run(scene, observe, Method { order: None, isa, peak_only: false })
+    respond_as(scene, observe, None, isa)
 }
 
 /// What became of the block, and its peak: [`respond`] that ends as soon as

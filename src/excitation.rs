@@ -6,8 +6,8 @@ mod rest_index;
 pub(crate) use pulse::Shape;
 
 pub use pulse::{Pulse, PulseError, PulseKind};
-pub(crate) use rest_index::Left;
 pub use rest_index::RestIndex;
+pub(crate) use rest_index::{Left, RUN, Window};
 
 use crate::number::Number;
 use crate::record::{Accelerogram, AccelerogramError};

@@ -8,6 +8,7 @@
 //! uplift threshold; after the excitation energy decides in closed form.
 
 mod accuracy;
+mod barrier;
 mod certify;
 pub(crate) mod class;
 mod coast;

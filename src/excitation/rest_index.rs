@@ -1,9 +1,13 @@
 //! Skipping what cannot lift a resting block, and what cannot move it enough.
 
 /// Intervals of a record summarised by one number.
-const RUN: usize = 64;
+pub(crate) const RUN: usize = 32;
 
-/// Largest absolute sample of each run of 64 intervals, so that a resting
+/// Lengths of windows, in runs; each at most twice the one before.
+const WINDOWS: [usize; 16] =
+    [2, 3, 4, 5, 6, 7, 9, 11, 13, 17, 21, 25, 33, 41, 49, 65];
+
+/// Largest absolute sample of each run of 32 intervals, so that a resting
 /// block skips whole runs, and how fast and how far the ground still moves
 /// from there on. Made once a record, shared by all levels and blocks.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +16,9 @@ pub struct RestIndex {
     peaks: Vec<f64>,
     /// What is left from each run on.
     left: Vec<Left<f64>>,
+    /// For each length of windows, how far apart the ground's places within
+    /// a window are at most, from each run on.
+    sway: Vec<Vec<f64>>,
 }
 
 /// What is left of a record from some place on, its velocity being zero at
@@ -29,6 +36,10 @@ impl Left<f64> {
     const NOTHING: Self = Self { speed: 0.0, travel: 0.0 };
 }
 
+/// A length of windows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Window(usize);
+
 impl RestIndex {
     /// Index of the samples of a record, before scaling.
     #[must_use]
@@ -40,8 +51,12 @@ impl RestIndex {
                 .fold(0.0_f64, |peak, x| peak.max(x.abs()))
         };
         let peaks = (0..intervals).step_by(RUN).map(peak).collect();
-        let mut left = Vec::with_capacity(intervals.div_ceil(RUN));
+        let runs = intervals.div_ceil(RUN);
+        let mut left = Vec::with_capacity(runs);
+        let mut spans = Vec::with_capacity(runs);
         let (mut end, mut sum) = (0.0_f64, Left::NOTHING);
+        let mut place = 0.0;
+        let mut span = Span::at(place);
         for interval in (0..intervals).rev() {
             let [from, to] = [samples[interval], samples[interval + 1]];
             let start = end - 0.5 * (from + to);
@@ -50,13 +65,21 @@ impl RestIndex {
             let (one, other) = (start.abs(), end.abs());
             sum.speed = sum.speed.max(one.max(other) + bow);
             sum.travel += 0.5 * (one + other) + bow;
+            // And so far is the place from its own.
+            let bow = 0.125 * from.abs().max(to.abs());
+            let last = place;
+            place -= start + 0.5 * from + (to - from) / 6.0;
+            span = span.and(Span::at(last).and(Span::at(place)).wider(bow));
             end = start;
             if interval.is_multiple_of(RUN) {
                 left.push(sum);
+                spans.push(span);
+                span = Span::at(place);
             }
         }
         left.reverse();
-        Self { peaks, left }
+        spans.reverse();
+        Self { peaks, left, sway: sway(spans) }
     }
 
     /// What is left from the run of `interval` on, in units of samples and
@@ -66,20 +89,25 @@ impl RestIndex {
         *self.left.get(interval / RUN).unwrap_or(&Left::NOTHING)
     }
 
-    /// First interval of the first run from which on little enough is left,
-    /// which is known to be so from the run of `known` on; if from one run on,
-    /// then from all later ones.
+    /// Number of runs.
     #[inline(always)]
-    pub(crate) fn calm_from(
-        &self,
-        known: usize,
-        is_little: impl Fn(Left<f64>) -> bool,
-    ) -> usize {
-        let mut run = (known / RUN).min(self.left.len());
-        while run > 0 && is_little(self.left[run - 1]) {
-            run -= 1;
-        }
-        RUN * run
+    pub(crate) fn runs(&self) -> usize {
+        self.left.len()
+    }
+
+    /// The shortest window that holds whatever starts in its first run and
+    /// lasts that many intervals.
+    #[inline(always)]
+    pub(crate) fn window(intervals: f64) -> Option<Window> {
+        let holds = |runs: &usize| intervals <= (RUN * (runs - 1)) as f64;
+        WINDOWS.iter().position(holds).map(Window)
+    }
+
+    /// How far apart the ground's places within a window are at most, from
+    /// the run of `interval` on, in units of samples and squared intervals.
+    #[inline(always)]
+    pub(crate) fn sway(&self, interval: usize, Window(k): Window) -> f64 {
+        *self.sway[k].get(interval / RUN).unwrap_or(&0.0)
     }
 
     /// First interval after the run that starts at `interval`, if no sample
@@ -90,3 +118,52 @@ impl RestIndex {
         low.then_some(interval + RUN)
     }
 }
+
+/// Largest width within windows of each length from each run on, of runs that
+/// span so much.
+fn sway(runs: Vec<Span>) -> Vec<Vec<f64>> {
+    let mut length = 1;
+    let mut spans = runs;
+    let mut longer = |window: &usize| {
+        // Two of the windows before, which overlap.
+        let by = window - length;
+        for run in 0..spans.len().saturating_sub(by) {
+            spans[run] = spans[run].and(spans[run + by]);
+        }
+        length = *window;
+        let mut most = 0.0_f64;
+        let width = |span: &Span| {
+            most = most.max(span.high - span.low);
+            most
+        };
+        let mut widths: Vec<f64> = spans.iter().rev().map(width).collect();
+        widths.reverse();
+        widths
+    };
+    WINDOWS.iter().map(&mut longer).collect()
+}
+
+/// Places of the ground.
+#[derive(Clone, Copy)]
+struct Span {
+    low: f64,
+    high: f64,
+}
+
+impl Span {
+    fn at(place: f64) -> Self {
+        Self { low: place, high: place }
+    }
+
+    fn and(self, other: Self) -> Self {
+        let (low, high) = (self.low.min(other.low), self.high.max(other.high));
+        Self { low, high }
+    }
+
+    fn wider(self, by: f64) -> Self {
+        Self { low: self.low - by, high: self.high + by }
+    }
+}
+
+#[cfg(test)]
+mod tests;

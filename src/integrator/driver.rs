@@ -6,10 +6,11 @@ mod events;
 mod impact;
 mod step;
 
-pub(crate) use impact::{is_settled, tail_speed};
+pub(crate) use impact::tail_speed;
 pub(crate) use step::last_term;
 
 use crate::integrator::accuracy::Accuracy;
+use crate::integrator::barrier::Barrier;
 use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::{
@@ -83,8 +84,10 @@ pub(crate) struct Driver<
     until_s: Option<N>,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
-    /// Nothing but outcome and peak is asked for.
-    peak_only: bool,
+    /// Where nothing but outcome and peak is asked for.
+    barrier: Option<Barrier<N>>,
+    /// First piece in which it is asked whether that matters.
+    look_from: usize,
 }
 
 /// How a flight through the excitation ended.
@@ -139,7 +142,8 @@ where
             interval_s: None,
             until_s: None,
             tolerance: N::from_f64(tolerance::<N>()),
-            peak_only: false,
+            barrier: None,
+            look_from: 0,
         }
     }
 
@@ -147,7 +151,8 @@ where
     /// be asked for.
     #[inline(always)]
     pub fn for_peak(mut self) -> Self {
-        self.peak_only = self.dynamics.overturning == Overturning::Alpha;
+        let matters = self.dynamics.overturning == Overturning::Alpha;
+        self.barrier = matters.then(Barrier::none);
         self
     }
 
@@ -209,6 +214,12 @@ where
     #[inline(always)]
     pub fn peak(&self) -> N {
         self.record.peak
+    }
+
+    /// First piece in which it is asked whether what is left matters.
+    #[inline(always)]
+    pub fn look_from(&self) -> u64 {
+        self.look_from as u64
     }
 
     /// Counts steps taken elsewhere.

@@ -16,7 +16,6 @@
 //! lose nothing in the shorter form u'' = sin(u - alpha) - f cos(u - alpha).
 
 use crate::block::{Block, Restitution};
-use crate::excitation::Left;
 use crate::number::{Number, Real};
 
 /// Equation of motion.
@@ -63,62 +62,6 @@ pub fn uplift_threshold(block: &Block, model: Model) -> f64 {
         Model::Nonlinear => libm::tan(block.slenderness_rad()),
         Model::Linearized => block.slenderness_rad(),
     }
-}
-
-/// Lower bound of the potential energy at `u` up to alpha, whose sine and
-/// cosine are given, above the base and without ground motion:
-///
-/// ```text
-/// Eq. 1:  u (sin alpha - u/2 (cos alpha + u/3 sin alpha))
-/// Eq. 2:  u (alpha - u/2)
-/// ```
-#[inline(always)]
-pub(crate) fn least_potential<N: Number>(
-    model: Model,
-    alpha: N,
-    (sine, cosine): (N, N),
-    u: N,
-) -> N {
-    let half = u * N::ratio(1, 2);
-    match model {
-        Model::Nonlinear => {
-            let bend = (u * N::ratio(1, 3)).mul_add(sine, cosine);
-            u * (-half).mul_add(bend, sine)
-        }
-        Model::Linearized => u * (alpha - half),
-    }
-}
-
-/// Factor on a bound of the energy that covers rounding and truncation.
-const SURELY: f64 = 1.001;
-
-/// Upper bound of the energy E = y^2/2 + U(u) that a block which moves at `w`
-/// on the base has from then on, if the bound is below U(alpha):
-///
-/// ```text
-/// (w + V)^2 / 2 + alpha (1 + 2 alpha^2) X
-/// ```
-///
-/// with V and X the ground's largest velocity and its travel. Let v be the
-/// ground's velocity, zero at the end of the record, seen from the pivot, and
-/// c = cos(alpha - u) (Eq. 2: 1). With y = w + v c the acceleration itself
-/// drops out of
-///
-/// ```text
-/// E' = -v sin(alpha - u) (c - w y)    (Eq. 2: -v (alpha - u)),
-/// ```
-///
-/// and while E stays below U(alpha) < alpha^2/2 and V^2/2 does too, |w y| is
-/// below 2 alpha^2. An impact leaves -eta y - (1 - eta) v c of y, which
-/// is not larger than y or v; at rest y is v c. So E grows by no more than
-/// the last term, from no more than the first.
-#[inline(always)]
-pub(crate) fn most_energy<N: Number>(alpha: N, w: N, left: Left<N>) -> N {
-    let fast = w + left.speed;
-    let twice = alpha + alpha;
-    let push = alpha * twice.mul_add(alpha, N::one()) * left.travel;
-    let energy = (fast * N::ratio(1, 2)).mul_add(fast, push);
-    energy * N::from_f64(SURELY)
 }
 
 /// What drives a step.

@@ -1,13 +1,16 @@
 //! The excitation as the driver meets it: pieces with a Taylor series each.
 
+mod remainder;
 mod shape;
 
-use crate::excitation::{Left, Pulse, RestIndex, ScaledRecord, Shape};
+use crate::excitation::{Pulse, RestIndex, ScaledRecord, Shape};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 use shape::shape_series;
+
+pub(crate) use remainder::Remainder;
 
 /// Longest step in units of 1/p for which the Taylor orders in use leave
 /// nothing above rounding.
@@ -60,9 +63,8 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
         threshold: N,
     ) -> (Option<Exceedance<N>>, u64);
 
-    /// What is left of a/g from a piece on, in units of 1/p; none where that
-    /// is not known.
-    fn left(&self, _piece: usize) -> Option<Left<N>> {
+    /// What is left of a/g from each piece on; none where that is not known.
+    fn remainder(&self) -> Option<Remainder<'_, N>> {
         None
     }
 }
@@ -103,27 +105,6 @@ impl<'a, N: Real> RecordForcing<'a, N> {
     /// Length of a step in units of 1/p.
     pub fn step(&self) -> f64 {
         self.length.to_f64() / self.steps as f64
-    }
-
-    /// First piece from which on little enough is left, which is known to be
-    /// so from the piece `known` on.
-    #[inline(always)]
-    pub fn calm_from(
-        &self,
-        known: usize,
-        is_little: impl Fn(Left<N>) -> bool,
-    ) -> usize {
-        self.index.calm_from(known, |left| is_little(self.in_units(left)))
-    }
-
-    /// From units of samples and intervals.
-    #[inline(always)]
-    fn in_units(&self, Left { speed, travel }: Left<f64>) -> Left<N> {
-        let speed_unit = self.factor.abs() * self.length;
-        Left {
-            speed: N::from_f64(speed) * speed_unit,
-            travel: N::from_f64(travel) * (speed_unit * self.length),
-        }
     }
 
     /// Samples before scaling.
@@ -205,8 +186,8 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
     }
 
     #[inline(always)]
-    fn left(&self, piece: usize) -> Option<Left<N>> {
-        Some(self.in_units(self.index.left(piece)))
+    fn remainder(&self) -> Option<Remainder<'_, N>> {
+        Some(Remainder::new(self.index, self.length, self.factor))
     }
 }
 

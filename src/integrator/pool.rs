@@ -155,7 +155,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 let enough = kind.worth().min(most);
                 while waiting.line(kind).count >= enough {
                     let line = waiting.line(kind);
-                    batch.gather(line, &groups, &self.slots);
+                    batch.gather(line, &mut groups, &mut self.slots);
                     let done = isa.run_wide(Solve::<LEN, HARD> {
                         model,
                         kind,
@@ -275,7 +275,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 let (u, tau) = (solved.top[i], solved.turn[i]);
                 slot.driver.raise_peak(u, place, tau);
                 group.peak[lane] = slot.driver.peak();
-                group.calm[lane] = slot.calm_from();
+                group.shaken[lane] = slot.driver.look_from();
             }
             group.u[lane] = solved.u[i];
             group.w[lane] = solved.w[i];

@@ -9,6 +9,11 @@ use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
 use crate::number::dispatch::Work as Dispatched;
 
+/// Pieces after a peak before it is asked whether what is left matters: most
+/// peaks are followed by a higher one, and the answer costs as much as some
+/// ten steps.
+const PATIENCE: usize = 160;
+
 /// What happened in a step, and after which part of it.
 pub(super) enum Event<N> {
     None,
@@ -141,6 +146,7 @@ where
         if u > self.record.peak {
             self.record.work.turning_points += 1;
             self.record.peak = u;
+            self.look_from = place.piece.saturating_add(PATIENCE);
             let offset = place.offset + tau;
             let time_s = self.time_s(Place { offset, ..place });
             self.record.peak_time_s = Some(time_s);

@@ -1,9 +1,7 @@
 //! The impact, and the proof that a chatter ends.
 
-use crate::excitation::Left;
 use crate::integrator::Impact;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
-use crate::integrator::dynamics::{Dynamics, least_potential, most_energy};
 use crate::integrator::forcing::Forcing;
 use crate::number::Real;
 
@@ -13,18 +11,6 @@ use crate::number::Real;
 /// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
     if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
-}
-
-/// True where a block that moves at `w` on the base surely stays below the
-/// rotation of the energy `hill`.
-#[inline(always)]
-pub(crate) fn is_settled<N: Real>(
-    alpha: N,
-    w: N,
-    left: Left<N>,
-    hill: N,
-) -> bool {
-    most_energy(alpha, w, left) < hill
 }
 
 /// The number, if it is positive.
@@ -78,26 +64,49 @@ where
     /// overturn the block nor raise its peak, if it is asked for nothing else
     /// and moves at `w` on the base.
     #[inline(always)]
-    pub(super) fn is_settled(&self, piece: usize, w: N) -> bool {
-        is_settled(self.dynamics.alpha, w, self.left(piece), self.hill())
+    pub(super) fn is_settled(&mut self, piece: usize, w: N) -> bool {
+        if piece < self.look_from {
+            return false;
+        }
+        self.see_peak();
+        w < self.fastest(piece)
     }
 
-    /// What is left of the excitation from a piece on; no end of it where
-    /// more than outcome and peak is asked for.
+    /// Takes the peak so far for the barrier that it is.
     #[inline(always)]
-    pub fn left(&self, piece: usize) -> Left<N> {
-        let left =
-            if self.peak_only { self.forcing.left(piece) } else { None };
-        let endless = N::one() / N::zero();
-        left.unwrap_or(Left { speed: endless, travel: endless })
+    pub fn see_peak(&mut self) {
+        if let Some(barrier) = &mut self.barrier
+            && let Some(remainder) = self.forcing.remainder()
+        {
+            barrier.raise(self.record.peak, &self.dynamics, &remainder);
+        }
     }
 
-    /// Lower bound of the energy that takes a block to its peak.
+    /// Velocity below which the block may leave the base in a piece and need
+    /// not be followed; not positive if there is none.
     #[inline(always)]
-    pub fn hill(&self) -> N {
-        let Dynamics { model, alpha, .. } = self.dynamics;
-        let angle = self.dynamics.sine_cosine();
-        least_potential(model, alpha, angle, self.record.peak)
+    pub fn fastest(&self, piece: usize) -> N {
+        let fastest = || {
+            let left = self.forcing.remainder()?.left(piece);
+            Some(self.barrier.as_ref()?.fastest(&self.dynamics, left))
+        };
+        fastest().unwrap_or(N::zero())
+    }
+
+    /// First piece from which on a block at rest need not be followed, looked
+    /// for about a guess; the guess where that is not known.
+    #[inline(always)]
+    pub fn calm_from(&self, guess: usize) -> usize {
+        let first = || {
+            let (barrier, remainder) =
+                (self.barrier.as_ref()?, self.forcing.remainder()?);
+            let is_calm = |piece| {
+                let left = remainder.left(piece);
+                barrier.is_above_rest(&self.dynamics, left)
+            };
+            Some(remainder.first(guess, is_calm))
+        };
+        first().unwrap_or(guess)
     }
 
     /// Time (in 1/p) in which the impacts after one that leaves speed `w`

@@ -4,11 +4,8 @@
 //! same operations in the same order; a lane whose step needs more than one
 //! plain impact is left to them.
 
-use crate::excitation::Left;
 use crate::integrator::driver::last_term;
-use crate::integrator::dynamics::{
-    Drive, Model, least_potential, most_energy,
-};
+use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::chatter::Impacted;
 use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
@@ -40,10 +37,8 @@ pub(super) struct Batch {
     limit: Lanes,
     eta: Lanes,
     alpha: Lanes,
-    /// What is left of the excitation; no end of it where that is surely too
-    /// much for the peak to be known.
-    speed: Lanes,
-    travel: Lanes,
+    /// Velocity below which a block that leaves the base need not be followed.
+    fastest: Lanes,
 }
 
 /// What became of the lanes of a batch.
@@ -138,23 +133,22 @@ impl Batch {
             limit: zero,
             eta: zero,
             alpha: zero,
-            speed: zero,
-            travel: zero,
+            fastest: zero,
         }
     }
 
     /// Takes up to eight lanes out of a line; those beyond have no meaning.
-    pub fn gather<T, const LEN: usize>(
+    pub fn gather<'a, T, const LEN: usize>(
         &mut self,
         line: &mut Line,
-        groups: &[Group<'_>; GROUPS],
-        slots: &[Option<Slot<'_, T, LEN>>],
+        groups: &mut [Group<'a>; GROUPS],
+        slots: &mut [Option<Slot<'a, T, LEN>>],
     ) {
         (self.lanes, self.count) = line.take();
         let out = self;
         let lanes = out.lanes;
         for (i, id) in lanes.iter().take(out.count).enumerate() {
-            let (group, lane) = (&groups[id.group()], id.lane());
+            let (group, lane) = (&mut groups[id.group()], id.lane());
             out.u[i] = group.u[lane];
             out.w[i] = group.w[lane];
             out.here[i] = group.here[lane];
@@ -170,13 +164,9 @@ impl Batch {
             out.limit[i] = group.limit[lane];
             out.eta[i] = group.eta[lane];
             out.alpha[i] = group.alpha[lane];
-            (out.speed[i], out.travel[i]) = (f64::INFINITY, f64::INFINITY);
-            if !group.is_shaken(lane)
-                && let Some(slot) = &slots[id.slot()]
-            {
-                let left = slot.driver.left(group.piece(lane));
-                (out.speed[i], out.travel[i]) = (left.speed, left.travel);
-            }
+            let slot = slots[id.slot()].as_mut();
+            out.fastest[i] =
+                slot.map_or(0.0, |slot| group.fastest(lane, slot));
         }
     }
 
@@ -279,10 +269,7 @@ impl Batch {
         let peak = V::load(&self.peak);
         let raised = turning.found.and(peak.below(top));
         let peak = raised.select(top, peak);
-        let hill = least_potential(model, alpha, (sine, cosine), peak);
-        let (speed, travel) = (V::load(&self.speed), V::load(&self.travel));
-        let ground = Left { speed, travel };
-        let settled = most_energy(alpha, w, ground).below(hill);
+        let settled = w.below(V::load(&self.fastest)).but_not(raised);
         out.settled = impact.and(settled).bits();
         let impacted = Impacted {
             model,

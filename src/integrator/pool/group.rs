@@ -51,8 +51,8 @@ pub(super) struct Group<'a> {
     pub extra: [u64; WIDTH],
     /// Impacts here.
     pub impacts: [u64; WIDTH],
-    /// Piece before which the excitation may raise the peak of any block.
-    pub calm: [u64; WIDTH],
+    /// Sample up to which no impact is taken for the last that matters.
+    pub shaken: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
     active: u8,
 }
@@ -92,7 +92,7 @@ impl<'a> Group<'a> {
             first: [0; WIDTH],
             extra: [0; WIDTH],
             impacts: [0; WIDTH],
-            calm: [0; WIDTH],
+            shaken: [0; WIDTH],
             active: 0,
         }
     }
@@ -122,11 +122,22 @@ impl<'a> Group<'a> {
         self.next[lane] as usize - 1
     }
 
-    /// True where what is left of the record can surely not be too little to
-    /// raise the peak.
+    /// Velocity below which a block that leaves the base in a lane need not
+    /// be followed; not positive if there is none.
     #[inline(always)]
-    pub fn is_shaken(&self, lane: usize) -> bool {
-        self.next[lane] <= self.calm[lane]
+    pub fn fastest<T, const LEN: usize>(
+        &mut self,
+        lane: usize,
+        slot: &mut Slot<'a, T, LEN>,
+    ) -> f64 {
+        if self.next[lane] <= self.shaken[lane] {
+            return 0.0;
+        }
+        self.shaken[lane] = slot.shaken();
+        if self.next[lane] <= self.shaken[lane] {
+            return 0.0;
+        }
+        slot.driver.fastest(self.piece(lane))
     }
 
     /// Gives a lane's motion back to its run.
@@ -154,9 +165,8 @@ impl<'a> Group<'a> {
     pub fn load<T, const LEN: usize>(
         &mut self,
         lane: usize,
-        slot: &mut Slot<'a, T, LEN>,
+        slot: &Slot<'a, T, LEN>,
     ) {
-        self.calm[lane] = slot.calm_from();
         let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
             return;
         };
@@ -179,6 +189,7 @@ impl<'a> Group<'a> {
         self.next[lane] = piece as u64 + 1;
         self.first[lane] = piece as u64 + 1;
         (self.extra[lane], self.impacts[lane]) = (0, 0);
+        self.shaken[lane] = driver.look_from();
         self.last[lane] = driver.last_allowed(h) / SAFETY;
         self.least[lane] = dynamics.alpha * h;
         let ceiling = dynamics.limit.min(SMALL);

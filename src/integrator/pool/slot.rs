@@ -1,7 +1,7 @@
 //! A run in its slot, and what the scalar driver does with it.
 
 use crate::integrator::class::LONGEST;
-use crate::integrator::driver::{Driver, Stage, Step, is_settled};
+use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::forcing::RecordForcing;
 use crate::number::dispatch::{Isa, Work};
 
@@ -14,13 +14,14 @@ pub(super) struct Slot<'a, T, const LEN: usize> {
     pub task: T,
     pub driver: Run<'a, LEN>,
     pub stage: Stage<f64>,
-    /// What [`calm_from`](Self::calm_from) was last: peaks only rise.
-    calm: usize,
+    /// What [`shaken`](Self::shaken) was last, and for which peak.
+    shaken: usize,
+    seen: f64,
 }
 
 impl<'a, T, const LEN: usize> Slot<'a, T, LEN> {
     pub fn new(task: T, driver: Run<'a, LEN>, stage: Stage<f64>) -> Self {
-        Self { task, driver, stage, calm: usize::MAX }
+        Self { task, driver, stage, shaken: usize::MAX, seen: 0.0 }
     }
 
     /// Comes to rest, some time after an impact.
@@ -33,11 +34,14 @@ impl<'a, T, const LEN: usize> Slot<'a, T, LEN> {
     /// First piece from which on nothing that is left could raise the peak
     /// of a block at rest.
     #[inline(always)]
-    pub fn calm_from(&mut self) -> u64 {
-        let (hill, alpha) = (self.driver.hill(), self.driver.dynamics().alpha);
-        let is_little = |left| is_settled(alpha, 0.0, left, hill);
-        self.calm = self.driver.forcing().calm_from(self.calm, is_little);
-        self.calm as u64
+    pub fn shaken(&mut self) -> u64 {
+        let peak = self.driver.peak();
+        if self.seen < peak {
+            self.seen = peak;
+            self.driver.see_peak();
+            self.shaken = self.driver.calm_from(self.shaken);
+        }
+        self.shaken as u64
     }
 
     /// A step by the scalar driver.

@@ -1,6 +1,8 @@
 use super::{Barrier, Hop, least_potential};
 use crate::block::{Block, Restitution};
+use crate::excitation::RestIndex;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
+use crate::integrator::forcing::Remainder;
 
 fn dynamics(model: Model, alpha: f64) -> Dynamics<f64> {
     let block = Block::try_new(alpha, 1.0).expect("block");
@@ -145,4 +147,47 @@ fn calm_needs_impacts_that_take_more_than_hops_give() {
     assert_eq!(hop.safe(0.0, 0.0), Some(hop.height));
     assert_eq!(hop.safe(f64::NAN, 0.0), None);
     assert_eq!(hop.safe(0.0, f64::NAN), None);
+}
+
+/// Until the calm, whatever the ground still travels counts, and its speed:
+/// E may grow by (lean + alpha M (M + V)) X, from (w + V)^2 / 2, to S^2 / 2
+/// there, or to M^2 / 2 at the end.
+#[test]
+fn what_the_ground_travels_until_the_calm_is_allowed_for() {
+    let d = dynamics(Model::Nonlinear, 0.2);
+    let (sine, cosine) = (libm::sin(0.2), libm::cos(0.2));
+    // Waves that fall to a tenth in the middle.
+    let wave = |k: i32| {
+        let size = if k < 3000 { 0.05 } else { 0.005 };
+        size * libm::sin(0.05 * f64::from(k))
+    };
+    let samples: Vec<f64> = (0..6000).map(wave).collect();
+    let index = RestIndex::new(&samples);
+    let remainder = Remainder::new(&index, 0.01, 1.0);
+    let mut barrier = Barrier::none();
+    barrier.raise(0.12, &d, &remainder);
+    // Later than the change, for it is told by what is left.
+    assert!(barrier.calm > 2900 && barrier.calm < 3100, "{}", barrier.calm);
+    assert!(barrier.safe < barrier.height);
+    let calm = remainder.left(barrier.calm);
+    let (mut by_calm, mut by_end, mut none) = (0, 0, 0);
+    for piece in (0..6000).step_by(50) {
+        let left = remainder.left(piece);
+        let (m, v) = (barrier.speed, left.speed);
+        let rate = 2.0 * (sine * cosine + 0.2 * m * (m + v));
+        let to_end = m * m - rate * left.travel;
+        let further = (left.travel - calm.travel).max(0.0);
+        let to_calm = barrier.safe - rate * further;
+        let due = to_end.max(to_calm).max(0.0).sqrt() - v;
+        // The factor that covers rounding takes some thousandths of M.
+        let found = barrier.fastest(&d, left);
+        assert!(found <= due && found > due - 0.01 * m, "{piece}");
+        assert_eq!(barrier.is_above_rest(&d, left), found > 0.0);
+        match () {
+            () if found < 0.0 => none += 1,
+            () if to_calm < to_end => by_end += 1,
+            () => by_calm += 1,
+        }
+    }
+    assert!(none > 10 && by_calm > 10 && by_end > 10);
 }

@@ -9,6 +9,7 @@
 
 mod accuracy;
 mod barrier;
+mod certificate;
 mod certify;
 pub(crate) mod class;
 mod coast;
@@ -21,6 +22,9 @@ mod roots;
 mod run;
 mod taylor;
 
+pub use certificate::{
+    CLEARANCE, Certificate, Clearance, Decision, LARGEST_ERROR,
+};
 pub use certify::{Certified, Engine, certify};
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub use precise::{respond_in, respond_precise};
@@ -190,6 +194,8 @@ pub struct Response<N = f64> {
     /// Relative sensitivity of the peak to restitution and initial state;
     /// recorded with accuracy.
     pub condition_number: Option<f64>,
+    /// How clearly outcome and peak were decided; recorded with accuracy.
+    pub certificate: Option<Certificate>,
     /// Work counters.
     pub work: Work,
     /// Signed rotation in time; recorded when asked for.

@@ -184,6 +184,7 @@ where
             error_estimate: accuracy.map(|a| a.peak_error()),
             fate_error: accuracy.map(|a| a.fate_error()),
             condition_number: accuracy.map(|a| a.peak_condition()),
+            certificate: None,
             work: record.work,
             history: std::mem::take(&mut record.history),
         }

@@ -1,0 +1,140 @@
+//! What a run decided, and how clearly.
+//!
+//! A run under impacts takes discrete decisions: the block lifts or not, it
+//! meets its base or misses it, its impacts end in rest or not, it reaches
+//! overturning or turns before. Rounding moves the state by a tracked error.
+//! Where that error could turn a decision, nothing that follows is known. A
+//! certificate keeps, for each kind of decision, the least ratio of a
+//! decision's margin to the error of that margin.
+
+/// Ratio of margin to error from which on a decision is clear.
+///
+/// Errors are bounds of 32 standard deviations, propagated linearly; the
+/// ratio leaves room for what the linear propagation leaves out. Measured on
+/// random scenes: see the declared cases of the certificate.
+pub const CLEARANCE: f64 = 4.0;
+
+/// Error of the rotation, over the slenderness angle, above which its linear
+/// propagation is not trusted.
+pub const LARGEST_ERROR: f64 = 0.01;
+
+/// A kind of discrete decision of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Decision {
+    /// A block at rest lifts, or stays: the ground acceleration against the
+    /// uplift threshold.
+    Uplift,
+    /// The block meets its base, or turns just above it: the speed of the
+    /// impact, or the lowest rotation without one.
+    Contact,
+    /// The impacts that a run takes for a rest end in one: the time that is
+    /// left for it.
+    Rest,
+    /// The block reaches the rotation of overturning, or turns before it.
+    Overturning,
+    /// The error is small enough for its linear propagation.
+    Propagation,
+}
+
+impl Decision {
+    /// All kinds.
+    pub const ALL: [Self; 5] = [
+        Self::Uplift,
+        Self::Contact,
+        Self::Rest,
+        Self::Overturning,
+        Self::Propagation,
+    ];
+
+    /// The kind in a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Uplift => "uplift",
+            Self::Contact => "contact",
+            Self::Rest => "rest",
+            Self::Overturning => "overturning",
+            Self::Propagation => "propagation",
+        }
+    }
+}
+
+/// The least clear decision of a kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// Kind of the decision.
+    pub decision: Decision,
+    /// Its margin over the error of the margin; infinite where there was no
+    /// such decision or no error.
+    pub ratio: f64,
+    /// When it was taken, s.
+    pub time_s: f64,
+}
+
+impl Clearance {
+    /// True where the error cannot turn the decision. Not a number is not
+    /// clear.
+    #[must_use]
+    pub fn is_clear(&self) -> bool {
+        self.ratio >= CLEARANCE
+    }
+}
+
+/// The least clear decision of every kind on which outcome and peak of a run
+/// rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Certificate {
+    least: [Clearance; 5],
+}
+
+impl Default for Certificate {
+    fn default() -> Self {
+        let least = Decision::ALL.map(|decision| Clearance {
+            decision,
+            ratio: f64::INFINITY,
+            time_s: 0.0,
+        });
+        Self { least }
+    }
+}
+
+impl Certificate {
+    /// The least clear decision of a kind.
+    #[must_use]
+    pub fn of(&self, decision: Decision) -> Clearance {
+        self.least[decision as usize]
+    }
+
+    /// The least clear decision of all.
+    #[must_use]
+    pub fn least(&self) -> Clearance {
+        let [first, rest @ ..] = self.least;
+        rest.into_iter().fold(first, |least, next| {
+            // A ratio that is not a number is less than every other.
+            if least.ratio.is_nan() || next.ratio >= least.ratio {
+                least
+            } else {
+                next
+            }
+        })
+    }
+
+    /// True where the error can turn no decision.
+    #[must_use]
+    pub fn is_clear(&self) -> bool {
+        self.least.iter().all(Clearance::is_clear)
+    }
+
+    /// Takes a decision in.
+    pub(crate) fn note(
+        &mut self,
+        decision: Decision,
+        ratio: f64,
+        time_s: f64,
+    ) {
+        let least = &mut self.least[decision as usize];
+        if !(ratio >= least.ratio) && !least.ratio.is_nan() {
+            *least = Clearance { decision, ratio, time_s };
+        }
+    }
+}

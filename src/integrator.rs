@@ -141,6 +141,18 @@ pub struct Impact<N = f64> {
     pub time_s: N,
     /// Absolute angular velocity just before it, rad/s.
     pub speed_before_rad_s: N,
+    /// Bounds on the errors of both; recorded with accuracy, none where a
+    /// decision before it is not clear.
+    pub error: Option<ImpactError>,
+}
+
+/// Bounds on the errors of an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactError {
+    /// Of its time, s.
+    pub time_s: f64,
+    /// Of the angular velocity before it, rad/s.
+    pub speed_rad_s: f64,
 }
 
 /// A point of a history.
@@ -187,15 +199,21 @@ pub struct Response<N = f64> {
     /// Distance of the run from the other fate, in units of the slenderness
     /// angle (see the design of the criterion in [`Overturning`]).
     pub fate_margin: f64,
-    /// Bound on the error of the peak ratio; recorded with accuracy.
+    /// Bound on the error of the peak ratio; recorded with accuracy, none
+    /// where a decision is not clear.
     pub error_estimate: Option<f64>,
-    /// Bound on the error of the fate margin; recorded with accuracy.
-    pub fate_error: Option<f64>,
+    /// Bound on the error of the final coming to rest, s; likewise.
+    pub rest_error_s: Option<f64>,
+    /// Bound on the error of the time of overturning, s; likewise.
+    pub overturning_error_s: Option<f64>,
     /// Relative sensitivity of the peak to restitution and initial state;
     /// recorded with accuracy.
     pub condition_number: Option<f64>,
     /// How clearly outcome and peak were decided; recorded with accuracy.
     pub certificate: Option<Certificate>,
+    /// The same for all inputs that round to the doubles that were given;
+    /// recorded with accuracy.
+    pub input_certificate: Option<Certificate>,
     /// Work counters.
     pub work: Work,
     /// Signed rotation in time; recorded when asked for.
@@ -203,12 +221,26 @@ pub struct Response<N = f64> {
 }
 
 impl<N> Response<N> {
-    /// False where the error estimate does not clear the fate margin: the
-    /// fate cannot be told in this precision. True without an estimate.
+    /// Whether outcome and peak can be told in this precision.
     #[must_use]
-    pub fn is_resolved(&self) -> bool {
-        self.fate_error.is_none_or(|error| self.fate_margin >= error)
+    pub fn assessment(&self) -> Assessment {
+        match self.certificate {
+            None => Assessment::NotAssessed,
+            Some(certificate) if certificate.is_clear() => Assessment::Clear,
+            Some(_) => Assessment::Unresolved,
+        }
     }
+}
+
+/// Whether outcome and peak of a run can be told in its precision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assessment {
+    /// No error of the run can turn any of its decisions.
+    Clear,
+    /// The error of the run may have turned one of its decisions.
+    Unresolved,
+    /// Nobody looked.
+    NotAssessed,
 }
 
 /// Why a scene cannot be integrated.

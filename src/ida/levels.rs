@@ -5,8 +5,8 @@ use crate::block::Block;
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::ida::{Analysis, Grid, IdaError, IdaPoint, Method, Resurrections};
 use crate::integrator::{
-    self, Certified, Model, Observe, Order, Response, Scene, respond_as,
-    uplift_threshold,
+    self, Assessment, Certified, Model, Observe, Order, Response, Scene,
+    respond_as, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
 
@@ -141,7 +141,8 @@ impl Level<'_> {
         let resolved = response.fate_margin > NEAR || {
             let careful = Observe { accuracy: true, ..Observe::default() };
             respond_as(&self.scene, &careful, self.order, Isa::best())?
-                .is_resolved()
+                .assessment()
+                == Assessment::Clear
         };
         Ok(IdaPoint {
             im: self.im,

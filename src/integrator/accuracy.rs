@@ -1,48 +1,130 @@
 //! How far rounding, truncation and the inputs' own uncertainty move a run.
 //!
-//! The variational equation carries, beside the state (u, w), the covariance
-//! of the accumulated rounding, the sensitivity to ln(eta), and the
-//! fundamental matrix since the last uplift from rest. At an impact the
-//! saltation matrix applies; rest forgets everything. Second-order accuracy
-//! is plenty: one digit is asked for.
+//! The variational equation carries, beside the state (u, w): the covariance
+//! of the accumulated rounding, which is different in every step; the
+//! derivatives by what is rounded once and acts in all of them; and, for the
+//! condition number, the fundamental matrix since the last uplift from rest.
+//! At an impact the saltation matrix applies; rest forgets everything, and
+//! whether it is one is a decision. Second-order accuracy is plenty: one
+//! digit is asked for.
+//!
+//! The propagation is linear. It ends where an error can turn a decision,
+//! or is no longer small: see [`Certificate`].
+
+use crate::integrator::certificate::{
+    CLEARANCE, Certificate, Decision, LARGEST_ERROR,
+};
 
 /// Multiple of the standard deviation that is reported as the bound.
 const COVERAGE: f64 = 32.0;
 
+/// Relative error, in units in the last place, of what is rounded once.
+const ONCE: f64 = 2.0;
+
+/// Relative error, in units in the last place, of the ground acceleration
+/// and of the uplift threshold where a block at rest lifts.
+const AT_REST: f64 = 4.0;
+
+/// Quantities of a run that are rounded once: the derivatives of (u, w) by
+/// their logarithms are carried.
+#[derive(Clone, Copy)]
+enum Once {
+    /// Uplift threshold.
+    Threshold,
+    /// Amplitude of the ground acceleration.
+    Amplitude,
+    /// Lengths of the steps, in units of 1/p.
+    Clock,
+    /// Time within a pulse.
+    Phase,
+    /// Coefficient of restitution, an input that enters exactly.
+    Restitution,
+}
+
+/// Number of [`Once`].
+const ONCES: usize = 5;
+
 /// Tracked quantities, in units of 1/p.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Accuracy {
-    /// Distance from 1 to the next number of the run's type.
+    /// Distance from 1 to the next number of the type to which what is
+    /// tracked is rounded.
     unit: f64,
+    /// True where the inputs' rounding is tracked, not the arithmetic's.
+    of_inputs: bool,
+    alpha: f64,
     /// Covariance of the error of (u, w).
     uu: f64,
     uw: f64,
     ww: f64,
-    /// Derivative of (u, w) with respect to ln(eta).
-    eta: [f64; 2],
+    /// Derivatives of (u, w) with respect to what is rounded once.
+    once: [[f64; 2]; ONCES],
     /// Fundamental matrix, columns by initial u and w.
     initial: [[f64; 2]; 2],
     /// Snapshot at the largest peak so far.
+    peak: f64,
     peak_error: f64,
     peak_condition: f64,
-    /// Error of the last decision taken by the saddle.
-    decision_error: f64,
+    /// Largest rotation that the block may have reached.
+    highest: f64,
+    certificate: Certificate,
+    /// The impacts under way surely end in a rest: whatever happens until
+    /// then has no consequence.
+    resting: bool,
+    /// Outcome and peak are surely known.
+    settled: bool,
 }
 
 /// A 2 by 2 matrix by rows.
 type Matrix = [[f64; 2]; 2];
 
+/// A step, as the errors see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flown {
+    /// Its length.
+    pub tau: f64,
+    /// Derivative of u'' by u.
+    pub curvature: f64,
+    /// Sizes that are rounded in it, of u and of w.
+    pub sizes: [f64; 2],
+    /// What its series leaves of w.
+    pub left: f64,
+    /// Uplift threshold over gravity.
+    pub threshold: f64,
+    /// Ground acceleration over gravity, on the side of the rotation.
+    pub f: f64,
+    /// Its change if the time within the excitation changes by all of it.
+    pub shift: f64,
+    /// Angular velocity and acceleration.
+    pub w: f64,
+    pub force: f64,
+}
+
 impl Accuracy {
     /// Nothing yet, in arithmetic with this unit roundoff.
-    pub fn new(roundoff: f64) -> Self {
-        Self { unit: 2.0 * roundoff, ..Self::default() }
+    pub fn of_arithmetic(roundoff: f64, alpha: f64) -> Self {
+        Self { unit: 2.0 * roundoff, alpha, ..Self::default() }
     }
 
-    /// Starts anew at an uplift from rest, or at release.
+    /// Nothing yet, of inputs that are known to the nearest double.
+    pub fn of_inputs(alpha: f64) -> Self {
+        let of_inputs = true;
+        Self { unit: f64::EPSILON, of_inputs, alpha, ..Self::default() }
+    }
+
+    /// Starts anew at rest.
     pub fn start(&mut self) {
         (self.uu, self.uw, self.ww) = (0.0, 0.0, 0.0);
-        self.eta = [0.0; 2];
+        self.once = [[0.0; 2]; ONCES];
         self.initial = [[1.0, 0.0], [0.0, 1.0]];
+        self.resting = false;
+    }
+
+    /// Starts at the release from a rotation.
+    pub fn release(&mut self, u: f64) {
+        self.start();
+        self.uu = self.unit * u * self.unit * u;
+        self.peak(u);
     }
 
     fn apply(&mut self, m: &Matrix) {
@@ -52,42 +134,147 @@ impl Accuracy {
         self.uw = a * c * uu + (a * d + b * c) * uw + b * d * ww;
         self.ww = c * c * uu + 2.0 * c * d * uw + d * d * ww;
         let times = |[u, w]: [f64; 2]| [a * u + b * w, c * u + d * w];
-        let [first, second] = self.initial;
-        [self.eta, self.initial[0], self.initial[1]] =
-            [self.eta, first, second].map(times);
+        self.once = self.once.map(times);
+        self.initial = self.initial.map(times);
     }
 
-    /// A step of length `tau` with curvature `j` = d u''/d u, adding the
-    /// errors `u` and `w` made in it.
-    pub fn step(&mut self, j: f64, tau: f64, error: [f64; 2]) {
-        let half = 0.5 * j * tau * tau;
+    /// A step, and the errors made in it.
+    pub fn step(&mut self, by: &Flown) {
+        let Flown { tau, curvature, sizes: [u, w], left, .. } = *by;
+        let half = 0.5 * curvature * tau * tau;
         self.apply(&[
             [1.0 + half, tau * (1.0 + half / 3.0)],
-            [j * tau, 1.0 + half],
+            [curvature * tau, 1.0 + half],
         ]);
-        self.uu += error[0] * error[0];
-        self.ww += error[1] * error[1];
+        let roundoff = 0.5 * self.unit;
+        let (u, w) = (roundoff * u + left * tau, roundoff * w + left);
+        self.uu += u * u;
+        self.ww += w * w;
+        let mut push = |which: Once, force: f64| {
+            let [u, w] = &mut self.once[which as usize];
+            *u += 0.5 * force * tau * tau;
+            *w += force * tau;
+        };
+        push(Once::Threshold, -by.threshold);
+        push(Once::Amplitude, -by.f);
+        push(Once::Phase, -by.shift);
+        let [u, w] = &mut self.once[Once::Clock as usize];
+        *u += by.w * tau;
+        *w += by.force * tau;
     }
 
     /// An impact at speed `speed` (before it), with accelerations u'' just
     /// before and just after, each on its own branch.
-    pub fn impact(&mut self, eta: f64, speed: f64, before: f64, after: f64) {
+    ///
+    /// What decides whether there is one is the speed at which the base is
+    /// met; what decides whether the order of events is known is the time of
+    /// the impact against that of the hop after it.
+    /// Returns bounds of the errors of its time and of its speed.
+    pub fn impact(
+        &mut self,
+        eta: f64,
+        speed: f64,
+        [before, after]: [f64; 2],
+        time_s: f64,
+    ) -> [f64; 2] {
+        let late = self.bound([1.0 / speed, 0.0]);
+        let met = self.bound([before / speed, 1.0]);
+        self.decide(Decision::Contact, speed, met, time_s);
+        if after < 0.0 {
+            let hop = 2.0 * eta * speed / -after;
+            self.decide(Decision::Contact, hop, late, time_s);
+        }
         let shear =
             if speed > 0.0 { (after + eta * before) / -speed } else { 0.0 };
         self.apply(&[[-eta, 0.0], [shear, -eta]]);
-        self.eta[1] += eta * speed;
+        self.once[Once::Restitution as usize][1] += eta * speed;
+        let rounded = self.unit * eta * speed;
+        self.ww += rounded * rounded;
+        [late, met]
     }
 
-    /// Standard deviation of the error of u.
-    fn deviation(&self) -> f64 {
-        self.uu.max(0.0).sqrt()
+    /// Bound of the error of a quantity with these derivatives by u and w.
+    pub fn bound(&self, [a, b]: [f64; 2]) -> f64 {
+        let variance =
+            a * a * self.uu + 2.0 * a * b * self.uw + b * b * self.ww;
+        let mut once = 0.0;
+        for (k, [u, w]) in self.once.iter().enumerate() {
+            if self.of_inputs || k != Once::Restitution as usize {
+                once += (a * u + b * w).abs();
+            }
+        }
+        // Rounding leaves variances a little below zero.
+        let random = if variance < 0.0 { 0.0 } else { variance.sqrt() };
+        COVERAGE * random + ONCE * self.unit * once
     }
 
-    /// Notes the error at a peak `u`.
-    pub fn peak(&mut self, u: f64, alpha: f64) {
-        let moved = self.eta[0].abs()
-            + alpha * (self.initial[0][0].abs() + self.initial[1][0].abs());
-        self.note(COVERAGE * self.deviation() / alpha, moved / u);
+    /// Bound of the error of u.
+    pub fn error(&self) -> f64 {
+        self.bound([1.0, 0.0])
+    }
+
+    /// Takes in that the block is in flight: what the error must stay below.
+    pub fn fly(&mut self, time_s: f64) {
+        // Clear up to the largest error itself.
+        let most = CLEARANCE * LARGEST_ERROR * self.alpha;
+        self.decide(Decision::Propagation, most, self.error(), time_s);
+        let error = self.bound([0.0, 1.0]);
+        self.decide(Decision::Propagation, most, error, time_s);
+    }
+
+    /// Notes a decision of a margin with some error.
+    pub fn decide(
+        &mut self,
+        decision: Decision,
+        margin: f64,
+        error: f64,
+        time_s: f64,
+    ) {
+        if self.matters() && !self.resting {
+            let ratio = ratio(margin, error);
+            self.certificate.note(decision, ratio, time_s);
+        }
+    }
+
+    /// Notes the least relative distance of the ground acceleration from the
+    /// uplift threshold while the block rested.
+    pub fn at_rest(&mut self, distance: f64, time_s: f64) {
+        self.resting = false;
+        let error = AT_REST * self.unit;
+        self.decide(Decision::Uplift, distance, error, time_s);
+    }
+
+    /// True while the impacts under way are not sure to end in a rest.
+    pub fn is_in_motion(&self) -> bool {
+        !self.resting
+    }
+
+    /// Whether the impacts under way surely end in a rest.
+    pub fn rest_surely(&mut self, surely: bool) {
+        self.resting = surely;
+    }
+
+    /// A rest: it had better be sure.
+    pub fn rest(&mut self, time_s: f64) {
+        if !self.resting {
+            self.decide(Decision::Rest, 0.0, 1.0, time_s);
+        }
+    }
+
+    /// Outcome and peak are surely known: nothing later is asked.
+    pub fn settle(&mut self) {
+        self.settled = true;
+    }
+
+    /// True while decisions can change outcome or peak.
+    pub fn matters(&self) -> bool {
+        !self.settled
+    }
+
+    /// Notes the error at a peak `u`, the highest so far.
+    pub fn peak(&mut self, u: f64) {
+        let moved = self.moved([1.0, 0.0]);
+        self.take_peak(u, self.error(), moved / u);
     }
 
     /// Notes the error at a peak `u` reached in free motion from (u0, w0):
@@ -98,51 +285,65 @@ impl Accuracy {
         (slope, w): (f64, f64),
         at_peak: f64,
         u: f64,
-        alpha: f64,
     ) {
-        let variance = slope * slope * self.uu
-            + 2.0 * slope * w * self.uw
-            + w * w * self.ww;
-        let along = |v: [f64; 2]| (slope * v[0] + w * v[1]).abs();
-        let moved = along(self.eta)
-            + alpha * (along(self.initial[0]) + along(self.initial[1]));
+        let along = [slope, w];
         let own = self.unit * (w * w + (slope * u).abs());
-        let error = COVERAGE * variance.max(0.0).sqrt() + own;
-        self.note(error / (at_peak * alpha), moved / (at_peak * u));
+        let error = (self.bound(along) + own) / at_peak;
+        self.take_peak(u, error, self.moved(along) / (at_peak * u));
     }
 
-    fn note(&mut self, error: f64, condition: f64) {
-        self.peak_error = error + self.unit;
+    /// How far relative changes of restitution and initial state move a
+    /// quantity with these derivatives.
+    fn moved(&self, [a, b]: [f64; 2]) -> f64 {
+        let along = |[u, w]: [f64; 2]| (a * u + b * w).abs();
+        let [first, second] = self.initial;
+        along(self.once[Once::Restitution as usize])
+            + self.alpha * (along(first) + along(second))
+    }
+
+    fn take_peak(&mut self, u: f64, error: f64, condition: f64) {
+        self.peak = u;
+        self.peak_error = error;
         self.peak_condition = condition;
+        self.reach(u, error);
+    }
+
+    /// Notes a turning point that may be the highest.
+    pub fn reach(&mut self, u: f64, error: f64) {
+        let most = u + error;
+        if self.matters() && !(most <= self.highest) {
+            self.highest = most;
+        }
     }
 
     /// Notes the error of a run that overturns in the current state.
-    pub fn overturned(&mut self, alpha: f64) {
-        self.peak_error = COVERAGE * self.deviation() / alpha + self.unit;
+    pub fn overturned(&mut self) {
+        self.peak_error = self.error();
     }
 
-    /// Notes the error of a decision about fate, a quantity with these
-    /// derivatives by u and w.
-    pub fn decision(&mut self, gradient: [f64; 2], alpha: f64) {
-        let [a, b] = gradient;
-        let variance =
-            a * a * self.uu + 2.0 * a * b * self.uw + b * b * self.ww;
-        let error = COVERAGE * variance.max(0.0).sqrt() / alpha;
-        self.decision_error = error + self.unit;
+    /// What the run decided.
+    pub fn certificate(&self) -> Certificate {
+        self.certificate
     }
 
-    /// Bound on the error of the fate margin.
-    pub fn fate_error(&self) -> f64 {
-        self.decision_error.max(self.peak_error)
-    }
-
-    /// Bound on the error of the peak ratio.
-    pub fn peak_error(&self) -> f64 {
-        self.peak_error
+    /// Bound on the error of the peak ratio; none where it is not known.
+    pub fn peak_error(&self) -> Option<f64> {
+        // Some other peak may be the highest.
+        let other = self.highest - self.peak;
+        let error =
+            if other > self.peak_error { other } else { self.peak_error };
+        let known = self.certificate.is_clear();
+        known.then_some(error / self.alpha + self.unit)
     }
 
     /// Condition number of the peak.
     pub fn peak_condition(&self) -> f64 {
         self.peak_condition
     }
+}
+
+/// Margin over error. No error leaves every decision clear, even one without
+/// a margin: the numbers are exact.
+fn ratio(margin: f64, error: f64) -> f64 {
+    if error == 0.0 && margin >= 0.0 { f64::INFINITY } else { margin / error }
 }

@@ -1,7 +1,8 @@
 //! Fates told in the precision that they need.
 
 use crate::integrator::{
-    Observe, Outcome, Response, Scene, SceneError, respond, respond_precise,
+    Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
+    SceneError, respond, respond_precise,
 };
 use crate::number::Real;
 
@@ -21,10 +22,15 @@ pub struct Certified {
     pub outcome: Outcome,
     /// Distance from the other fate, in units of the slenderness angle.
     pub margin: f64,
-    /// Bound on the error of that distance.
-    pub error: f64,
-    /// False where the error reaches the margin in double-double too.
+    /// Bound on the error of the peak ratio; none where it is undecided.
+    pub error: Option<f64>,
+    /// The least clear decision of the run.
+    pub least: Clearance,
+    /// False where a decision is not clear in the widest arithmetic.
     pub decided: bool,
+    /// False where other inputs that round to the same doubles may have
+    /// another outcome: the fate is that of these doubles alone.
+    pub decided_for_inputs: bool,
     /// Which engine decided, or tried last.
     pub by: Engine,
     /// What double precision says.
@@ -42,13 +48,16 @@ impl Certified {
                 Outcome::Overturned { time_s: time_s.to_f64(), side }
             }
         };
-        let margin = response.fate_margin;
-        let error = response.fate_error.unwrap_or(f64::INFINITY);
+        let of = |c: Option<Certificate>| c.unwrap_or_default();
+        let certificate = of(response.certificate);
+        let of_inputs = of(response.input_certificate);
         Self {
             outcome,
-            margin,
-            error,
-            decided: margin > error,
+            margin: response.fate_margin,
+            error: response.error_estimate,
+            least: certificate.least(),
+            decided: response.assessment() == Assessment::Clear,
+            decided_for_inputs: of_inputs.is_clear(),
             by,
             double: outcome,
         }

@@ -7,13 +7,21 @@
 //! the other side if eta^2 D > E_s. Times follow by Carlson's R_F (Eq. 1) or
 //! atanh (Eq. 2).
 
+use crate::integrator::certificate::Decision;
 use crate::integrator::driver::{Motion, Record, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::{Impact, Side};
+use crate::integrator::{Impact, ImpactError, Side};
 use crate::number::Real;
 
 /// Impacts logged at most where the motion never ends.
 const ENDLESS_IMPACTS: usize = 1000;
+
+/// Relative step of differences, of which one digit is asked.
+const DIFFERENCE: f64 = 1e-6;
+
+/// Relative error of the time of a tail of impacts, at the speeds at which
+/// one stands for them.
+const TAIL: f64 = 1e-9;
 
 /// What the free motion is asked.
 pub(crate) struct Coast<'a, N> {
@@ -76,16 +84,16 @@ pub(crate) fn coast<N: Real>(
     let inward = w < zero;
     let outward =
         if u > d.alpha { !(inward && passes) } else { !inward && passes };
+    let passing = gap(d, u, w).abs().to_f64();
     let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
-    if let Some(accuracy) = &mut record.accuracy
-        && d.overturning == Overturning::HalfPi
-    {
-        // The distance is w - 2 sin((alpha - u)/2): its derivative by u is
-        // at most 1.
-        accuracy.decision([1.0, 1.0], d.alpha.to_f64());
+    let gradient = gap_gradient(d, u);
+    for tracker in record.trackers() {
+        let error = tracker.bound(gradient);
+        let start_s = ask.start_s.to_f64();
+        tracker.decide(Decision::Overturning, passing, error, start_s);
     }
     if outward {
-        return fly_out(ask, motion, level, decision(d, gap), record);
+        return fly_out(ask, motion, level, gap, record);
     }
     // The block turns, or already moves inwards, and meets the base.
     let here = Place { u, speed: w.abs() };
@@ -104,30 +112,113 @@ pub(crate) fn coast<N: Real>(
     let next = level.after_impact(d);
     let w = d.eta * level.speed();
     let saddle_speed = (d.saddle_energy() + d.saddle_energy()).sqrt();
+    let passing = (w - saddle_speed).to_f64().abs();
     let second = ((w - saddle_speed) / d.alpha).to_f64().abs();
     let margin = gap.min(second);
-    if let Some(accuracy) = &mut record.accuracy
-        && d.overturning == Overturning::HalfPi
-        && second < gap
-    {
-        // The speed at the base has the energy's error over itself.
-        let share = (d.eta / level.speed()).to_f64();
-        let by_u = slope(d, u).to_f64() * share;
-        accuracy.decision([by_u, motion.w.to_f64() * share], d.alpha.to_f64());
+    // The speed at the base has the energy's error over itself.
+    let share = (d.eta / level.speed()).to_f64();
+    let by_energy = [slope(d, u).to_f64(), motion.w.to_f64()];
+    let gradient = by_energy.map(|by| by * share);
+    for tracker in record.trackers() {
+        let error = tracker.bound(gradient);
+        let impact_s = impact_s.to_f64();
+        tracker.decide(Decision::Overturning, passing, error, impact_s);
     }
+    let errors = record.accuracy.map(|accuracy| {
+        let energy = level.above_base.to_f64();
+        let late = |[u, w]: [f64; 2]| {
+            let level = Level::of(d, N::from_f64(u), N::from_f64(w));
+            time_to_base(d, N::from_f64(u), N::from_f64(w), level).to_f64()
+        };
+        let motion = [u, motion.w].map(Real::to_f64);
+        Errors {
+            late: accuracy.bound(derivatives(late, motion, d)),
+            energy: accuracy.bound(by_energy) / energy,
+            known: accuracy.certificate().is_clear(),
+        }
+    });
     if next.below_saddle < zero {
-        log_impact(ask, record, impact_s, level.speed());
+        log_impact(ask, record, impact_s, level.speed(), errors);
         let motion = Motion { side: side.flipped(), u: zero, w };
         let later = Coast { start_s: impact_s, ..*ask };
-        return fly_out(&later, motion, next, decision(d, margin), record);
+        return fly_out(&later, motion, next, margin, record);
     }
-    hops(ask, record, impact_s, level, (u, motion.w));
+    hops(ask, record, impact_s, level, (u, motion.w), errors);
     Fate { overturned: None, margin: margin_of(d, margin) }
+}
+
+/// Time (in 1/p) from a place in free motion to the base.
+fn time_to_base<N: Real>(d: &Dynamics<N>, u: N, w: N, level: Level<N>) -> N {
+    let here = Place { u, speed: w.abs() };
+    if w < N::zero() {
+        let base = Place { u: N::zero(), speed: level.speed() };
+        return transit(d, base, here, level);
+    }
+    let top = Place { u: turning(d, level), speed: N::zero() };
+    transit(d, here, top, level) + hop(d, level)
+}
+
+/// Derivatives of a quantity by u and w, to a few digits.
+fn derivatives<N: Real>(
+    of: impl Fn([f64; 2]) -> f64,
+    [u, w]: [f64; 2],
+    d: &Dynamics<N>,
+) -> [f64; 2] {
+    let step = DIFFERENCE * d.alpha.to_f64();
+    // Towards the base, which both sides of a decision reach.
+    let here = of([u, w]);
+    [of([u - step, w]) - here, of([u, w - step]) - here].map(|x| x / step)
+}
+
+/// What free motion makes of the errors at its first impact.
+#[derive(Clone, Copy)]
+struct Errors {
+    /// Of the impact's time, in 1/p.
+    late: f64,
+    /// Of the energy before it, relative.
+    energy: f64,
+    /// All decisions before are clear.
+    known: bool,
+}
+
+impl Errors {
+    /// Bounds for an impact at a time and a speed.
+    fn of<N: Real>(
+        self,
+        d: &Dynamics<N>,
+        time_s: f64,
+        speed: f64,
+    ) -> Option<ImpactError> {
+        let p = d.p.to_f64();
+        let unit = 2.0 * N::ROUNDOFF;
+        self.known.then(|| ImpactError {
+            time_s: self.late / p + unit * time_s,
+            speed_rad_s: speed * p * (0.5 * self.energy + 4.0 * unit),
+        })
+    }
+
+    /// After a further hop of a level, `half` of which lasts so long.
+    fn after_hop<N: Real>(
+        self,
+        d: &Dynamics<N>,
+        level: Level<N>,
+        half: f64,
+    ) -> Self {
+        let energy = self.energy + 8.0 * N::ROUNDOFF;
+        let less = N::one() - N::from_f64(DIFFERENCE);
+        let above_base = level.above_base * less;
+        let below_saddle = d.saddle_energy() - above_base;
+        let other = hop(d, Level { above_base, below_saddle }).to_f64();
+        let by_energy = (half - other).abs() / DIFFERENCE;
+        let rounding = 8.0 * N::ROUNDOFF * half;
+        let late = self.late + 2.0 * (by_energy * energy + rounding);
+        Self { late, energy, ..self }
+    }
 }
 
 /// Signed distance along the unstable direction from the stable manifold:
 /// w - 2 sin((alpha - u)/2) for Eq. 1, w - (alpha - u) for Eq. 2.
-fn gap<N: Real>(d: &Dynamics<N>, u: N, w: N) -> N {
+pub(crate) fn gap<N: Real>(d: &Dynamics<N>, u: N, w: N) -> N {
     let y = d.alpha - u;
     match d.model {
         Model::Nonlinear => {
@@ -138,18 +229,18 @@ fn gap<N: Real>(d: &Dynamics<N>, u: N, w: N) -> N {
     }
 }
 
+/// Its derivatives by u and w.
+pub(crate) fn gap_gradient<N: Real>(d: &Dynamics<N>, u: N) -> [f64; 2] {
+    let half = 0.5 * (d.alpha - u).to_f64();
+    match d.model {
+        Model::Nonlinear => [libm::cos(half), 1.0],
+        Model::Linearized => [1.0, 1.0],
+    }
+}
+
 /// Under |theta| >= alpha the peak itself is the margin.
 fn margin_of<N: Real>(d: &Dynamics<N>, margin: f64) -> Option<f64> {
     (d.overturning == Overturning::HalfPi).then_some(margin)
-}
-
-/// Margin of an overturning in free motion: under |theta| >= alpha it never
-/// turns back.
-fn decision<N: Real>(d: &Dynamics<N>, margin: f64) -> f64 {
-    match d.overturning {
-        Overturning::Alpha => f64::INFINITY,
-        Overturning::HalfPi => margin,
-    }
 }
 
 impl<N: Real> Coast<'_, N> {
@@ -186,8 +277,8 @@ fn fly_out<N: Real>(
     if ask.past(time_s) {
         return Fate { overturned: None, margin: Some(margin) };
     }
-    if let Some(accuracy) = &mut record.accuracy {
-        accuracy.overturned(d.alpha.to_f64());
+    for tracker in record.trackers() {
+        tracker.overturned();
     }
     Fate { overturned: Some((time_s, side)), margin: Some(margin) }
 }
@@ -207,13 +298,10 @@ fn raise<N: Real>(
     record.peak = top;
     record.peak_time_s = Some(time_s);
     record.work.turning_points += 1;
-    if let Some(accuracy) = &mut record.accuracy {
-        accuracy.peak_by_energy(
-            (slope(d, u).to_f64(), w.to_f64()),
-            slope(d, top).to_f64(),
-            top.to_f64(),
-            d.alpha.to_f64(),
-        );
+    for tracker in record.trackers() {
+        let here = (slope(d, u).to_f64(), w.to_f64());
+        let at_top = slope(d, top).to_f64();
+        tracker.peak_by_energy(here, at_top, top.to_f64());
     }
 }
 
@@ -231,12 +319,16 @@ fn log_impact<N: Real>(
     record: &mut Record<N>,
     time_s: N,
     speed: N,
+    errors: Option<Errors>,
 ) {
     record.work.impacts += 1;
     if ask.events {
         record.impacts.push(Impact {
             time_s,
             speed_before_rad_s: speed * ask.dynamics.p,
+            error: errors.and_then(|errors| {
+                errors.of(ask.dynamics, time_s.to_f64(), speed.to_f64())
+            }),
         });
     }
 }
@@ -248,6 +340,7 @@ fn hops<N: Real>(
     first_s: N,
     before: Level<N>,
     state: (N, N),
+    mut errors: Option<Errors>,
 ) {
     let d = ask.dynamics;
     let tail = d.alpha * N::from_f64(tail_speed::<N>());
@@ -259,7 +352,7 @@ fn hops<N: Real>(
             return;
         }
         let speed = level.speed();
-        log_impact(ask, record, time_s, speed);
+        log_impact(ask, record, time_s, speed, errors);
         level = level.after_impact(d);
         let half = hop(d, level);
         // Only the first hop after the excitation can raise the peak.
@@ -277,8 +370,17 @@ fn hops<N: Real>(
             let down = d.restoring(N::zero());
             let rest = two * after / (down * (N::one() - d.eta));
             record.rest_time_s = Some(time_s + rest / d.p);
+            record.rest_error_s = errors.map(|errors| {
+                let (late, rest) = (errors.late, rest.to_f64());
+                let error = late + rest * (0.5 * errors.energy + TAIL);
+                let unit = 2.0 * N::ROUNDOFF;
+                error / d.p.to_f64() + unit * time_s.to_f64()
+            });
             return;
         }
+        errors = errors
+            .filter(|_| ask.events)
+            .map(|errors| errors.after_hop(d, level, half.to_f64()));
         time_s = time_s + two * half / d.p;
     }
 }

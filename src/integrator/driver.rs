@@ -1,6 +1,7 @@
 //! The driver: rest, flight, events, end. One for every model, excitation
 //! and precision.
 
+mod decisions;
 mod ending;
 mod events;
 mod impact;
@@ -47,8 +48,13 @@ pub(crate) struct Record<N> {
     pub impacts: Vec<Impact<N>>,
     pub history: Vec<HistoryPoint<N>>,
     pub work: Work,
-    /// Largest |a/g| met, for the margin of a run without uplift.
+    /// Bounds of the errors of the times of rest and of overturning, s.
+    pub rest_error_s: Option<f64>,
+    pub overturning_error_s: Option<f64>,
+    /// Errors by this arithmetic, and, where that is wider than the inputs'
+    /// own precision, by the inputs.
     pub accuracy: Option<Accuracy>,
+    pub inputs: Option<Accuracy>,
 }
 
 impl<N: Real> Record<N> {
@@ -61,7 +67,10 @@ impl<N: Real> Record<N> {
             impacts: Vec::new(),
             history: Vec::new(),
             work: Work::default(),
+            rest_error_s: None,
+            overturning_error_s: None,
             accuracy: None,
+            inputs: None,
         }
     }
 }
@@ -84,8 +93,10 @@ pub(crate) struct Driver<
     until_s: Option<N>,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
-    /// Where nothing but outcome and peak is asked for.
+    /// Where it is asked whether what is left can change outcome or peak.
     barrier: Option<Barrier<N>>,
+    /// Nothing but outcome and peak is asked for.
+    ends_early: bool,
     /// First piece in which it is asked whether that matters.
     look_from: usize,
 }
@@ -143,6 +154,7 @@ where
             until_s: None,
             tolerance: N::from_f64(tolerance::<N>()),
             barrier: None,
+            ends_early: false,
             look_from: 0,
         }
     }
@@ -153,6 +165,7 @@ where
     pub fn for_peak(mut self) -> Self {
         let matters = self.dynamics.overturning == Overturning::Alpha;
         self.barrier = matters.then(Barrier::none);
+        self.ends_early = matters;
         self
     }
 
@@ -187,10 +200,8 @@ where
         let motion = Motion { side: Side::Positive, u, w: N::zero() };
         self.record.peak = u;
         self.record.peak_time_s = Some(N::zero());
-        if let Some(accuracy) = &mut self.record.accuracy {
-            accuracy.start();
-            let alpha = self.dynamics.alpha.to_f64();
-            accuracy.peak(u.to_f64(), alpha);
+        for tracker in self.record.trackers() {
+            tracker.release(u.to_f64());
         }
         Stage::Flying(Step {
             place: start,
@@ -238,8 +249,14 @@ where
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
         self.until_s = observe.until_s.map(N::from_f64);
-        self.record.accuracy =
-            observe.accuracy.then(|| Accuracy::new(N::ROUNDOFF));
+        if observe.accuracy {
+            let alpha = self.dynamics.alpha.to_f64();
+            let own = Accuracy::of_arithmetic(N::ROUNDOFF, alpha);
+            let wide = N::ROUNDOFF < f64::ROUNDOFF;
+            self.record.accuracy = Some(own);
+            self.record.inputs = wide.then(|| Accuracy::of_inputs(alpha));
+            self.barrier.get_or_insert_with(Barrier::none);
+        }
     }
 
     /// From a place at rest to the next uplift, if there is one.
@@ -248,9 +265,12 @@ where
         if self.is_settled(from.piece, N::zero()) {
             return Stage::Landed(Flight::Settled);
         }
-        let (found, scans) =
+        let (found, scan) =
             self.forcing.exceedance(from, self.dynamics.threshold);
-        self.record.work.rest_scans += scans;
+        self.record.work.rest_scans += scan.pieces;
+        for tracker in self.record.trackers() {
+            tracker.at_rest(scan.nearest.to_f64(), since_s.to_f64());
+        }
         let Some(found) = found else {
             return Stage::Landed(Flight::Rest(from, since_s));
         };
@@ -261,8 +281,8 @@ where
         self.sample_rest(time_s);
         self.record.work.uplifts += 1;
         self.record.uplift_time_s.get_or_insert(time_s);
-        if let Some(accuracy) = &mut self.record.accuracy {
-            accuracy.start();
+        for tracker in self.record.trackers() {
+            tracker.start();
         }
         let side =
             if found.positive { Side::Negative } else { Side::Positive };
@@ -338,6 +358,10 @@ where
         step.index = next;
         step.place.offset = boundary;
         if next == steps {
+            // What was sure to end in this piece has not.
+            for tracker in self.record.trackers() {
+                tracker.rest_surely(false);
+            }
             step.index = 0;
             step.place = Place { piece: piece + 1, offset: N::zero() };
         }

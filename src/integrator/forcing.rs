@@ -16,6 +16,10 @@ pub(crate) use remainder::Remainder;
 /// nothing above rounding.
 pub(crate) const LONGEST_STEP: f64 = 0.1;
 
+/// Relative distance from the uplift threshold above which a sample is not
+/// near it.
+const NEAR_THRESHOLD: f64 = 1e-12;
+
 /// Longest step in units of a pulse's own phase.
 const LONGEST_PHASE: f64 = 0.25;
 
@@ -38,6 +42,16 @@ pub(crate) struct Exceedance<N> {
     pub crossing: bool,
 }
 
+/// What a block at rest has seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scan<N> {
+    /// Pieces, or blocks of pieces, looked at.
+    pub pieces: u64,
+    /// Least relative distance of the peaks of |a/g| from the threshold, or
+    /// some bound of it that is far above rounding.
+    pub nearest: N,
+}
+
 /// An excitation cut into pieces on each of which it is smooth.
 pub(crate) trait Forcing<N: Real, const F: usize> {
     /// Number of pieces.
@@ -55,13 +69,19 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     /// Series of a/g about a place.
     fn series(&self, place: Place<N>) -> [N; F];
 
-    /// First place from `from` on where |a/g| exceeds `threshold`, and the
-    /// number of pieces looked at.
+    /// First place from `from` on where |a/g| exceeds `threshold`, and what
+    /// was seen on the way.
     fn exceedance(
         &self,
         from: Place<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, u64);
+    ) -> (Option<Exceedance<N>>, Scan<N>);
+
+    /// Time (in 1/p) whose rounding shifts the whole excitation: none where
+    /// places in it are told by their piece.
+    fn span(&self) -> f64 {
+        0.0
+    }
 
     /// What is left of a/g from each piece on; none where that is not known.
     fn remainder(&self) -> Option<Remainder<'_, N>> {
@@ -162,11 +182,12 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
         &self,
         from: Place<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, u64) {
+    ) -> (Option<Exceedance<N>>, Scan<N>) {
         let amplitude = self.record.amplitude().abs();
         let bound = threshold.to_f64() * (1.0 - 1e-14);
         let mut piece = from.piece;
-        let mut scanned = 0;
+        let (mut scanned, mut gap) = (0, threshold);
+        let scan = |pieces, gap: N| Scan { pieces, nearest: gap / threshold };
         while piece < self.pieces() {
             if let Some(next) = self.index.skip(piece, bound / amplitude) {
                 piece = next;
@@ -177,12 +198,14 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
             let offset =
                 if piece == from.piece { from.offset } else { N::zero() };
             let found = self.within(Place { piece, offset }, threshold);
+            let own = self.gap(piece, threshold);
+            gap = if own < gap { own } else { gap };
             if found.is_some() {
-                return (found, scanned);
+                return (found, scan(scanned, gap));
             }
             piece += 1;
         }
-        (None, scanned)
+        (None, scan(scanned, gap))
     }
 
     #[inline(always)]
@@ -192,6 +215,20 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 }
 
 impl<N: Real> RecordForcing<'_, N> {
+    /// Distance of |a/g| from the threshold at the end of a piece; where it
+    /// rises on beyond, at the end of the next.
+    #[inline(always)]
+    fn gap(&self, piece: usize, threshold: N) -> N {
+        let peak = self.sample(piece + 1).abs();
+        let near = (peak - threshold).abs();
+        if near > threshold * N::from_f64(NEAR_THRESHOLD) {
+            return near;
+        }
+        let next = piece + 2;
+        let rises = next <= self.pieces() && self.sample(next).abs() > peak;
+        if rises { (self.sample(next).abs() - threshold).abs() } else { near }
+    }
+
     /// Exceedance within one interval, from an offset on.
     fn within(&self, from: Place<N>, threshold: N) -> Option<Exceedance<N>> {
         let here = self.series(from)[0];
@@ -292,7 +329,8 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
         &self,
         from: Place<N>,
         threshold: N,
-    ) -> (Option<Exceedance<N>>, u64) {
+    ) -> (Option<Exceedance<N>>, Scan<N>) {
+        let scan = |pieces| Scan { pieces, nearest: N::one() };
         let mut scanned = 0;
         for piece in from.piece..self.pieces.len() {
             scanned += 1;
@@ -307,7 +345,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 let positive = series[0] > N::zero();
                 let crossing = offset > N::zero() || self.continues(piece);
                 let found = Exceedance { place, positive, crossing };
-                return (Some(found), scanned);
+                return (Some(found), scan(scanned));
             }
             let left = self.pieces[piece].length - offset;
             let mut first: Option<(N, bool)> = None;
@@ -335,10 +373,10 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
             if let Some((tau, positive)) = first {
                 let place = Place { piece, offset: offset + tau };
                 let found = Exceedance { place, positive, crossing: true };
-                return (Some(found), scanned);
+                return (Some(found), scan(scanned));
             }
         }
-        (None, scanned)
+        (None, scan(scanned))
     }
 }
 
@@ -402,7 +440,7 @@ impl<N: Real> Forcing<N, 1> for Silence<N> {
         &self,
         _from: Place<N>,
         _threshold: N,
-    ) -> (Option<Exceedance<N>>, u64) {
-        (None, 0)
+    ) -> (Option<Exceedance<N>>, Scan<N>) {
+        (None, Scan { pieces: 0, nearest: N::one() })
     }
 }

@@ -19,9 +19,8 @@ where
         if motion.u > self.record.peak {
             self.record.peak = motion.u;
             self.record.peak_time_s = self.until_s;
-            if let Some(accuracy) = &mut self.record.accuracy {
-                let alpha = self.dynamics.alpha.to_f64();
-                accuracy.peak(motion.u.to_f64(), alpha);
+            for tracker in self.record.trackers() {
+                tracker.peak(motion.u.to_f64());
             }
         }
     }
@@ -71,7 +70,6 @@ where
 
     /// From the end of a flight to the answer.
     pub fn conclude(&mut self, flight: &Flight<N>) -> Response<N> {
-        let alpha = self.dynamics.alpha;
         let mut margin = None;
         let mut overturned = None;
         match *flight {
@@ -91,8 +89,8 @@ where
             Flight::Overturned { time_s, side, margin: beyond } => {
                 margin = Some(beyond);
                 overturned = Some((time_s, side));
-                if let Some(accuracy) = &mut self.record.accuracy {
-                    accuracy.overturned(alpha.to_f64());
+                for tracker in self.record.trackers() {
+                    tracker.overturned();
                 }
             }
             Flight::End(motion) => {
@@ -173,6 +171,9 @@ where
             None => own.to_f64(),
         };
         let accuracy = record.accuracy;
+        let inputs = record.inputs.or(accuracy);
+        let clear = accuracy.is_some_and(|a| a.certificate().is_clear());
+        let known = |error: Option<f64>| error.filter(|_| clear);
         Response {
             outcome,
             peak_ratio: ratio,
@@ -181,10 +182,12 @@ where
             rest_time_s: record.rest_time_s,
             impacts: std::mem::take(&mut record.impacts),
             fate_margin,
-            error_estimate: accuracy.map(|a| a.peak_error()),
-            fate_error: accuracy.map(|a| a.fate_error()),
+            error_estimate: accuracy.and_then(|a| a.peak_error()),
+            rest_error_s: known(record.rest_error_s),
+            overturning_error_s: known(record.overturning_error_s),
             condition_number: accuracy.map(|a| a.peak_condition()),
-            certificate: None,
+            certificate: accuracy.map(|a| a.certificate()),
+            input_certificate: inputs.map(|a| a.certificate()),
             work: record.work,
             history: std::mem::take(&mut record.history),
         }

@@ -7,7 +7,7 @@ use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
-use crate::number::dispatch::Work as Dispatched;
+use crate::number::dispatch::{Isa, Work as Dispatched};
 
 /// Pieces after a peak before it is asked whether what is left matters: most
 /// peaks are followed by a higher one, and the answer costs as much as some
@@ -110,33 +110,20 @@ where
         x: N,
         (place, length): (Place<N>, N),
     ) {
-        let mut at = N::zero();
-        let Series { c, mut v } = *series;
+        let isa = self.isa;
+        let mut v = series.v;
+        let mut from = N::zero();
         // At most LEN turning points lie in a step.
         for _ in 0..LEN {
-            let left = x - at;
-            let first = v.iter().find(|x| **x != N::zero());
-            let Some(first) = first else { return };
-            let rising = *first > N::zero();
-            if !rising {
-                v = v.map(|x| -x);
-            }
-            let Some(turn) = first_descent(&v, left, self.isa) else {
+            let Some((turn, rising)) = next_turning(&mut v, x - from, isa)
+            else {
                 return;
             };
-            if !(turn < left) {
-                return;
-            }
-            at = at + turn;
+            from = from + turn;
             if rising {
-                self.raise_peak(value(&c, at), place, at * length);
+                let top = value(&series.c, from);
+                self.raise_peak(top, place, from * length);
             }
-            if !rising {
-                v = v.map(|x| -x);
-            }
-            shift(&mut v, turn);
-            // The root itself: exactly zero, so that deflation applies.
-            v[0] = N::zero();
         }
     }
 
@@ -150,14 +137,15 @@ where
             let offset = place.offset + tau;
             let time_s = self.time_s(Place { offset, ..place });
             self.record.peak_time_s = Some(time_s);
-            if let Some(accuracy) = &mut self.record.accuracy {
-                accuracy.peak(u.to_f64(), self.dynamics.alpha.to_f64());
+            for tracker in self.record.trackers() {
+                tracker.peak(u.to_f64());
             }
         }
     }
 
-    /// Next turning value of |theta|/alpha beyond an overturning, minus 1;
-    /// infinite if the block never turns.
+    /// How far an overturning is from none, over alpha: next turning value
+    /// of |theta| beyond it, less the rotation that counts; if the block
+    /// never turns, its velocity there.
     #[inline(never)]
     pub(super) fn margin_beyond(
         &self,
@@ -173,10 +161,11 @@ where
         from: Place<N>,
         motion: Motion<N>,
     ) -> f64 {
-        if self.dynamics.overturning == Overturning::HalfPi {
-            return f64::INFINITY;
-        }
         let Motion { side, mut u, mut w } = motion;
+        let never = (w / self.dynamics.alpha).to_f64();
+        if self.dynamics.overturning == Overturning::HalfPi {
+            return never;
+        }
         let mut offset = from.offset;
         for piece in from.piece..self.forcing.pieces() {
             let left = self.forcing.length(piece) - offset;
@@ -188,12 +177,12 @@ where
             }
             (u, w) = series.end();
             if !(u < N::right_angle()) {
-                return f64::INFINITY;
+                return never;
             }
             offset = N::zero();
         }
         // Beyond the saddle and moving outwards, nothing turns it back.
-        f64::INFINITY
+        never
     }
 
     pub(super) fn beyond(&self, u: N) -> f64 {
@@ -269,6 +258,32 @@ where
         let Self { driver, series, x, step } = self;
         driver.locate_turning_points(series, x, step);
     }
+}
+
+/// The next turning point of a step of velocity `v` within `left`, and
+/// whether the rotation rises before it; moves the origin of `v` there.
+#[inline(always)]
+pub(super) fn next_turning<N: Real, const LEN: usize>(
+    v: &mut [N; LEN],
+    left: N,
+    isa: Isa,
+) -> Option<(N, bool)> {
+    let first = v.iter().find(|x| **x != N::zero())?;
+    let rising = *first > N::zero();
+    if !rising {
+        *v = v.map(|x| -x);
+    }
+    let turn = first_descent(v, left, isa)?;
+    if !(turn < left) {
+        return None;
+    }
+    if !rising {
+        *v = v.map(|x| -x);
+    }
+    shift(v, turn);
+    // The root itself: exactly zero, so that deflation applies.
+    v[0] = N::zero();
+    Some((turn, rising))
 }
 
 /// Moves the origin of the polynomial `c` to `by`.

@@ -2,6 +2,7 @@
 
 use crate::integrator::Impact;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
+use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::Forcing;
 use crate::number::Real;
 
@@ -11,6 +12,18 @@ use crate::number::Real;
 /// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
     if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
+}
+
+/// Rotation over alpha up to which a barrier is raised where larger ones do
+/// not end a run.
+const BELOW_SADDLE: f64 = 0.98;
+
+/// Impacts that accumulate.
+pub(crate) struct Chatter<N> {
+    /// Time (in 1/p) in which they do.
+    pub time: N,
+    /// Relative bound of what varying accelerations change in it.
+    pub spread: N,
 }
 
 /// The number, if it is positive.
@@ -38,25 +51,28 @@ where
         let side = step.motion.side.flipped();
         let w = self.dynamics.eta * speed;
         self.record.work.impacts += 1;
+        let f = self.oriented(step.place, side, false);
+        let error = self
+            .record
+            .accuracy
+            .and_then(|_| self.assess_impact(step.place, speed, before, &f));
         if self.events && positive(speed).is_some() {
             self.record.impacts.push(Impact {
                 time_s: self.time_s(step.place),
                 speed_before_rad_s: speed * self.dynamics.p,
+                error,
             });
-        }
-        let f = self.oriented(step.place, side, false);
-        if let Some(accuracy) = &mut self.record.accuracy {
-            let after = -self.dynamics.restoring(f[0]).to_f64();
-            let eta = self.dynamics.eta.to_f64();
-            accuracy.impact(eta, speed.to_f64(), before.to_f64(), after);
         }
         step.motion = Motion { side, u: N::zero(), w };
         if self.is_settled(step.place.piece, w) {
             return Some(Flight::Settled);
         }
         let left = self.forcing.length(step.place.piece) - step.place.offset;
-        let time = self.chatter(&f, w, left)?;
-        let (place, time_s) = self.later(step.place, time);
+        let chatter = self.chatter(&f, w, left)?;
+        let (place, time_s) = self.later(step.place, chatter.time);
+        if self.record.accuracy.is_some() {
+            self.assess_rest(&chatter, speed, error, time_s);
+        }
         Some(Flight::Rest(place, time_s))
     }
 
@@ -69,7 +85,11 @@ where
             return false;
         }
         self.see_peak();
-        w < self.fastest(piece)
+        let fastest = self.fastest(piece);
+        if self.record.accuracy.is_some() {
+            self.assess_settled(w, fastest);
+        }
+        self.ends_early && w < fastest
     }
 
     /// Takes the peak so far for the barrier that it is.
@@ -78,7 +98,17 @@ where
         if let Some(barrier) = &mut self.barrier
             && let Some(remainder) = self.forcing.remainder()
         {
-            barrier.raise(self.record.peak, &self.dynamics, &remainder);
+            // Below the saddle, which other rotations may exceed.
+            let most = self.dynamics.alpha * N::from_f64(BELOW_SADDLE);
+            let peak = self.record.peak;
+            let height = if self.dynamics.overturning == Overturning::HalfPi
+                && peak > most
+            {
+                most
+            } else {
+                peak
+            };
+            barrier.raise(height, &self.dynamics, &remainder);
         }
     }
 
@@ -109,19 +139,39 @@ where
         first().unwrap_or(guess)
     }
 
-    /// Time (in 1/p) in which the impacts after one that leaves speed `w`
-    /// accumulate, if they provably do within `left` while the ground stays
-    /// below the uplift threshold; `f` is the forcing on the new branch.
+    /// The chatter after an impact that leaves speed `w`, if it provably ends
+    /// within `left` and need not be followed.
+    #[inline(always)]
+    pub(super) fn chatter(
+        &self,
+        f: &[N; F],
+        w: N,
+        left: N,
+    ) -> Option<Chatter<N>> {
+        let chatter = self.accumulation(f, w, left)?;
+        let tail = self.dynamics.alpha * N::from_f64(tail_speed::<N>());
+        (!self.events || w < tail).then_some(chatter)
+    }
+
+    /// The chatter after an impact that leaves speed `w`, if its impacts
+    /// provably accumulate within `left` while the ground stays below the
+    /// uplift threshold; `f` is the forcing on the new branch.
     ///
     /// Each hop rises by at most w^2/D and lasts at most 2 w/D, D being the
     /// least downward acceleration; from hop to hop the speed falls by
     /// eta sqrt(D_max/D_min) at least.
     #[inline(always)]
-    pub(super) fn chatter(&self, f: &[N; F], w: N, left: N) -> Option<N> {
+    pub(super) fn accumulation(
+        &self,
+        f: &[N; F],
+        w: N,
+        left: N,
+    ) -> Option<Chatter<N>> {
         let threshold = self.dynamics.threshold;
         let margin = threshold - f[0].abs();
         if w == N::zero() {
-            return (!(margin < N::zero())).then_some(N::zero());
+            let chatter = Chatter { time: N::zero(), spread: N::zero() };
+            return (!(margin < N::zero())).then_some(chatter);
         }
         let two = N::from_f64(2.0);
         let eta = self.dynamics.eta;
@@ -143,7 +193,7 @@ where
         w: N,
         left: N,
         window: N,
-    ) -> Option<N> {
+    ) -> Option<Chatter<N>> {
         let two = N::from_f64(2.0);
         let window = if window < left { window } else { left };
         let mut drift = N::zero();
@@ -171,15 +221,13 @@ where
         if !(w * w / (two * least) * worst < self.record.peak) {
             return None;
         }
-        let tail = self.dynamics.alpha * N::from_f64(tail_speed::<N>());
-        if self.events && !(w < tail) {
-            return None;
-        }
         // 2 w [1/D + eta/D'] / (1 - eta^2), D and D' on the two branches.
         let up = self.dynamics.restoring(f[0]);
         let down = self.dynamics.restoring(-f[0]);
         let hops = N::one() / up + eta / down;
-        Some(two * w * hops / (N::one() - eta * eta))
+        let time = two * w * hops / (N::one() - eta * eta);
+        let spread = (worst - N::one()) / (N::one() - decay);
+        Some(Chatter { time, spread })
     }
 }
 

@@ -1,6 +1,7 @@
 //! One step of the driver: its series, and how much that leaves.
 
 use crate::integrator::Side;
+use crate::integrator::driver::decisions::Stepped;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
 use crate::integrator::dynamics::{Drive, Model};
@@ -102,14 +103,15 @@ where
                 (x, x * length, (value(c, x), value(v, x)))
             }
         };
+        if self.record.accuracy.is_some() {
+            let left = surely_left_by(v, tau) * power(x, LEN - 1);
+            let ends = [(u, w), (end_u, end_w)];
+            let stepped = Stepped { ends, tau, left };
+            self.assess(&series, x, &stepped, &drive, step.place);
+        }
         self.turning_points(&series, x, (step.place, length));
         if self.interval_s.is_some() {
             self.sample_step(&series, (tau, length), step.place, side);
-        }
-        if self.record.accuracy.is_some() {
-            let last = left_by(v, tau) * power(x, LEN - 1);
-            let ends = [(u, w), (end_u, end_w)];
-            self.track(ends, (drive.a, drive.b), tau, last);
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;
@@ -122,6 +124,9 @@ where
                 let time_s = self.time_s(step.place);
                 let motion = Motion { side, u: end_u, w: end_w };
                 let margin = self.margin_beyond(step.place, motion);
+                if self.record.accuracy.is_some() {
+                    self.assess_beyond(step.place, motion);
+                }
                 Some(Advance::Ended(Flight::Overturned {
                     time_s,
                     side,
@@ -174,38 +179,6 @@ where
         series
     }
 
-    /// Accumulates the error of a step between two motions, whose series
-    /// leaves `last`.
-    #[inline(never)]
-    pub(super) fn track(
-        &mut self,
-        [from, (u, w)]: [(N, N); 2],
-        drive: (N, N),
-        tau: N,
-        last: N,
-    ) {
-        let model = self.dynamics.model;
-        let Some(accuracy) = &mut self.record.accuracy else { return };
-        let (a, b) = (drive.0.to_f64(), drive.1.to_f64());
-        let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
-        let last = last.to_f64();
-        let tau = tau.to_f64();
-        let (j, force) = match model {
-            Model::Nonlinear => {
-                let (s, c) = (libm::sin(u0), libm::cos(u0));
-                (a * c + b * s, (a * s).abs() + (b * c).abs())
-            }
-            Model::Linearized => (1.0, u0.abs() + b.abs()),
-        };
-        // The forcing itself carries a roundoff: the threshold's size.
-        let size = force + self.dynamics.threshold.to_f64();
-        let unit = N::ROUNDOFF;
-        let error_u = unit * u.to_f64().abs().max(u0) + last * tau;
-        let speed = w.to_f64().abs().max(w0.abs());
-        let error_w = unit * (speed + size * tau) + last;
-        accuracy.step(j, tau, [error_u, error_w]);
-    }
-
     /// Error of the velocity that a step of `length` from a velocity `w` may
     /// leave.
     #[inline(always)]
@@ -254,6 +227,19 @@ fn left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
 #[inline(always)]
 pub(crate) fn last_term<N: Number>(last: N, length: N) -> N {
     N::ratio(1, 4) * last * length
+}
+
+/// That estimate where the last coefficient may be small by accident: under
+/// strong forcing even and odd ones have sizes of their own. An envelope of
+/// the last four goes on at the rate at which it falls.
+fn surely_left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
+    let [size, before, other, first] =
+        [1, 2, 3, 4].map(|k| v[LEN - k].abs().to_f64());
+    let rate = (size.max(before) / other.max(first)).sqrt().min(0.5);
+    let next = (before * rate * rate).max(size * rate) / (1.0 - rate);
+    let next = N::from_f64(next);
+    let left = left_by(v, length);
+    if next > left { next } else { left }
 }
 
 /// x to the power `n`.

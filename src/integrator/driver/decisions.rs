@@ -1,0 +1,317 @@
+//! What a run decides, held against the error of its state.
+
+use crate::integrator::ImpactError;
+use crate::integrator::accuracy::{Accuracy, Flown};
+use crate::integrator::certificate::{CLEARANCE, Decision};
+use crate::integrator::coast::{gap, gap_gradient};
+use crate::integrator::driver::events::next_turning;
+use crate::integrator::driver::impact::Chatter;
+use crate::integrator::driver::{Driver, Motion, Record};
+use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::forcing::{Forcing, LONGEST_STEP, Place};
+use crate::integrator::taylor::{Series, value};
+use crate::number::Real;
+
+/// Ratio of a rotation beyond overturning to its error at which nothing more
+/// need be looked at.
+const FAR_BEYOND: f64 = 1e4;
+
+/// Relative slack of bounds that are taken in double precision.
+const SLACK: f64 = 1e-14;
+
+/// A step as the tracked errors see it.
+pub(super) struct Stepped<N> {
+    /// Motion before and after, (u, w).
+    pub ends: [(N, N); 2],
+    /// Its length, in units of 1/p.
+    pub tau: N,
+    /// What its series leaves of the velocity.
+    pub left: N,
+}
+
+impl<N: Real> Record<N> {
+    /// What tracks errors.
+    pub fn trackers(&mut self) -> impl Iterator<Item = &mut Accuracy> {
+        self.accuracy.iter_mut().chain(&mut self.inputs)
+    }
+}
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    /// Carries the errors over the part (0, `x`) of a step from a place, and
+    /// notes what is decided in flight: that the block does not touch its
+    /// base, and does not reach overturning.
+    #[inline(never)]
+    pub(super) fn assess<const LEN: usize>(
+        &mut self,
+        series: &Series<N, LEN>,
+        x: N,
+        step: &Stepped<N>,
+        drive: &Drive<N, F>,
+        place: Place<N>,
+    ) {
+        let flown = self.flown(step, drive);
+        let end = Place { offset: place.offset + step.tau, ..place };
+        let time_s = self.time_s(end).to_f64();
+        let mut worst = 0.0_f64;
+        for tracker in self.record.trackers() {
+            tracker.step(&flown);
+            tracker.fly(time_s);
+            worst = worst.max(CLEARANCE * tracker.error());
+        }
+        if self.may_turn_near(series, x.to_f64(), worst) {
+            self.assess_turnings(series, x, time_s);
+        }
+    }
+
+    /// Whether a turning point of a step may lie within the error of the
+    /// base, of overturning, or of the peak.
+    fn may_turn_near<const LEN: usize>(
+        &self,
+        series: &Series<N, LEN>,
+        x: f64,
+        error: f64,
+    ) -> bool {
+        let Series { c, v } = series;
+        let (mut rest, mut variation) = (0.0, 0.0);
+        for k in (1..LEN).rev() {
+            if k > 1 {
+                rest = rest * x + c[k].abs().to_f64();
+            }
+            variation = variation * x + v[k].abs().to_f64();
+        }
+        let [u, w] = [c[0], c[1]].map(Real::to_f64);
+        let rest = rest * x * x;
+        let slack = error + SLACK * (u + w.abs() + rest);
+        if v[0].to_f64().abs() > variation * x * (1.0 + SLACK) {
+            return false;
+        }
+        let low = u + (w * x).min(0.0) - rest;
+        let high = u + (w * x).max(0.0) + rest;
+        let peak = self.record.peak.to_f64();
+        let limit = self.dynamics.limit.to_f64();
+        !(low > slack && high + slack < peak && high + slack < limit)
+    }
+
+    fn assess_turnings<const LEN: usize>(
+        &mut self,
+        series: &Series<N, LEN>,
+        x: N,
+        time_s: f64,
+    ) {
+        let limit = self.dynamics.limit;
+        let mut v = series.v;
+        let mut at = N::zero();
+        for _ in 0..LEN {
+            let next = next_turning(&mut v, x - at, self.isa);
+            let Some((turn, rising)) = next else { return };
+            at = at + turn;
+            let u = value(&series.c, at);
+            let below = (limit - u).to_f64();
+            let u = u.to_f64();
+            for tracker in self.record.trackers() {
+                let error = tracker.error();
+                if rising {
+                    tracker.reach(u, error);
+                    let decision = Decision::Overturning;
+                    tracker.decide(decision, below, error, time_s);
+                } else {
+                    tracker.decide(Decision::Contact, u, error, time_s);
+                }
+            }
+        }
+    }
+
+    /// A step as the errors see it.
+    fn flown(&self, step: &Stepped<N>, drive: &Drive<N, F>) -> Flown {
+        let Stepped { ends: [from, to], tau, left } = step;
+        let (a, b) = (drive.a.to_f64(), drive.b.to_f64());
+        let (u0, w0) = (from.0.to_f64(), from.1.to_f64());
+        let (u, w) = (to.0.to_f64(), to.1.to_f64());
+        let tau = tau.to_f64();
+        let (curvature, size, acceleration) = match self.dynamics.model {
+            Model::Nonlinear => {
+                let (s, c) = (libm::sin(u0), libm::cos(u0));
+                let size = (a * s).abs() + (b * c).abs();
+                (a * c + b * s, size, a * s - b * c)
+            }
+            Model::Linearized => (1.0, u0.abs() + b.abs(), u0 - b),
+        };
+        let threshold = self.dynamics.threshold.to_f64();
+        let rate = drive.f.get(1).map_or(0.0, |rate| rate.to_f64());
+        let shift = rate * self.forcing.span();
+        // The forcing itself carries a roundoff: the threshold's size.
+        let size = size + threshold + shift.abs();
+        Flown {
+            tau,
+            curvature,
+            sizes: [u.abs().max(u0.abs()), w.abs().max(w0.abs()) + size * tau],
+            left: left.to_f64(),
+            threshold,
+            f: drive.f[0].to_f64(),
+            shift,
+            w: w0,
+            force: acceleration,
+        }
+    }
+
+    /// Notes an impact at `speed` with the accelerations u'' just before and
+    /// after it, `f` being the forcing on the new branch; returns bounds on
+    /// its errors.
+    #[inline(never)]
+    pub(super) fn assess_impact(
+        &mut self,
+        place: Place<N>,
+        speed: N,
+        before: N,
+        f: &[N; F],
+    ) -> Option<ImpactError> {
+        let time_s = self.time_s(place).to_f64();
+        let after = -self.dynamics.restoring(f[0]);
+        let accelerations = [before, after].map(Real::to_f64);
+        let eta = self.dynamics.eta.to_f64();
+        let note = |tracker: &mut Accuracy| {
+            let speed = speed.to_f64();
+            let errors = tracker.impact(eta, speed, accelerations, time_s);
+            if tracker.is_in_motion() {
+                let sure = self.surely_rests(place, speed, errors, f);
+                tracker.rest_surely(sure);
+            }
+            errors
+        };
+        let mut own = self.record.accuracy?;
+        let mut inputs = self.record.inputs;
+        let [late, met] = note(&mut own);
+        inputs.as_mut().map(note);
+        (self.record.accuracy, self.record.inputs) = (Some(own), inputs);
+        let p = self.dynamics.p.to_f64();
+        own.certificate().is_clear().then(|| ImpactError {
+            time_s: late / p + 2.0 * N::ROUNDOFF * time_s,
+            speed_rad_s: met * p,
+        })
+    }
+
+    /// Whether the impacts after one at `speed` surely end in a rest within
+    /// the piece, the errors of its time and speed being what they are.
+    fn surely_rests(
+        &self,
+        place: Place<N>,
+        speed: f64,
+        errors: [f64; 2],
+        f: &[N; F],
+    ) -> bool {
+        let [late, met] = errors.map(|error| CLEARANCE * error);
+        if !(late.is_finite() && met.is_finite()) {
+            return false;
+        }
+        let w = self.dynamics.eta * N::from_f64(speed + met);
+        let left = self.forcing.length(place.piece) - place.offset;
+        let late = N::from_f64(late);
+        let mut shift = N::zero();
+        for k in (1..F).rev() {
+            shift = (shift + f[k].abs()) * late;
+        }
+        let mut f = *f;
+        f[0] = if f[0] < N::zero() { f[0] - shift } else { f[0] + shift };
+        self.accumulation(&f, w, left - late).is_some()
+    }
+
+    /// Notes a rest at the end of a chatter after an impact with some error.
+    #[inline(never)]
+    pub(super) fn assess_rest(
+        &mut self,
+        chatter: &Chatter<N>,
+        speed: N,
+        impact: Option<ImpactError>,
+        time_s: N,
+    ) {
+        let (rest_s, p) = (time_s.to_f64(), self.dynamics.p.to_f64());
+        let speed = speed.to_f64() * p;
+        for tracker in self.record.trackers() {
+            tracker.rest(rest_s);
+        }
+        let after = chatter.time.to_f64() / p;
+        let spread = chatter.spread.to_f64().abs();
+        self.record.rest_error_s = impact.map(|impact| {
+            let longer = after * (spread + impact.speed_rad_s / speed);
+            impact.time_s + longer + 2.0 * N::ROUNDOFF * rest_s
+        });
+    }
+
+    /// Takes in whether outcome and peak are surely known, for a block that
+    /// leaves its base at `w` where all below `fastest` need not be followed.
+    #[inline(never)]
+    pub(super) fn assess_settled(&mut self, w: N, fastest: N) {
+        let room = (fastest - w).to_f64();
+        for tracker in self.record.trackers() {
+            if room > CLEARANCE * tracker.bound([0.0, 1.0]) {
+                tracker.settle();
+            }
+        }
+    }
+
+    /// Notes an overturning: how far beyond its limit the rotation gets, over
+    /// its error there.
+    #[inline(never)]
+    pub(super) fn assess_beyond(&mut self, from: Place<N>, motion: Motion<N>) {
+        let time_s = self.time_s(from).to_f64();
+        let p = self.dynamics.p.to_f64();
+        let mut own = self.record.accuracy;
+        let mut inputs = self.record.inputs;
+        if let Some(own) = &own {
+            let late = own.bound([1.0 / motion.w.to_f64(), 0.0]) / p;
+            let late = late + 2.0 * N::ROUNDOFF * time_s;
+            self.record.overturning_error_s = Some(late);
+        }
+        for tracker in own.iter_mut().chain(&mut inputs) {
+            let ratio = self.clearance_beyond(from, motion, *tracker);
+            tracker.decide(Decision::Overturning, ratio, 1.0, time_s);
+        }
+        (self.record.accuracy, self.record.inputs) = (own, inputs);
+    }
+
+    /// Largest ratio of the rotation beyond its limit to the error there,
+    /// until the block turns.
+    fn clearance_beyond(
+        &self,
+        from: Place<N>,
+        motion: Motion<N>,
+        mut tracker: Accuracy,
+    ) -> f64 {
+        let limit = self.dynamics.limit;
+        let Motion { side, mut u, mut w } = motion;
+        let Place { mut piece, mut offset } = from;
+        let mut best = 0.0;
+        while piece < self.forcing.pieces() {
+            let left = self.forcing.length(piece) - offset;
+            let part = N::from_f64(LONGEST_STEP);
+            let (tau, whole) =
+                if part < left { (part, false) } else { (left, true) };
+            let f = self.oriented(Place { piece, offset }, side, false);
+            let drive = self.dynamics.drive(f);
+            let series: Series<N, HARD> = self.expand((u, w), tau, &drive);
+            let end = series.end();
+            let left = N::zero();
+            let step = Stepped { ends: [(u, w), end], tau, left };
+            tracker.step(&self.flown(&step, &drive));
+            (u, w) = end;
+            let ratio = (u - limit).to_f64() / tracker.error();
+            best = if ratio > best { ratio } else { best };
+            if !(best < FAR_BEYOND) || !(w > N::zero()) {
+                return best;
+            }
+            (piece, offset) = if whole {
+                (piece + 1, N::zero())
+            } else {
+                (piece, offset + tau)
+            };
+        }
+        let ratio = gap(&self.dynamics, u, w).to_f64()
+            / tracker.bound(gap_gradient(&self.dynamics, u));
+        if ratio > best { ratio } else { best }
+    }
+}

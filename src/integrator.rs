@@ -20,6 +20,7 @@ pub(crate) mod pool;
 mod precise;
 mod roots;
 mod run;
+mod screen;
 mod taylor;
 
 pub use certificate::{
@@ -214,6 +215,10 @@ pub struct Response<N = f64> {
     /// The same for all inputs that round to the doubles that were given;
     /// recorded with accuracy.
     pub input_certificate: Option<Certificate>,
+    /// Rough estimate of the largest ratio of error to margin among the
+    /// decisions, made by runs of which outcome and peak alone are asked:
+    /// whether their certificate is worth its cost.
+    pub doubt: Option<f64>,
     /// Work counters.
     pub work: Work,
     /// Signed rotation in time; recorded when asked for.

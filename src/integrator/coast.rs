@@ -40,6 +40,8 @@ pub(crate) struct Fate<N> {
     /// Smallest distance of a decision taken here from the other one, where
     /// the criterion is decided by the saddle.
     pub margin: Option<f64>,
+    /// The smallest such distance by either criterion.
+    pub nearest: f64,
 }
 
 /// A level of energy: above the base, and below the saddle. Both are kept,
@@ -107,7 +109,11 @@ pub(crate) fn coast<N: Real>(
     };
     let impact_s = ask.start_s + time / d.p;
     if ask.past(impact_s) {
-        return Fate { overturned: None, margin: margin_of(d, gap) };
+        return Fate {
+            overturned: None,
+            margin: margin_of(d, gap),
+            nearest: gap,
+        };
     }
     let next = level.after_impact(d);
     let w = d.eta * level.speed();
@@ -144,7 +150,7 @@ pub(crate) fn coast<N: Real>(
         return fly_out(&later, motion, next, margin, record);
     }
     hops(ask, record, impact_s, level, (u, motion.w), errors);
-    Fate { overturned: None, margin: margin_of(d, margin) }
+    Fate { overturned: None, margin: margin_of(d, margin), nearest: margin }
 }
 
 /// Time (in 1/p) from a place in free motion to the base.
@@ -275,12 +281,20 @@ fn fly_out<N: Real>(
     };
     let time_s = ask.start_s + time / d.p;
     if ask.past(time_s) {
-        return Fate { overturned: None, margin: Some(margin) };
+        return Fate {
+            overturned: None,
+            margin: Some(margin),
+            nearest: margin,
+        };
     }
     for tracker in record.trackers() {
         tracker.overturned();
     }
-    Fate { overturned: Some((time_s, side)), margin: Some(margin) }
+    Fate {
+        overturned: Some((time_s, side)),
+        margin: Some(margin),
+        nearest: margin,
+    }
 }
 
 /// Raises the peak if the top of a hop does and is reached in time.

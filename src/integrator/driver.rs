@@ -13,7 +13,8 @@ pub(crate) use step::last_term;
 use crate::integrator::accuracy::Accuracy;
 use crate::integrator::barrier::Barrier;
 use crate::integrator::dynamics::{Dynamics, Overturning};
-use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::forcing::{Forcing, NEAR_THRESHOLD, Place};
+use crate::integrator::screen::Screen;
 use crate::integrator::{
     HistoryPoint, Impact, Observe, Response, Scene, Side, Work,
 };
@@ -93,6 +94,8 @@ pub(crate) struct Driver<
     until_s: Option<N>,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
+    /// Rough certificate, where nothing but outcome and peak is asked for.
+    screen: Option<Screen<N>>,
     /// Where it is asked whether what is left can change outcome or peak.
     barrier: Option<Barrier<N>>,
     /// Nothing but outcome and peak is asked for.
@@ -153,6 +156,7 @@ where
             interval_s: None,
             until_s: None,
             tolerance: N::from_f64(tolerance::<N>()),
+            screen: None,
             barrier: None,
             ends_early: false,
             look_from: 0,
@@ -166,6 +170,7 @@ where
         let matters = self.dynamics.overturning == Overturning::Alpha;
         self.barrier = matters.then(Barrier::none);
         self.ends_early = matters;
+        self.screen = Some(Screen::at_rest());
         self
     }
 
@@ -227,6 +232,12 @@ where
         self.record.peak
     }
 
+    /// The rough certificate.
+    #[inline(always)]
+    pub fn screen(&mut self) -> &mut Screen<N> {
+        self.screen.get_or_insert_with(Screen::at_rest)
+    }
+
     /// First piece in which it is asked whether what is left matters.
     #[inline(always)]
     pub fn look_from(&self) -> u64 {
@@ -271,9 +282,16 @@ where
         for tracker in self.record.trackers() {
             tracker.at_rest(scan.nearest.to_f64(), since_s.to_f64());
         }
+        if let Some(screen) = &mut self.screen
+            && !(scan.nearest > N::from_f64(NEAR_THRESHOLD))
+        {
+            screen.doubt = N::one() / N::zero();
+        }
         let Some(found) = found else {
             return Stage::Landed(Flight::Rest(from, since_s));
         };
+        let time = self.time(found.place);
+        self.screen = self.screen.map(|screen| screen.start(time));
         let time_s = self.time_s(found.place);
         if self.until_s.is_some_and(|until| !(time_s < until)) {
             return Stage::Landed(Flight::Stopped);
@@ -366,6 +384,14 @@ where
             step.place = Place { piece: piece + 1, offset: N::zero() };
         }
         None
+    }
+
+    /// Time of a place of equal pieces, in 1/p.
+    #[inline(always)]
+    fn time(&self, place: Place<N>) -> N {
+        let piece = N::from_f64(place.piece as f64);
+        let length = self.forcing.length(place.piece);
+        piece.mul_add(length, place.offset)
     }
 
     fn time_s(&self, place: Place<N>) -> N {

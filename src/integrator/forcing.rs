@@ -18,7 +18,7 @@ pub(crate) const LONGEST_STEP: f64 = 0.1;
 
 /// Relative distance from the uplift threshold above which a sample is not
 /// near it.
-const NEAR_THRESHOLD: f64 = 1e-12;
+pub(crate) const NEAR_THRESHOLD: f64 = 1e-12;
 
 /// Longest step in units of a pulse's own phase.
 const LONGEST_PHASE: f64 = 0.25;

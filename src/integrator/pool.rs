@@ -286,6 +286,12 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
+                let [began, uu, uw, ww, doubt] = &solved.screen;
+                group.began[lane] = began[i];
+                group.uu[lane] = uu[i];
+                group.uw[lane] = uw[i];
+                group.ww[lane] = ww[i];
+                group.doubt[lane] = doubt[i];
                 if (solved.rested | solved.settled) & bit != 0 {
                     let Some(slot) = &mut self.slots[id.slot()] else {
                         continue;

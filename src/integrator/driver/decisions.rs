@@ -9,6 +9,7 @@ use crate::integrator::driver::impact::Chatter;
 use crate::integrator::driver::{Driver, Motion, Record};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Place};
+use crate::integrator::screen::{LOW, Screen};
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
 
@@ -124,6 +125,50 @@ where
                 }
             }
         }
+    }
+
+    /// Takes the lowest rotation of a step that sinks and rises, and ends at
+    /// a place, into the rough certificate.
+    #[inline(never)]
+    pub(super) fn screen_turning<const LEN: usize>(
+        &mut self,
+        series: &Series<N, LEN>,
+        end: Place<N>,
+    ) {
+        let mut v = series.v;
+        let next = next_turning(&mut v, N::one(), self.isa);
+        let Some(screen) = self.screen else { return };
+        let low = self.dynamics.alpha * N::from_f64(LOW);
+        let lowest = next.map_or(series.c[0], |(x, _)| value(&series.c, x));
+        if lowest > low {
+            return;
+        }
+        let step = self.forcing.length(end.piece);
+        let speed = self.dynamics.alpha;
+        let there = screen.fly(self.time(end), step, speed);
+        let doubt = there.decide(lowest).doubt;
+        self.screen = Some(Screen { doubt, ..screen });
+    }
+
+    /// The rough certificate at the end of a run: what it decides last has
+    /// some margin over alpha, and it never came nearer to the other fate
+    /// than `own`.
+    pub(super) fn screened(
+        &self,
+        end: Option<N>,
+        margin: f64,
+        own: f64,
+    ) -> Option<f64> {
+        let mut screen = self.screen?;
+        let alpha = self.dynamics.alpha;
+        if let Some(time) = end {
+            let step = self.forcing.length(0);
+            screen = screen.fly(time, step, alpha);
+            screen = screen.decide(alpha * N::from_f64(margin));
+        }
+        let doubt = screen.doubt.to_f64();
+        let near = if own < 1.0 { own * own } else { 1.0 };
+        Some((doubt / near).sqrt())
     }
 
     /// A step as the errors see it.

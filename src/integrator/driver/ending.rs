@@ -72,6 +72,8 @@ where
     pub fn conclude(&mut self, flight: &Flight<N>) -> Response<N> {
         let mut margin = None;
         let mut overturned = None;
+        // Where the last flight ended, and what was decided there.
+        let mut decided = None;
         match *flight {
             Flight::Rest(_, time_s) => {
                 if self.record.work.impacts > 0 {
@@ -89,6 +91,7 @@ where
             Flight::Overturned { time_s, side, margin: beyond } => {
                 margin = Some(beyond);
                 overturned = Some((time_s, side));
+                decided = Some((time_s * self.dynamics.p, beyond));
                 for tracker in self.record.trackers() {
                     tracker.overturned();
                 }
@@ -104,12 +107,13 @@ where
                 let fate = coast(&coasting, motion, &mut self.record);
                 margin = fate.margin;
                 overturned = fate.overturned;
+                decided = Some((end_s * self.dynamics.p, fate.nearest));
                 if self.interval_s.is_some() {
                     self.trace(motion, end_s);
                 }
             }
         }
-        self.answer(overturned, margin)
+        self.answer(overturned, margin, decided)
     }
 
     /// History of the free motion after the excitation, stepped.
@@ -149,6 +153,7 @@ where
         &mut self,
         overturned: Option<(N, Side)>,
         margin: Option<f64>,
+        decided: Option<(N, f64)>,
     ) -> Response<N> {
         let alpha = self.dynamics.alpha;
         let record = &mut self.record;
@@ -170,6 +175,15 @@ where
             Some(decision) => own.to_f64().min(decision),
             None => own.to_f64(),
         };
+        let own = match outcome {
+            Outcome::Overturned { .. } => 1.0,
+            Outcome::Rocked { .. } | Outcome::NoUplift => own.to_f64(),
+        };
+        let doubt = match decided {
+            Some((end, margin)) => self.screened(Some(end), margin, own),
+            None => self.screened(None, 1.0, own),
+        };
+        let record = &mut self.record;
         let accuracy = record.accuracy;
         let inputs = record.inputs.or(accuracy);
         let clear = accuracy.is_some_and(|a| a.certificate().is_clear());
@@ -188,6 +202,7 @@ where
             condition_number: accuracy.map(|a| a.peak_condition()),
             certificate: accuracy.map(|a| a.certificate()),
             input_certificate: inputs.map(|a| a.certificate()),
+            doubt,
             work: record.work,
             history: std::mem::take(&mut record.history),
         }

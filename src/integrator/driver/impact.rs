@@ -4,6 +4,7 @@ use crate::integrator::Impact;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
 use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::Forcing;
+use crate::integrator::screen::Landing;
 use crate::number::Real;
 
 /// Post-impact speed over alpha p below which an observer of events lets the
@@ -62,6 +63,18 @@ where
                 speed_before_rad_s: speed * self.dynamics.p,
                 error,
             });
+        }
+        if let Some(screen) = self.screen {
+            let landing = Landing {
+                time: self.time(step.place),
+                step: self.forcing.length(step.place.piece),
+                speed,
+                before: -self.dynamics.restoring(-f[0]),
+                after: -self.dynamics.restoring(f[0]),
+                eta: self.dynamics.eta,
+                slender: N::one() / self.dynamics.alpha,
+            };
+            self.screen = Some(screen.land(&landing));
         }
         step.motion = Motion { side, u: N::zero(), w };
         if self.is_settled(step.place.piece, w) {

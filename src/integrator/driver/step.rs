@@ -117,6 +117,10 @@ where
         step.place.offset = step.place.offset + tau;
         match event {
             Event::None => {
+                let turned = w < N::zero() && end_w > N::zero();
+                if turned && self.screen.is_some() {
+                    self.screen_turning(&series, step.place);
+                }
                 step.motion = Motion { side, u: end_u, w: end_w };
                 Some(Advance::Reached)
             }

@@ -6,12 +6,13 @@
 
 use crate::integrator::driver::last_term;
 use crate::integrator::dynamics::{Drive, Model};
-use crate::integrator::pool::chatter::Impacted;
+use crate::integrator::pool::chatter::{Impacted, restoring};
 use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::waiting::{Lane, Line};
-use crate::integrator::pool::{GROUPS, SMALL};
+use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
+use crate::integrator::screen::{LOW, Landing, Screen};
 use crate::integrator::taylor::{Series, expand, total, value};
 use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
 
@@ -39,6 +40,13 @@ pub(super) struct Batch {
     alpha: Lanes,
     /// Velocity below which a block that leaves the base need not be followed.
     fastest: Lanes,
+    /// Start of the sample, in 1/p, and the rough certificates.
+    sample: Lanes,
+    began: Lanes,
+    uu: Lanes,
+    uw: Lanes,
+    ww: Lanes,
+    doubt: Lanes,
 }
 
 /// What became of the lanes of a batch.
@@ -67,6 +75,7 @@ pub(super) struct Solved {
     pub here: Lanes,
     pub offset: Lanes,
     pub amplitude: Lanes,
+    pub screen: [Lanes; 5],
 }
 
 impl Solved {
@@ -90,6 +99,7 @@ impl Solved {
             here: zero,
             offset: zero,
             amplitude: zero,
+            screen: [zero; 5],
         }
     }
 }
@@ -110,6 +120,8 @@ struct FirstImpact<V: Several> {
     x: V,
     /// It takes more to tell.
     unsure: V::Truths,
+    /// Lower bound of the rotation.
+    lowest: V,
 }
 
 impl Batch {
@@ -134,6 +146,12 @@ impl Batch {
             eta: zero,
             alpha: zero,
             fastest: zero,
+            sample: zero,
+            began: zero,
+            uu: zero,
+            uw: zero,
+            ww: zero,
+            doubt: zero,
         }
     }
 
@@ -164,6 +182,12 @@ impl Batch {
             out.limit[i] = group.limit[lane];
             out.eta[i] = group.eta[lane];
             out.alpha[i] = group.alpha[lane];
+            out.sample[i] = group.piece(lane) as f64;
+            out.began[i] = group.began[lane];
+            out.uu[i] = group.uu[lane];
+            out.uw[i] = group.uw[lane];
+            out.ww[i] = group.ww[lane];
+            out.doubt[i] = group.doubt[lane];
             let slot = slots[id.slot()].as_mut();
             out.fastest[i] =
                 slot.map_or(0.0, |slot| group.fastest(lane, slot));
@@ -255,6 +279,11 @@ impl Batch {
         let turning = self.turning(&c, &v, x);
         left = left.or(turning.unsure);
         let end_w = impact.select(value(&v, x), total(&v));
+        // One that sinks and rises is looked at where that may be near the
+        // base.
+        let lowest = first.lowest.below(V::from_f64(LOW * SAFETY) * alpha);
+        let rises = w.below(zero).and(zero.below(end_w)).but_not(impact);
+        left = left.or(rises.and(lowest));
 
         // The impact, and whether the motion comes to rest after it.
         let fall = zero.below(-end_w);
@@ -271,12 +300,33 @@ impl Batch {
         let peak = raised.select(top, peak);
         let settled = w.below(V::load(&self.fastest)).but_not(raised);
         out.settled = impact.and(settled).bits();
+        let f = rate.mul_add(there, here);
+        let landing = Landing {
+            time: V::load(&self.sample).mul_add(whole, there),
+            step: whole,
+            speed: fall.select(-end_w, zero),
+            before: -restoring(model, threshold, cosine, f),
+            after: -restoring(model, threshold, cosine, -f),
+            eta,
+            slender: V::one() / alpha,
+        };
+        let screen = Screen {
+            began: V::load(&self.began),
+            uu: V::load(&self.uu),
+            uw: V::load(&self.uw),
+            ww: V::load(&self.ww),
+            doubt: V::load(&self.doubt),
+        };
+        let Screen { began, uu, uw, ww, doubt } = screen.land(&landing);
+        for (k, value) in [began, uu, uw, ww, doubt].into_iter().enumerate() {
+            value.store(&mut out.screen[k]);
+        }
         let impacted = Impacted {
             model,
             threshold,
             cosine,
             eta,
-            f: -rate.mul_add(there, here),
+            f: -f,
             rate,
             w,
             left: rest,
@@ -328,7 +378,8 @@ impl Batch {
         let sure = clear_of_limit.and(none.or(descent.one));
         let found = sure.but_not(none);
         let x = refine(&q, one, found);
-        FirstImpact { found, x, unsure: sure.not() }
+        let lowest = c[0] + down - rest;
+        FirstImpact { found, x, unsure: sure.not(), lowest }
     }
 
     /// A turning point in the part (0, `x`) that may be above the peak.

@@ -73,9 +73,20 @@ impl<V: Several> Impacted<V> {
     /// Downward acceleration at the base under forcing `f`.
     #[inline(always)]
     fn restoring(&self, f: V) -> V {
-        match self.model {
-            Model::Nonlinear => (self.threshold + f) * self.cosine,
-            Model::Linearized => self.threshold + f,
-        }
+        restoring(self.model, self.threshold, self.cosine, f)
+    }
+}
+
+/// Downward acceleration at the base under forcing `f`.
+#[inline(always)]
+pub(super) fn restoring<V: Several>(
+    model: Model,
+    threshold: V,
+    cosine: V,
+    f: V,
+) -> V {
+    match model {
+        Model::Nonlinear => (threshold + f) * cosine,
+        Model::Linearized => threshold + f,
     }
 }

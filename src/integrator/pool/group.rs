@@ -5,6 +5,7 @@ use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
+use crate::integrator::screen::{LOW, Screen};
 use crate::integrator::taylor::{Series, expand};
 use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
 
@@ -41,6 +42,14 @@ pub(super) struct Group<'a> {
     pub limit: Lanes,
     pub eta: Lanes,
     pub alpha: Lanes,
+    /// The rough certificates.
+    pub began: Lanes,
+    pub uu: Lanes,
+    pub uw: Lanes,
+    pub ww: Lanes,
+    pub doubt: Lanes,
+    /// Rotation above which a lowest one decides nothing.
+    low: Lanes,
     pub side: [Side; WIDTH],
     pub samples: [&'a [f64]; WIDTH],
     /// Sample at the end of the step.
@@ -86,6 +95,12 @@ impl<'a> Group<'a> {
             limit: zero,
             eta: zero,
             alpha: zero,
+            began: zero,
+            uu: zero,
+            uw: zero,
+            ww: zero,
+            doubt: zero,
+            low: zero,
             side: [Side::Positive; WIDTH],
             samples: [&[]; WIDTH],
             next: [0; WIDTH],
@@ -150,6 +165,13 @@ impl<'a> Group<'a> {
         let steps = self.next[lane] - self.first[lane] + self.extra[lane];
         slot.driver.count_steps(steps);
         slot.driver.count_impacts(self.impacts[lane]);
+        *slot.driver.screen() = Screen {
+            began: self.began[lane],
+            uu: self.uu[lane],
+            uw: self.uw[lane],
+            ww: self.ww[lane],
+            doubt: self.doubt[lane],
+        };
         self.samples[lane] = &[];
         self.active &= !(1 << lane);
         let Stage::Flying(step) = &mut slot.stage else { return };
@@ -165,8 +187,9 @@ impl<'a> Group<'a> {
     pub fn load<T, const LEN: usize>(
         &mut self,
         lane: usize,
-        slot: &Slot<'a, T, LEN>,
+        slot: &mut Slot<'a, T, LEN>,
     ) {
+        let screen = *slot.driver.screen();
         let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
             return;
         };
@@ -199,6 +222,10 @@ impl<'a> Group<'a> {
         self.limit[lane] = dynamics.limit;
         self.eta[lane] = dynamics.eta;
         self.alpha[lane] = dynamics.alpha;
+        self.low[lane] = dynamics.alpha * LOW * SAFETY;
+        let Screen { began, uu, uw, ww, doubt } = screen;
+        (self.began[lane], self.doubt[lane]) = (began, doubt);
+        (self.uu[lane], self.uw[lane], self.ww[lane]) = (uu, uw, ww);
         self.active |= 1 << lane;
     }
 
@@ -278,7 +305,9 @@ impl<'a> Group<'a> {
         let goes_on = bow.below(speed.min(end.1.abs())).but_not(turns);
         // By more than the root finder's rounding.
         let stays = (u * V::from_f64(STAYS)).below(end.0);
-        let above_base = sag.below(u.min(end.0)).or(goes_on.and(stays));
+        // Nor low enough for its lowest rotation to decide anything.
+        let low = sag + V::load(&self.low);
+        let above_base = low.below(u.min(end.0)).or(goes_on.and(stays));
         let top = u.max(end.0) + sag;
         let below_limit = top.below(V::load(&self.ceiling));
         let below_peak = top.below(V::load(&self.peak)).or(goes_on);

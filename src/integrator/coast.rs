@@ -9,7 +9,7 @@
 
 use crate::integrator::driver::{Motion, Record, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::{Impact, Side};
+use crate::integrator::{Impact, Side, WorkLimit};
 use crate::number::Real;
 
 /// Impacts logged at most where the motion never ends.
@@ -24,6 +24,8 @@ pub(crate) struct Coast<'a, N> {
     pub events: bool,
     /// When observation ends, s.
     pub until_s: Option<N>,
+    /// Work beyond which the run is refused.
+    pub limit: WorkLimit,
 }
 
 /// How it ends.
@@ -260,6 +262,9 @@ fn hops<N: Real>(
         }
         let speed = level.speed();
         log_impact(ask, record, time_s, speed);
+        if record.exceeds(ask.limit, time_s) {
+            return;
+        }
         level = level.after_impact(d);
         let half = hop(d, level);
         // Only the first hop after the excitation can raise the peak.

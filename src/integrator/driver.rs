@@ -4,6 +4,7 @@
 mod ending;
 mod events;
 mod impact;
+mod limit;
 mod step;
 
 pub(crate) use impact::tail_speed;
@@ -14,7 +15,8 @@ use crate::integrator::barrier::Barrier;
 use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::{
-    HistoryPoint, Impact, Observe, Response, Scene, Side, Work,
+    HistoryPoint, Impact, Observe, Response, Scene, SceneError, Side, Work,
+    WorkLimit,
 };
 use crate::number::Real;
 use crate::number::dispatch::Isa;
@@ -47,6 +49,8 @@ pub(crate) struct Record<N> {
     pub impacts: Vec<Impact<N>>,
     pub history: Vec<HistoryPoint<N>>,
     pub work: Work,
+    /// Why the run is refused, once its work passes the limit.
+    pub exceeded: Option<SceneError>,
     /// Largest |a/g| met, for the margin of a run without uplift.
     pub accuracy: Option<Accuracy>,
 }
@@ -61,6 +65,7 @@ impl<N: Real> Record<N> {
             impacts: Vec::new(),
             history: Vec::new(),
             work: Work::default(),
+            exceeded: None,
             accuracy: None,
         }
     }
@@ -82,6 +87,7 @@ pub(crate) struct Driver<
     events: bool,
     interval_s: Option<f64>,
     until_s: Option<N>,
+    limit: WorkLimit,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
     /// Where nothing but outcome and peak is asked for.
@@ -141,6 +147,7 @@ where
             events: false,
             interval_s: None,
             until_s: None,
+            limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
             barrier: None,
             look_from: 0,
@@ -165,12 +172,19 @@ where
 
     /// Runs the scene to its end.
     #[inline(always)]
-    pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response<N> {
+    pub fn run(
+        mut self,
+        scene: &Scene<'_>,
+        observe: &Observe,
+    ) -> Result<Response<N>, SceneError> {
         let mut stage = self.begin(scene, observe);
         loop {
+            if let Some(error) = self.refusal(&stage) {
+                return Err(error);
+            }
             match stage {
                 Stage::Flying(step) => stage = self.proceed(step),
-                Stage::Landed(flight) => return self.conclude(&flight),
+                Stage::Landed(flight) => return self.within_limit(&flight),
             }
         }
     }
@@ -238,6 +252,7 @@ where
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
         self.until_s = observe.until_s.map(N::from_f64);
+        self.limit = observe.work_limit;
         self.record.accuracy =
             observe.accuracy.then(|| Accuracy::new(N::ROUNDOFF));
     }

@@ -15,7 +15,7 @@ use thiserror::Error;
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::NormalisedRecord;
 use crate::integrator::{
-    Model, Order, Outcome, Overturning, SceneError, respond_peak_as,
+    Model, Order, Outcome, Overturning, SceneError, WorkLimit,
 };
 use crate::number::dispatch::Isa;
 pub use certified::{Certification, certified_curve, certified_curves};
@@ -75,6 +75,8 @@ pub struct Analysis {
     /// as each step needs for double precision. Certified curves are always
     /// made as each step needs.
     pub order: Option<Order>,
+    /// Work beyond which a level is refused.
+    pub work_limit: WorkLimit,
 }
 
 /// How far up resurrections are sought.
@@ -108,6 +110,7 @@ impl Analysis {
             highest_im: HIGHEST_IM,
             resurrections: None,
             order: None,
+            work_limit: WorkLimit::IDA,
         }
     }
 }
@@ -140,6 +143,17 @@ pub enum IdaError {
         /// What was wrong.
         #[source]
         source: BlockError,
+    },
+    /// A level's run passed the limit of its work.
+    #[error("record {record} at IM {im}: {source}")]
+    Work {
+        /// The record.
+        record: String,
+        /// The level.
+        im: f64,
+        /// What was counted, and to what limit.
+        #[source]
+        source: SceneError,
     },
     /// The scene could not be integrated.
     #[error(transparent)]
@@ -234,7 +248,8 @@ impl IdaCurve {
 /// IDA of one record.
 ///
 /// # Errors
-/// [`IdaError`] for steps that are not positive or a record of zeros.
+/// [`IdaError`] for steps that are not positive, a record of zeros, or a
+/// level whose run passes the limit of its work.
 ///
 /// ```
 /// use rocking::block::{Block, Restitution};
@@ -267,8 +282,7 @@ fn curve_with(
 ) -> Result<IdaCurve, IdaError> {
     let mut climb = Climb::start(record, analysis)?;
     while let Some((aim, level)) = climb.next(false)? {
-        let response = respond_peak_as(&level.scene, analysis.order, isa)?;
-        climb.accept(aim, level.point(&response)?);
+        climb.accept(aim, level.run(isa)?);
     }
     Ok(climb.finish())
 }
@@ -328,10 +342,7 @@ pub fn at(
     if !(im > 0.0 && im.is_finite()) {
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
-    let level = levels.at(im)?;
-    let order = analysis.order;
-    let response = respond_peak_as(&level.scene, order, Isa::best())?;
-    level.point(&response)
+    levels.at(im)?.run(Isa::best())
 }
 
 #[cfg(test)]

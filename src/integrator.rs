@@ -16,6 +16,7 @@ mod coast;
 mod driver;
 mod dynamics;
 mod forcing;
+mod limits;
 pub(crate) mod pool;
 mod precise;
 mod roots;
@@ -26,11 +27,11 @@ mod taylor;
 pub use certificate::{
     CLEARANCE, Certificate, Clearance, Decision, LARGEST_ERROR,
 };
-pub use certify::{Certified, Engine, certify};
+pub use certify::{Certified, Engine, certify, certify_within};
 pub use dynamics::{Model, Overturning, uplift_threshold};
+pub(crate) use limits::check;
+pub use limits::{SceneError, WorkLimit};
 pub use precise::{respond_in, respond_precise};
-
-use thiserror::Error;
 
 use crate::block::{Block, Restitution};
 use crate::excitation::Excitation;
@@ -66,6 +67,8 @@ pub struct Observe {
     pub history_interval_s: Option<f64>,
     /// Stop at this time (s) instead of when nothing more can happen.
     pub until_s: Option<f64>,
+    /// Work beyond which the run is refused.
+    pub work_limit: WorkLimit,
 }
 
 /// What became of the block.
@@ -248,33 +251,12 @@ pub enum Assessment {
     NotAssessed,
 }
 
-/// Why a scene cannot be integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum SceneError {
-    /// The initial rotation must lie below overturning.
-    #[error("initial rotation ratio {0}: expected a number in [0, 1)")]
-    InitialRatio(f64),
-    /// The amplitude of a record must be finite.
-    #[error(
-        "record scaled by {0}: expected a finite amplitude of the excitation"
-    )]
-    Amplitude(f64),
-    /// Intervals and horizons must be positive.
-    #[error("{what} {found} s: expected a positive number")]
-    Time {
-        /// What the time is for.
-        what: &'static str,
-        /// What was given.
-        found: f64,
-    },
-}
-
 /// Integrates a scene.
 ///
 /// # Errors
 /// [`SceneError`] for an initial rotation outside [0, 1), an amplitude that
-/// is not finite, or a time that is not positive.
+/// is not finite, a time that is not positive, a pulse of too many pieces, or
+/// a run that passes its [`WorkLimit`].
 ///
 /// ```
 /// use rocking::block::{Block, Restitution};
@@ -323,7 +305,8 @@ pub fn respond_with(
 /// nothing can change either, on which the work alone depends.
 ///
 /// Fate margin, peak and its time, and first uplift are those of [`respond`],
-/// to the last bit; nothing tells when the block comes to rest.
+/// to the last bit; nothing tells when the block comes to rest. The limit is
+/// [`WorkLimit::IDA`].
 ///
 /// # Errors
 /// As [`respond`].
@@ -359,44 +342,20 @@ pub fn respond_with(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn respond_peak(scene: &Scene<'_>) -> Result<Response, SceneError> {
-    respond_peak_as(scene, None, Isa::best())
+    respond_peak_as(scene, WorkLimit::IDA, None, Isa::best())
 }
 
-/// [`respond_peak`] at an instruction-set level, Eq. 1 at a fixed order if one
-/// is given.
+/// [`respond_peak`] within a limit, at an instruction-set level, Eq. 1 at a
+/// fixed order if one is given.
 pub(crate) fn respond_peak_as(
     scene: &Scene<'_>,
+    work_limit: WorkLimit,
     order: Option<Order>,
     isa: Isa,
 ) -> Result<Response, SceneError> {
-    let observe = Observe::default();
+    let observe = Observe { work_limit, ..Observe::default() };
     check(scene, &observe)?;
     run(scene, &observe, Method { order, isa, peak_only: true })
-}
-
-pub(crate) fn check(
-    scene: &Scene<'_>,
-    observe: &Observe,
-) -> Result<(), SceneError> {
-    if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
-        return Err(SceneError::InitialRatio(scene.initial_ratio));
-    }
-    for (what, time) in [
-        ("history interval", observe.history_interval_s),
-        ("end of observation", observe.until_s),
-    ] {
-        if let Some(found) = time
-            && !(found > 0.0 && found.is_finite())
-        {
-            return Err(SceneError::Time { what, found });
-        }
-    }
-    if let Excitation::Record(record) = scene.excitation
-        && !record.amplitude().is_finite()
-    {
-        return Err(SceneError::Amplitude(record.amplitude()));
-    }
-    Ok(())
 }
 
 /// Order of the Taylor polynomial under a record, where it is fixed.

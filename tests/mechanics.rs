@@ -6,6 +6,8 @@
 mod closed;
 #[path = "properties/drawn.rs"]
 mod drawn;
+#[path = "mechanics/endless.rs"]
+mod endless;
 #[path = "mechanics/engines.rs"]
 mod engines;
 #[path = "properties/mechanics.rs"]

@@ -1,5 +1,6 @@
 //! Analytic pulses.
 
+mod bound;
 mod kind;
 mod peaks;
 

@@ -10,7 +10,7 @@ use crate::ida::levels::Level;
 use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_with};
 use crate::integrator::class::Class;
 use crate::integrator::pool;
-use crate::integrator::{Response, Scene, uplift_threshold};
+use crate::integrator::{Response, Scene, WorkLimit, uplift_threshold};
 use crate::number::dispatch::Isa;
 
 /// One curve to be made.
@@ -211,21 +211,25 @@ impl<'a> Book<'a> {
 impl<'a, D: Fn()> pool::Source<'a> for Desk<'_, 'a, D> {
     type Task = Task<'a>;
 
-    fn take(&mut self) -> Option<(Task<'a>, Scene<'a>)> {
+    fn take(&mut self) -> Option<(Task<'a>, Scene<'a>, WorkLimit)> {
         let mut ended = 0;
         let task = self.queue.open().take(self.last, &mut ended);
         for _ in 0..ended {
             (self.done)();
         }
         task.map(|task| {
-            let scene = task.level.scene;
-            (task, scene)
+            let (scene, limit) = (task.level.scene, task.level.work_limit);
+            (task, scene, limit)
         })
     }
 
-    fn settle(&mut self, task: Task<'a>, response: &Response) {
+    fn settle(&mut self, task: Task<'a>, response: Option<&Response>) {
         self.last = Some(task.index);
-        let point = task.level.point(response);
+        let point = match response {
+            Some(response) => task.level.point(response),
+            // Alone, it says where it passes its limit.
+            None => task.level.run(Isa::best()),
+        };
         if self.queue.open().settle(&task, point) {
             (self.done)();
         }

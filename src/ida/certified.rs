@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::excitation::NormalisedRecord;
 use crate::ida::climb::Climb;
 use crate::ida::{Analysis, IdaCurve, IdaError};
-use crate::integrator::{Certified, Engine, certify};
+use crate::integrator::{Certified, Engine};
 
 /// What certification did to a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub fn certified_curve(
     let mut climb = Climb::start(record, analysis)?;
     let mut count = Certification::default();
     while let Some((aim, level)) = climb.next(false)? {
-        let fate = certify(&level.scene)?;
+        let fate = level.certify()?;
         count.add(&fate);
         climb.accept(aim, level.certified(&fate));
     }

@@ -6,7 +6,8 @@ use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::ida::{Analysis, Grid, IdaError, IdaPoint, Method, Resurrections};
 use crate::integrator::{
     self, Assessment, Certified, Model, Observe, Order, Response, Scene,
-    respond_as, uplift_threshold,
+    SceneError, WorkLimit, certify_within, respond_as, respond_peak_as,
+    uplift_threshold,
 };
 use crate::number::dispatch::Isa;
 
@@ -28,7 +29,9 @@ pub(super) struct Level<'a> {
     /// PGA applied, multiples of gravity.
     pga_g: f64,
     pub scene: Scene<'a>,
+    pub work_limit: WorkLimit,
     order: Option<Order>,
+    record: &'a str,
 }
 
 impl<'a> Levels<'a> {
@@ -131,16 +134,51 @@ impl<'a> Levels<'a> {
             initial_ratio: 0.0,
         };
         integrator::check(&scene, &Observe::default())?;
-        Ok(Level { im, pga_g: amplitude, scene, order: analysis.order })
+        Ok(Level {
+            im,
+            pga_g: amplitude,
+            scene,
+            work_limit: analysis.work_limit,
+            order: analysis.order,
+            record: self.record.name(),
+        })
     }
 }
 
 impl Level<'_> {
+    /// The analysis, made alone.
+    pub fn run(&self, isa: Isa) -> Result<IdaPoint, IdaError> {
+        let Self { scene, work_limit, order, .. } = self;
+        let response = respond_peak_as(scene, *work_limit, *order, isa);
+        self.point(&response.map_err(|error| self.refused(error))?)
+    }
+
+    /// The analysis' fate, certified.
+    pub fn certify(&self) -> Result<Certified, IdaError> {
+        certify_within(&self.scene, self.work_limit)
+            .map_err(|error| self.refused(error))
+    }
+
+    /// Which level a scene that is refused belongs to.
+    fn refused(&self, error: SceneError) -> IdaError {
+        match error {
+            SceneError::Work { .. } => IdaError::Work {
+                record: self.record.to_owned(),
+                im: self.im,
+                source: error,
+            },
+            other => other.into(),
+        }
+    }
+
     /// The point that the level's response makes.
     pub fn point(&self, response: &Response) -> Result<IdaPoint, IdaError> {
         let resolved = response.fate_margin > NEAR || {
-            let careful = Observe { accuracy: true, ..Observe::default() };
-            respond_as(&self.scene, &careful, self.order, Isa::best())?
+            let work_limit = self.work_limit;
+            let careful =
+                Observe { accuracy: true, work_limit, ..Observe::default() };
+            respond_as(&self.scene, &careful, self.order, Isa::best())
+                .map_err(|error| self.refused(error))?
                 .assessment()
                 == Assessment::Clear
         };

@@ -2,7 +2,7 @@
 
 use crate::integrator::{
     Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
-    SceneError, respond, respond_precise,
+    SceneError, WorkLimit, respond, respond_precise,
 };
 use crate::number::Real;
 
@@ -101,7 +101,18 @@ impl Certified {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn certify(scene: &Scene<'_>) -> Result<Certified, SceneError> {
-    let observe = Observe { accuracy: true, ..Observe::default() };
+    certify_within(scene, WorkLimit::default())
+}
+
+/// [`certify`] within a limit of each run's work.
+///
+/// # Errors
+/// As [`respond`].
+pub fn certify_within(
+    scene: &Scene<'_>,
+    work_limit: WorkLimit,
+) -> Result<Certified, SceneError> {
+    let observe = Observe { accuracy: true, work_limit, ..Observe::default() };
     let quick = Certified::of(&respond(scene, &observe)?, Engine::Double);
     if quick.decided {
         return Ok(quick);

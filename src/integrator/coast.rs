@@ -10,7 +10,7 @@
 use crate::integrator::certificate::Decision;
 use crate::integrator::driver::{Motion, Record, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
-use crate::integrator::{Impact, ImpactError, Side};
+use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
 
 /// Impacts logged at most where the motion never ends.
@@ -32,6 +32,8 @@ pub(crate) struct Coast<'a, N> {
     pub events: bool,
     /// When observation ends, s.
     pub until_s: Option<N>,
+    /// Work beyond which the run is refused.
+    pub limit: WorkLimit,
 }
 
 /// How it ends.
@@ -367,6 +369,9 @@ fn hops<N: Real>(
         }
         let speed = level.speed();
         log_impact(ask, record, time_s, speed, errors);
+        if record.exceeds(ask.limit, time_s) {
+            return;
+        }
         level = level.after_impact(d);
         let half = hop(d, level);
         // Only the first hop after the excitation can raise the peak.

@@ -5,6 +5,7 @@ mod decisions;
 mod ending;
 mod events;
 mod impact;
+mod limit;
 mod step;
 
 pub(crate) use impact::tail_speed;
@@ -16,7 +17,8 @@ use crate::integrator::dynamics::{Dynamics, Overturning};
 use crate::integrator::forcing::{Forcing, NEAR_THRESHOLD, Place};
 use crate::integrator::screen::Screen;
 use crate::integrator::{
-    HistoryPoint, Impact, Observe, Response, Scene, Side, Work,
+    HistoryPoint, Impact, Observe, Response, Scene, SceneError, Side, Work,
+    WorkLimit,
 };
 use crate::number::Real;
 use crate::number::dispatch::Isa;
@@ -49,6 +51,8 @@ pub(crate) struct Record<N> {
     pub impacts: Vec<Impact<N>>,
     pub history: Vec<HistoryPoint<N>>,
     pub work: Work,
+    /// Why the run is refused, once its work passes the limit.
+    pub exceeded: Option<SceneError>,
     /// Bounds of the errors of the times of rest and of overturning, s.
     pub rest_error_s: Option<f64>,
     pub overturning_error_s: Option<f64>,
@@ -68,6 +72,7 @@ impl<N: Real> Record<N> {
             impacts: Vec::new(),
             history: Vec::new(),
             work: Work::default(),
+            exceeded: None,
             rest_error_s: None,
             overturning_error_s: None,
             accuracy: None,
@@ -92,6 +97,7 @@ pub(crate) struct Driver<
     events: bool,
     interval_s: Option<f64>,
     until_s: Option<N>,
+    limit: WorkLimit,
     /// Truncation allowed in a step, as a share of the velocity.
     tolerance: N,
     /// Rough certificate, where nothing but outcome and peak is asked for.
@@ -155,6 +161,7 @@ where
             events: false,
             interval_s: None,
             until_s: None,
+            limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
             screen: None,
             barrier: None,
@@ -183,12 +190,19 @@ where
 
     /// Runs the scene to its end.
     #[inline(always)]
-    pub fn run(mut self, scene: &Scene<'_>, observe: &Observe) -> Response<N> {
+    pub fn run(
+        mut self,
+        scene: &Scene<'_>,
+        observe: &Observe,
+    ) -> Result<Response<N>, SceneError> {
         let mut stage = self.begin(scene, observe);
         loop {
+            if let Some(error) = self.refusal(&stage) {
+                return Err(error);
+            }
             match stage {
                 Stage::Flying(step) => stage = self.proceed(step),
-                Stage::Landed(flight) => return self.conclude(&flight),
+                Stage::Landed(flight) => return self.within_limit(&flight),
             }
         }
     }
@@ -260,6 +274,7 @@ where
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
         self.until_s = observe.until_s.map(N::from_f64);
+        self.limit = observe.work_limit;
         if observe.accuracy {
             let alpha = self.dynamics.alpha.to_f64();
             let own = Accuracy::of_arithmetic(N::ROUNDOFF, alpha);

@@ -2,15 +2,18 @@
 
 mod remainder;
 mod shape;
+mod stretch;
 
-use crate::excitation::{Pulse, RestIndex, ScaledRecord, Shape};
+use crate::excitation::{Pulse, RestIndex, ScaledRecord};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
 use shape::shape_series;
+use stretch::Stretch;
 
 pub(crate) use remainder::Remainder;
+pub(crate) use stretch::pieces_of;
 
 /// Longest step in units of 1/p for which the Taylor orders in use leave
 /// nothing above rounding.
@@ -22,6 +25,10 @@ pub(crate) const NEAR_THRESHOLD: f64 = 1e-12;
 
 /// Longest step in units of a pulse's own phase.
 const LONGEST_PHASE: f64 = 0.25;
+
+/// Pieces of a pulse that a block at rest looks at one by one before it looks
+/// at blocks of them: most pulses have fewer.
+const WALKED: u64 = 128;
 
 /// A place in the excitation: a piece and the time since its start, in units
 /// of 1/p.
@@ -255,64 +262,44 @@ impl<N: Real> RecordForcing<'_, N> {
     }
 }
 
-/// A pulse: equal pieces of each smooth stretch.
+/// A pulse: equal pieces of each smooth stretch, made where they are asked
+/// for.
 pub(crate) struct PulseForcing<N> {
-    pieces: Vec<PulsePiece<N>>,
+    stretches: Vec<Stretch<N>>,
     p: N,
-}
-
-struct PulsePiece<N> {
-    start_s: N,
-    length: N,
-    shape: Shape<N>,
 }
 
 impl<N: Real> PulseForcing<N> {
     pub fn new(pulse: &Pulse, frequency_rad_s: f64) -> Self {
         let p = N::from_f64(frequency_rad_s);
-        let mut pieces = Vec::new();
-        let mut start = N::zero();
-        for (end, shape) in pulse.stretches::<N>() {
-            let duration: N = end - start;
-            let rate = match shape {
-                Shape::Sines(sines) => {
-                    sines.iter().fold(0.0_f64, |most, s| {
-                        most.max(s.rate_rad_s.to_f64().abs())
-                    })
-                }
-                Shape::Line { .. } => 0.0,
-                // The Gaussian's series converges more slowly.
-                Shape::Gauss { rate, .. } => 2.0 * rate.to_f64(),
-            };
-            let seconds = duration.to_f64();
-            let by_block = seconds * frequency_rad_s / LONGEST_STEP;
-            let by_phase = seconds * rate / LONGEST_PHASE;
-            let count = libm::ceil(by_block.max(by_phase)).max(1.0);
-            let share = duration / N::from_f64(count);
-            for k in 0..count as usize {
-                pieces.push(PulsePiece {
-                    start_s: share.mul_add(N::from_f64(k as f64), start),
-                    length: share * p,
-                    shape,
-                });
-            }
-            start = end;
-        }
-        Self { pieces, p }
+        Self { stretches: Stretch::all(pulse, frequency_rad_s), p }
+    }
+
+    fn count(&self) -> usize {
+        self.stretches.last().map_or(0, |stretch| stretch.end)
+    }
+
+    /// The stretch of a piece.
+    fn of(&self, piece: usize) -> &Stretch<N> {
+        let later = self.stretches.iter().rev();
+        later
+            .into_iter()
+            .find(|s| s.first <= piece)
+            .unwrap_or(&self.stretches[0])
     }
 }
 
 impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
     fn pieces(&self) -> usize {
-        self.pieces.len()
+        self.count()
     }
 
     fn start_s(&self, piece: usize) -> N {
-        self.pieces[piece].start_s
+        self.of(piece).start_s(piece)
     }
 
     fn length(&self, piece: usize) -> N {
-        self.pieces[piece].length
+        self.of(piece).length(self.p)
     }
 
     fn steps(&self) -> usize {
@@ -320,9 +307,9 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
     }
 
     fn series(&self, place: Place<N>) -> [N; F] {
-        let piece = &self.pieces[place.piece];
-        let t = piece.start_s + place.offset / self.p;
-        shape_series(&piece.shape, t, self.p)
+        let stretch = self.of(place.piece);
+        let t = stretch.start_s(place.piece) + place.offset / self.p;
+        shape_series(&stretch.shape, t, self.p)
     }
 
     fn exceedance(
@@ -332,7 +319,16 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
     ) -> (Option<Exceedance<N>>, Scan<N>) {
         let scan = |pieces| Scan { pieces, nearest: N::one() };
         let mut scanned = 0;
-        for piece in from.piece..self.pieces.len() {
+        let mut piece = from.piece;
+        while piece < self.count() {
+            if scanned >= WALKED {
+                let (next, looked) = self.of(piece).quiet(piece, threshold);
+                scanned += looked;
+                if next > piece {
+                    piece = next;
+                    continue;
+                }
+            }
             scanned += 1;
             let offset =
                 if piece == from.piece { from.offset } else { N::zero() };
@@ -347,7 +343,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 let found = Exceedance { place, positive, crossing };
                 return (Some(found), scan(scanned));
             }
-            let left = self.pieces[piece].length - offset;
+            let left = self.of(piece).length(self.p) - offset;
             let mut first: Option<(N, bool)> = None;
             for positive in [true, false] {
                 let mut gap = series;
@@ -375,6 +371,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 let found = Exceedance { place, positive, crossing: true };
                 return (Some(found), scan(scanned));
             }
+            piece += 1;
         }
         (None, scan(scanned))
     }

@@ -18,7 +18,7 @@ use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
-use crate::integrator::{Observe, Order, Response, Scene};
+use crate::integrator::{Observe, Order, Response, Scene, WorkLimit};
 use crate::number::dispatch::{Isa, WideWork};
 use crate::number::lanes::{Several, WIDTH};
 use batch::{Batch, Solved};
@@ -46,10 +46,11 @@ pub(crate) trait Source<'a> {
     type Task;
 
     /// The next analysis; none for now.
-    fn take(&mut self) -> Option<(Self::Task, Scene<'a>)>;
+    fn take(&mut self) -> Option<(Self::Task, Scene<'a>, WorkLimit)>;
 
-    /// Takes the response of an analysis.
-    fn settle(&mut self, task: Self::Task, response: &Response);
+    /// Takes the response of an analysis; none where its work passes its
+    /// limit.
+    fn settle(&mut self, task: Self::Task, response: Option<&Response>);
 }
 
 /// The class of scenes that a pool takes at steps of `length` (in 1/p), at a
@@ -192,7 +193,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
 
     /// A run at its first step.
     fn begin(&mut self) -> Option<Slot<'a, S::Task, LEN>> {
-        let (task, scene) = self.source.take()?;
+        let (task, scene, work_limit) = self.source.take()?;
         let Excitation::Record(record) = scene.excitation else { return None };
         let index = record.index()?;
         let Scene { block, restitution, model, overturning, .. } = scene;
@@ -202,7 +203,8 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
         let mut driver = Driver::new(dynamics, forcing, self.isa)
             .for_peak()
             .within(self.class.tolerance());
-        let stage = driver.begin(&scene, &Observe::default());
+        let observe = Observe { work_limit, ..Observe::default() };
+        let stage = driver.begin(&scene, &observe);
         Some(Slot::new(task, driver, stage))
     }
 
@@ -212,7 +214,12 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
         let mut settled = false;
         let k = lane.slot();
         while let Some(slot) = &mut self.slots[k] {
+            let refused = slot.driver.refusal(&slot.stage).is_some();
             match slot.stage {
+                Stage::Flying(_) if refused => {
+                    settled = true;
+                    self.settle(k, None);
+                }
                 Stage::Flying(step)
                     if !step.at_threshold
                         && step.place.offset
@@ -223,19 +230,24 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 }
                 Stage::Flying(step) => slot.advance(step, self.isa),
                 Stage::Landed(ref flight) => {
-                    let response = slot.driver.conclude(flight);
+                    let response = slot.driver.within_limit(flight).ok();
                     settled = true;
-                    if let Some(slot) = self.slots[k].take() {
-                        self.source.settle(slot.task, &response);
-                    }
-                    self.slots[k] = self.begin();
-                    if self.slots[k].is_none() {
-                        self.busy -= 1;
-                    }
+                    self.settle(k, response.as_ref());
                 }
             }
         }
         settled
+    }
+
+    /// Hands in what became of the run in a slot, and begins another there.
+    fn settle(&mut self, k: usize, response: Option<&Response>) {
+        if let Some(slot) = self.slots[k].take() {
+            self.source.settle(slot.task, response);
+        }
+        self.slots[k] = self.begin();
+        if self.slots[k].is_none() {
+            self.busy -= 1;
+        }
     }
 
     /// Takes back what a batch solved; true if something was settled.
@@ -292,14 +304,15 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 group.uw[lane] = uw[i];
                 group.ww[lane] = ww[i];
                 group.doubt[lane] = doubt[i];
-                if (solved.rested | solved.settled) & bit != 0 {
+                let endless = group.impacts[lane] > group.most[lane];
+                if (solved.rested | solved.settled) & bit != 0 || endless {
                     let Some(slot) = &mut self.slots[id.slot()] else {
                         continue;
                     };
                     group.release(lane, slot);
                     if solved.settled & bit != 0 {
                         slot.stage = Stage::Landed(Flight::Settled);
-                    } else {
+                    } else if solved.rested & bit != 0 {
                         slot.rest(solved.rest[i]);
                     }
                     settled |= self.proceed(id, groups);

@@ -65,7 +65,7 @@ pub fn respond_in<N: Real>(
     let dynamics = Dynamics::new(&block, restitution, model, overturning);
     let own = own_index(scene);
     let isa = Isa::best();
-    Ok(match (scene.excitation, index_of(scene, own.as_ref())) {
+    match (scene.excitation, index_of(scene, own.as_ref())) {
         (Excitation::Record(record), Some(index)) => {
             let forcing = RecordForcing::new(record, index, p);
             Driver::<N, _, SIZE, 2, SIZE>::new(dynamics, forcing, isa)
@@ -81,5 +81,5 @@ pub fn respond_in<N: Real>(
             Driver::<N, _, SIZE, 1, SIZE>::new(dynamics, silence, isa)
                 .run(scene, observe)
         }
-    })
+    }
 }

@@ -23,7 +23,7 @@ pub(super) fn run(
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    Ok(method.isa.run(Run { scene, observe, index, method }))
+    method.isa.run(Run { scene, observe, index, method })
 }
 
 /// Index of a record that brings none.
@@ -58,10 +58,10 @@ struct Run<'a> {
 }
 
 impl Dispatched for Run<'_> {
-    type Output = Response;
+    type Output = Result<Response, SceneError>;
 
     #[inline(always)]
-    fn run(self) -> Response {
+    fn run(self) -> Self::Output {
         let Scene { block, restitution, model, overturning, .. } = *self.scene;
         let p = block.frequency_rad_s();
         let dynamics =
@@ -110,7 +110,7 @@ impl Run<'_> {
         &self,
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
-    ) -> Response {
+    ) -> Result<Response, SceneError> {
         self.driver::<LEN>(dynamics, forcing).run(self.scene, self.observe)
     }
 
@@ -120,7 +120,7 @@ impl Run<'_> {
         order: Order,
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
-    ) -> Response {
+    ) -> Result<Response, SceneError> {
         match order {
             Order::Four => self.fixed::<5>(dynamics, forcing),
             Order::Six => self.fixed::<7>(dynamics, forcing),
@@ -135,7 +135,7 @@ impl Run<'_> {
         &self,
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
-    ) -> Response {
+    ) -> Result<Response, SceneError> {
         self.driver::<LEN>(dynamics, forcing)
             .within(f64::INFINITY)
             .run(self.scene, self.observe)

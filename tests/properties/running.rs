@@ -33,6 +33,7 @@ pub fn observe() -> Observe {
         accuracy: true,
         history_interval_s: Some(0.02),
         until_s: Some(UNTIL_S),
+        ..Observe::default()
     }
 }
 

@@ -15,6 +15,7 @@ pub mod excitation;
 pub mod fragility;
 pub mod ida;
 pub mod lilliefors;
+mod limit;
 pub mod order;
 pub mod processing;
 pub mod quantile;

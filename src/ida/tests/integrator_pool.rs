@@ -7,7 +7,8 @@ use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
 use crate::integrator::pool::{Source, Tally, class_of, run};
 use crate::integrator::{
-    Model, Observe, Overturning, Response, Scene, respond, respond_peak,
+    Model, Observe, Overturning, Response, Scene, WorkLimit, respond,
+    respond_peak,
 };
 use crate::number::dispatch::Isa;
 use crate::record::Accelerogram;
@@ -21,12 +22,12 @@ struct Bench<'a> {
 impl<'a> Source<'a> for Bench<'a> {
     type Task = Scene<'a>;
 
-    fn take(&mut self) -> Option<(Scene<'a>, Scene<'a>)> {
-        self.left.pop().map(|scene| (scene, scene))
+    fn take(&mut self) -> Option<(Scene<'a>, Scene<'a>, WorkLimit)> {
+        self.left.pop().map(|scene| (scene, scene, WorkLimit::IDA))
     }
 
-    fn settle(&mut self, task: Scene<'a>, response: &Response) {
-        self.done.push((task, response.clone()));
+    fn settle(&mut self, task: Scene<'a>, response: Option<&Response>) {
+        self.done.push((task, response.unwrap().clone()));
     }
 }
 

@@ -1,8 +1,8 @@
 use super::{Coast, carlson_rf, coast};
 use crate::block::{Block, Restitution};
-use crate::integrator::Side;
 use crate::integrator::driver::{Motion, Record};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
+use crate::integrator::{Side, WorkLimit};
 use crate::number::double::DoubleDouble;
 use crate::number::{Number, Real};
 
@@ -19,6 +19,7 @@ fn overturns(model: Model, eta: f64, u: f64, w: f64) -> Option<(f64, Side)> {
         start_s: 0.0,
         events: false,
         until_s: None,
+        limit: WorkLimit::default(),
     };
     let motion = Motion { side: Side::Positive, u, w };
     coast(&ask, motion, &mut Record::empty()).overturned

@@ -30,6 +30,9 @@ where
         let Some(interval) = self.interval_s else { return };
         let mut time_s = self.record.history.len() as f64 * interval;
         while time_s <= to_s.to_f64() {
+            if self.record.exceeds(self.limit, N::from_f64(time_s)) {
+                return;
+            }
             self.record.history.push(HistoryPoint {
                 time_s: N::from_f64(time_s),
                 rotation_rad: N::zero(),
@@ -56,7 +59,7 @@ where
             let time_s = self.record.history.len() as f64 * interval;
             let time_s = N::from_f64(time_s);
             let at = (time_s - start_s) * p;
-            if !(at <= tau) {
+            if !(at <= tau) || self.record.exceeds(self.limit, time_s) {
                 return;
             }
             let x = at.positive_part() / length;
@@ -103,12 +106,14 @@ where
                     start_s: end_s,
                     events: self.events,
                     until_s: self.until_s,
+                    limit: self.limit,
                 };
                 let fate = coast(&coasting, motion, &mut self.record);
                 margin = fate.margin;
                 overturned = fate.overturned;
                 decided = Some((end_s * self.dynamics.p, fate.nearest));
-                if self.interval_s.is_some() {
+                if self.interval_s.is_some() && self.record.exceeded.is_none()
+                {
                     self.trace(motion, end_s);
                 }
             }
@@ -127,6 +132,7 @@ where
         );
         free.events = true;
         free.interval_s = self.interval_s;
+        free.limit = self.limit;
         free.until_s = self.until_s.or_else(|| {
             // Without restitution the motion never ends: show some of it.
             let horizon = N::from_f64(60.0) / self.dynamics.p;
@@ -141,11 +147,16 @@ where
         });
         while let Stage::Flying(step) = stage {
             stage = free.proceed(step);
+            if let Some(error) = free.refusal(&stage) {
+                self.record.exceeded = Some(error);
+                return;
+            }
         }
         if let Stage::Landed(Flight::Rest(_, time_s)) = stage {
             let end = free.until_s.unwrap_or(time_s);
             free.sample_rest(end);
         }
+        self.record.exceeded = free.record.exceeded;
         self.record.history = free.record.history;
     }
 

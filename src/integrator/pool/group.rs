@@ -60,6 +60,8 @@ pub(super) struct Group<'a> {
     pub extra: [u64; WIDTH],
     /// Impacts here.
     pub impacts: [u64; WIDTH],
+    /// Impacts here beyond which the run is refused.
+    pub most: [u64; WIDTH],
     /// Sample up to which no impact is taken for the last that matters.
     pub shaken: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
@@ -107,6 +109,7 @@ impl<'a> Group<'a> {
             first: [0; WIDTH],
             extra: [0; WIDTH],
             impacts: [0; WIDTH],
+            most: [0; WIDTH],
             shaken: [0; WIDTH],
             active: 0,
         }
@@ -212,6 +215,7 @@ impl<'a> Group<'a> {
         self.next[lane] = piece as u64 + 1;
         self.first[lane] = piece as u64 + 1;
         (self.extra[lane], self.impacts[lane]) = (0, 0);
+        self.most[lane] = driver.impacts_left();
         self.shaken[lane] = driver.look_from();
         self.last[lane] = driver.last_allowed(h) / SAFETY;
         self.least[lane] = dynamics.alpha * h;

@@ -12,12 +12,13 @@ use rocking::ida::{
     Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaError, IdaPoint,
     Method, REFINEMENT, Resurrections, certified_curves,
 };
-use rocking::integrator::uplift_threshold;
+use rocking::integrator::{WorkLimit, uplift_threshold};
 use rocking::record::{ReadOptions, Suite};
 use serde_json::json;
 
 use refine::Refine;
 
+use super::limit::{LimitArgs, curve_refused};
 use super::order::OrderName;
 use super::processing::{ProcessingArgs, words};
 use super::respond::outcome_name;
@@ -85,6 +86,8 @@ pub struct Args {
     threads: Option<usize>,
     #[command(flatten)]
     way: WayArgs,
+    #[command(flatten)]
+    limit: LimitArgs,
     /// Where the table goes.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
@@ -129,7 +132,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let bar = progress(records.len() as u64);
     let (table, certified) = with_threads(args.threads, || {
         args.curves(way, &records, &analysis, || bar.inc(1))
-    })??;
+    })?
+    .map_err(curve_refused)?;
     bar.finish_and_clear();
     write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
     let text = if args.json {
@@ -165,6 +169,7 @@ impl Args {
             highest_im: HIGHEST_IM,
             resurrections,
             order: self.order.map(|name| name.order(model)).transpose()?,
+            work_limit: self.limit.limit(WorkLimit::IDA),
         })
     }
 

@@ -6,11 +6,12 @@ use std::path::PathBuf;
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{
     Certified, Engine, HistoryPoint, Observe, Outcome, Response, Scene, Side,
-    certify, respond, uplift_threshold,
+    WorkLimit, certify_within, respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
 
 use super::excitation::{ExcitationArgs, Ground};
+use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print};
 use crate::figures::Figure as _;
@@ -42,6 +43,8 @@ pub struct Args {
     /// double precision cannot.
     #[arg(long, conflicts_with = "until")]
     certify: bool,
+    #[command(flatten)]
+    limit: LimitArgs,
     /// JSON for machines.
     #[arg(long)]
     json: bool,
@@ -86,14 +89,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Ground::Peak(unit, _) => unit.dt_s(),
         Ground::Pulse(_) | Ground::Free(_) => HISTORY_INTERVAL_S,
     };
+    let work_limit = args.limit.limit(WorkLimit::default());
     let observe = Observe {
         events: true,
         accuracy: true,
         history_interval_s: (args.history.is_some() || args.plot.is_some())
             .then_some(interval_s),
         until_s: args.until,
+        work_limit,
     };
-    let response = respond(&scene, &observe)?;
+    let response = respond(&scene, &observe).map_err(refused)?;
     if let Some(path) = &args.history {
         write_atomically(path, history_csv(&scene, &response))?;
     }
@@ -107,7 +112,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let name = args.excitation.name();
         write_atomically(path, drawing(&scene, &response, name, pga_g)?)?;
     }
-    let certified = if args.certify { Some(certify(&scene)?) } else { None };
+    let certify = || certify_within(&scene, work_limit).map_err(refused);
+    let certified = if args.certify { Some(certify()?) } else { None };
     let (scene, done) = (&scene, args.excitation.processing()?);
     let setting =
         Setting { args, scene, certified, gravity_m_s2, pga_g, done };

@@ -1,0 +1,71 @@
+//! The work of a run is bounded.
+
+use crate::integrator::driver::{Driver, Flight, Record, Stage};
+use crate::integrator::forcing::Forcing;
+use crate::integrator::{Response, SceneError, Work, WorkLimit};
+use crate::number::Real;
+
+impl<N: Real> Record<N> {
+    /// True once the work passes the limit, which is seen first at a time.
+    #[inline(always)]
+    pub fn exceeds(&mut self, limit: WorkLimit, time_s: N) -> bool {
+        let Work { impacts, steps, .. } = self.work;
+        let points = self.history.len() as u64;
+        let (what, limit) = if impacts > limit.impacts {
+            ("impacts", limit.impacts)
+        } else if steps > limit.steps {
+            ("steps", limit.steps)
+        } else if points > limit.steps {
+            ("history points", limit.steps)
+        } else {
+            return false;
+        };
+        let time_s = time_s.to_f64();
+        self.exceeded.get_or_insert(SceneError::Work { what, limit, time_s });
+        true
+    }
+}
+
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
+    Driver<N, G, SIZE, F, HARD>
+where
+    N: Real,
+    G: Forcing<N, F>,
+{
+    /// Impacts left before the run is refused.
+    #[inline(always)]
+    pub fn impacts_left(&self) -> u64 {
+        self.limit.impacts.saturating_sub(self.record.work.impacts)
+    }
+
+    /// Why a run that stands here is refused, if it is.
+    #[inline(always)]
+    pub fn refusal(&mut self, stage: &Stage<N>) -> Option<SceneError> {
+        if let Stage::Flying(step) = stage {
+            let Work { impacts, steps, .. } = self.record.work;
+            if impacts > self.limit.impacts || steps > self.limit.steps {
+                let time_s = self.time_s(step.place);
+                self.record.exceeds(self.limit, time_s);
+            }
+        }
+        self.record.exceeded
+    }
+
+    /// The answer after a flight, unless the work passes the limit.
+    #[inline(always)]
+    pub fn within_limit(
+        &mut self,
+        flight: &Flight<N>,
+    ) -> Result<Response<N>, SceneError> {
+        let time_s = match flight {
+            Flight::Rest(_, time_s) | Flight::Overturned { time_s, .. } => {
+                *time_s
+            }
+            Flight::Settled | Flight::End(_) => self.end_s(),
+            Flight::Stopped => self.until_s.unwrap_or(self.end_s()),
+        };
+        let response = self.conclude(flight);
+        self.record.exceeds(self.limit, time_s);
+        self.record.exceeded.map_or(Ok(response), Err)
+    }
+}

@@ -1,0 +1,116 @@
+//! What is refused: scenes that are none, and runs without end.
+
+use thiserror::Error;
+
+use crate::excitation::Excitation;
+use crate::integrator::forcing::pieces_of;
+use crate::integrator::{Observe, Scene};
+
+/// Pieces of a pulse at most: 1e15 tenths of 1/p, of which the last digit of
+/// the time tells a tenth.
+const MOST_PIECES: f64 = 1e15;
+
+/// Work of a run beyond which it is refused with [`SceneError::Work`].
+///
+/// A block that loses nothing, or hardly anything, at impact, or that lifts
+/// again and again, may hit the base without end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkLimit {
+    /// Impacts.
+    pub impacts: u64,
+    /// Steps, and points of a history.
+    pub steps: u64,
+}
+
+impl WorkLimit {
+    /// For analyses of which many are made at once, some eight times as fast:
+    /// 1e7 impacts and 2e7 steps, about a second.
+    pub const IDA: Self = Self { impacts: 10_000_000, steps: 20_000_000 };
+}
+
+impl Default for WorkLimit {
+    /// 1e6 impacts and 1e7 steps: about a second.
+    fn default() -> Self {
+        Self { impacts: 1_000_000, steps: 10_000_000 }
+    }
+}
+
+/// Why a scene cannot be integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The initial rotation must lie below overturning.
+    #[error("initial rotation ratio {0}: expected a number in [0, 1)")]
+    InitialRatio(f64),
+    /// The amplitude of a record must be finite.
+    #[error(
+        "record scaled by {0}: expected a finite amplitude of the excitation"
+    )]
+    Amplitude(f64),
+    /// Intervals and horizons must be positive.
+    #[error("{what} {found} s: expected a positive number")]
+    Time {
+        /// What the time is for.
+        what: &'static str,
+        /// What was given.
+        found: f64,
+    },
+    /// A pulse must not be so long that rounding of the time reaches a step.
+    #[error(
+        "pulse of {pieces:e} steps of at most 0.1/p and a phase of 1/4: \
+         expected at most {most:e}; beyond, double precision cannot tell \
+         their times apart"
+    )]
+    Pieces {
+        /// Steps that cover the pulse.
+        pieces: f64,
+        /// The most that are taken.
+        most: f64,
+    },
+    /// The run passed its [`WorkLimit`].
+    #[error(
+        "more than {limit} {what} by {time_s} s: expected at most {limit}, \
+         the limit of work, which can be raised"
+    )]
+    Work {
+        /// What was counted: impacts, steps, or history points, which the
+        /// limit of steps bounds.
+        what: &'static str,
+        /// The limit.
+        limit: u64,
+        /// When in the scene it was passed, s.
+        time_s: f64,
+    },
+}
+
+/// What is no scene, or a scene that is asked for what cannot be.
+pub(crate) fn check(
+    scene: &Scene<'_>,
+    observe: &Observe,
+) -> Result<(), SceneError> {
+    if !(scene.initial_ratio >= 0.0 && scene.initial_ratio < 1.0) {
+        return Err(SceneError::InitialRatio(scene.initial_ratio));
+    }
+    for (what, time) in [
+        ("history interval", observe.history_interval_s),
+        ("end of observation", observe.until_s),
+    ] {
+        if let Some(found) = time
+            && !(found > 0.0 && found.is_finite())
+        {
+            return Err(SceneError::Time { what, found });
+        }
+    }
+    if let Excitation::Record(record) = scene.excitation
+        && !record.amplitude().is_finite()
+    {
+        return Err(SceneError::Amplitude(record.amplitude()));
+    }
+    if let Excitation::Pulse(pulse) = scene.excitation {
+        let pieces = pieces_of(pulse, scene.block.frequency_rad_s());
+        if !(pieces <= MOST_PIECES) {
+            return Err(SceneError::Pieces { pieces, most: MOST_PIECES });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! Flags that say how much work a run may take.
+
+use rocking::ida::IdaError;
+use rocking::integrator::{SceneError, WorkLimit};
+
+use super::Failure;
+
+/// Work beyond which a run is refused.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct LimitArgs {
+    /// Impacts beyond which a run is refused [default: 1e6, of `ida` 1e7].
+    #[arg(long, value_name = "N")]
+    most_impacts: Option<u64>,
+    /// Steps, or points of a history, beyond which a run is refused
+    /// [default: 1e7, of `ida` 2e7].
+    #[arg(long, value_name = "N")]
+    most_steps: Option<u64>,
+}
+
+impl LimitArgs {
+    /// The limit, where it is not given that of the command.
+    #[must_use]
+    pub fn limit(&self, own: WorkLimit) -> WorkLimit {
+        WorkLimit {
+            impacts: self.most_impacts.unwrap_or(own.impacts),
+            steps: self.most_steps.unwrap_or(own.steps),
+        }
+    }
+}
+
+/// The flag that raises the limit which a scene passed, if it did.
+fn flag(error: &SceneError) -> Option<&'static str> {
+    match error {
+        SceneError::Work { what: "impacts", .. } => Some("--most-impacts"),
+        SceneError::Work { .. } => Some("--most-steps"),
+        _ => None,
+    }
+}
+
+fn with_flag(failure: Failure, error: &SceneError) -> Failure {
+    let Some(flag) = flag(error) else { return failure };
+    let Failure { message, status } = failure;
+    Failure { message: format!("{message} by {flag}"), status }
+}
+
+/// Why a scene was refused, and how to raise a limit.
+#[must_use]
+pub fn refused(error: SceneError) -> Failure {
+    with_flag(error.into(), &error)
+}
+
+/// Why a curve was refused, and how to raise a limit.
+#[must_use]
+pub fn curve_refused(error: IdaError) -> Failure {
+    match error {
+        IdaError::Work { source, .. } => with_flag(error.into(), &source),
+        other => other.into(),
+    }
+}

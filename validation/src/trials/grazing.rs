@@ -1,0 +1,292 @@
+//! Scenes in which a discrete decision is taken within rounding.
+//!
+//! Each is found by bisection on one number, in double precision, down to
+//! neighbouring doubles between which the decision changes, and then moved by
+//! some units in the last place. What follows makes the decision count.
+
+use rocking::integrator::{Observe, Response};
+
+use super::draw::Draw;
+use super::random::{Named, PULSES, ordinary_pulse, ordinary_record};
+use super::records::{filtered, normalised};
+use crate::engine::respond;
+use crate::scene::{EngineError, Forcing, Scene};
+
+/// Scenes drawn, at most, to find one that grazes.
+const ATTEMPTS: usize = 40;
+/// Parts into which the range of the number is divided to find a change.
+const PARTS: usize = 24;
+/// Units in the last place by which a decision is missed, at most.
+const NEAR: usize = 1000;
+/// The same for fates.
+const NEAR_FATE: usize = 10_000;
+/// Samples of the part of a record that grazes, at most.
+const LONGEST: usize = 400;
+
+/// The scene of an index: one kind of decision after the other.
+pub(super) fn grazing(
+    draw: &mut Draw,
+    index: u64,
+) -> Result<Option<Named>, EngineError> {
+    for _ in 0..ATTEMPTS {
+        let found = match index % 4 {
+            0 => contact(draw)?,
+            1 => fate(draw, (index / 4) as usize)?,
+            2 => Some(uplift(draw)),
+            _ => rest(draw)?,
+        };
+        if found.is_some() {
+            return Ok(found);
+        }
+    }
+    Ok(None)
+}
+
+/// A contact made or missed during the first part of a record.
+fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+    let (_, scene) = ordinary_record(draw, LONGEST);
+    let Forcing::Samples { dt_s, acceleration_m_s2: first } = &scene.forcing
+    else {
+        return Ok(None);
+    };
+    let late = draw.uniform(0.3, 1.0) * (first.len() - 1) as f64 * dt_s;
+    let mut rest = vec![0.0; draw.below(50)];
+    rest.extend(shock(draw, &scene, *dt_s));
+    let at = |factor: f64| {
+        let samples = first.iter().map(|x| x * factor);
+        with_samples(&scene, samples.chain(rest.iter().copied()).collect())
+    };
+    let impacts = |factor: f64| {
+        let response = run_until(&at(factor), late)?;
+        let over = response.outcome.is_overturned();
+        Ok((!over).then_some(response.work.impacts))
+    };
+    let range = linear(0.7, 1.7);
+    // One impact more is one that the time looked at cuts off; two are a
+    // contact and the return from it.
+    let grazes = |a: &Option<u64>, b: &Option<u64>| match (a, b) {
+        (Some(a), Some(b)) => a.abs_diff(*b) == 2,
+        _ => false,
+    };
+    let Some(factor) = turning(draw, &range, impacts, grazes)? else {
+        return Ok(None);
+    };
+    Ok(Some(("contact", at(moved(factor, few(draw, NEAR))))))
+}
+
+/// An amplitude between two fates.
+fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
+    // The release is no pulse: it never overturns. A record takes its place.
+    let (kind, scene) = match which % PULSES {
+        k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
+        k => ordinary_pulse(draw, k),
+    };
+    let size = amplitude(&scene.forcing);
+    let at = |amplitude: f64| scaled(&scene, size, amplitude);
+    let overturns = |amplitude: f64| {
+        let response = respond(&at(amplitude), &Observe::default())?;
+        Ok(response.outcome.is_overturned())
+    };
+    let range = geometric(0.5 * size, 10.0 * size);
+    let other = |a: &bool, b: &bool| a != b;
+    let Some(found) = turning(draw, &range, overturns, other)? else {
+        return Ok(None);
+    };
+    let name = FATES
+        .into_iter()
+        .find(|name| name.strip_prefix("fate ") == Some(kind))
+        .unwrap_or("fate");
+    Ok(Some((name, at(moved(found, few(draw, NEAR_FATE))))))
+}
+
+/// Names of the scenes between two fates.
+const FATES: [&str; PULSES] = [
+    "fate one-sine",
+    "fate half-sine",
+    "fate one-cosine",
+    "fate rectangle",
+    "fate triangle",
+    "fate symmetric Ricker",
+    "fate antisymmetric Ricker",
+    "fate Mavroeidis",
+    "fate filtered noise",
+];
+
+/// A peak or a plateau at the threshold of uplift, then a shock.
+fn uplift(draw: &mut Draw) -> Named {
+    let (_, mut scene) = ordinary_record(draw, LONGEST);
+    let in_p = draw.log(0.005, 0.1);
+    let dt_s = in_p / scene.frequency_rad_s;
+    let threshold = scene.threshold_m_s2();
+    let held = (draw.log(0.005, 30.0) / in_p) as usize;
+    let peak = draw.sign() * moved(threshold, few(draw, NEAR));
+    let below = 0.9 * threshold;
+    let mut samples: Vec<f64> =
+        (0..draw.below(50)).map(|_| draw.uniform(-below, below)).collect();
+    samples.extend(vec![peak; held.clamp(1, 1000)]);
+    samples.extend((0..draw.below(20)).map(|_| draw.uniform(-below, below)));
+    samples.extend(shock(draw, &scene, dt_s));
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
+    ("uplift", scene)
+}
+
+/// A rest that just comes before the next uplift, or just does not.
+fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+    let (_, mut scene) = ordinary_record(draw, LONGEST);
+    let in_p = draw.log(0.005, 0.05);
+    let dt_s = in_p / scene.frequency_rad_s;
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: Vec::new() };
+    let threshold = scene.threshold_m_s2();
+    let length = (draw.log(0.3, 2.0) / in_p) as usize + 4;
+    let first: Vec<f64> = if draw.chance(0.5) {
+        let half = std::f64::consts::PI / length as f64;
+        (0..=length).map(|k| libm::sin(half * k as f64)).collect()
+    } else {
+        normalised(filtered(draw, length, dt_s))
+    };
+    let size = draw.log(1.1, 3.0) * threshold;
+    let scaled_first =
+        |factor: f64| first.iter().map(move |x| x * (size * factor));
+    let events = Observe { events: true, ..Observe::default() };
+    let alone = with_samples(&scene, scaled_first(1.0).collect());
+    let alone = respond(&alone, &events)?;
+    let quiet = alone.rest_time_s.map_or(-1.0, |t| t / dt_s) as i64
+        - first.len() as i64;
+    if !(0..3000).contains(&quiet) {
+        return Ok(None);
+    }
+    let again = shock(draw, &scene, dt_s);
+    let lifts = again.iter().position(|x| x.abs() > threshold).unwrap_or(0);
+    let quiet = usize::try_from(quiet).unwrap_or(0).saturating_sub(lifts);
+    let at = |factor: f64| {
+        let zeros = std::iter::repeat_n(0.0, quiet);
+        let samples = scaled_first(factor).chain(zeros);
+        with_samples(&scene, samples.chain(again.iter().copied()).collect())
+    };
+    let late = (first.len() + quiet + lifts) as f64 * dt_s;
+    let uplifts = |factor: f64| Ok(run_until(&at(factor), late)?.work.uplifts);
+    let other = |a: &u64, b: &u64| a != b;
+    let range = linear(0.8, 1.2);
+    let Some(factor) = turning(draw, &range, uplifts, other)? else {
+        return Ok(None);
+    };
+    Ok(Some(("rest", at(moved(factor, few(draw, NEAR))))))
+}
+
+/// A shock that drives the block high, for a scene.
+fn shock(draw: &mut Draw, scene: &Scene, dt_s: f64) -> Vec<f64> {
+    let n = draw.count(50, LONGEST);
+    let peak = draw.log(1.5, 5.0) * scene.threshold_m_s2();
+    let mut samples = normalised(filtered(draw, n, dt_s));
+    samples.iter_mut().for_each(|x| *x *= peak);
+    samples
+}
+
+fn with_samples(scene: &Scene, samples: Vec<f64>) -> Scene {
+    let mut scene = scene.clone();
+    if let Forcing::Samples { acceleration_m_s2, .. } = &mut scene.forcing {
+        *acceleration_m_s2 = samples;
+    }
+    scene
+}
+
+fn run_until(scene: &Scene, until_s: f64) -> Result<Response, EngineError> {
+    let until_s = Some(until_s);
+    respond(scene, &Observe { until_s, ..Observe::default() })
+}
+
+fn linear(low: f64, high: f64) -> Vec<f64> {
+    let step = (high - low) / PARTS as f64;
+    (0..=PARTS).map(|k| low + step * k as f64).collect()
+}
+
+fn geometric(low: f64, high: f64) -> Vec<f64> {
+    linear(libm::log(low), libm::log(high))
+        .into_iter()
+        .map(libm::exp)
+        .collect()
+}
+
+/// The larger of two neighbouring doubles between which what is seen turns,
+/// somewhere in a rising range; none where it does not turn as asked for.
+fn turning<T>(
+    draw: &mut Draw,
+    range: &[f64],
+    see: impl Fn(f64) -> Result<T, EngineError>,
+    turns: impl Fn(&T, &T) -> bool,
+) -> Result<Option<f64>, EngineError> {
+    let seen = range
+        .iter()
+        .map(|x| see(*x))
+        .collect::<Result<Vec<_>, EngineError>>()?;
+    let places: Vec<usize> =
+        (1..range.len()).filter(|k| turns(&seen[k - 1], &seen[*k])).collect();
+    if places.is_empty() {
+        return Ok(None);
+    }
+    let place = draw.one_of(&places);
+    let (mut low, mut high) = (range[place - 1], range[place]);
+    let (mut at_low, mut at_high) = (see(low)?, see(high)?);
+    loop {
+        let middle = f64::from_bits(low.to_bits().midpoint(high.to_bits()));
+        if middle == low {
+            break;
+        }
+        let at_middle = see(middle)?;
+        if turns(&at_low, &at_middle) {
+            (high, at_high) = (middle, at_middle);
+        } else if turns(&at_middle, &at_high) {
+            (low, at_low) = (middle, at_middle);
+        } else {
+            return Ok(None);
+        }
+    }
+    Ok(Some(high))
+}
+
+/// A positive number moved by units in the last place.
+fn moved(x: f64, ulps: i64) -> f64 {
+    f64::from_bits(x.to_bits().wrapping_add_signed(ulps))
+}
+
+/// So many units in the last place, at most, to either side.
+fn few(draw: &mut Draw, most: usize) -> i64 {
+    let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) };
+    if draw.chance(0.5) { ulps as i64 } else { -(ulps as i64) }
+}
+
+/// Amplitude of the ground motion; of samples the peak.
+fn amplitude(forcing: &Forcing) -> f64 {
+    match forcing {
+        Forcing::Free { rotation_rad: a }
+        | Forcing::Sine { amplitude_m_s2: a, .. }
+        | Forcing::Cosine { amplitude_m_s2: a, .. }
+        | Forcing::Rectangle { amplitude_m_s2: a, .. }
+        | Forcing::Triangle { amplitude_m_s2: a, .. }
+        | Forcing::Ricker { amplitude_m_s2: a, .. }
+        | Forcing::Mavroeidis { velocity_m_s: a, .. } => a.abs(),
+        Forcing::Samples { acceleration_m_s2, .. } => {
+            acceleration_m_s2.iter().fold(0.0, |a, x| a.max(x.abs()))
+        }
+    }
+}
+
+/// The scene with another amplitude than its own.
+fn scaled(scene: &Scene, own: f64, amplitude: f64) -> Scene {
+    let mut scene = scene.clone();
+    // A pulse's quotient is 1 or -1: its amplitude takes every double.
+    let change = |a: &mut f64| *a = *a / own * amplitude;
+    match &mut scene.forcing {
+        Forcing::Free { rotation_rad: a }
+        | Forcing::Sine { amplitude_m_s2: a, .. }
+        | Forcing::Cosine { amplitude_m_s2: a, .. }
+        | Forcing::Rectangle { amplitude_m_s2: a, .. }
+        | Forcing::Triangle { amplitude_m_s2: a, .. }
+        | Forcing::Ricker { amplitude_m_s2: a, .. }
+        | Forcing::Mavroeidis { velocity_m_s: a, .. } => change(a),
+        Forcing::Samples { acceleration_m_s2, .. } => {
+            acceleration_m_s2.iter_mut().for_each(change);
+        }
+    }
+    scene
+}

@@ -7,8 +7,8 @@
 use rocking::integrator::{Observe, Response};
 
 use super::draw::Draw;
-use super::random::{Named, PULSES, ordinary_pulse, ordinary_record};
-use super::records::{filtered, normalised};
+use super::random::{Named, PULSES, ordinary_record, under_pulse};
+use super::records::{filtered, noise, normalised};
 use crate::engine::respond;
 use crate::scene::{EngineError, Forcing, Scene};
 
@@ -20,6 +20,10 @@ const PARTS: usize = 24;
 const NEAR: usize = 1000;
 /// The same for fates.
 const NEAR_FATE: usize = 10_000;
+/// Kinds of decision.
+const KINDS: u64 = 5;
+/// Change of the peak over a contact that is worth looking at.
+const COUNTS: f64 = 1e-11;
 /// Samples of the part of a record that grazes, at most.
 const LONGEST: usize = 400;
 
@@ -29,11 +33,12 @@ pub(super) fn grazing(
     index: u64,
 ) -> Result<Option<Named>, EngineError> {
     for _ in 0..ATTEMPTS {
-        let found = match index % 4 {
+        let found = match index % KINDS {
             0 => contact(draw)?,
-            1 => fate(draw, (index / 4) as usize)?,
-            2 => Some(uplift(draw)),
-            _ => rest(draw)?,
+            1 => fate(draw, (index / KINDS) as usize)?,
+            2 => Some(uplift(draw)?),
+            3 => rest(draw)?,
+            _ => late(draw)?,
         };
         if found.is_some() {
             return Ok(found);
@@ -50,11 +55,10 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         return Ok(None);
     };
     let late = draw.uniform(0.3, 1.0) * (first.len() - 1) as f64 * dt_s;
-    let mut rest = vec![0.0; draw.below(50)];
-    rest.extend(shock(draw, &scene, *dt_s));
+    let then = shock(draw, &scene, first, *dt_s)?;
     let at = |factor: f64| {
         let samples = first.iter().map(|x| x * factor);
-        with_samples(&scene, samples.chain(rest.iter().copied()).collect())
+        with_samples(&scene, samples.chain(then.iter().copied()).collect())
     };
     let impacts = |factor: f64| {
         let response = run_until(&at(factor), late)?;
@@ -71,15 +75,21 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     let Some(factor) = turning(draw, &range, impacts, grazes)? else {
         return Ok(None);
     };
-    Ok(Some(("contact", at(moved(factor, few(draw, NEAR))))))
+    let peak = |factor: f64| {
+        let response = respond(&at(factor), &Observe::default())?;
+        Ok::<f64, EngineError>(response.peak_ratio)
+    };
+    let change = peak(factor)? - peak(moved(factor, -1))?;
+    Ok((change.abs() > COUNTS)
+        .then(|| ("contact", at(moved(factor, few(draw, NEAR))))))
 }
 
 /// An amplitude between two fates.
 fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
-    // The release is no pulse: it never overturns. A record takes its place.
+    // A block that is released stands: a record takes that place.
     let (kind, scene) = match which % PULSES {
         k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
-        k => ordinary_pulse(draw, k),
+        k => under_pulse(draw, k),
     };
     let size = amplitude(&scene.forcing);
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
@@ -113,21 +123,23 @@ const FATES: [&str; PULSES] = [
 ];
 
 /// A peak or a plateau at the threshold of uplift, then a shock.
-fn uplift(draw: &mut Draw) -> Named {
+fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
     let (_, mut scene) = ordinary_record(draw, LONGEST);
     let in_p = draw.log(0.005, 0.1);
     let dt_s = in_p / scene.frequency_rad_s;
     let threshold = scene.threshold_m_s2();
-    let held = (draw.log(0.005, 30.0) / in_p) as usize;
-    let peak = draw.sign() * moved(threshold, few(draw, NEAR));
+    let held = (draw.log(0.01, 40.0) / in_p) as usize;
+    let ulps = if draw.chance(0.5) { 0 } else { few(draw, NEAR) };
+    let peak = draw.sign() * moved(threshold, ulps);
     let below = 0.9 * threshold;
     let mut samples: Vec<f64> =
         (0..draw.below(50)).map(|_| draw.uniform(-below, below)).collect();
     samples.extend(vec![peak; held.clamp(1, 1000)]);
     samples.extend((0..draw.below(20)).map(|_| draw.uniform(-below, below)));
-    samples.extend(shock(draw, &scene, dt_s));
+    let then = shock(draw, &scene, &samples, dt_s)?;
+    samples.extend(then);
     scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
-    ("uplift", scene)
+    Ok(("uplift", scene))
 }
 
 /// A rest that just comes before the next uplift, or just does not.
@@ -155,7 +167,7 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     if !(0..3000).contains(&quiet) {
         return Ok(None);
     }
-    let again = shock(draw, &scene, dt_s);
+    let again = shock(draw, &scene, &[], dt_s)?;
     let lifts = again.iter().position(|x| x.abs() > threshold).unwrap_or(0);
     let quiet = usize::try_from(quiet).unwrap_or(0).saturating_sub(lifts);
     let at = |factor: f64| {
@@ -173,13 +185,64 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
     Ok(Some(("rest", at(moved(factor, few(draw, NEAR))))))
 }
 
-/// A shock that drives the block high, for a scene.
-fn shock(draw: &mut Draw, scene: &Scene, dt_s: f64) -> Vec<f64> {
+/// A clear shock that makes the highest peak, then long shaking at the
+/// amplitude between two fates.
+fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+    let (_, mut scene) = ordinary_record(draw, LONGEST);
+    let p = scene.frequency_rad_s;
+    let in_p = draw.log(0.02, 0.1);
+    let dt_s = in_p / p;
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: Vec::new() };
+    let threshold = scene.threshold_m_s2();
+    let length = (draw.log(0.5, 2.0) / in_p) as usize + 2;
+    let half = std::f64::consts::PI / length as f64;
+    let size = draw.log(1.2, 2.5) * threshold;
+    let first = (0..=length).map(|k| size * libm::sin(half * k as f64));
+    let quiet = std::iter::repeat_n(0.0, (5.0 / in_p) as usize);
+    let first: Vec<f64> = first.chain(quiet).collect();
+    let turns = draw.log(3.0, 15.0);
+    let n = (draw.uniform(50.0, 200.0) / in_p) as usize;
+    let shaking = normalised(noise(draw, n, turns * in_p));
+    let at = |amplitude: f64| {
+        let shaking = shaking.iter().map(|x| x * amplitude);
+        with_samples(&scene, first.iter().copied().chain(shaking).collect())
+    };
+    let overturns = |amplitude: f64| {
+        let response = respond(&at(amplitude), &Observe::default())?;
+        Ok(response.outcome.is_overturned())
+    };
+    let range = geometric(threshold, 20.0 * threshold);
+    let other = |a: &bool, b: &bool| a != b;
+    let Some(found) = turning(draw, &range, overturns, other)? else {
+        return Ok(None);
+    };
+    Ok(Some(("late chaos", at(moved(found, few(draw, NEAR_FATE))))))
+}
+
+/// A shock after what came before: strong, but in most cases not so strong
+/// that it overturns the block.
+fn shock(
+    draw: &mut Draw,
+    scene: &Scene,
+    before: &[f64],
+    dt_s: f64,
+) -> Result<Vec<f64>, EngineError> {
     let n = draw.count(50, LONGEST);
     let peak = draw.log(1.5, 5.0) * scene.threshold_m_s2();
     let mut samples = normalised(filtered(draw, n, dt_s));
     samples.iter_mut().for_each(|x| *x *= peak);
-    samples
+    let tries = if draw.chance(0.8) { 8 } else { 0 };
+    let mut whole = scene.clone();
+    for _ in 0..tries {
+        let all = before.iter().chain(&samples).copied().collect();
+        whole.forcing = Forcing::Samples { dt_s, acceleration_m_s2: all };
+        let response = respond(&whole, &Observe::default())?;
+        if !response.outcome.is_overturned() {
+            break;
+        }
+        samples.iter_mut().for_each(|x| *x *= 0.8);
+    }
+    Ok(samples)
 }
 
 fn with_samples(scene: &Scene, samples: Vec<f64>) -> Scene {

@@ -152,11 +152,16 @@ fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> &'static str {
 /// Kinds of pulse, the release among them, which is the last.
 pub(super) const PULSES: usize = 9;
 
-/// An ordinary block under an ordinary pulse of a kind.
-pub(super) fn ordinary_pulse(draw: &mut Draw, which: usize) -> Named {
-    let mut scene = block(draw, &ORDINARY);
-    scene.restitution = draw.uniform(0.8, 0.97);
-    let kind = shaped(draw, &mut scene, &ORDINARY, which);
+/// A block under a pulse of a kind.
+pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> Named {
+    let (ranges, least, most) = if draw.chance(0.3) {
+        (EXTREME, 0.3, 1.0)
+    } else {
+        (ORDINARY, 0.8, 0.97)
+    };
+    let mut scene = block(draw, &ranges);
+    scene.restitution = draw.uniform(least, most);
+    let kind = shaped(draw, &mut scene, &ranges, which);
     (kind, scene)
 }
 

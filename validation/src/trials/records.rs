@@ -78,29 +78,37 @@ pub(super) fn normalised(mut samples: Vec<f64>) -> Vec<f64> {
     samples
 }
 
-/// White noise through a damped oscillator in discrete time, under a random
-/// envelope.
+/// White noise through a damped oscillator, under a random envelope.
 pub(super) fn filtered(draw: &mut Draw, n: usize, dt_s: f64) -> Vec<f64> {
-    let omega = TAU * draw.log(0.2, 8.0).min(0.2 / dt_s);
-    let damping = draw.uniform(0.1, 0.8);
-    let decay = libm::exp(-damping * omega * dt_s);
-    let turn = omega * (1.0 - damping * damping).sqrt() * dt_s;
-    let (first, second) = (2.0 * decay * libm::cos(turn), decay * decay);
+    let omega_rad_s = TAU * draw.log(0.2, 8.0).min(0.2 / dt_s);
+    let mut samples = noise(draw, n, omega_rad_s * dt_s);
     let envelope = draw.below(4);
     let (rise, fall) = (draw.uniform(0.5, 3.0), draw.uniform(3.0, 12.0));
+    for (k, x) in samples.iter_mut().enumerate() {
+        let s = (k as f64 + 0.5) / n as f64;
+        *x *= match envelope {
+            0 => libm::pow(s, rise) * libm::exp(-fall * s),
+            1 => s * (1.0 - s),
+            2 => (s / 0.15).min((1.0 - s) / 0.4).min(1.0),
+            _ => 1.0,
+        };
+    }
+    samples
+}
+
+/// White noise through a damped oscillator in discrete time, which turns by
+/// `angle` from sample to sample.
+pub(super) fn noise(draw: &mut Draw, n: usize, angle: f64) -> Vec<f64> {
+    let damping = draw.uniform(0.1, 0.8);
+    let decay = libm::exp(-damping * angle);
+    let turn = angle * (1.0 - damping * damping).sqrt();
+    let (first, second) = (2.0 * decay * libm::cos(turn), decay * decay);
     let (mut last, mut before) = (0.0, 0.0);
     (0..n)
-        .map(|k| {
+        .map(|_| {
             let next = first * last - second * before + draw.normal();
             (before, last) = (last, next);
-            let s = (k as f64 + 0.5) / n as f64;
-            let shape = match envelope {
-                0 => libm::pow(s, rise) * libm::exp(-fall * s),
-                1 => s * (1.0 - s),
-                2 => (s / 0.15).min((1.0 - s) / 0.4).min(1.0),
-                _ => 1.0,
-            };
-            next * shape
+            next
         })
         .collect()
 }

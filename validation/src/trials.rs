@@ -10,6 +10,7 @@ mod draw;
 mod grazing;
 mod random;
 mod records;
+mod search;
 mod summary;
 
 pub use compare::{Finding, Reading, Seen, Truth, compare, truth};

@@ -9,13 +9,12 @@ use rocking::integrator::{Observe, Response};
 use super::draw::Draw;
 use super::random::{Named, PULSES, ordinary_record, under_pulse};
 use super::records::{filtered, noise, normalised};
+use super::search::{Search, geometric, linear, moved, near};
 use crate::engine::respond;
 use crate::scene::{EngineError, Forcing, Scene};
 
 /// Scenes drawn, at most, to find one that grazes.
 const ATTEMPTS: usize = 40;
-/// Parts into which the range of the number is divided to find a change.
-const PARTS: usize = 24;
 /// Units in the last place by which a decision is missed, at most.
 const NEAR: usize = 1000;
 /// The same for fates.
@@ -60,28 +59,29 @@ fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         let samples = first.iter().map(|x| x * factor);
         with_samples(&scene, samples.chain(then.iter().copied()).collect())
     };
-    let impacts = |factor: f64| {
-        let response = run_until(&at(factor), late)?;
+    let impacts = |scene: &Scene| {
+        let response = run_until(scene, late)?;
         let over = response.outcome.is_overturned();
         Ok((!over).then_some(response.work.impacts))
     };
-    let range = linear(0.7, 1.7);
     // One impact more is one that the time looked at cuts off; two are a
     // contact and the return from it.
-    let grazes = |a: &Option<u64>, b: &Option<u64>| match (a, b) {
+    let turns = |a: &Option<u64>, b: &Option<u64>| match (a, b) {
         (Some(a), Some(b)) => a.abs_diff(*b) == 2,
         _ => false,
     };
-    let Some(factor) = turning(draw, &range, impacts, grazes)? else {
+    let search = Search { at, see: impacts, turns, first: first.len() };
+    let Some([a, b]) = search.sides(draw, &linear(0.7, 1.7))? else {
         return Ok(None);
     };
-    let peak = |factor: f64| {
-        let response = respond(&at(factor), &Observe::default())?;
+    let peak = |scene: &Scene| {
+        let response = respond(scene, &Observe::default())?;
         Ok::<f64, EngineError>(response.peak_ratio)
     };
-    let change = peak(factor)? - peak(moved(factor, -1))?;
-    Ok((change.abs() > COUNTS)
-        .then(|| ("contact", at(moved(factor, few(draw, NEAR))))))
+    if !((peak(&a.0)? - peak(&b.0)?).abs() > COUNTS) {
+        return Ok(None);
+    }
+    Ok(Some(("contact", near(draw, NEAR, a, b))))
 }
 
 /// An amplitude between two fates.
@@ -93,20 +93,17 @@ fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
     };
     let size = amplitude(&scene.forcing);
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
-    let overturns = |amplitude: f64| {
-        let response = respond(&at(amplitude), &Observe::default())?;
-        Ok(response.outcome.is_overturned())
-    };
+    let search =
+        Search { at, see: overturns, turns: differ, first: usize::MAX };
     let range = geometric(0.5 * size, 10.0 * size);
-    let other = |a: &bool, b: &bool| a != b;
-    let Some(found) = turning(draw, &range, overturns, other)? else {
+    let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
     };
     let name = FATES
         .into_iter()
         .find(|name| name.strip_prefix("fate ") == Some(kind))
         .unwrap_or("fate");
-    Ok(Some((name, at(moved(found, few(draw, NEAR_FATE))))))
+    Ok(Some((name, near(draw, NEAR_FATE, a, b))))
 }
 
 /// Names of the scenes between two fates.
@@ -128,16 +125,19 @@ fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
     let in_p = draw.log(0.005, 0.1);
     let dt_s = in_p / scene.frequency_rad_s;
     let threshold = scene.threshold_m_s2();
-    let held = (draw.log(0.01, 40.0) / in_p) as usize;
+    let held = (draw.log(0.5, 40.0) / in_p) as usize;
     let ulps = if draw.chance(0.5) { 0 } else { few(draw, NEAR) };
     let peak = draw.sign() * moved(threshold, ulps);
     let below = 0.9 * threshold;
     let mut samples: Vec<f64> =
         (0..draw.below(50)).map(|_| draw.uniform(-below, below)).collect();
     samples.extend(vec![peak; held.clamp(1, 1000)]);
-    samples.extend((0..draw.below(20)).map(|_| draw.uniform(-below, below)));
     let then = shock(draw, &scene, &samples, dt_s)?;
-    samples.extend(then);
+    // A shock that drives the block on at once leaves it no time to forget.
+    let strong = then.iter().position(|x| x.abs() > threshold).unwrap_or(0);
+    let sign = if then[strong] * peak > 0.0 { 1.0 } else { -1.0 };
+    let skipped = if draw.chance(0.7) { strong } else { 0 };
+    samples.extend(then.into_iter().skip(skipped).map(|x| sign * x));
     scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
     Ok(("uplift", scene))
 }
@@ -176,13 +176,13 @@ fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         with_samples(&scene, samples.chain(again.iter().copied()).collect())
     };
     let late = (first.len() + quiet + lifts) as f64 * dt_s;
-    let uplifts = |factor: f64| Ok(run_until(&at(factor), late)?.work.uplifts);
-    let other = |a: &u64, b: &u64| a != b;
-    let range = linear(0.8, 1.2);
-    let Some(factor) = turning(draw, &range, uplifts, other)? else {
+    let uplifts = |scene: &Scene| Ok(run_until(scene, late)?.work.uplifts);
+    let turns = |a: &u64, b: &u64| a != b;
+    let search = Search { at, see: uplifts, turns, first: first.len() };
+    let Some([a, b]) = search.sides(draw, &linear(0.8, 1.2))? else {
         return Ok(None);
     };
-    Ok(Some(("rest", at(moved(factor, few(draw, NEAR))))))
+    Ok(Some(("rest", near(draw, NEAR, a, b))))
 }
 
 /// A clear shock that makes the highest peak, then long shaking at the
@@ -207,16 +207,13 @@ fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
         let shaking = shaking.iter().map(|x| x * amplitude);
         with_samples(&scene, first.iter().copied().chain(shaking).collect())
     };
-    let overturns = |amplitude: f64| {
-        let response = respond(&at(amplitude), &Observe::default())?;
-        Ok(response.outcome.is_overturned())
-    };
+    let search =
+        Search { at, see: overturns, turns: differ, first: usize::MAX };
     let range = geometric(threshold, 20.0 * threshold);
-    let other = |a: &bool, b: &bool| a != b;
-    let Some(found) = turning(draw, &range, overturns, other)? else {
+    let Some([a, b]) = search.sides(draw, &range)? else {
         return Ok(None);
     };
-    Ok(Some(("late chaos", at(moved(found, few(draw, NEAR_FATE))))))
+    Ok(Some(("late chaos", near(draw, NEAR_FATE, a, b))))
 }
 
 /// A shock after what came before: strong, but in most cases not so strong
@@ -258,58 +255,12 @@ fn run_until(scene: &Scene, until_s: f64) -> Result<Response, EngineError> {
     respond(scene, &Observe { until_s, ..Observe::default() })
 }
 
-fn linear(low: f64, high: f64) -> Vec<f64> {
-    let step = (high - low) / PARTS as f64;
-    (0..=PARTS).map(|k| low + step * k as f64).collect()
+fn overturns(scene: &Scene) -> Result<bool, EngineError> {
+    Ok(respond(scene, &Observe::default())?.outcome.is_overturned())
 }
 
-fn geometric(low: f64, high: f64) -> Vec<f64> {
-    linear(libm::log(low), libm::log(high))
-        .into_iter()
-        .map(libm::exp)
-        .collect()
-}
-
-/// The larger of two neighbouring doubles between which what is seen turns,
-/// somewhere in a rising range; none where it does not turn as asked for.
-fn turning<T>(
-    draw: &mut Draw,
-    range: &[f64],
-    see: impl Fn(f64) -> Result<T, EngineError>,
-    turns: impl Fn(&T, &T) -> bool,
-) -> Result<Option<f64>, EngineError> {
-    let seen = range
-        .iter()
-        .map(|x| see(*x))
-        .collect::<Result<Vec<_>, EngineError>>()?;
-    let places: Vec<usize> =
-        (1..range.len()).filter(|k| turns(&seen[k - 1], &seen[*k])).collect();
-    if places.is_empty() {
-        return Ok(None);
-    }
-    let place = draw.one_of(&places);
-    let (mut low, mut high) = (range[place - 1], range[place]);
-    let (mut at_low, mut at_high) = (see(low)?, see(high)?);
-    loop {
-        let middle = f64::from_bits(low.to_bits().midpoint(high.to_bits()));
-        if middle == low {
-            break;
-        }
-        let at_middle = see(middle)?;
-        if turns(&at_low, &at_middle) {
-            (high, at_high) = (middle, at_middle);
-        } else if turns(&at_middle, &at_high) {
-            (low, at_low) = (middle, at_middle);
-        } else {
-            return Ok(None);
-        }
-    }
-    Ok(Some(high))
-}
-
-/// A positive number moved by units in the last place.
-fn moved(x: f64, ulps: i64) -> f64 {
-    f64::from_bits(x.to_bits().wrapping_add_signed(ulps))
+fn differ(a: &bool, b: &bool) -> bool {
+    a != b
 }
 
 /// So many units in the last place, at most, to either side.

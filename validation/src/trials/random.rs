@@ -61,9 +61,8 @@ pub(super) fn ordinary(draw: &mut Draw) -> Named {
     }
     let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
     let n = draw.count(200, 4000);
-    let kinds = [Kind::Filtered, Kind::Filtered, Kind::Filtered, Kind::White];
-    let kind =
-        if draw.chance(0.15) { Kind::TwoShocks } else { draw.one_of(&kinds) };
+    let two = draw.chance(0.15);
+    let kind = if two { Kind::TwoShocks } else { Kind::Filtered };
     let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
     record(draw, &mut scene, kind, n, dt_s, intensity);
     (kind.name(), scene)

@@ -137,12 +137,13 @@ impl Finding {
         let Truth::Stands { peak_ratio, error } = self.truth else {
             return None;
         };
-        let seen = DoubleDouble::wide(self.seen.peak_ratio.wide());
-        let difference = (seen - peak_ratio).abs().to_f64();
+        if self.seen.overturned {
+            return None;
+        }
+        let difference = (self.seen.peak_ratio.wide() - peak_ratio).abs();
+        let beyond = difference.to_f64() - error;
         // Not a number stays one.
-        let beyond = difference - error;
-        (!self.seen.overturned)
-            .then(|| if beyond < 0.0 { 0.0 } else { beyond })
+        Some(if beyond < 0.0 { 0.0 } else { beyond })
     }
 }
 

@@ -287,6 +287,7 @@ pub struct Case {
 pub const FAMILIES: &[(&str, &str)] = &[
     ("block-geometry", include_str!("../cases/block-geometry.toml")),
     ("calibration", include_str!("../cases/calibration.toml")),
+    ("certificate", include_str!("../cases/certificate.toml")),
     ("double-double", include_str!("../cases/double-double.toml")),
     ("estimators", include_str!("../cases/estimators.toml")),
     ("fates", include_str!("../cases/fates.toml")),

@@ -24,4 +24,5 @@ pub mod scene;
 pub mod speed;
 pub mod study;
 pub mod synthesis;
+pub mod trials;
 pub mod verdict;

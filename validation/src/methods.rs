@@ -19,6 +19,7 @@ mod solution;
 mod spectrum;
 mod squares;
 mod statistics;
+mod trials;
 mod velocity_pulse;
 mod wrong;
 
@@ -150,6 +151,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("grazing-uplift", edges::grazing),
     ("block-sizes", edges::sizes),
     ("error-estimate", estimate::estimate),
+    ("certificate-trials", trials::certificate),
     ("work-counters", solution::work),
     ("near-saddle", hard::saddle),
     ("chatter", hard::chatter),

@@ -157,6 +157,9 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("order-too-low", "the series stops two terms early"),
     method("other-criterion", "pi/2 for alpha, or alpha for pi/2"),
     method("estimate-hundredth", "an error estimate 100 times too small"),
+    method("without-branches", "no decision counts but the fate"),
+    method("margin-infinity", "an overturned run is sure whatever its error"),
+    method("tenth-of-the-error", "every error a tenth of what it is"),
     method(
         "f64-constants",
         "coefficients and pi of a wider engine rounded to double precision",

@@ -1,0 +1,208 @@
+//! Findings counted.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use rocking::number::Real as _;
+
+use super::compare::{Finding, Reading, Truth};
+
+/// What a finding says about a certificate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Judgement {
+    /// The run says that it decides nothing; true where its fate is wrong.
+    Unresolved(bool),
+    /// The run is clear and the truth is not known.
+    Undecided,
+    /// The run is clear and its fate is wrong.
+    WrongAndClear,
+    /// The run is clear and the error of its peak is so many times its
+    /// estimate, which is too much.
+    Exceeded(f64),
+    /// The run is clear and the error of its peak is this share of its
+    /// estimate.
+    Within(f64),
+    /// The run is clear, and the block overturned.
+    Right,
+}
+
+impl Judgement {
+    /// Judges a finding.
+    #[must_use]
+    pub fn of(finding: &Finding, reading: Reading) -> Self {
+        let overturned = match finding.truth {
+            Truth::Stands { .. } => Some(false),
+            Truth::Overturned => Some(true),
+            Truth::Undecided => None,
+        };
+        let wrong = overturned.map(|truth| truth != finding.seen.overturned);
+        if !reading.is_clear(&finding.seen) {
+            return Self::Unresolved(wrong == Some(true));
+        }
+        match wrong {
+            None => Self::Undecided,
+            Some(true) => Self::WrongAndClear,
+            Some(false) => finding.error().map_or(Self::Right, |error| {
+                let ratio = error / reading.estimate(&finding.seen);
+                if ratio <= 1.0 {
+                    Self::Within(ratio)
+                } else {
+                    Self::Exceeded(ratio)
+                }
+            }),
+        }
+    }
+
+    /// True for what no certificate may do.
+    #[must_use]
+    pub fn is_bad(&self) -> bool {
+        matches!(self, Self::WrongAndClear | Self::Exceeded(_))
+    }
+}
+
+/// Shares of the distribution of error over estimate, in tenths of a
+/// percent.
+pub const SHARES: [(&str, usize); 5] = [
+    ("median-ratio", 500),
+    ("ninth-decile-ratio", 900),
+    ("last-percentile-ratio", 990),
+    ("last-thousandth-ratio", 999),
+    ("largest-ratio", 1000),
+];
+
+/// Many findings in numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Trials.
+    pub runs: usize,
+    /// Runs that are clear.
+    pub clear: usize,
+    /// Runs that decide nothing.
+    pub unresolved: usize,
+    /// Of those, runs with the wrong fate.
+    pub wrong_and_unresolved: usize,
+    /// Clear runs of which the truth is not known.
+    pub undecided: usize,
+    /// Clear runs with the wrong fate.
+    pub wrong_and_clear: usize,
+    /// Clear runs whose error of the peak exceeds its estimate.
+    pub exceeded: usize,
+    /// Error of the peak over its estimate, of clear runs, in rising order.
+    pub ratios: Vec<f64>,
+    /// Unresolved runs by the kind of their least clear decision.
+    pub least: BTreeMap<&'static str, usize>,
+}
+
+impl Summary {
+    /// Counts findings.
+    #[must_use]
+    pub fn of(findings: &[Finding], reading: Reading) -> Self {
+        let mut all = Self { runs: findings.len(), ..Self::default() };
+        for finding in findings {
+            match Judgement::of(finding, reading) {
+                Judgement::Unresolved(wrong) => {
+                    all.unresolved += 1;
+                    all.wrong_and_unresolved += usize::from(wrong);
+                    *all.least.entry(least(finding)).or_default() += 1;
+                }
+                Judgement::Undecided => all.undecided += 1,
+                Judgement::WrongAndClear => all.wrong_and_clear += 1,
+                Judgement::Exceeded(ratio) => {
+                    all.exceeded += 1;
+                    all.ratios.push(ratio);
+                }
+                Judgement::Within(ratio) => all.ratios.push(ratio),
+                Judgement::Right => {}
+            }
+        }
+        all.clear = all.runs - all.unresolved;
+        all.ratios.sort_by(f64::total_cmp);
+        all
+    }
+
+    /// Share of the runs that decide nothing.
+    #[must_use]
+    pub fn unresolved_share(&self) -> f64 {
+        self.unresolved as f64 / self.runs as f64
+    }
+
+    /// Error over estimate below which this share lies, in thousandths; not
+    /// a number without any.
+    #[must_use]
+    pub fn ratio(&self, thousandths: usize) -> f64 {
+        let last = self.ratios.len().saturating_sub(1);
+        let at = (last * thousandths).div_ceil(1000);
+        self.ratios.get(at).copied().unwrap_or(f64::NAN)
+    }
+}
+
+/// The least clear decision of a run in a word.
+fn least(finding: &Finding) -> &'static str {
+    finding.seen.certificate.map_or("fate margin", |certificate| {
+        certificate.least().decision.name()
+    })
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(
+            f,
+            "{} runs: {} clear, {} unresolved; wrong and clear {}, \
+             estimates exceeded {}, wrong and unresolved {}, clear and \
+             undecided {}",
+            self.runs,
+            self.clear,
+            self.unresolved,
+            self.wrong_and_clear,
+            self.exceeded,
+            self.wrong_and_unresolved,
+            self.undecided
+        )?;
+        for (name, share) in SHARES {
+            write!(f, "{name} {:.2e}  ", self.ratio(share))?;
+        }
+        for (name, count) in &self.least {
+            write!(f, "\nunresolved by {name}: {count}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fate = |overturned| if overturned { "over" } else { "stands" };
+        let seen = &self.seen;
+        write!(
+            f,
+            "{}: double {} {:e} estimate {:.1e}, ",
+            self.name,
+            fate(seen.overturned),
+            seen.peak_ratio,
+            seen.estimate
+        )?;
+        match self.truth {
+            Truth::Stands { peak_ratio, error } => write!(
+                f,
+                "truth stands {:e} +- {error:.1e}",
+                peak_ratio.to_f64()
+            )?,
+            Truth::Overturned => write!(f, "truth over")?,
+            Truth::Undecided => write!(f, "truth undecided")?,
+        }
+        if let Some(error) = self.error() {
+            write!(f, ", error {error:.2e}")?;
+        }
+        match seen.certificate.map(|certificate| certificate.least()) {
+            Some(least) => write!(
+                f,
+                ", least clear {} {:.2e} at {:.4} s",
+                least.decision.name(),
+                least.ratio,
+                least.time_s
+            ),
+            None => {
+                write!(f, ", fate margin over error {:.2e}", seen.fate_ratio)
+            }
+        }
+    }
+}

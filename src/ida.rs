@@ -6,7 +6,7 @@
 //! p PGV/PGA.
 
 mod batch;
-mod certified;
+mod certification;
 mod climb;
 mod levels;
 
@@ -18,7 +18,7 @@ use crate::integrator::{
     Model, Order, Outcome, Overturning, SceneError, WorkLimit,
 };
 use crate::number::dispatch::Isa;
-pub use certified::{Certification, certified_curve, certified_curves};
+pub use certification::{Certification, Told};
 use climb::Climb;
 use levels::Levels;
 
@@ -72,9 +72,13 @@ pub struct Analysis {
     /// Levels above the first overturning are looked at up to here.
     pub resurrections: Option<Resurrections>,
     /// Order at which Eq. 1 is stepped whatever that leaves; none: as high
-    /// as each step needs for double precision. Certified curves are always
-    /// made as each step needs.
+    /// as each step needs for double precision.
     pub order: Option<Order>,
+    /// Analyses that double precision cannot tell are told in the precision
+    /// that they need (see [`certify`](crate::integrator::certify)), and the
+    /// curve goes on from that; otherwise they are flagged. Not at a fixed
+    /// order, whose own result was asked for.
+    pub certify: bool,
     /// Work beyond which a level is refused.
     pub work_limit: WorkLimit,
 }
@@ -110,6 +114,7 @@ impl Analysis {
             highest_im: HIGHEST_IM,
             resurrections: None,
             order: None,
+            certify: false,
             work_limit: WorkLimit::IDA,
         }
     }
@@ -173,8 +178,8 @@ pub struct IdaPoint {
     pub outcome: Outcome,
     /// Margin to the other fate.
     pub fate_margin: f64,
-    /// False where double precision cannot tell the fate.
-    pub resolved: bool,
+    /// How outcome and peak were told.
+    pub told: Told,
 }
 
 impl IdaPoint {
@@ -220,6 +225,8 @@ pub struct IdaCurve {
     pub overturning: Option<FirstOverturning>,
     /// Levels above the first overturning, where resurrections were sought.
     pub above: Vec<IdaPoint>,
+    /// How many analyses were told in which arithmetic.
+    pub certification: Certification,
     /// Analyses made, bisection included.
     pub analyses: u64,
 }

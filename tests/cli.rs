@@ -95,11 +95,6 @@ fn bad_numbers_are_refused_with_their_flag() {
         ("ida --alpha 0.1 --p 3 --suite s --step-g 0 --out o.csv", "0"),
         ("ida --alpha 0.1 --p 3 --suite s --step-im NaN --out o.csv", "NaN"),
         ("ida --alpha 0.1 --p 3 --suite s --threads 0 --out o.csv", "0"),
-        (
-            "ida --alpha 0.1 --p 3 --suite s --certify --isa avx2 \
-             --out o.csv",
-            "--certify",
-        ),
         ("study --engine scalar --isa baseline --out report", "--isa"),
         ("study --eta 1.1 --out report", "1.1"),
         ("study --refine -1 --out report", "-1"),

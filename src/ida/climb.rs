@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 use crate::excitation::NormalisedRecord;
 use crate::ida::levels::{Level, Levels};
 use crate::ida::{
-    Analysis, FirstOverturning, IdaCurve, IdaError, IdaPoint, Resurrections,
+    Analysis, Certification, FirstOverturning, IdaCurve, IdaError, IdaPoint,
+    Resurrections,
 };
 
 /// What an analysis is made for.
@@ -235,6 +236,12 @@ impl<'a> Climb<'a> {
     pub fn finish(self) -> IdaCurve {
         let record = self.levels.record;
         let analyses = self.points.len() + self.above.len();
+        let mut certification = Certification::default();
+        let refined = self.overturning.and_then(|first| first.refined);
+        let above = self.above.values();
+        for point in self.points.iter().chain(&refined).chain(above) {
+            certification.count(point);
+        }
         IdaCurve {
             record: record.name().to_owned(),
             record_pga_g: record.pga_g(),
@@ -242,6 +249,7 @@ impl<'a> Climb<'a> {
             points: self.points,
             overturning: self.overturning,
             above: self.above.into_values().collect(),
+            certification,
             analyses: analyses as u64 + self.middles,
         }
     }

@@ -3,16 +3,13 @@
 
 use crate::block::Block;
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use crate::ida::certification::{DOUBTFUL, Told, WORTH_ASSESSING};
 use crate::ida::{Analysis, Grid, IdaError, IdaPoint, Method, Resurrections};
 use crate::integrator::{
-    self, Assessment, Certified, Model, Observe, Order, Response, Scene,
-    SceneError, WorkLimit, certify_within, respond_as, respond_peak_as,
-    uplift_threshold,
+    self, Model, Observe, Order, Outcome, Response, Scene, SceneError,
+    WorkLimit, certify_within, respond_peak_as, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
-
-/// Margins below this are worth an error estimate.
-const NEAR: f64 = 1e-6;
 
 /// One record under one analysis.
 #[derive(Clone, Copy)]
@@ -31,6 +28,7 @@ pub(super) struct Level<'a> {
     pub scene: Scene<'a>,
     pub work_limit: WorkLimit,
     order: Option<Order>,
+    certify: bool,
     record: &'a str,
 }
 
@@ -140,6 +138,7 @@ impl<'a> Levels<'a> {
             scene,
             work_limit: analysis.work_limit,
             order: analysis.order,
+            certify: analysis.certify && analysis.order.is_none(),
             record: self.record.name(),
         })
     }
@@ -151,12 +150,6 @@ impl Level<'_> {
         let Self { scene, work_limit, order, .. } = self;
         let response = respond_peak_as(scene, *work_limit, *order, isa);
         self.point(&response.map_err(|error| self.refused(error))?)
-    }
-
-    /// The analysis' fate, certified.
-    pub fn certify(&self) -> Result<Certified, IdaError> {
-        certify_within(&self.scene, self.work_limit)
-            .map_err(|error| self.refused(error))
     }
 
     /// Which level a scene that is refused belongs to.
@@ -173,34 +166,37 @@ impl Level<'_> {
 
     /// The point that the level's response makes.
     pub fn point(&self, response: &Response) -> Result<IdaPoint, IdaError> {
-        let resolved = response.fate_margin > NEAR || {
-            let work_limit = self.work_limit;
-            let careful =
-                Observe { accuracy: true, work_limit, ..Observe::default() };
-            respond_as(&self.scene, &careful, self.order, Isa::best())
-                .map_err(|error| self.refused(error))?
-                .assessment()
-                == Assessment::Clear
+        let most = if self.certify { WORTH_ASSESSING } else { DOUBTFUL };
+        // Not a number is doubtful.
+        let clear = response.doubt.is_some_and(|doubt| doubt < most);
+        let (outcome, fate_margin) = (response.outcome, response.fate_margin);
+        if clear || !self.certify {
+            return Ok(self.made(outcome, fate_margin, Told::roughly(clear)));
+        }
+        let fate = certify_within(&self.scene, self.work_limit)
+            .map_err(|error| self.refused(error))?;
+        let told = Told {
+            by: Some(fate.by),
+            resolved: fate.decided,
+            moved: fate.moved(),
+            for_inputs: fate.decided_for_inputs,
         };
-        Ok(IdaPoint {
-            im: self.im,
-            pga_g: self.pga_g,
-            slenderness_rad: self.scene.block.slenderness_rad(),
-            outcome: response.outcome,
-            fate_margin: response.fate_margin,
-            resolved,
-        })
+        Ok(self.made(fate.outcome, fate.margin, told))
     }
 
-    /// The point that the level's certified fate makes.
-    pub fn certified(&self, fate: &Certified) -> IdaPoint {
+    fn made(
+        &self,
+        outcome: Outcome,
+        fate_margin: f64,
+        told: Told,
+    ) -> IdaPoint {
         IdaPoint {
             im: self.im,
             pga_g: self.pga_g,
             slenderness_rad: self.scene.block.slenderness_rad(),
-            outcome: fate.outcome,
-            fate_margin: fate.margin,
-            resolved: fate.decided,
+            outcome,
+            fate_margin,
+            told,
         }
     }
 }

@@ -13,6 +13,20 @@ pub enum Engine {
     Double,
     /// Double-double, about 30 digits.
     DoubleDouble,
+    /// Octuple precision, about 77 digits: the widest tried.
+    Octuple,
+}
+
+impl Engine {
+    /// The arithmetic in a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Double => "double",
+            Self::DoubleDouble => "double-double",
+            Self::Octuple => "octuple",
+        }
+    }
 }
 
 /// A fate and the evidence for it.
@@ -70,8 +84,12 @@ impl Certified {
     }
 }
 
-/// Tells a fate: in double precision where its margin clears its error, in
-/// double-double where it does not, undecided where that does not either.
+/// Tells outcome and peak of a run: in double precision where every decision
+/// is clear of its error, in double-double where one is not, in octuple
+/// precision where one is not clear in that either; undecided beyond.
+///
+/// The problem told is that of the doubles given. Whether it is that of all
+/// inputs that round to them is told beside it.
 ///
 /// # Errors
 /// As [`respond`].
@@ -113,13 +131,19 @@ pub fn certify_within(
     work_limit: WorkLimit,
 ) -> Result<Certified, SceneError> {
     let observe = Observe { accuracy: true, work_limit, ..Observe::default() };
-    let quick = Certified::of(&respond(scene, &observe)?, Engine::Double);
+    let quick = Certified::of(&respond_sure(scene, &observe)?, Engine::Double);
     if quick.decided {
         return Ok(quick);
     }
-    let careful = respond_precise(scene, &observe)?;
-    let careful = Certified::of(&careful, Engine::DoubleDouble);
-    Ok(Certified { double: quick.outcome, ..careful })
+    let double = quick.outcome;
+    let wide = respond_until_sure::<DoubleDouble>(scene, &observe)?;
+    let wide = Certified::of(&wide, Engine::DoubleDouble);
+    if wide.decided {
+        return Ok(Certified { double, ..wide });
+    }
+    let widest = respond_until_sure::<Octuple>(scene, &observe)?;
+    let widest = Certified::of(&widest, Engine::Octuple);
+    Ok(Certified { double, ..widest })
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The excitation as the driver meets it: pieces with a Taylor series each.
 
+mod crest;
 mod remainder;
 mod shape;
 mod stretch;
@@ -9,6 +10,7 @@ use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
+use crest::crest;
 use shape::shape_series;
 use stretch::Stretch;
 
@@ -306,6 +308,11 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
         1
     }
 
+    fn span(&self) -> f64 {
+        let end_s = self.stretches.last().map_or(0.0, Stretch::end_s);
+        end_s * self.p.to_f64()
+    }
+
     fn series(&self, place: Place<N>) -> [N; F] {
         let stretch = self.of(place.piece);
         let t = stretch.start_s(place.piece) + place.offset / self.p;
@@ -317,14 +324,19 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
         from: Place<N>,
         threshold: N,
     ) -> (Option<Exceedance<N>>, Scan<N>) {
-        let scan = |pieces| Scan { pieces, nearest: N::one() };
+        let mut gap = threshold;
+        let scan = |pieces, gap: N| Scan { pieces, nearest: gap / threshold };
         let mut scanned = 0;
         let mut piece = from.piece;
         while piece < self.count() {
             if scanned >= WALKED {
-                let (next, looked) = self.of(piece).quiet(piece, threshold);
+                let stretch = self.of(piece);
+                let (next, looked) = stretch.quiet(piece, threshold);
                 scanned += looked;
                 if next > piece {
+                    if next == stretch.end {
+                        gap = stretch.room(threshold, gap);
+                    }
                     piece = next;
                     continue;
                 }
@@ -341,9 +353,15 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 let positive = series[0] > N::zero();
                 let crossing = offset > N::zero() || self.continues(piece);
                 let found = Exceedance { place, positive, crossing };
-                return (Some(found), scan(scanned));
+                let beyond = self.beyond(place, threshold);
+                gap = if beyond < gap { beyond } else { gap };
+                return (Some(found), scan(scanned, gap));
             }
             let left = self.of(piece).length(self.p) - offset;
+            if let Some(crest) = crest(&series, left) {
+                let near = (crest - threshold).abs();
+                gap = if near < gap { near } else { gap };
+            }
             let mut first: Option<(N, bool)> = None;
             for positive in [true, false] {
                 let mut gap = series;
@@ -369,15 +387,43 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
             if let Some((tau, positive)) = first {
                 let place = Place { piece, offset: offset + tau };
                 let found = Exceedance { place, positive, crossing: true };
-                return (Some(found), scan(scanned));
+                let beyond = self.beyond(place, threshold);
+                gap = if beyond < gap { beyond } else { gap };
+                return (Some(found), scan(scanned, gap));
             }
             piece += 1;
         }
-        (None, scan(scanned))
+        (None, scan(scanned, gap))
     }
 }
 
 impl<N: Real> PulseForcing<N> {
+    /// How far |a/g| rises beyond the threshold from a place on where it
+    /// passes it, looked at until it is far beyond.
+    fn beyond<const F: usize>(&self, from: Place<N>, threshold: N) -> N
+    where
+        Self: Forcing<N, F>,
+    {
+        let far = threshold * N::from_f64(NEAR_THRESHOLD);
+        let mut place = from;
+        let mut most = N::zero();
+        while place.piece < self.of(from.piece).end {
+            let series: [N; F] = self.series(place);
+            let left = self.of(place.piece).length(self.p) - place.offset;
+            let end = value(&series, left).abs();
+            let top = crest(&series, left);
+            for here in [Some(series[0].abs()), Some(end), top] {
+                let over = here.map_or(N::zero(), |here| here - threshold);
+                most = if over > most { over } else { most };
+            }
+            if most > far || top.is_some() {
+                return most;
+            }
+            place = Place { piece: place.piece + 1, offset: N::zero() };
+        }
+        most
+    }
+
     /// True where the piece goes on from the one before without a jump.
     fn continues(&self, piece: usize) -> bool {
         piece > 0

@@ -112,23 +112,21 @@ fn what_is_no_scene_is_refused() {
     assert_eq!(rest.outcome, Outcome::NoUplift);
     assert_eq!(rest.outcome.edp(), 0.0);
     assert_eq!(rest.rest_time_s, None);
-    assert!(rest.is_resolved());
     assert_eq!((Side::Positive.sign(), Side::Negative.sign()), (1.0, -1.0));
 }
 
-/// A response that has this margin and this error.
-fn with(margin: f64, error: Option<f64>) -> bool {
-    let plain = scene(Model::Nonlinear, Excitation::Free);
-    let response = respond(&plain, &Observe::default()).unwrap();
-    let response =
-        Response { fate_margin: margin, fate_error: error, ..response };
-    response.is_resolved()
-}
-
+/// Without a look at its decisions nothing is said of a run.
 #[test]
-fn a_fate_is_resolved_where_its_margin_reaches_its_error() {
-    assert!(with(1.0, Some(0.5)) && with(1.0, None) && with(1.0, Some(1.0)));
-    assert!(!with(0.5, Some(1.0)) && !with(f64::NAN, Some(1.0)));
+fn a_run_that_nobody_assessed_is_not_called_clear() {
+    let plain = scene(Model::Nonlinear, Excitation::Free);
+    let free = Scene { initial_ratio: 0.5, ..plain };
+    let quiet = respond(&free, &Observe::default()).unwrap();
+    assert_eq!(quiet.assessment(), Assessment::NotAssessed);
+    let observe = Observe { accuracy: true, ..Observe::default() };
+    let told = respond(&free, &observe).unwrap();
+    assert_eq!(told.assessment(), Assessment::Clear);
+    let least = told.certificate.unwrap().least();
+    assert!(least.ratio > 1e10 && least.ratio.is_finite(), "{least:?}");
 }
 
 /// Eq. 2 in free motion: theta = alpha - (alpha - theta0) cosh(p t), by the

@@ -39,7 +39,7 @@ fn text(response: &Response) -> String {
         response.peak_ratio,
         response.fate_margin,
         short(response.error_estimate),
-        short(response.fate_error),
+        short(response.certificate.map(|c| c.least().ratio)),
         short(response.condition_number),
         if response.outcome.is_overturned() { "over" } else { "stands" },
         work.steps,

@@ -57,3 +57,8 @@ pub fn close(
         _ => false,
     }
 }
+
+/// Whether outcome and peak can be told.
+pub fn is_clear(response: &Response) -> bool {
+    response.assessment() == Assessment::Clear
+}

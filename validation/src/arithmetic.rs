@@ -10,11 +10,12 @@ pub use rounded::RoundedConstants;
 pub use single::Single;
 
 use rocking::number::double::DoubleDouble;
+use rocking::number::octuple::Octuple;
 use rocking::number::{Number as _, Real};
 
-/// Arithmetic whose numbers a double-double holds.
+/// Arithmetic whose numbers a double-double holds, or nearly so.
 pub trait Wide: Real {
-    /// The number, exactly.
+    /// The number, to the last digit of a double-double.
     fn wide(self) -> DoubleDouble;
 }
 
@@ -27,6 +28,15 @@ impl Wide for f64 {
 impl Wide for DoubleDouble {
     fn wide(self) -> DoubleDouble {
         self
+    }
+}
+
+impl Wide for Octuple {
+    /// Rounded: its own digits go further.
+    fn wide(self) -> DoubleDouble {
+        let hi = self.to_f64();
+        let rest = self - Self::from_f64(hi);
+        DoubleDouble::sum(hi, rest.to_f64())
     }
 }
 

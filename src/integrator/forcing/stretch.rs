@@ -87,6 +87,18 @@ impl<N: Real> Stretch<N> {
         self.share.mul_add(k, self.start_s)
     }
 
+    /// End in s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// The least of a gap and the distance of its summit, where that is
+    /// known, from the threshold.
+    pub fn room(&self, threshold: N, gap: N) -> N {
+        let own = self.shape.summit().map_or(gap, |most| threshold - most);
+        if own < gap { own.abs() } else { gap }
+    }
+
     /// Length of a piece in units of 1/p.
     pub fn length(&self, p: N) -> N {
         self.share * p

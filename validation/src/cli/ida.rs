@@ -10,7 +10,7 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
     Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaError, IdaPoint,
-    Method, REFINEMENT, Resurrections, certified_curves,
+    Method, REFINEMENT, Resurrections, Told,
 };
 use rocking::integrator::{WorkLimit, uplift_threshold};
 use rocking::record::{ReadOptions, Suite};
@@ -73,8 +73,9 @@ pub struct Args {
     /// Which components of the pairs.
     #[arg(long, value_enum, default_value_t = Component::Study)]
     component: Component,
-    /// Tell each fate in the precision that it needs: double-double where
-    /// double precision cannot.
+    /// Tell outcome and peak of each analysis in the precision that they
+    /// need: double-double where double precision cannot, octuple precision
+    /// beyond; without it such analyses are flagged `unresolved`.
     #[arg(long)]
     certify: bool,
     /// Step Eq. 1 at this order of the Taylor polynomial, whatever it leaves
@@ -124,22 +125,24 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let gravity_m_s2 = args.model.gravity_m_s2()?;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
-    let way = args.way.way_unless_certified(args.certify)?;
+    let way = args.way.way()?;
     let read = ReadOptions { gravity_m_s2, ..ReadOptions::default() };
     let processing = args.processing.processing()?;
     let suite = read_suite(&args.suite, read)?.processed(&processing)?;
     let records = args.records(&suite)?;
     let bar = progress(records.len() as u64);
-    let (table, certified) = with_threads(args.threads, || {
-        args.curves(way, &records, &analysis, || bar.inc(1))
+    let curves = with_threads(args.threads, || {
+        let only = std::slice::from_ref(&analysis);
+        way.curves(&records, only, &|| bar.inc(1))
     })?
     .map_err(curve_refused)?;
+    let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
     bar.finish_and_clear();
     write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
     let text = if args.json {
-        summary_json(args, &table, certified, &suite, words(&processing))
+        summary_json(args, &table, &suite, words(&processing))
     } else {
-        summary(args, &table, certified, &suite, words(&processing))
+        summary(args, &table, &suite, words(&processing))
     };
     print(&text)
 }
@@ -169,34 +172,9 @@ impl Args {
             highest_im: HIGHEST_IM,
             resurrections,
             order: self.order.map(|name| name.order(model)).transpose()?,
+            certify: self.certify,
             work_limit: self.limit.limit(WorkLimit::IDA),
         })
-    }
-
-    /// The curves, and what certification did to all of them where it was
-    /// asked for.
-    fn curves(
-        &self,
-        way: Way,
-        records: &[NormalisedRecord],
-        analysis: &Analysis,
-        done: impl Fn() + Sync,
-    ) -> Result<(Vec<IdaCurve>, Option<Certification>), IdaError> {
-        let only = std::slice::from_ref(analysis);
-        if !self.certify {
-            let found = way.curves(records, only, &done)?;
-            return Ok((found.into_iter().flatten().collect(), None));
-        }
-        let found = certified_curves(records, only, done)?;
-        let mut total = Certification::default();
-        let table = found.into_iter().flatten().map(|(curve, own)| {
-            total.needed += own.needed;
-            total.moved += own.moved;
-            total.unresolved += own.unresolved;
-            curve
-        });
-        let table = table.collect();
-        Ok((table, Some(total)))
     }
 
     fn records(
@@ -258,7 +236,7 @@ fn csv(table: &[IdaCurve], analysis: &Analysis, gravity_m_s2: f64) -> String {
         };
         row(&vertex(curve, analysis), "no-uplift");
         for point in curve.points.iter().chain(&curve.above) {
-            row(point, outcome_name(&point.outcome, point.resolved));
+            row(point, outcome_name(&point.outcome, point.told.resolved));
         }
         let refined = curve.overturning.and_then(|first| first.refined);
         if let Some(point) = refined {
@@ -284,7 +262,12 @@ fn vertex(curve: &IdaCurve, analysis: &Analysis) -> IdaPoint {
         slenderness_rad,
         outcome: rocking::integrator::Outcome::NoUplift,
         fate_margin: 0.0,
-        resolved: true,
+        told: Told {
+            by: None,
+            resolved: true,
+            moved: false,
+            for_inputs: true,
+        },
     }
 }
 
@@ -316,16 +299,19 @@ fn median_overturning(table: &[IdaCurve]) -> Option<f64> {
 struct Counts {
     analyses: u64,
     overturned: usize,
-    unresolved: usize,
+    certification: Certification,
     resurrections: usize,
 }
 
 fn counts(table: &[IdaCurve]) -> Counts {
-    let points = || table.iter().flat_map(|c| c.points.iter().chain(&c.above));
+    let mut certification = Certification::default();
+    for curve in table {
+        certification.add(&curve.certification);
+    }
     Counts {
         analyses: table.iter().map(|c| c.analyses).sum(),
         overturned: table.iter().filter(|c| c.overturning.is_some()).count(),
-        unresolved: points().filter(|p| !p.resolved).count(),
+        certification,
         resurrections: table.iter().map(IdaCurve::resurrections).sum(),
     }
 }
@@ -333,11 +319,11 @@ fn counts(table: &[IdaCurve]) -> Counts {
 fn summary_json(
     args: &Args,
     table: &[IdaCurve],
-    certified: Option<Certification>,
     suite: &Suite,
     processing: Option<String>,
 ) -> String {
     let counts = counts(table);
+    let told = counts.certification;
     let sought = args.resurrections_to.is_some();
     let all = json!({
         "suite": suite.name(),
@@ -348,11 +334,15 @@ fn summary_json(
         "analyses": counts.analyses,
         "overturned_curves": counts.overturned,
         "median_overturning_im": optional(median_overturning(table)),
-        "unresolved": counts.unresolved,
-        "certified": certified.map(|c| json!({
-            "needed_double_double": c.needed,
-            "fates_moved": c.moved,
-            "unresolved": c.unresolved,
+        "unresolved": told.unresolved,
+        "certified": args.certify.then(|| json!({
+            "assessed": told.assessed,
+            "by_double": told.double,
+            "by_double_double": told.double_double,
+            "by_octuple": told.octuple,
+            "unresolved": told.unresolved,
+            "fates_moved": told.moved,
+            "for_these_doubles_only": told.only_these_doubles,
         })),
         "resurrections": sought.then_some(counts.resurrections),
         "curves": table.iter().map(|c| json!({
@@ -368,7 +358,6 @@ fn summary_json(
 fn summary(
     args: &Args,
     table: &[IdaCurve],
-    certified: Option<Certification>,
     suite: &Suite,
     processing: Option<String>,
 ) -> String {
@@ -391,11 +380,17 @@ fn summary(
     if let Some(median) = median_overturning(table) {
         row("median overturning IM", format!("{median:.4}"));
     }
-    if let Some(certified) = certified {
-        row("needed double-double", certified.needed.to_string());
-        row("fates moved by it", certified.moved.to_string());
+    let told = counts.certification;
+    if args.certify {
+        row("assessed", format!("{} of {}", told.assessed, told.analyses));
+        row("told by double", told.double.to_string());
+        row("told by double-double", told.double_double.to_string());
+        row("told by octuple", told.octuple.to_string());
+        row("fates moved", told.moved.to_string());
+        row("for these doubles only", told.only_these_doubles.to_string());
     }
-    row("unresolved fates", counts.unresolved.to_string());
+    let unresolved = told.unresolved;
+    row("unresolved", format!("{unresolved} of {}", told.analyses));
     if args.resurrections_to.is_some() {
         row("resurrections", counts.resurrections.to_string());
     }

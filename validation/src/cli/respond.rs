@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{
-    Certified, Engine, HistoryPoint, Observe, Outcome, Response, Scene, Side,
-    WorkLimit, certify_within, respond, uplift_threshold,
+    Assessment, CLEARANCE, Certificate, Certified, Clearance, Decision,
+    HistoryPoint, Observe, Outcome, Response, Scene, Side, WorkLimit,
+    certify_within, respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
 
@@ -39,8 +40,8 @@ pub struct Args {
     /// Draw the history theta/alpha as SVG.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// Tell the fate in the precision that it needs: double-double where
-    /// double precision cannot.
+    /// Tell outcome and peak in the precision that they need: double-double
+    /// where double precision cannot, octuple precision beyond.
     #[arg(long, conflicts_with = "until")]
     certify: bool,
     #[command(flatten)]
@@ -179,7 +180,7 @@ fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
     text
 }
 
-/// Name of an outcome, `unresolved` where double precision cannot tell.
+/// Name of an outcome, `unresolved` where it cannot be told.
 #[must_use]
 pub fn outcome_name(outcome: &Outcome, resolved: bool) -> &'static str {
     match outcome {
@@ -213,11 +214,41 @@ fn certified_name(fate: &Certified) -> &'static str {
     outcome_name(&fate.outcome, fate.decided)
 }
 
-fn engine_name(engine: Engine) -> &'static str {
-    match engine {
-        Engine::Double => "double",
-        Engine::DoubleDouble => "double-double",
-    }
+/// True where outcome and peak can be told.
+fn is_clear(response: &Response) -> bool {
+    response.assessment() == Assessment::Clear
+}
+
+fn clearance_json(least: &Clearance) -> Value {
+    json!({
+        "decision": least.decision.name(),
+        "margin_over_error": number(least.ratio),
+        "time_s": number(least.time_s),
+    })
+}
+
+/// The least clear decision of all, and of every kind.
+fn certificate_json(certificate: &Certificate) -> Value {
+    let kinds: Vec<Value> = Decision::ALL
+        .iter()
+        .map(|decision| clearance_json(&certificate.of(*decision)))
+        .collect();
+    json!({
+        "clear": certificate.is_clear(),
+        "clear_from": CLEARANCE,
+        "least": clearance_json(&certificate.least()),
+        "decisions": kinds,
+    })
+}
+
+/// A decision in words.
+fn clearance_text(least: &Clearance) -> String {
+    format!(
+        "{}, margin {:.1e} times its error, at {:.6} s",
+        least.decision.name(),
+        least.ratio,
+        least.time_s
+    )
 }
 
 impl Setting<'_> {
@@ -233,6 +264,9 @@ impl Setting<'_> {
                 json!({
                     "time_s": number(impact.time_s),
                     "speed_before_rad_s": number(impact.speed_before_rad_s),
+                    "time_error_s": optional(impact.error.map(|e| e.time_s)),
+                    "speed_error_rad_s":
+                        optional(impact.error.map(|e| e.speed_rad_s)),
                 })
             })
             .collect();
@@ -240,7 +274,7 @@ impl Setting<'_> {
         let block = self.scene.block;
         json!({
             "outcome":
-                outcome_name(&response.outcome, response.is_resolved()),
+                outcome_name(&response.outcome, is_clear(response)),
             "counts_as": outcome_name(&response.outcome, true),
             "peak_ratio": number(response.outcome.edp()),
             "peak_time_s": optional(match overturning {
@@ -250,15 +284,22 @@ impl Setting<'_> {
             "uplift_time_s": optional(response.uplift_time_s),
             "overturning_time_s": optional(overturning.map(|o| o.0)),
             "overturning_side": overturning.map(|o| side_name(o.1)),
+            "overturning_error_s": optional(response.overturning_error_s),
             "rest_time_s": optional(response.rest_time_s),
+            "rest_error_s": optional(response.rest_error_s),
             "impacts": impacts,
             "fate_margin": number(response.fate_margin),
-            "fate_error": optional(response.fate_error),
+            "certificate":
+                response.certificate.as_ref().map(certificate_json),
             "certified": self.certified.map(|fate| json!({
                 "outcome": certified_name(&fate),
+                "peak_ratio": number(fate.outcome.edp()),
                 "margin": number(fate.margin),
-                "error": number(fate.error),
-                "by": engine_name(fate.by),
+                "error_estimate": optional(fate.error),
+                "by": fate.by.name(),
+                "least": clearance_json(&fate.least),
+                "for_all_inputs_that_round_to_these":
+                    fate.decided_for_inputs,
             })),
             "error_estimate": optional(response.error_estimate),
             "condition_number": optional(response.condition_number),
@@ -297,9 +338,19 @@ impl Setting<'_> {
         if self.certified.is_none() {
             because("certified", "not asked for by --certify");
         }
+        if !is_clear(response) {
+            let text = "an error may have turned a decision: see certificate";
+            for key in
+                ["error_estimate", "rest_error_s", "overturning_error_s"]
+            {
+                because(key, text);
+            }
+        }
         let overturned = response.outcome.is_overturned();
         if response.outcome == Outcome::NoUplift {
-            for key in ["peak_time_s", "uplift_time_s", "rest_time_s"] {
+            for key in
+                ["peak_time_s", "uplift_time_s", "rest_time_s", "rest_error_s"]
+            {
                 because(key, "the block did not move");
             }
         } else if response.uplift_time_s.is_none() {
@@ -308,21 +359,26 @@ impl Setting<'_> {
         if overturned {
             because("peak_time_s", "the block overturned");
             because("rest_time_s", "the block overturned");
+            because("rest_error_s", "the block overturned");
+            if is_clear(response) && response.overturning_error_s.is_none() {
+                let text = "after the excitation no bound is given";
+                because("overturning_error_s", text);
+            }
         } else {
             because("overturning_time_s", "the block stands");
             because("overturning_side", "the block stands");
+            because("overturning_error_s", "the block stands");
             if response.rest_time_s.is_none()
                 && response.outcome != Outcome::NoUplift
             {
                 let never = self.scene.restitution.velocity_ratio() >= 1.0;
-                because(
-                    "rest_time_s",
-                    if never {
-                        "without loss at impact the block never comes to rest"
-                    } else {
-                        "observation ended before rest"
-                    },
-                );
+                let text = if never {
+                    "without loss at impact the block never comes to rest"
+                } else {
+                    "observation ended before rest"
+                };
+                because("rest_time_s", text);
+                because("rest_error_s", text);
             }
         }
         reasons
@@ -362,7 +418,7 @@ impl Setting<'_> {
             "PGA",
             format!("{:.6} g, intensity {:.6}", self.pga_g, self.im_pga()),
         );
-        let resolved = response.is_resolved();
+        let resolved = is_clear(response);
         row("outcome", outcome_name(&response.outcome, resolved).to_owned());
         if !resolved {
             row("counts as", outcome_name(&response.outcome, true).to_owned());
@@ -386,13 +442,23 @@ impl Setting<'_> {
             row(
                 "certified",
                 format!(
-                    "{} by {}, margin {:.3e}, error {:.1e}",
+                    "{} by {}, peak {:.9}, margin {:.3e}",
                     certified_name(&fate),
-                    engine_name(fate.by),
+                    fate.by.name(),
+                    fate.outcome.edp(),
                     fate.margin,
-                    fate.error
                 ),
             );
+            let inputs = if fate.decided_for_inputs {
+                "for all inputs that round to these doubles"
+            } else {
+                "for these doubles; undecided for what they are rounded from"
+            };
+            row("it holds", inputs.to_owned());
+            row("its least clear", clearance_text(&fate.least));
+        }
+        if let Some(certificate) = &response.certificate {
+            row("least clear", clearance_text(&certificate.least()));
         }
         if let Some(error) = response.error_estimate {
             row("error estimate", format!("{error:.1e}"));

@@ -46,19 +46,6 @@ impl WayArgs {
             (_, Some(level)) => level.isa().map(Way::Lanes),
         }
     }
-
-    /// The way asked for, of a command that may have been asked to certify.
-    ///
-    /// # Errors
-    /// As [`Self::way`]; [`Failure`] for both at once.
-    pub fn way_unless_certified(self, certify: bool) -> Result<Way, Failure> {
-        if certify && (self.isa.is_some() || self.engine.is_some()) {
-            return Err(Failure::input(
-                "--certify runs one analysis at a time: no --isa, no --engine",
-            ));
-        }
-        self.way()
-    }
 }
 
 impl Level {

@@ -1,4 +1,4 @@
-use rocking::integrator::{Observe, Outcome, Response};
+use rocking::integrator::{Assessment, Observe, Outcome, Response};
 use rocking::number::double::DoubleDouble;
 
 use super::{Quotient, respond, respond_in};
@@ -57,7 +57,7 @@ impl WideTrace {
             },
             rest_s: response.rest_time_s.map(Wide::wide),
             error_estimate: response.error_estimate.unwrap_or(f64::INFINITY),
-            resolved: response.is_resolved(),
+            resolved: response.assessment() == Assessment::Clear,
         }
     }
 

@@ -1,5 +1,6 @@
-//! Fates that double precision cannot tell: what double-double says of them,
-//! and how far capacities move if those that stay open flip.
+//! Analyses that double precision cannot tell, what wider arithmetic says of
+//! first overturnings among them, and how far capacities move if those that
+//! were told wrongly flip.
 
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
@@ -8,22 +9,55 @@ use rocking::integrator::{Certified, Engine, Scene, certify};
 
 use super::StudyError;
 
-/// Levels whose fate double precision leaves open.
+/// What is known of outcomes and peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certainty {
-    /// Levels that needed double-double.
-    pub needed: usize,
-    /// Those of them that double precision had told wrongly.
-    pub moved: usize,
-    /// Those that double-double leaves open as well.
-    pub undecided: usize,
+    /// Levels and refined ends whose outcome and peak double precision may
+    /// not tell.
+    pub unresolved: usize,
+    /// First overturnings, scanned and refined, among them: all of these
+    /// are told again.
+    pub ends: Ends,
     /// Largest relative change of a 16, 50 or 84 % overturning intensity of
-    /// a block if every level that needed double-double flips.
+    /// a block if every first overturning that is told otherwise, or not at
+    /// all, moves to the next level that overturns.
     pub largest_shift: f64,
 }
 
-/// Looks again at every open level of the curves `runs[a][r]` of
-/// `analyses[a]` and `records[r]`.
+/// First overturnings that were told again, and by which arithmetic.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ends {
+    /// All of them.
+    pub all: usize,
+    /// By double precision, every decision being assessed.
+    pub double: usize,
+    /// By double-double.
+    pub double_double: usize,
+    /// By octuple precision.
+    pub octuple: usize,
+    /// By none.
+    pub undecided: usize,
+    /// Of all, those that double precision had told wrongly.
+    pub moved: usize,
+}
+
+impl Ends {
+    fn count(&mut self, fate: &Certified) {
+        self.all += 1;
+        self.moved += usize::from(fate.moved());
+        let by = match fate.by {
+            _ if !fate.decided => &mut self.undecided,
+            Engine::Double => &mut self.double,
+            Engine::DoubleDouble => &mut self.double_double,
+            Engine::Octuple => &mut self.octuple,
+        };
+        *by += 1;
+    }
+}
+
+/// Counts the analyses of the curves `runs[a][r]` of `analyses[a]` and
+/// `records[r]` that double precision may not tell, and tells the first
+/// overturnings among them again.
 ///
 /// # Errors
 /// [`StudyError`] where a level cannot be run again.
@@ -34,47 +68,47 @@ pub fn certainty(
 ) -> Result<Certainty, StudyError> {
     let mut out = Certainty::default();
     for (analysis, curves) in analyses.iter().zip(runs) {
+        out.unresolved +=
+            curves.iter().flat_map(levels).filter(is_open).count();
         let open: Vec<(usize, IdaPoint)> = curves
             .iter()
             .enumerate()
-            .flat_map(|(r, curve)| levels(curve).map(move |p| (r, p)))
-            .filter(|(_, point)| !point.resolved)
+            .flat_map(|(r, curve)| ends(curve).map(move |p| (r, p)))
+            .filter(|(_, point)| is_open(point))
             .collect();
-        if open.is_empty() {
-            continue;
-        }
         let fates: Vec<Certified> = open
             .par_iter()
             .map(|(r, point)| again(analysis, &records[*r], point))
             .collect::<Result<_, StudyError>>()?;
-        let by_double_double =
-            |fate: &&Certified| fate.by == Engine::DoubleDouble;
-        out.needed += fates.iter().filter(by_double_double).count();
-        out.moved += fates.iter().filter(|fate| fate.moved()).count();
-        out.undecided += fates.iter().filter(|fate| !fate.decided).count();
         let first = |curve: &IdaCurve| {
             curve.overturning.map_or(f64::INFINITY, |first| first.im())
         };
         let told: Vec<f64> = curves.iter().map(first).collect();
         let mut flipped = told.clone();
-        for (r, point) in &open {
-            let other = flip(analysis, &records[*r], point)?;
-            flipped[*r] = if point.outcome.is_overturned() {
-                other
-            } else {
-                // The first open level of a chain decides.
-                flipped[*r].min(other)
-            };
+        for ((r, point), fate) in open.iter().zip(&fates) {
+            out.ends.count(fate);
+            if fate.moved() || !fate.decided {
+                flipped[*r] = next(analysis, &records[*r], point)?;
+            }
         }
         out.largest_shift = out.largest_shift.max(shift(told, flipped));
     }
     Ok(out)
 }
 
+fn is_open(point: &IdaPoint) -> bool {
+    !point.told.resolved
+}
+
 /// Every level of a curve, the bisected end among them.
 fn levels(curve: &IdaCurve) -> impl Iterator<Item = IdaPoint> {
     let refined = curve.overturning.and_then(|first| first.refined);
     curve.points.iter().copied().chain(refined)
+}
+
+/// The first overturning of a curve, scanned and refined.
+fn ends(curve: &IdaCurve) -> impl Iterator<Item = IdaPoint> {
+    levels(curve).filter(|point| point.outcome.is_overturned())
 }
 
 /// The level in the precision that it needs.
@@ -100,23 +134,22 @@ fn again(
     })?)
 }
 
-/// First overturning of a chain if this level had the other fate: the level
-/// itself, or the next one above that overturns.
-fn flip(
+/// The next level above a first overturning that overturns.
+fn next(
     analysis: &Analysis,
     record: &NormalisedRecord,
     point: &IdaPoint,
 ) -> Result<f64, StudyError> {
-    if !point.outcome.is_overturned() {
-        return Ok(point.im);
-    }
     let further = Analysis {
         resurrections: Some(Resurrections::Multiple(3.0)),
         refine: None,
         ..*analysis
     };
     let curve = ida::curve(record, &further)?;
-    let next = curve.above.iter().find(|p| p.outcome.is_overturned());
+    let above = curve.points.iter().chain(&curve.above);
+    let next = above
+        .filter(|other| other.im > point.im)
+        .find(|other| other.outcome.is_overturned());
     Ok(next.map_or(f64::INFINITY, |point| point.im))
 }
 
@@ -163,7 +196,10 @@ mod tests {
         };
         let runs = ida::curves(&records, &[analysis], || {}).unwrap();
         let found = certainty(&[analysis], &records, &runs).unwrap();
-        assert!(found.needed > 0 && found.undecided == 0, "{found:?}");
+        let ends = found.ends;
+        assert!(found.unresolved > 0 && ends.all > 0, "{found:?}");
+        assert!(ends.undecided == 0, "{found:?}");
+        assert!(ends.double_double + ends.double == ends.all, "{found:?}");
         // The next level of the grid overturns as well.
         assert!(found.largest_shift < 0.1, "{found:?}");
         // Nothing is open at the study's own refinement.

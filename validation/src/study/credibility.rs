@@ -87,7 +87,7 @@ pub fn tables(results: &Results, claims: &[Claim]) -> Vec<PlainTable> {
 }
 
 /// After ASME V&V 20: E = S - D and its uncertainty. `shift` is the largest
-/// relative change that open fates could make.
+/// relative change that first overturnings told wrongly make.
 fn comparison(claims: &[Claim], shift: f64) -> PlainTable {
     let mut rows = Vec::new();
     for printed in &PRINTED {
@@ -234,7 +234,8 @@ fn assessment(results: &Results) -> PlainTable {
         [
             "Uncertainty characterization",
             "2",
-            "Error estimates and certified fates for the numerics; \
+            "Error estimates, and first overturnings told again where \
+             double precision may not tell them, for the numerics; \
              intervals by order statistics and bootstrap for medians and \
              differences of them, Wilson's for shares of records.",
             "Shares of levels or blocks, which share their records, have \

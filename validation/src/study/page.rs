@@ -94,17 +94,27 @@ fn summary(
             suite.kind,
             suite.work.analyses
         );
-        if certainty.needed == 0 {
-            return format!("{work}; double precision tells every fate.");
+        if certainty.unresolved == 0 {
+            return format!("{work}; double precision tells every one.");
         }
+        let ends = certainty.ends;
         format!(
-            "{work}; {} levels whose fate needed double-double, {} of them \
-             told wrongly in double precision, {} left open. If all of those \
-             flipped, the 16, 50 and 84 % overturning intensities would move \
-             by {} at most.",
-            certainty.needed,
-            certainty.moved,
-            certainty.undecided,
+            "{work}. Of {} of them rounding in double precision may have \
+             changed the peak or the fate: their motion is chaotic. {} of \
+             these are first overturnings, on which capacities rest. All of \
+             those were told again: {} by double precision, every decision \
+             being assessed, {} by double-double, {} by octuple precision, \
+             {} by none. Double precision had told {} of them wrongly; with \
+             these and those that none told at the next level that \
+             overturns, the 16, 50 and 84 % overturning intensities would \
+             move by {} at most.",
+            certainty.unresolved,
+            ends.all,
+            ends.double,
+            ends.double_double,
+            ends.octuple,
+            ends.undecided,
+            ends.moved,
             rounded_text(certainty.largest_shift)
         )
     };

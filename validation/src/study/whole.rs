@@ -239,6 +239,7 @@ fn suite(suite: &SuiteResults) -> Value {
         .iter()
         .map(|record| suite.records[*record].name.as_str())
         .collect();
+    let certainty = &suite.work.certainty;
     json!({
         "kind": suite.kind,
         "source": suite.source,
@@ -246,11 +247,16 @@ fn suite(suite: &SuiteResults) -> Value {
         "records": suite.records.len(),
         "sha256": suite.sha256,
         "analyses": suite.work.analyses,
-        "needed_double_double": suite.work.certainty.needed,
-        "told_wrongly_in_double": suite.work.certainty.moved,
-        "unresolved": suite.work.certainty.undecided,
-        "largest_shift_if_flipped":
-            rounded(suite.work.certainty.largest_shift),
+        "not_told_by_double_precision": certainty.unresolved,
+        "first_overturnings_told_again": {
+            "all": certainty.ends.all,
+            "by_double": certainty.ends.double,
+            "by_double_double": certainty.ends.double_double,
+            "by_octuple": certainty.ends.octuple,
+            "left_open": certainty.ends.undecided,
+            "told_wrongly_in_double": certainty.ends.moved,
+        },
+        "largest_shift_if_flipped": rounded(certainty.largest_shift),
         "shown_alone": chosen,
     })
 }

@@ -1,18 +1,16 @@
 //! A run in double precision against the truth.
 
 use rocking::integrator::{
-    CLEARANCE, Certificate, Decision, Observe, Response,
+    Assessment, CLEARANCE, Certificate, Decision, Observe, Response,
 };
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
+use rocking::number::octuple::Octuple;
 
 use super::Trial;
 use crate::arithmetic::Wide;
 use crate::engine::{Quotient, respond, respond_in};
 use crate::scene::EngineError;
-
-/// Error of the peak up to which a run in wider arithmetic is believed.
-const BELIEVED: f64 = 1e-6;
 
 /// What a run says of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,22 +22,18 @@ pub struct Seen {
     /// Bound on the error of the peak; never below one unit in the last
     /// place of 1, to which a run without motion is held.
     pub estimate: f64,
-    /// How clearly fate and peak were decided, where the run says it.
-    pub certificate: Option<Certificate>,
-    /// Fate margin over its error.
-    pub fate_ratio: f64,
+    /// How clearly fate and peak were decided.
+    pub certificate: Certificate,
 }
 
 impl Seen {
     fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
-        let error = response.fate_error.unwrap_or(f64::INFINITY);
         let estimate = response.error_estimate.unwrap_or(f64::INFINITY);
         Self {
             overturned: response.outcome.is_overturned(),
             peak_ratio,
             estimate: estimate.max(f64::EPSILON),
-            certificate: response.certificate,
-            fate_ratio: response.fate_margin / error,
+            certificate: response.certificate.unwrap_or_default(),
         }
     }
 }
@@ -77,9 +71,7 @@ impl Reading {
     /// Whether the run may be relied on.
     #[must_use]
     pub fn is_clear(self, seen: &Seen) -> bool {
-        let Some(certificate) = seen.certificate else {
-            return seen.fate_ratio / self.factor() >= 1.0;
-        };
+        let certificate = seen.certificate;
         Decision::ALL.into_iter().all(|decision| {
             let left_out = match decision {
                 Decision::Uplift | Decision::Contact | Decision::Rest => {
@@ -152,7 +144,10 @@ impl Finding {
 /// # Errors
 /// [`EngineError`] where the scene is refused.
 pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
-    by::<DoubleDouble>(trial)
+    match by::<DoubleDouble>(trial)? {
+        Truth::Undecided => by::<Octuple>(trial),
+        told => Ok(told),
+    }
 }
 
 /// The truth as one arithmetic tells it.
@@ -161,11 +156,7 @@ fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
     let rounded = Quotient::Rounded;
     let response = respond_in::<N>(&trial.scene, &observe, rounded)?;
     let error = response.error_estimate.unwrap_or(f64::INFINITY);
-    let clear = match response.certificate {
-        Some(certificate) => certificate.is_clear(),
-        None => response.is_resolved() && error <= BELIEVED,
-    };
-    Ok(if !clear {
+    Ok(if response.assessment() != Assessment::Clear {
         Truth::Undecided
     } else if response.outcome.is_overturned() {
         Truth::Overturned

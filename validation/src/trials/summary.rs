@@ -138,9 +138,7 @@ impl Summary {
 
 /// The least clear decision of a run in a word.
 fn least(finding: &Finding) -> &'static str {
-    finding.seen.certificate.map_or("fate margin", |certificate| {
-        certificate.least().decision.name()
-    })
+    finding.seen.certificate.least().decision.name()
 }
 
 impl fmt::Display for Summary {
@@ -192,17 +190,13 @@ impl fmt::Display for Finding {
         if let Some(error) = self.error() {
             write!(f, ", error {error:.2e}")?;
         }
-        match seen.certificate.map(|certificate| certificate.least()) {
-            Some(least) => write!(
-                f,
-                ", least clear {} {:.2e} at {:.4} s",
-                least.decision.name(),
-                least.ratio,
-                least.time_s
-            ),
-            None => {
-                write!(f, ", fate margin over error {:.2e}", seen.fate_ratio)
-            }
-        }
+        let least = seen.certificate.least();
+        write!(
+            f,
+            ", least clear {} {:.2e} at {:.4} s",
+            least.decision.name(),
+            least.ratio,
+            least.time_s
+        )
     }
 }

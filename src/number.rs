@@ -9,6 +9,7 @@
 pub mod dispatch;
 pub mod double;
 pub(crate) mod lanes;
+pub mod octuple;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -27,7 +27,7 @@ pub use certificate::{
 };
 pub use certify::{Certified, Engine, certify};
 pub use dynamics::{Model, Overturning, uplift_threshold};
-pub use precise::{respond_in, respond_precise};
+pub use precise::{respond_in, respond_octuple, respond_precise};
 
 use thiserror::Error;
 

@@ -8,6 +8,7 @@ use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
+use crate::number::double::DoubleDouble;
 use shape::shape_series;
 
 pub(crate) use remainder::Remainder;
@@ -352,7 +353,13 @@ impl<N: Real> PulseForcing<N> {
 /// Share of a piece within which an excess over the threshold is a touch:
 /// it rises by the square of that, which should be about a rounding.
 fn touch<N: Real>() -> f64 {
-    if N::ROUNDOFF < f64::ROUNDOFF { 1e-14 } else { 1e-6 }
+    if N::ROUNDOFF < DoubleDouble::ROUNDOFF {
+        1e-36
+    } else if N::ROUNDOFF < f64::ROUNDOFF {
+        1e-14
+    } else {
+        1e-6
+    }
 }
 
 /// No ground motion: equal pieces of silence.

@@ -2,7 +2,7 @@
 //! the value in double precision.
 
 use super::{LIMBS, Octuple, SPECIAL};
-use crate::number::{Number, Real};
+use crate::number::{Number, Real, SeriesWork};
 
 /// pi/2 in two parts, the first with 192 bits, so that its product with a
 /// whole number of one limb is exact.
@@ -213,5 +213,9 @@ impl Real for Octuple {
 
     fn right_angle() -> Self {
         RIGHT_ANGLE[0] + RIGHT_ANGLE[1]
+    }
+
+    fn with_lengths<W: SeriesWork>(work: W) -> W::Output {
+        work.run::<48, 64>()
     }
 }

@@ -31,7 +31,7 @@ pub use certify::{Certified, Engine, certify, certify_within};
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub(crate) use limits::check;
 pub use limits::{SceneError, WorkLimit};
-pub use precise::{respond_in, respond_precise};
+pub use precise::{respond_in, respond_octuple, respond_precise};
 
 use crate::block::{Block, Restitution};
 use crate::excitation::Excitation;

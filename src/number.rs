@@ -9,6 +9,7 @@
 pub mod dispatch;
 pub mod double;
 pub(crate) mod lanes;
+pub mod octuple;
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -49,6 +50,16 @@ pub trait Number:
     }
 }
 
+/// Something to be done with Taylor series of some lengths.
+pub trait SeriesWork {
+    /// What the work gives.
+    type Output;
+
+    /// Does the work with series of `SHORT` coefficients for short steps and
+    /// of `LONG` ones for others.
+    fn run<const SHORT: usize, const LONG: usize>(self) -> Self::Output;
+}
+
 /// A scalar: comparison and the elementary functions on top of arithmetic.
 pub trait Real: Number + PartialOrd + std::fmt::Debug {
     /// Half the distance from 1 to the next number: the unit roundoff.
@@ -86,6 +97,13 @@ pub trait Real: Number + PartialOrd + std::fmt::Debug {
 
     /// pi/2.
     fn right_angle() -> Self;
+
+    /// Does some work with series as long as this precision needs: of the
+    /// longer ones, at steps of a tenth of 1/p, the next coefficient is below
+    /// the roundoff.
+    fn with_lengths<W: SeriesWork>(work: W) -> W::Output {
+        work.run::<20, 28>()
+    }
 }
 
 impl Number for f64 {

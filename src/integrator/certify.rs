@@ -1,10 +1,15 @@
 //! Fates told in the precision that they need.
 
+use crate::integrator::precise::respond_until_sure;
+use crate::integrator::run::{Method, run};
 use crate::integrator::{
     Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
-    SceneError, WorkLimit, respond, respond_precise,
+    SceneError, WorkLimit, check,
 };
 use crate::number::Real;
+use crate::number::dispatch::Isa;
+use crate::number::double::DoubleDouble;
+use crate::number::octuple::Octuple;
 
 /// Arithmetic of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +97,7 @@ impl Certified {
 /// inputs that round to them is told beside it.
 ///
 /// # Errors
-/// As [`respond`].
+/// As [`respond`](crate::integrator::respond).
 ///
 /// ```
 /// use rocking::block::{Block, Restitution};
@@ -125,13 +130,16 @@ pub fn certify(scene: &Scene<'_>) -> Result<Certified, SceneError> {
 /// [`certify`] within a limit of each run's work.
 ///
 /// # Errors
-/// As [`respond`].
+/// As [`respond`](crate::integrator::respond).
 pub fn certify_within(
     scene: &Scene<'_>,
     work_limit: WorkLimit,
 ) -> Result<Certified, SceneError> {
     let observe = Observe { accuracy: true, work_limit, ..Observe::default() };
-    let quick = Certified::of(&respond_sure(scene, &observe)?, Engine::Double);
+    check(scene, &observe)?;
+    let method = Method { order: None, isa: Isa::best(), peak_only: true };
+    let quick = run(scene, &observe, method)?;
+    let quick = Certified::of(&quick, Engine::Double);
     if quick.decided {
         return Ok(quick);
     }

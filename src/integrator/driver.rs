@@ -181,6 +181,11 @@ where
         self
     }
 
+    /// [`Self::for_peak`], if that is asked for.
+    pub fn for_peak_if(self, asked: bool) -> Self {
+        if asked { self.for_peak() } else { self }
+    }
+
     /// With a truncation allowed in a step, as a share of the velocity.
     #[inline(always)]
     pub fn within(mut self, tolerance: f64) -> Self {

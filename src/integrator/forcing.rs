@@ -10,6 +10,7 @@ use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
+use crate::number::double::DoubleDouble;
 use crest::crest;
 use shape::shape_series;
 use stretch::Stretch;
@@ -353,7 +354,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 let positive = series[0] > N::zero();
                 let crossing = offset > N::zero() || self.continues(piece);
                 let found = Exceedance { place, positive, crossing };
-                let beyond = self.beyond(place, threshold);
+                let beyond = self.beyond::<F>(place, threshold);
                 gap = if beyond < gap { beyond } else { gap };
                 return (Some(found), scan(scanned, gap));
             }
@@ -387,7 +388,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
             if let Some((tau, positive)) = first {
                 let place = Place { piece, offset: offset + tau };
                 let found = Exceedance { place, positive, crossing: true };
-                let beyond = self.beyond(place, threshold);
+                let beyond = self.beyond::<F>(place, threshold);
                 gap = if beyond < gap { beyond } else { gap };
                 return (Some(found), scan(scanned, gap));
             }
@@ -433,7 +434,13 @@ impl<N: Real> PulseForcing<N> {
 /// Share of a piece within which an excess over the threshold is a touch:
 /// it rises by the square of that, which should be about a rounding.
 fn touch<N: Real>() -> f64 {
-    if N::ROUNDOFF < f64::ROUNDOFF { 1e-14 } else { 1e-6 }
+    if N::ROUNDOFF < DoubleDouble::ROUNDOFF {
+        1e-36
+    } else if N::ROUNDOFF < f64::ROUNDOFF {
+        1e-14
+    } else {
+        1e-6
+    }
 }
 
 /// No ground motion: equal pieces of silence.

@@ -27,7 +27,7 @@ pub(crate) const NEAR_END: f64 = 1e-11;
 pub(crate) const NEWTON_LIMIT: usize = 200;
 
 /// Largest degree plus one of a polynomial here.
-const MOST: usize = 40;
+pub(crate) const MOST: usize = 64;
 
 /// First tau in (0, length] at which the polynomial, positive just after 0,
 /// ceases to be positive.
@@ -168,7 +168,12 @@ pub(crate) fn ends_below<N: Real>(c: &[N], length: N) -> Option<bool> {
 
 /// Leftmost isolating interval in units of the whole, positive at its left
 /// end.
-fn search<N: Real>(b: &[N], low: N, high: N, depth: u32) -> Option<(N, N)> {
+fn search<N: Real>(
+    b: &mut [N],
+    low: N,
+    high: N,
+    depth: u32,
+) -> Option<(N, N)> {
     let zero = N::zero();
     let variations = b
         .iter()
@@ -194,20 +199,18 @@ fn search<N: Real>(b: &[N], low: N, high: N, depth: u32) -> Option<(N, N)> {
     let n = b.len() - 1;
     let half = N::ratio(1, 2);
     let mut left = [zero; MOST];
-    let mut right = [zero; MOST];
-    right[..=n].copy_from_slice(b);
     for (k, first) in left.iter_mut().enumerate().take(n + 1) {
-        *first = right[0];
+        *first = b[0];
         for j in 0..n - k {
-            right[j] = half * (right[j] + right[j + 1]);
+            b[j] = half * (b[j] + b[j + 1]);
         }
     }
-    // `right[j]` now holds the diagonal from the middle to the end.
+    // `b[j]` now holds the diagonal from the middle to the end.
     let middle = half * (low + high);
-    if let Some(found) = search(&left[..=n], low, middle, depth - 1) {
+    if let Some(found) = search(&mut left[..=n], low, middle, depth - 1) {
         return Some(found);
     }
-    search(&right[..=n], middle, high, depth - 1)
+    search(b, middle, high, depth - 1)
 }
 
 /// The root in [low, high] by Newton's iteration from a guess, inside a

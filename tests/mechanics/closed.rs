@@ -3,8 +3,8 @@
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Order, Outcome, Overturning, Response, Scene, SceneError,
-    Side, respond, respond_at_order, uplift_threshold,
+    Assessment, Model, Observe, Order, Outcome, Overturning, Scene,
+    SceneError, Side, respond, respond_at_order, uplift_threshold,
 };
 use rocking::record::Accelerogram;
 

@@ -3,8 +3,8 @@
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Certified, Engine, Model, Observe, Outcome, Overturning, Response, Scene,
-    Side, Work, respond,
+    Certificate, Certified, Engine, Model, Observe, Outcome, Overturning,
+    Response, Scene, Side, Work, respond,
 };
 use rocking::record::Accelerogram;
 
@@ -153,8 +153,10 @@ fn engines_disagree_about_a_fate_or_they_do_not() {
         let fate = Certified {
             outcome,
             margin: 1.0,
-            error: 0.0,
+            error: Some(0.0),
+            least: Certificate::default().least(),
             decided: true,
+            decided_for_inputs: true,
             by: Engine::DoubleDouble,
             double,
         };

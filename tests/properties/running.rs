@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, ScaledRecord};
-use rocking::integrator::{Observe, Response, Scene, respond};
+use rocking::integrator::{Assessment, Observe, Response, Scene, respond};
 use rocking::record::Accelerogram;
 
 use crate::drawn::Body;

@@ -1,4 +1,5 @@
 use super::super::*;
+use crate::integrator::Engine;
 use crate::record::Accelerogram;
 
 /// A triangular lobe of half a second, 0.2 g high.
@@ -20,9 +21,15 @@ fn analysis(refine: Option<f64>) -> Analysis {
 fn certified_fates_agree_where_double_precision_tells_them() {
     let analysis = analysis(Some(1e-4));
     let plain = curve(&lobe(), &analysis).unwrap();
-    let (certified, count) = certified_curve(&lobe(), &analysis).unwrap();
-    assert_eq!(certified, plain);
-    assert_eq!(count, Certification::default());
+    let certified = Analysis { certify: true, ..analysis };
+    let certified = curve(&lobe(), &certified).unwrap();
+    let bits = |curve: &IdaCurve| {
+        let of = |p: &IdaPoint| (p.im, p.outcome, p.fate_margin);
+        curve.points.iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!(bits(&certified), bits(&plain));
+    let Certification { unresolved, moved, .. } = certified.certification;
+    assert_eq!((unresolved, moved), (0, 0));
     assert!(plain.overturning.is_some());
 }
 
@@ -31,12 +38,16 @@ fn bisection_to_the_last_bit_needs_double_double() {
     // The bracket's ends are neighbours, a rounding of the margin apart.
     let analysis = analysis(Some(f64::MIN_POSITIVE));
     let plain = curve(&lobe(), &analysis).unwrap().overturning.unwrap();
-    assert!(!plain.refined.unwrap().resolved);
-    let (curve, count) = certified_curve(&lobe(), &analysis).unwrap();
+    assert!(!plain.refined.unwrap().told.resolved);
+    let certified = Analysis { certify: true, ..analysis };
+    let curve = curve(&lobe(), &certified).unwrap();
+    let count = curve.certification;
     let first = curve.overturning.unwrap();
     let top = first.refined.unwrap();
-    assert!(count.needed > 0 && count.unresolved == 0, "{count:?}");
-    assert!(top.resolved && top.outcome.is_overturned());
+    assert!(count.double_double > 0, "{count:?}");
+    assert_eq!(count.unresolved, 0, "{count:?}");
+    assert!(top.told.resolved && top.outcome.is_overturned());
+    assert_eq!(top.told.by, Some(Engine::DoubleDouble));
     assert!(first.standing_im.next_up() >= top.im, "{first:?}");
     // Double precision is off by roundings.
     let plain_im = plain.refined.unwrap().im;

@@ -6,13 +6,20 @@ use crate::integrator::dynamics::Overturning;
 use crate::integrator::forcing::Forcing;
 use crate::integrator::screen::Landing;
 use crate::number::Real;
+use crate::number::double::DoubleDouble;
 
 /// Post-impact speed over alpha p below which an observer of events lets the
 /// geometric tail of the impacts stand for the rest of them: the tail's own
 /// error is of second order in it (over the square of the least downward
 /// acceleration, which grazing uplifts make small).
 pub(crate) fn tail_speed<N: Real>() -> f64 {
-    if N::ROUNDOFF < f64::ROUNDOFF { 1e-26 } else { 1e-10 }
+    if N::ROUNDOFF < DoubleDouble::ROUNDOFF {
+        1e-50
+    } else if N::ROUNDOFF < f64::ROUNDOFF {
+        1e-26
+    } else {
+        1e-10
+    }
 }
 
 /// Rotation over alpha up to which a barrier is raised where larger ones do

@@ -9,8 +9,8 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaError, IdaPoint,
-    Method, REFINEMENT, Resurrections, Told,
+    Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaPoint, Method,
+    REFINEMENT, Resurrections, Told,
 };
 use rocking::integrator::{WorkLimit, uplift_threshold};
 use rocking::record::{ReadOptions, Suite};
@@ -25,7 +25,6 @@ use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
 use super::way::WayArgs;
 use super::{Failure, print, progress, with_threads};
-use crate::curves::Way;
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};

@@ -24,7 +24,7 @@ use super::processing::{ProcessingArgs, words};
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
 use super::way::WayArgs;
-use super::{Failure, print, progress, with_threads};
+use super::{Failure, csv_text, print, progress, with_threads};
 use crate::curves::Way;
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
@@ -285,15 +285,6 @@ fn vertex(curve: &IdaCurve, analysis: &Analysis) -> IdaPoint {
         outcome: rocking::integrator::Outcome::NoUplift,
         fate_margin: 0.0,
         resolved: true,
-    }
-}
-
-/// A text field, quoted where it must be.
-fn csv_text(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }
 

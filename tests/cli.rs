@@ -9,6 +9,8 @@ use serde_json::Value;
 
 #[path = "cli/diff.rs"]
 mod diff;
+#[path = "cli/limits.rs"]
+mod limits;
 #[path = "cli/order.rs"]
 mod order;
 #[path = "cli/support.rs"]

@@ -24,7 +24,7 @@ use super::processing::{ProcessingArgs, words};
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
 use super::way::WayArgs;
-use super::{Failure, print, progress, with_threads};
+use super::{Failure, csv_text, print, progress, with_threads};
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};
@@ -267,15 +267,6 @@ fn vertex(curve: &IdaCurve, analysis: &Analysis) -> IdaPoint {
             moved: false,
             for_inputs: true,
         },
-    }
-}
-
-/// A text field, quoted where it must be.
-fn csv_text(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
     }
 }
 

@@ -1,5 +1,7 @@
 //! `rocking respond`: one block, one excitation.
 
+mod history;
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -10,6 +12,8 @@ use rocking::integrator::{
     certify_within, respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
+
+use history::history_csv;
 
 use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
@@ -160,24 +164,6 @@ fn drawing(
     };
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
     Ok(figure.thinned().svg()?)
-}
-
-fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
-    let alpha = scene.block.slenderness_rad();
-    let mut text =
-        String::from("time_s,rotation_rad,velocity_rad_s,rotation_ratio\n");
-    for point in &response.history {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "{},{},{},{}",
-            point.time_s,
-            point.rotation_rad,
-            point.velocity_rad_s,
-            point.rotation_rad / alpha
-        );
-    }
-    text
 }
 
 /// Name of an outcome, `unresolved` where it cannot be told.

@@ -242,9 +242,12 @@ impl Neg for Octuple {
     }
 }
 
+// Sums and products are calls: in place they would make the code of a step
+// many times as long.
 impl Add for Octuple {
     type Output = Self;
 
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         if self.is_finite() && other.is_finite() {
             return match self.order(other) {
@@ -274,6 +277,7 @@ impl Sub for Octuple {
 impl Mul for Octuple {
     type Output = Self;
 
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         let zero = self.is_zero() || other.is_zero();
         if self.is_finite() && other.is_finite() {

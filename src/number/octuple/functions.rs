@@ -216,6 +216,6 @@ impl Real for Octuple {
     }
 
     fn with_lengths<W: SeriesWork>(work: W) -> W::Output {
-        work.run::<48, 64>()
+        work.run::<48, 48>()
     }
 }

@@ -1,8 +1,19 @@
 //! Random scenes by address: what double precision and wider arithmetic make
 //! of them. `TRIALS=stratum:first:count` chooses them.
+//!
+//! And what double precision tells of a suite: `SUITES=embedded`, or the two
+//! indices of recorded suites with a comma between, prints the rows of
+//! `fixtures/certainty/suites.csv`.
 
+use std::path::Path;
+
+use rocking::block::{Block, Restitution};
+use rocking::excitation::NormalisedRecord;
+use rocking::record::Processing;
+use rocking_validation::study::grid::blocks;
+use rocking_validation::study::suites::StudySuite;
 use rocking_validation::trials::{
-    Judgement, Reading, Stratum, Summary, findings,
+    Judgement, Reading, Stratum, Summary, Survey, findings,
 };
 
 /// Scenes that are looked at where the environment chooses none.
@@ -48,5 +59,45 @@ fn a_scene_follows_from_its_address() {
             let (a, b) = (trial(stratum, index), trial(stratum, index));
             assert_eq!(a.unwrap(), b.unwrap());
         }
+    }
+}
+
+/// The suites of the environment with the blocks of the study; without any,
+/// a few records and one block.
+fn surveyed() -> (Vec<(&'static str, Vec<NormalisedRecord>)>, Vec<Block>) {
+    let asked = std::env::var("SUITES").ok();
+    let none = Processing::default();
+    let read = |kind, path: &str| {
+        StudySuite::read(kind, Path::new(path), &none).unwrap()
+    };
+    let suites = match asked.as_deref().map(|text| text.split_once(',')) {
+        Some(Some((ordinary, pulse))) => {
+            [read("ordinary", ordinary), read("pulse-type", pulse)]
+        }
+        _ => StudySuite::embedded().unwrap(),
+    };
+    let (few, blocks) = match asked {
+        Some(_) => (usize::MAX, blocks().unwrap()),
+        None => (2, vec![Block::try_new(0.1, 4.0).unwrap()]),
+    };
+    let records = |suite: &StudySuite| {
+        let motions = suite.motions.iter().take(few);
+        motions.map(|m| NormalisedRecord::new(&m.study)).collect()
+    };
+    (suites.iter().map(|s| (s.kind, records(s))).collect(), blocks)
+}
+
+/// What is flagged is all that wider arithmetic tells otherwise.
+#[test]
+fn no_analysis_of_a_suite_is_another_without_a_flag() {
+    let (suites, blocks) = surveyed();
+    println!("suite,{}", Survey::HEADER);
+    for (kind, records) in suites {
+        let eta = Restitution::constant(0.92).unwrap();
+        let found = Survey::of(&blocks, &records, eta).unwrap();
+        println!("{kind},{}", found.row());
+        assert!(found.near.analyses > 0);
+        assert_eq!(found.near.moved_and_not_flagged, 0);
+        assert_eq!(found.missed_and_wrong, 0);
     }
 }

@@ -11,9 +11,11 @@ mod grazing;
 mod random;
 mod records;
 mod search;
+mod suites;
 mod summary;
 
 pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
+pub use suites::{Near, Survey};
 pub use summary::{Judgement, SHARES, Summary};
 
 use std::ops::Range;

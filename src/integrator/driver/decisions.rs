@@ -344,7 +344,10 @@ where
             let step = Stepped { ends: [(u, w), end], tau, left };
             tracker.step(&self.flown(&step, &drive));
             (u, w) = end;
-            let ratio = (u - limit).to_f64() / tracker.error();
+            let mut v = series.v;
+            let turning = next_turning(&mut v, N::one(), self.isa);
+            let top = turning.map_or(u, |(x, _)| value(&series.c, x));
+            let ratio = (top - limit).to_f64() / tracker.error();
             best = if ratio > best { ratio } else { best };
             if !(best < FAR_BEYOND) || !(w > N::zero()) {
                 return best;

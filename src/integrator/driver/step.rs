@@ -104,7 +104,8 @@ where
             }
         };
         if self.record.accuracy.is_some() {
-            let left = surely_left_by(v, tau) * power(x, LEN - 1);
+            let left = self.left((u, w), length, &drive, &series);
+            let left = left * power(x, LEN - 1);
             let ends = [(u, w), (end_u, end_w)];
             let stepped = Stepped { ends, tau, left };
             self.assess(&series, x, &stepped, &drive, step.place);
@@ -145,6 +146,27 @@ where
                 )
             }
         }
+    }
+
+    /// What a step's series leaves of the velocity: what the longest one
+    /// makes of it, and what that leaves.
+    #[inline(never)]
+    fn left<const LEN: usize>(
+        &self,
+        motion: (N, N),
+        length: N,
+        drive: &Drive<N, F>,
+        series: &Series<N, LEN>,
+    ) -> N {
+        if LEN == HARD {
+            return surely_left_by(&series.v, length);
+        }
+        let long: Series<N, HARD> = self.expand(motion, length, drive);
+        let (end, longer) = (series.end(), long.end());
+        let by_w = (longer.1 - end.1).abs();
+        let by_u = (longer.0 - end.0).abs() / length;
+        let most = if by_u > by_w { by_u } else { by_w };
+        most + surely_left_by(&long.v, length)
     }
 
     /// Taylor polynomial of the motion.
@@ -234,14 +256,17 @@ pub(crate) fn last_term<N: Number>(last: N, length: N) -> N {
 }
 
 /// That estimate where the last coefficient may be small by accident: under
-/// strong forcing even and odd ones have sizes of their own. An envelope of
-/// the last four goes on at the rate at which it falls.
+/// strong forcing a step from rest has a large one in three. An envelope of
+/// the last three goes on as it fell from the three before.
 fn surely_left_by<N: Real, const LEN: usize>(v: &[N; LEN], length: N) -> N {
-    let [size, before, other, first] =
-        [1, 2, 3, 4].map(|k| v[LEN - k].abs().to_f64());
-    let rate = (size.max(before) / other.max(first)).sqrt().min(0.5);
-    let next = (before * rate * rate).max(size * rate) / (1.0 - rate);
-    let next = N::from_f64(next);
+    let few = (LEN / 2).min(3);
+    let largest = |from: usize| {
+        let part = v[from..from + few].iter();
+        part.fold(0.0_f64, |most, x| most.max(x.abs().to_f64()))
+    };
+    let (last, before) = (largest(LEN - few), largest(LEN - 2 * few));
+    let falls = (last / before).min(0.5);
+    let next = N::from_f64(last * falls / (1.0 - falls));
     let left = left_by(v, length);
     if next > left { next } else { left }
 }

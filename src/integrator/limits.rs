@@ -14,6 +14,29 @@ const MOST_PIECES: f64 = 1e15;
 ///
 /// A block that loses nothing, or hardly anything, at impact, or that lifts
 /// again and again, may hit the base without end.
+///
+/// ```
+/// use rocking::block::{Block, Restitution};
+/// use rocking::excitation::Excitation;
+/// use rocking::integrator::{
+///     Model, Observe, Overturning, Scene, SceneError, WorkLimit, respond,
+/// };
+/// let scene = Scene {
+///     block: Block::try_new(0.2, 2.0)?,
+///     restitution: Restitution::constant(0.99)?,
+///     model: Model::Nonlinear,
+///     overturning: Overturning::Alpha,
+///     excitation: Excitation::Free,
+///     initial_ratio: 0.5,
+/// };
+/// // Some 2,000 impacts are logged before rest.
+/// let observe = Observe { events: true, ..Observe::default() };
+/// assert!(respond(&scene, &observe).is_ok());
+/// let work_limit = WorkLimit { impacts: 1000, ..WorkLimit::default() };
+/// let found = respond(&scene, &Observe { work_limit, ..observe });
+/// assert!(matches!(found, Err(SceneError::Work { limit: 1000, .. })));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorkLimit {
     /// Impacts.

@@ -29,6 +29,9 @@ pub mod statistics;
 pub mod streams;
 pub mod units;
 
+#[doc = include_str!("certainty.md")]
+pub mod certainty {}
+
 /// The README's example compiles and runs.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -73,6 +73,12 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     /// Length of a piece in units of 1/p.
     fn length(&self, piece: usize) -> N;
 
+    /// One over the length of a piece.
+    #[inline(always)]
+    fn inverse(&self, piece: usize) -> N {
+        N::one() / self.length(piece)
+    }
+
     /// Number of equal steps in which a piece is integrated.
     fn steps(&self) -> usize;
 
@@ -149,12 +155,6 @@ impl<'a, N: Real> RecordForcing<'a, N> {
         self.record.amplitude()
     }
 
-    /// One over the length of a piece.
-    #[inline(always)]
-    pub fn inverse(&self) -> N {
-        self.inverse
-    }
-
     #[inline(always)]
     fn sample(&self, i: usize) -> N {
         N::from_f64(self.record.samples()[i]) * self.factor
@@ -173,6 +173,11 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
     #[inline(always)]
     fn length(&self, _piece: usize) -> N {
         self.length
+    }
+
+    #[inline(always)]
+    fn inverse(&self, _piece: usize) -> N {
+        self.inverse
     }
 
     #[inline(always)]

@@ -167,6 +167,10 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                     if done.is_none() {
                         return self.tally;
                     }
+                    if solved.impact != 0 {
+                        let (batch, solved) = (&batch, &mut solved);
+                        isa.run_wide(Land { model, batch, solved });
+                    }
                     self.tally.batches[kind as usize] += 1;
                     fresh |= self.scatter(&mut groups, &mut waiting, &solved);
                 }
@@ -298,11 +302,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                let [began, uu, uw, ww, doubt] = &solved.screen;
+                let [began, aa, ab, bb, doubt] = &solved.screen;
                 group.began[lane] = began[i];
-                group.uu[lane] = uu[i];
-                group.uw[lane] = uw[i];
-                group.ww[lane] = ww[i];
+                group.aa[lane] = aa[i];
+                group.ab[lane] = ab[i];
+                group.bb[lane] = bb[i];
                 group.doubt[lane] = doubt[i];
                 let endless = group.impacts[lane] > group.most[lane];
                 if (solved.rested | solved.settled) & bit != 0 || endless {
@@ -363,6 +367,22 @@ impl<const LEN: usize> Sweep<'_, '_, LEN> {
         // All groups together: one branch that nobody can predict.
         self.waiting.park(stopped, hard);
         moved
+    }
+}
+
+/// The rough certificates of a batch.
+struct Land<'b> {
+    model: Model,
+    batch: &'b Batch,
+    solved: &'b mut Solved,
+}
+
+impl WideWork for Land<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<V: Several>(self) {
+        self.batch.land::<V>(self.model, self.solved);
     }
 }
 

@@ -143,9 +143,9 @@ where
         if lowest > low {
             return;
         }
-        let step = self.forcing.length(end.piece);
+        let inverse = self.forcing.inverse(end.piece);
         let speed = self.dynamics.alpha;
-        let there = screen.fly(self.time(end), step, speed);
+        let there = screen.fly(self.time(end), inverse, speed);
         let doubt = there.decide(lowest).doubt;
         self.screen = Some(Screen { doubt, ..screen });
     }
@@ -162,8 +162,8 @@ where
         let mut screen = self.screen?;
         let alpha = self.dynamics.alpha;
         if let Some(time) = end {
-            let step = self.forcing.length(0);
-            screen = screen.fly(time, step, alpha);
+            let inverse = self.forcing.inverse(0);
+            screen = screen.fly(time, inverse, alpha);
             screen = screen.decide(alpha * N::from_f64(margin));
         }
         let doubt = screen.doubt.to_f64();

@@ -74,12 +74,12 @@ where
         if let Some(screen) = self.screen {
             let landing = Landing {
                 time: self.time(step.place),
-                step: self.forcing.length(step.place.piece),
+                inverse: self.forcing.inverse(step.place.piece),
                 speed,
                 before: -self.dynamics.restoring(-f[0]),
                 after: -self.dynamics.restoring(f[0]),
                 eta: self.dynamics.eta,
-                slender: N::one() / self.dynamics.alpha,
+                alpha: self.dynamics.alpha,
             };
             self.screen = Some(screen.land(&landing));
         }

@@ -43,9 +43,9 @@ pub(super) struct Batch {
     /// Start of the sample, in 1/p, and the rough certificates.
     sample: Lanes,
     began: Lanes,
-    uu: Lanes,
-    uw: Lanes,
-    ww: Lanes,
+    aa: Lanes,
+    ab: Lanes,
+    bb: Lanes,
     doubt: Lanes,
 }
 
@@ -75,6 +75,9 @@ pub(super) struct Solved {
     pub here: Lanes,
     pub offset: Lanes,
     pub amplitude: Lanes,
+    /// Speed before the impact, and the forcing on the side before it.
+    speed: Lanes,
+    f: Lanes,
     pub screen: [Lanes; 5],
 }
 
@@ -99,6 +102,8 @@ impl Solved {
             here: zero,
             offset: zero,
             amplitude: zero,
+            speed: zero,
+            f: zero,
             screen: [zero; 5],
         }
     }
@@ -148,9 +153,9 @@ impl Batch {
             fastest: zero,
             sample: zero,
             began: zero,
-            uu: zero,
-            uw: zero,
-            ww: zero,
+            aa: zero,
+            ab: zero,
+            bb: zero,
             doubt: zero,
         }
     }
@@ -184,9 +189,9 @@ impl Batch {
             out.alpha[i] = group.alpha[lane];
             out.sample[i] = group.piece(lane) as f64;
             out.began[i] = group.began[lane];
-            out.uu[i] = group.uu[lane];
-            out.uw[i] = group.uw[lane];
-            out.ww[i] = group.ww[lane];
+            out.aa[i] = group.aa[lane];
+            out.ab[i] = group.ab[lane];
+            out.bb[i] = group.bb[lane];
             out.doubt[i] = group.doubt[lane];
             let slot = slots[id.slot()].as_mut();
             out.fastest[i] =
@@ -301,26 +306,8 @@ impl Batch {
         let settled = w.below(V::load(&self.fastest)).but_not(raised);
         out.settled = impact.and(settled).bits();
         let f = rate.mul_add(there, here);
-        let landing = Landing {
-            time: V::load(&self.sample).mul_add(whole, there),
-            step: whole,
-            speed: fall.select(-end_w, zero),
-            before: -restoring(model, threshold, cosine, f),
-            after: -restoring(model, threshold, cosine, -f),
-            eta,
-            slender: V::one() / alpha,
-        };
-        let screen = Screen {
-            began: V::load(&self.began),
-            uu: V::load(&self.uu),
-            uw: V::load(&self.uw),
-            ww: V::load(&self.ww),
-            doubt: V::load(&self.doubt),
-        };
-        let Screen { began, uu, uw, ww, doubt } = screen.land(&landing);
-        for (k, value) in [began, uu, uw, ww, doubt].into_iter().enumerate() {
-            value.store(&mut out.screen[k]);
-        }
+        fall.select(-end_w, zero).store(&mut out.speed);
+        f.store(&mut out.f);
         let impacted = Impacted {
             model,
             threshold,
@@ -346,6 +333,35 @@ impl Batch {
         impact.select(-here, ahead).store(&mut out.here);
         impact.select(there, zero).store(&mut out.offset);
         impact.select(-amplitude, amplitude).store(&mut out.amplitude);
+    }
+
+    /// The rough certificates after the impacts of what was solved.
+    #[inline(always)]
+    pub fn land<V: Several>(&self, model: Model, out: &mut Solved) {
+        let (threshold, cosine) =
+            (V::load(&self.threshold), V::load(&self.cosine));
+        let f = V::load(&out.f);
+        let (whole, sample) = (V::load(&self.whole), V::load(&self.sample));
+        let landing = Landing {
+            time: sample.mul_add(whole, V::load(&out.offset)),
+            inverse: V::load(&self.inverse),
+            speed: V::load(&out.speed),
+            before: -restoring(model, threshold, cosine, f),
+            after: -restoring(model, threshold, cosine, -f),
+            eta: V::load(&self.eta),
+            alpha: V::load(&self.alpha),
+        };
+        let screen = Screen {
+            began: V::load(&self.began),
+            aa: V::load(&self.aa),
+            ab: V::load(&self.ab),
+            bb: V::load(&self.bb),
+            doubt: V::load(&self.doubt),
+        };
+        let Screen { began, aa, ab, bb, doubt } = screen.land(&landing);
+        for (k, value) in [began, aa, ab, bb, doubt].into_iter().enumerate() {
+            value.store(&mut out.screen[k]);
+        }
     }
 
     /// The first impact, as the driver and its root finder see it.
@@ -378,7 +394,10 @@ impl Batch {
         let sure = clear_of_limit.and(none.or(descent.one));
         let found = sure.but_not(none);
         let x = refine(&q, one, found);
-        let lowest = c[0] + down - rest;
+        // At the vertex of the first three terms, if they have one.
+        let vertex = c[1] * c[1] / c[2] * V::from_f64(0.25 * SAFETY);
+        let drop = zero.below(c[2]).select(vertex.min(-down), -down);
+        let lowest = c[0] - drop - (rest - c[2].abs());
         FirstImpact { found, x, unsure: sure.not(), lowest }
     }
 

@@ -3,6 +3,7 @@
 use crate::integrator::Side;
 use crate::integrator::driver::Stage;
 use crate::integrator::dynamics::{Drive, Model};
+use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
 use crate::integrator::screen::{LOW, Screen};
@@ -44,9 +45,9 @@ pub(super) struct Group<'a> {
     pub alpha: Lanes,
     /// The rough certificates.
     pub began: Lanes,
-    pub uu: Lanes,
-    pub uw: Lanes,
-    pub ww: Lanes,
+    pub aa: Lanes,
+    pub ab: Lanes,
+    pub bb: Lanes,
     pub doubt: Lanes,
     /// Rotation above which a lowest one decides nothing.
     low: Lanes,
@@ -98,9 +99,9 @@ impl<'a> Group<'a> {
             eta: zero,
             alpha: zero,
             began: zero,
-            uu: zero,
-            uw: zero,
-            ww: zero,
+            aa: zero,
+            ab: zero,
+            bb: zero,
             doubt: zero,
             low: zero,
             side: [Side::Positive; WIDTH],
@@ -170,9 +171,9 @@ impl<'a> Group<'a> {
         slot.driver.count_impacts(self.impacts[lane]);
         *slot.driver.screen() = Screen {
             began: self.began[lane],
-            uu: self.uu[lane],
-            uw: self.uw[lane],
-            ww: self.ww[lane],
+            aa: self.aa[lane],
+            ab: self.ab[lane],
+            bb: self.bb[lane],
             doubt: self.doubt[lane],
         };
         self.samples[lane] = &[];
@@ -208,7 +209,7 @@ impl<'a> Group<'a> {
         self.amplitude[lane] = amplitude;
         self.offset[lane] = step.place.offset;
         self.whole[lane] = h;
-        self.inverse[lane] = forcing.inverse();
+        self.inverse[lane] = forcing.inverse(piece);
         self.threshold[lane] = dynamics.threshold;
         (self.sine[lane], self.cosine[lane]) = dynamics.sine_cosine();
         self.samples[lane] = samples;
@@ -227,9 +228,9 @@ impl<'a> Group<'a> {
         self.eta[lane] = dynamics.eta;
         self.alpha[lane] = dynamics.alpha;
         self.low[lane] = dynamics.alpha * LOW * SAFETY;
-        let Screen { began, uu, uw, ww, doubt } = screen;
+        let Screen { began, aa, ab, bb, doubt } = screen;
         (self.began[lane], self.doubt[lane]) = (began, doubt);
-        (self.uu[lane], self.uw[lane], self.ww[lane]) = (uu, uw, ww);
+        (self.aa[lane], self.ab[lane], self.bb[lane]) = (aa, ab, bb);
         self.active |= 1 << lane;
     }
 

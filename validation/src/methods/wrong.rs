@@ -160,6 +160,7 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("without-branches", "no decision counts but the fate"),
     method("margin-infinity", "an overturned run is sure whatever its error"),
     method("tenth-of-the-error", "every error a tenth of what it is"),
+    method("hundredth-of-the-error", "every error a hundredth of what it is"),
     method(
         "f64-constants",
         "coefficients and pi of a wider engine rounded to double precision",

@@ -49,6 +49,8 @@ pub enum Reading {
     MarginInfinity,
     /// Every error a tenth of what it is.
     TenthOfTheError,
+    /// Every error a hundredth of what it is.
+    HundredthOfTheError,
 }
 
 impl Reading {
@@ -59,13 +61,18 @@ impl Reading {
             Some("without-branches") => Self::WithoutBranches,
             Some("margin-infinity") => Self::MarginInfinity,
             Some("tenth-of-the-error") => Self::TenthOfTheError,
+            Some("hundredth-of-the-error") => Self::HundredthOfTheError,
             _ => Self::Whole,
         }
     }
 
     /// Factor on every error.
     fn factor(self) -> f64 {
-        if self == Self::TenthOfTheError { 0.1 } else { 1.0 }
+        match self {
+            Self::TenthOfTheError => 0.1,
+            Self::HundredthOfTheError => 0.01,
+            _ => 1.0,
+        }
     }
 
     /// Whether the run may be relied on.

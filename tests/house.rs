@@ -44,9 +44,13 @@ const SOFT_LIMIT: usize = 400;
 
 /// Files above the limit, how long they may be, and why.
 const LONG_FILES: &[(&str, usize, &str)] = &[
-    ("src/integrator/coast.rs", 500, "one closed form with its cases"),
-    ("src/integrator/forcing.rs", 450, "one step shape for each excitation"),
+    ("src/integrator/coast.rs", 600, "one closed form, its cases and errors"),
+    ("src/integrator/driver.rs", 450, "one state, and what goes with it"),
+    ("src/integrator/forcing.rs", 520, "one step shape for each excitation"),
+    ("src/integrator/pool.rs", 430, "slots, and where their lanes go"),
+    ("src/integrator/pool/batch.rs", 450, "one step, in lanes"),
     ("src/record/tests.rs", 500, "one small file for each format"),
+    ("validation/src/cli/respond.rs", 470, "one answer, in words and in JSON"),
 ];
 
 /// Folders of the root that people see in a clone.

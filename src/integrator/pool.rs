@@ -302,11 +302,11 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                let [began, aa, ab, bb, doubt] = &solved.screen;
+                let [began, uu, uw, ww, doubt] = &solved.screen;
                 group.began[lane] = began[i];
-                group.aa[lane] = aa[i];
-                group.ab[lane] = ab[i];
-                group.bb[lane] = bb[i];
+                group.uu[lane] = uu[i];
+                group.uw[lane] = uw[i];
+                group.ww[lane] = ww[i];
                 group.doubt[lane] = doubt[i];
                 let endless = group.impacts[lane] > group.most[lane];
                 if (solved.rested | solved.settled) & bit != 0 || endless {

@@ -4,8 +4,8 @@
 //! an estimate that costs next to nothing: the covariance of the error of
 //! (u, w) is carried from impact to impact, not from step to step. In flight
 //! it grows as that of a block near its base without ground motion,
-//! u'' = u - alpha: the error of a = u + w by exp(tau), that of b = u - w by
-//! exp(-tau). The estimate adds the squares of error over margin of all
+//! u'' = u - alpha: by cosh and sinh of the time since the last impact. The
+//! estimate adds the squares of error over margin of all
 //! decisions, so that it is no less than the largest of them. Two runs of the
 //! same scene have the same bits of it, in lanes or alone.
 
@@ -27,10 +27,10 @@ const SQUARINGS: u32 = 5;
 pub(crate) struct Screen<N> {
     /// When the flight under way began.
     pub began: N,
-    /// Covariance of the error of a = u + w and b = u - w there.
-    pub aa: N,
-    pub ab: N,
-    pub bb: N,
+    /// Covariance of the error of (u, w) there.
+    pub uu: N,
+    pub uw: N,
+    pub ww: N,
     /// Sum of the squares of error over margin.
     pub doubt: N,
 }
@@ -53,7 +53,7 @@ impl<N: Number> Screen<N> {
     /// Of a block at rest.
     pub fn at_rest() -> Self {
         let zero = N::zero();
-        Self { began: zero, aa: zero, ab: zero, bb: zero, doubt: zero }
+        Self { began: zero, uu: zero, uw: zero, ww: zero, doubt: zero }
     }
 
     /// Lifts at a time.
@@ -66,21 +66,25 @@ impl<N: Number> Screen<N> {
     /// Flies to a time, in steps of a length at about a speed.
     #[inline(always)]
     pub fn fly(self, time: N, inverse: N, speed: N) -> Self {
-        let Self { began, aa, ab, bb, doubt } = self;
+        let Self { began, uu, uw, ww, doubt } = self;
         let tau = time - began;
-        let growth = growth(tau + tau);
+        let growth = growth(tau);
+        let decay = N::one() / growth;
+        let half = N::ratio(1, 2);
+        let (c, s) = (half * (growth + decay), half * (growth - decay));
         // Rounding of every step at that speed.
         let rounded = N::from_f64(0.5 * f64::EPSILON) * speed;
-        let aa = (rounded * rounded).mul_add(tau * inverse, aa);
-        Self { began: time, aa: growth * aa, ab, bb: bb / growth, doubt }
-    }
-
-    /// Variances and covariance of the error of u and w, four times.
-    #[inline(always)]
-    fn four_times(&self) -> (N, N, N) {
-        let Self { aa, ab, bb, .. } = *self;
-        let (sum, twice) = (aa + bb, ab + ab);
-        (sum + twice, aa - bb, sum - twice)
+        let ww = (rounded * rounded).mul_add(tau * inverse, ww);
+        // In parts that are as small as the flight is short.
+        let (cu, su) = (c.mul_add(uu, s * uw), s.mul_add(uu, c * uw));
+        let (cw, sw) = (c.mul_add(uw, s * ww), s.mul_add(uw, c * ww));
+        Self {
+            began: time,
+            uu: c.mul_add(cu, s * cw),
+            uw: c.mul_add(cw, s * cu),
+            ww: s.mul_add(su, c * sw),
+            doubt,
+        }
     }
 
     /// An impact: its speed against the error of that, the hop after it
@@ -89,34 +93,28 @@ impl<N: Number> Screen<N> {
     pub fn land(self, at: &Landing<N>) -> Self {
         let Landing { time, inverse, speed, before, after, eta, alpha } = *at;
         let there = self.fly(time, inverse, speed);
-        let (uu, uw, ww) = there.four_times();
+        let Self { uu, uw, ww, doubt, .. } = there;
         // One division for both.
-        let both = N::ratio(1, 2) / (speed * alpha);
+        let both = N::one() / (speed * alpha);
         let (slow, slender) = (both * alpha, both * speed);
         // The speed changes by w + u before/speed, the time by u/speed; the
         // hop takes 2 eta speed/after.
-        let by_u = (before + before) * slow;
+        let by_u = before * slow;
         let met = by_u.mul_add(by_u.mul_add(uu, uw + uw), ww);
-        let hop = (after + after) * (slow * slow);
+        let hop = after * (slow * slow) * N::ratio(1, 2);
         let room = slender * N::from_f64(1.0 / PROPAGATION);
-        let doubt = (slow * slow).mul_add(met, there.doubt);
+        let doubt = (slow * slow).mul_add(met, doubt);
         let doubt = (room * room).mul_add(uu + ww, doubt);
         let doubt = (hop * hop).mul_add(uu, doubt);
         // Saltation.
-        let shear = eta.mul_add(before, after) * (slow + slow);
+        let shear = eta.mul_add(before, after) * slow;
         let (kept, mixed) = (eta * eta, eta * shear);
-        let quarter = N::ratio(1, 4);
-        let (uu, uw, ww) = (uu * quarter, uw * quarter, ww * quarter);
-        let after_uw = mixed.mul_add(uu, kept * uw);
         let after_ww = mixed.mul_add(uw + uw, kept * ww);
-        let after_ww = (shear * shear).mul_add(uu, after_ww);
-        let after_uu = kept * uu;
-        let (sum, twice) = (after_uu + after_ww, after_uw + after_uw);
         Self {
             began: time,
-            aa: sum + twice,
-            ab: after_uu - after_ww,
-            bb: sum - twice,
+            uu: kept * uu,
+            uw: mixed.mul_add(uu, kept * uw),
+            ww: (shear * shear).mul_add(uu, after_ww),
             doubt,
         }
     }
@@ -125,8 +123,7 @@ impl<N: Number> Screen<N> {
     /// do.
     #[inline(always)]
     pub fn decide(self, margin: N) -> Self {
-        let (uu, _, ww) = self.four_times();
-        let square = (uu + ww) * N::ratio(1, 4);
+        let square = self.uu + self.ww;
         let doubt = self.doubt + square / (margin * margin);
         Self { doubt, ..self }
     }
@@ -165,13 +162,7 @@ mod tests {
     #[test]
     fn an_impact_carries_the_covariance_by_the_matrices() {
         let (uu, uw, ww) = (2e-20, -1e-20, 3e-20);
-        let start = Screen {
-            began: 0.0,
-            aa: uu + 2.0 * uw + ww,
-            ab: uu - ww,
-            bb: uu - 2.0 * uw + ww,
-            doubt: 0.0,
-        };
+        let start = Screen { began: 0.0, uu, uw, ww, doubt: 0.0 };
         let (speed, before, after, eta) = (0.1, -0.3, -0.2, 0.9);
         let at = Landing {
             time: 0.7,
@@ -183,9 +174,9 @@ mod tests {
             alpha: 0.2,
         };
         let found = start.land(&at);
-        let e = growth(1.4).sqrt();
+        let e = growth(0.7);
         let (c, s) = (0.5 * (e + 1.0 / e), 0.5 * (e - 1.0 / e));
-        let shear = (after + eta * before) / -speed;
+        let shear = -(after + eta * before) / speed;
         let m =
             [[-eta * c, -eta * s], [shear * c - eta * s, shear * s - eta * c]];
         let of = |x: [f64; 2], y: [f64; 2]| {
@@ -195,9 +186,8 @@ mod tests {
         };
         let [u, w] = m;
         let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
-        assert!(close(found.aa, of(u, u) + 2.0 * of(u, w) + of(w, w)));
-        assert!(close(found.bb, of(u, u) - 2.0 * of(u, w) + of(w, w)));
-        assert!(close(found.ab, of(u, u) - of(w, w)));
+        assert!(close(found.uu, of(u, u)) && close(found.ww, of(w, w)));
+        assert!(close(found.uw, of(u, w)));
         let (uu, ww) = (of([c, s], [c, s]), of([s, c], [s, c]));
         let met = of(
             [before / speed * c + s, before / speed * s + c],

@@ -43,9 +43,9 @@ pub(super) struct Batch {
     /// Start of the sample, in 1/p, and the rough certificates.
     sample: Lanes,
     began: Lanes,
-    aa: Lanes,
-    ab: Lanes,
-    bb: Lanes,
+    uu: Lanes,
+    uw: Lanes,
+    ww: Lanes,
     doubt: Lanes,
 }
 
@@ -153,9 +153,9 @@ impl Batch {
             fastest: zero,
             sample: zero,
             began: zero,
-            aa: zero,
-            ab: zero,
-            bb: zero,
+            uu: zero,
+            uw: zero,
+            ww: zero,
             doubt: zero,
         }
     }
@@ -189,9 +189,9 @@ impl Batch {
             out.alpha[i] = group.alpha[lane];
             out.sample[i] = group.piece(lane) as f64;
             out.began[i] = group.began[lane];
-            out.aa[i] = group.aa[lane];
-            out.ab[i] = group.ab[lane];
-            out.bb[i] = group.bb[lane];
+            out.uu[i] = group.uu[lane];
+            out.uw[i] = group.uw[lane];
+            out.ww[i] = group.ww[lane];
             out.doubt[i] = group.doubt[lane];
             let slot = slots[id.slot()].as_mut();
             out.fastest[i] =
@@ -353,13 +353,13 @@ impl Batch {
         };
         let screen = Screen {
             began: V::load(&self.began),
-            aa: V::load(&self.aa),
-            ab: V::load(&self.ab),
-            bb: V::load(&self.bb),
+            uu: V::load(&self.uu),
+            uw: V::load(&self.uw),
+            ww: V::load(&self.ww),
             doubt: V::load(&self.doubt),
         };
-        let Screen { began, aa, ab, bb, doubt } = screen.land(&landing);
-        for (k, value) in [began, aa, ab, bb, doubt].into_iter().enumerate() {
+        let Screen { began, uu, uw, ww, doubt } = screen.land(&landing);
+        for (k, value) in [began, uu, uw, ww, doubt].into_iter().enumerate() {
             value.store(&mut out.screen[k]);
         }
     }

@@ -45,9 +45,9 @@ pub(super) struct Group<'a> {
     pub alpha: Lanes,
     /// The rough certificates.
     pub began: Lanes,
-    pub aa: Lanes,
-    pub ab: Lanes,
-    pub bb: Lanes,
+    pub uu: Lanes,
+    pub uw: Lanes,
+    pub ww: Lanes,
     pub doubt: Lanes,
     /// Rotation above which a lowest one decides nothing.
     low: Lanes,
@@ -99,9 +99,9 @@ impl<'a> Group<'a> {
             eta: zero,
             alpha: zero,
             began: zero,
-            aa: zero,
-            ab: zero,
-            bb: zero,
+            uu: zero,
+            uw: zero,
+            ww: zero,
             doubt: zero,
             low: zero,
             side: [Side::Positive; WIDTH],
@@ -171,9 +171,9 @@ impl<'a> Group<'a> {
         slot.driver.count_impacts(self.impacts[lane]);
         *slot.driver.screen() = Screen {
             began: self.began[lane],
-            aa: self.aa[lane],
-            ab: self.ab[lane],
-            bb: self.bb[lane],
+            uu: self.uu[lane],
+            uw: self.uw[lane],
+            ww: self.ww[lane],
             doubt: self.doubt[lane],
         };
         self.samples[lane] = &[];
@@ -228,9 +228,9 @@ impl<'a> Group<'a> {
         self.eta[lane] = dynamics.eta;
         self.alpha[lane] = dynamics.alpha;
         self.low[lane] = dynamics.alpha * LOW * SAFETY;
-        let Screen { began, aa, ab, bb, doubt } = screen;
+        let Screen { began, uu, uw, ww, doubt } = screen;
         (self.began[lane], self.doubt[lane]) = (began, doubt);
-        (self.aa[lane], self.ab[lane], self.bb[lane]) = (aa, ab, bb);
+        (self.uu[lane], self.uw[lane], self.ww[lane]) = (uu, uw, ww);
         self.active |= 1 << lane;
     }
 

@@ -164,8 +164,12 @@ impl Trajectory<'_> {
         let tolerance = bound(self.case, "peak_rel_err");
         let peak = number(peak);
         self.near("peak", response.peak_ratio, peak, tolerance * peak);
-        let error = response.error_estimate.unwrap();
-        self.near("estimate", response.peak_ratio, peak, error);
+        // None where a decision is within the errors of double precision.
+        let graze = name.contains("graze");
+        assert!(graze || response.error_estimate.is_some(), "{name}");
+        if let Some(error) = response.error_estimate {
+            self.near("estimate", response.peak_ratio, peak, error);
+        }
         let at = number(&expected["t_peak"]);
         // Two peaks of this one are equal but for rounding.
         if name != "os-graze-1e-3-linear" {

@@ -23,7 +23,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("excitation", &["number", "record"]),
     ("fragility", &["statistics"]),
     ("ida", &["block", "excitation", "integrator", "number", "record"]),
-    ("integrator", &["block", "excitation", "number"]),
+    ("integrator", &["block", "excitation", "number", "record"]),
     ("intensity", &["record", "units"]),
     ("number", &[]),
     ("record", &["units"]),

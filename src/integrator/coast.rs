@@ -139,10 +139,11 @@ pub(crate) fn coast<N: Real>(
             time_to_base(d, N::from_f64(u), N::from_f64(w), level).to_f64()
         };
         let motion = [u, motion.w].map(Real::to_f64);
+        let late = accuracy.bound(derivatives(late, motion));
         Errors {
-            late: accuracy.bound(derivatives(late, motion, d)),
+            late,
             energy: accuracy.bound(by_energy) / energy,
-            known: accuracy.certificate().is_clear(),
+            known: accuracy.certificate().is_clear() && late.is_finite(),
         }
     });
     if next.below_saddle < zero {
@@ -167,12 +168,8 @@ fn time_to_base<N: Real>(d: &Dynamics<N>, u: N, w: N, level: Level<N>) -> N {
 }
 
 /// Derivatives of a quantity by u and w, to a few digits.
-fn derivatives<N: Real>(
-    of: impl Fn([f64; 2]) -> f64,
-    [u, w]: [f64; 2],
-    d: &Dynamics<N>,
-) -> [f64; 2] {
-    let step = DIFFERENCE * d.alpha.to_f64();
+fn derivatives(of: impl Fn([f64; 2]) -> f64, [u, w]: [f64; 2]) -> [f64; 2] {
+    let step = DIFFERENCE * (u.abs() + w.abs());
     // Towards the base, which both sides of a decision reach.
     let here = of([u, w]);
     [of([u - step, w]) - here, of([u, w - step]) - here].map(|x| x / step)
@@ -389,7 +386,8 @@ fn hops<N: Real>(
             let down = d.restoring(N::zero());
             let rest = two * after / (down * (N::one() - d.eta));
             record.rest_time_s = Some(time_s + rest / d.p);
-            record.rest_error_s = errors.map(|errors| {
+            let known = errors.filter(|errors| errors.known);
+            record.rest_error_s = known.map(|errors| {
                 let (late, rest) = (errors.late, rest.to_f64());
                 let error = late + rest * (0.5 * errors.energy + TAIL);
                 let unit = 2.0 * N::ROUNDOFF;

@@ -91,8 +91,8 @@ fn table() -> String {
         ),
         ("claims of the paper, embedded suites", claims(&findings)),
         (
-            "analyses up to overturning; flagged: rounding may have changed their \
-             peak or fate",
+            "analyses up to overturning; flagged: rounding may have \
+             changed their peak or fate",
             format!("{analyses}; {open}"),
         ),
         (

@@ -81,15 +81,11 @@ impl<N: Real> Record<N> {
     }
 }
 
-/// Steps by a series of `SIZE` coefficients, and by one of `HARD` where that
-/// leaves too much; the forcing's series has `F`.
-pub(crate) struct Driver<
-    N,
-    G,
-    const SIZE: usize,
-    const F: usize,
-    const HARD: usize,
-> {
+/// Steps by a series whose length each call names, and by one of `HARD`
+/// coefficients where that leaves too much; the forcing's series has `F`.
+/// The short length is no part of the type: what does not depend on it is
+/// compiled once.
+pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     dynamics: Dynamics<N>,
     forcing: G,
     isa: Isa,
@@ -145,8 +141,7 @@ pub(crate) enum Stage<N> {
     Landed(Flight<N>),
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
-    Driver<N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -195,7 +190,7 @@ where
 
     /// Runs the scene to its end.
     #[inline(always)]
-    pub fn run(
+    pub fn run<const SIZE: usize>(
         mut self,
         scene: &Scene<'_>,
         observe: &Observe,
@@ -206,7 +201,7 @@ where
                 return Err(error);
             }
             match stage {
-                Stage::Flying(step) => stage = self.proceed(step),
+                Stage::Flying(step) => stage = self.proceed::<SIZE>(step),
                 Stage::Landed(flight) => return self.within_limit(&flight),
             }
         }
@@ -333,10 +328,14 @@ where
         })
     }
 
-    /// One step, or a part of it, and the rest that may follow.
+    /// One step by a series of `SIZE` coefficients, or a part of it, and the
+    /// rest that may follow.
     #[inline(always)]
-    pub fn proceed(&mut self, mut step: Step<N>) -> Stage<N> {
-        match self.next(&mut step) {
+    pub fn proceed<const SIZE: usize>(
+        &mut self,
+        mut step: Step<N>,
+    ) -> Stage<N> {
+        match self.next::<SIZE>(&mut step) {
             None => Stage::Flying(step),
             Some(Flight::Rest(place, time_s)) => self.uplift(place, time_s),
             Some(flight) => Stage::Landed(flight),
@@ -360,7 +359,10 @@ where
 
     /// One step, or the part of it up to an impact.
     #[inline(always)]
-    fn next(&mut self, step: &mut Step<N>) -> Option<Flight<N>> {
+    fn next<const SIZE: usize>(
+        &mut self,
+        step: &mut Step<N>,
+    ) -> Option<Flight<N>> {
         let piece = step.place.piece;
         if piece >= self.forcing.pieces() {
             return Some(Flight::End(step.motion));
@@ -383,9 +385,12 @@ where
         }
         let length = boundary - step.place.offset;
         if length > N::zero() {
-            match self.advance(step, length) {
+            match self.advance::<SIZE>(step, length) {
                 Advance::Reached => {}
                 Advance::Bounced => return None,
+                Advance::Overturned => {
+                    return Some(self.overturned::<SIZE>(step));
+                }
                 Advance::Ended(flight) => return Some(flight),
             }
         }

@@ -1,6 +1,7 @@
 //! The excitation as the driver meets it: pieces with a Taylor series each.
 
 mod crest;
+mod ground;
 mod remainder;
 mod shape;
 mod stretch;
@@ -15,6 +16,7 @@ use crest::crest;
 use shape::shape_series;
 use stretch::Stretch;
 
+pub(crate) use ground::Ground;
 pub(crate) use remainder::Remainder;
 pub(crate) use stretch::pieces_of;
 
@@ -445,57 +447,5 @@ fn touch<N: Real>() -> f64 {
         1e-14
     } else {
         1e-6
-    }
-}
-
-/// No ground motion: equal pieces of silence.
-pub(crate) struct Silence<N> {
-    pieces: usize,
-    start_s: N,
-    length: N,
-    p: N,
-}
-
-impl<N: Real> Silence<N> {
-    /// No piece at all: free motion is left to the closed form.
-    pub fn nothing() -> Self {
-        Self { pieces: 0, start_s: N::zero(), length: N::one(), p: N::one() }
-    }
-
-    /// Silence for stepping through the free motion from `start_s` on.
-    pub fn endless(start_s: N, p: N) -> Self {
-        let length = N::from_f64(LONGEST_STEP);
-        Self { pieces: usize::MAX, start_s, length, p }
-    }
-}
-
-impl<N: Real> Forcing<N, 1> for Silence<N> {
-    fn pieces(&self) -> usize {
-        self.pieces
-    }
-
-    fn start_s(&self, piece: usize) -> N {
-        let step = self.length / self.p;
-        N::from_f64(piece as f64).mul_add(step, self.start_s)
-    }
-
-    fn length(&self, _piece: usize) -> N {
-        self.length
-    }
-
-    fn steps(&self) -> usize {
-        1
-    }
-
-    fn series(&self, _place: Place<N>) -> [N; 1] {
-        [N::zero()]
-    }
-
-    fn exceedance(
-        &self,
-        _from: Place<N>,
-        _threshold: N,
-    ) -> (Option<Exceedance<N>>, Scan<N>) {
-        (None, Scan { pieces: 0, nearest: N::one() })
     }
 }

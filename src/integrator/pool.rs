@@ -113,7 +113,7 @@ struct Pool<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize> {
     class: Class,
     isa: Isa,
     source: &'s mut S,
-    slots: Vec<Option<Slot<'a, S::Task, LEN>>>,
+    slots: Vec<Option<Slot<'a, S::Task>>>,
     /// Slots in use.
     busy: usize,
     tally: Tally,
@@ -196,7 +196,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
     }
 
     /// A run at its first step.
-    fn begin(&mut self) -> Option<Slot<'a, S::Task, LEN>> {
+    fn begin(&mut self) -> Option<Slot<'a, S::Task>> {
         let (task, scene, work_limit) = self.source.take()?;
         let Excitation::Record(record) = scene.excitation else { return None };
         let index = record.index()?;
@@ -232,7 +232,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                     groups[lane.group()].load(lane.lane(), slot);
                     break;
                 }
-                Stage::Flying(step) => slot.advance(step, self.isa),
+                Stage::Flying(step) => slot.advance::<LEN>(step, self.isa),
                 Stage::Landed(ref flight) => {
                     let response = slot.driver.within_limit(flight).ok();
                     settled = true;
@@ -271,7 +271,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 let Some(slot) = &mut self.slots[id.slot()] else { continue };
                 group.release(lane, slot);
                 if let Stage::Flying(step) = slot.stage {
-                    slot.advance(step, self.isa);
+                    slot.advance::<LEN>(step, self.isa);
                 }
                 settled |= self.proceed(id, groups);
                 continue;

@@ -2,10 +2,9 @@
 
 use std::marker::PhantomData;
 
-use crate::excitation::Excitation;
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::{PulseForcing, RecordForcing, Silence};
+use crate::integrator::forcing::Ground;
 use crate::integrator::roots::MOST;
 use crate::integrator::run::{index_of, own_index};
 use crate::integrator::{Observe, Response, Scene, SceneError, check};
@@ -146,35 +145,20 @@ impl<N: Real> SeriesWork for Run<'_, N> {
         const { assert!(SHORT <= LONG && LONG <= MOST) };
         let Self { scene, observe, peak_only, .. } = self;
         let Scene { block, restitution, model, overturning, .. } = *scene;
-        let p = block.frequency_rad_s();
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
         let own = own_index(scene);
         let isa = Isa::best();
-        match (scene.excitation, index_of(scene, own.as_ref())) {
-            (Excitation::Record(record), Some(index)) => {
-                let forcing = RecordForcing::new(record, index, p);
-                if is_short::<N>(forcing.step(), SHORT) {
-                    Driver::<N, _, SHORT, 2, LONG>::new(dynamics, forcing, isa)
-                        .for_peak_if(peak_only)
-                        .run(scene, observe)
-                } else {
-                    Driver::<N, _, LONG, 2, LONG>::new(dynamics, forcing, isa)
-                        .for_peak_if(peak_only)
-                        .run(scene, observe)
-                }
-            }
-            (Excitation::Pulse(pulse), _) => {
-                let forcing = PulseForcing::new(pulse, p);
-                Driver::<N, _, LONG, LONG, LONG>::new(dynamics, forcing, isa)
-                    .for_peak_if(peak_only)
-                    .run(scene, observe)
-            }
-            (Excitation::Record(_) | Excitation::Free, _) => {
-                let silence = Silence::nothing();
-                Driver::<N, _, LONG, 1, LONG>::new(dynamics, silence, isa)
-                    .for_peak_if(peak_only)
-                    .run(scene, observe)
-            }
+        let ground = Ground::of(scene, index_of(scene, own.as_ref()));
+        let short = match &ground {
+            Ground::Record(record) => is_short::<N>(record.step(), SHORT),
+            Ground::Pulse(_) | Ground::Silence(_) => false,
+        };
+        let driver = Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa)
+            .for_peak_if(peak_only);
+        if short {
+            driver.run::<SHORT>(scene, observe)
+        } else {
+            driver.run::<LONG>(scene, observe)
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::excitation::{Excitation, RestIndex};
 use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Dynamics;
-use crate::integrator::forcing::{PulseForcing, RecordForcing, Silence};
+use crate::integrator::forcing::{Ground, RecordForcing};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError};
 use crate::number::dispatch::{Isa, Work as Dispatched};
 
@@ -82,22 +82,14 @@ impl Dispatched for Run<'_> {
                     }
                 }
             }
-            (Excitation::Pulse(pulse), _) => {
-                let forcing = PulseForcing::new(pulse, p);
-                Driver::<_, _, LONGEST, LONGEST, LONGEST>::new(
+            (_, index) => {
+                let ground = Ground::of(self.scene, index);
+                Driver::<_, _, LONGEST, LONGEST>::new(
                     dynamics,
-                    forcing,
+                    ground,
                     self.method.isa,
                 )
-                .run(self.scene, self.observe)
-            }
-            (Excitation::Record(_) | Excitation::Free, _) => {
-                Driver::<_, _, LONGEST, 1, LONGEST>::new(
-                    dynamics,
-                    Silence::nothing(),
-                    self.method.isa,
-                )
-                .run(self.scene, self.observe)
+                .run::<LONGEST>(self.scene, self.observe)
             }
         }
     }
@@ -111,7 +103,7 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
     ) -> Result<Response, SceneError> {
-        self.driver::<LEN>(dynamics, forcing).run(self.scene, self.observe)
+        self.driver(dynamics, forcing).run::<LEN>(self.scene, self.observe)
     }
 
     #[inline(always)]
@@ -136,17 +128,17 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'_, f64>,
     ) -> Result<Response, SceneError> {
-        self.driver::<LEN>(dynamics, forcing)
+        self.driver(dynamics, forcing)
             .within(f64::INFINITY)
-            .run(self.scene, self.observe)
+            .run::<LEN>(self.scene, self.observe)
     }
 
     #[inline(always)]
-    fn driver<'r, const LEN: usize>(
+    fn driver<'r>(
         &self,
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'r, f64>,
-    ) -> Driver<f64, RecordForcing<'r, f64>, LEN, 2, LONGEST> {
+    ) -> Driver<f64, RecordForcing<'r, f64>, 2, LONGEST> {
         let driver = Driver::new(dynamics, forcing, self.method.isa);
         if self.method.peak_only { driver.for_peak() } else { driver }
     }

@@ -80,7 +80,8 @@ fn first_side(scene: &Scene, response: &Response) -> Result<f64, EngineError> {
 /// Runs the core on a scene of the harness.
 ///
 /// # Errors
-/// [`EngineError::Refused`] with the core's own words.
+/// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
+/// words.
 pub fn respond(
     scene: &Scene,
     observe: &Observe,
@@ -102,7 +103,8 @@ pub enum Quotient {
 /// Runs the core on a scene of the harness in other arithmetic.
 ///
 /// # Errors
-/// [`EngineError::Refused`] with the core's own words.
+/// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
+/// words.
 pub fn respond_in<N: Real>(
     scene: &Scene,
     observe: &Observe,
@@ -116,7 +118,8 @@ pub fn respond_in<N: Real>(
 /// Runs the core on a record at a fixed order of Eq. 1, with events.
 ///
 /// # Errors
-/// [`EngineError::Refused`] with the core's own words.
+/// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
+/// words.
 pub fn respond_at_order(
     scene: &Scene,
     order: Order,
@@ -183,7 +186,10 @@ fn with_core_scene<R>(
         excitation,
         initial_ratio,
     };
-    run(&scene).map_err(refused)
+    run(&scene).map_err(|error| match error {
+        SceneError::Work { .. } => EngineError::Work(error.to_string()),
+        _ => refused(error),
+    })
 }
 
 /// The pulse of a scene, its accelerations over `unit`.

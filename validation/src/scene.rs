@@ -152,6 +152,9 @@ pub enum EngineError {
     /// The scene is refused by the code under test.
     #[error("scene refused: {0}")]
     Refused(String),
+    /// The run takes more work than is allowed.
+    #[error("{0}")]
+    Work(String),
     /// The run came to no end.
     #[error("no end after {steps} steps, at t = {time_s} s")]
     NoEnd {

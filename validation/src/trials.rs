@@ -18,8 +18,6 @@ pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
 pub use suites::{Near, Survey};
 pub use summary::{Judgement, SHARES, Summary};
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 use rocking::streams::Streams;
 
@@ -99,19 +97,25 @@ pub fn trial(
     }))
 }
 
-/// Findings on the scenes of a range of indices, in their order, without
-/// those that could not be brought to graze.
+/// Findings on the scenes of these indices, in their order, without
+/// those that could not be brought to graze and those that take more work
+/// than is allowed in some arithmetic.
 ///
 /// # Errors
-/// [`EngineError`] of the first scene refused.
+/// [`EngineError`] of the first scene refused for another reason.
 pub fn findings(
     stratum: Stratum,
-    indices: Range<u64>,
+    indices: &[u64],
 ) -> Result<Vec<Finding>, EngineError> {
     let found = indices
-        .into_par_iter()
+        .par_iter()
         .map(|index| {
-            trial(stratum, index)?.map(|trial| compare(&trial)).transpose()
+            let found = trial(stratum, *index)
+                .and_then(|trial| trial.as_ref().map(compare).transpose());
+            match found {
+                Err(EngineError::Work(_)) => Ok(None),
+                found => found,
+            }
         })
         .collect::<Result<Vec<_>, _>>()?;
     Ok(found.into_iter().flatten().collect())

@@ -3,13 +3,12 @@
 use crate::integrator::coast::{Coast, coast};
 use crate::integrator::driver::{Driver, Flight, Motion, Stage, Step};
 use crate::integrator::dynamics::Overturning;
-use crate::integrator::forcing::{Forcing, Place, Silence};
+use crate::integrator::forcing::{Forcing, Ground, Place};
 use crate::integrator::taylor::{Series, value};
 use crate::integrator::{HistoryPoint, Outcome, Response, Side};
 use crate::number::Real;
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
-    Driver<N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -124,12 +123,9 @@ where
     /// History of the free motion after the excitation, stepped.
     #[inline(never)]
     pub(super) fn trace(&mut self, motion: Motion<N>, end_s: N) {
-        let silence = Silence::endless(end_s, self.dynamics.p);
-        let mut free = Driver::<N, _, HARD, 1, HARD>::new(
-            self.dynamics,
-            silence,
-            self.isa,
-        );
+        let silence = Ground::endless(end_s, self.dynamics.p);
+        let mut free =
+            Driver::<N, _, HARD, HARD>::new(self.dynamics, silence, self.isa);
         free.events = true;
         free.interval_s = self.interval_s;
         free.limit = self.limit;
@@ -146,7 +142,7 @@ where
             at_threshold: false,
         });
         while let Stage::Flying(step) = stage {
-            stage = free.proceed(step);
+            stage = free.proceed::<HARD>(step);
             if let Some(error) = free.refusal(&stage) {
                 self.record.exceeded = Some(error);
                 return;

@@ -20,8 +20,7 @@ pub(super) enum Event<N> {
     Impact(N),
     Overturning(N),
 }
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
-    Driver<N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
@@ -147,16 +146,16 @@ where
     /// of |theta| beyond it, less the rotation that counts; if the block
     /// never turns, its velocity there.
     #[inline(never)]
-    pub(super) fn margin_beyond(
+    pub(super) fn margin_beyond<const SIZE: usize>(
         &self,
         from: Place<N>,
         motion: Motion<N>,
     ) -> f64 {
-        self.isa.run(Beyond { driver: self, from, motion })
+        self.isa.run(Beyond::<_, _, SIZE, _, _> { driver: self, from, motion })
     }
 
     #[inline(always)]
-    pub(super) fn turning_beyond(
+    pub(super) fn turning_beyond<const SIZE: usize>(
         &self,
         from: Place<N>,
         motion: Motion<N>,
@@ -204,7 +203,7 @@ fn is_clear_of_base<N: Real>(
 
 /// The margin of an overturning, compiled for each instruction-set level.
 struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
-    driver: &'d Driver<N, G, SIZE, F, HARD>,
+    driver: &'d Driver<N, G, F, HARD>,
     from: Place<N>,
     motion: Motion<N>,
 }
@@ -219,34 +218,20 @@ where
 
     #[inline(always)]
     fn run(self) -> f64 {
-        self.driver.turning_beyond(self.from, self.motion)
+        self.driver.turning_beyond::<SIZE>(self.from, self.motion)
     }
 }
 
 /// Turning points of a step, compiled for each instruction-set level.
-struct Turning<
-    'd,
-    N,
-    G,
-    const LEN: usize,
-    const SIZE: usize,
-    const F: usize,
-    const HARD: usize,
-> {
-    driver: &'d mut Driver<N, G, SIZE, F, HARD>,
+struct Turning<'d, N, G, const LEN: usize, const F: usize, const HARD: usize> {
+    driver: &'d mut Driver<N, G, F, HARD>,
     series: &'d Series<N, LEN>,
     x: N,
     step: (Place<N>, N),
 }
 
-impl<
-    N,
-    G,
-    const LEN: usize,
-    const SIZE: usize,
-    const F: usize,
-    const HARD: usize,
-> Dispatched for Turning<'_, N, G, LEN, SIZE, F, HARD>
+impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Dispatched
+    for Turning<'_, N, G, LEN, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,

@@ -40,8 +40,7 @@ fn positive<N: Real>(x: N) -> Option<N> {
     (x > N::zero()).then_some(x)
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
-    Driver<N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,

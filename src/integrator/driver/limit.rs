@@ -26,8 +26,7 @@ impl<N: Real> Record<N> {
     }
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
-    Driver<N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,

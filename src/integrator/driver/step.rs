@@ -20,19 +20,20 @@ pub(super) enum Advance<N> {
     Reached,
     /// At an impact within it.
     Bounced,
+    /// Overturning within it: the step stands there.
+    Overturned,
     /// The flight ended in it.
     Ended(Flight<N>),
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize>
-    Driver<N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,
 {
     /// One step: to its end, or to the first event in it.
     #[inline(always)]
-    pub(super) fn advance(
+    pub(super) fn advance<const SIZE: usize>(
         &mut self,
         step: &mut Step<N>,
         length: N,
@@ -126,17 +127,8 @@ where
                 Some(Advance::Reached)
             }
             Event::Overturning(_) => {
-                let time_s = self.time_s(step.place);
-                let motion = Motion { side, u: end_u, w: end_w };
-                let margin = self.margin_beyond(step.place, motion);
-                if self.record.accuracy.is_some() {
-                    self.assess_beyond(step.place, motion);
-                }
-                Some(Advance::Ended(Flight::Overturned {
-                    time_s,
-                    side,
-                    margin,
-                }))
+                step.motion = Motion { side, u: end_u, w: end_w };
+                Some(Advance::Overturned)
             }
             Event::Impact(_) => {
                 let before = slope(v, x) / length;
@@ -146,6 +138,21 @@ where
                 )
             }
         }
+    }
+
+    /// The end of a flight whose step stands at its overturning.
+    #[inline(always)]
+    pub(super) fn overturned<const SIZE: usize>(
+        &mut self,
+        step: &Step<N>,
+    ) -> Flight<N> {
+        let Step { place, motion, .. } = *step;
+        let margin = self.margin_beyond::<SIZE>(place, motion);
+        if self.record.accuracy.is_some() {
+            self.assess_beyond(place, motion);
+        }
+        let time_s = self.time_s(place);
+        Flight::Overturned { time_s, side: motion.side, margin }
     }
 
     /// What a step's series leaves of the velocity: what the longest one
@@ -221,14 +228,14 @@ where
 }
 
 /// A hard step, compiled for each instruction-set level.
-struct Hard<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
-    driver: &'d mut Driver<N, G, SIZE, F, HARD>,
+struct Hard<'d, N, G, const F: usize, const HARD: usize> {
+    driver: &'d mut Driver<N, G, F, HARD>,
     step: &'d mut Step<N>,
     length: N,
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Dispatched
-    for Hard<'_, N, G, SIZE, F, HARD>
+impl<N, G, const F: usize, const HARD: usize> Dispatched
+    for Hard<'_, N, G, F, HARD>
 where
     N: Real,
     G: Forcing<N, F>,

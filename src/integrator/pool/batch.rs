@@ -161,11 +161,11 @@ impl Batch {
     }
 
     /// Takes up to eight lanes out of a line; those beyond have no meaning.
-    pub fn gather<'a, T, const LEN: usize>(
+    pub fn gather<'a, T>(
         &mut self,
         line: &mut Line,
         groups: &mut [Group<'a>; GROUPS],
-        slots: &mut [Option<Slot<'a, T, LEN>>],
+        slots: &mut [Option<Slot<'a, T>>],
     ) {
         (self.lanes, self.count) = line.take();
         let out = self;

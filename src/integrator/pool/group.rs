@@ -144,11 +144,7 @@ impl<'a> Group<'a> {
     /// Velocity below which a block that leaves the base in a lane need not
     /// be followed; not positive if there is none.
     #[inline(always)]
-    pub fn fastest<T, const LEN: usize>(
-        &mut self,
-        lane: usize,
-        slot: &mut Slot<'a, T, LEN>,
-    ) -> f64 {
+    pub fn fastest<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) -> f64 {
         if self.next[lane] <= self.shaken[lane] {
             return 0.0;
         }
@@ -161,11 +157,7 @@ impl<'a> Group<'a> {
 
     /// Gives a lane's motion back to its run.
     #[inline(always)]
-    pub fn release<T, const LEN: usize>(
-        &mut self,
-        lane: usize,
-        slot: &mut Slot<'a, T, LEN>,
-    ) {
+    pub fn release<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) {
         let steps = self.next[lane] - self.first[lane] + self.extra[lane];
         slot.driver.count_steps(steps);
         slot.driver.count_impacts(self.impacts[lane]);
@@ -188,11 +180,7 @@ impl<'a> Group<'a> {
 
     /// Takes a run in flight into a lane.
     #[inline(always)]
-    pub fn load<T, const LEN: usize>(
-        &mut self,
-        lane: usize,
-        slot: &mut Slot<'a, T, LEN>,
-    ) {
+    pub fn load<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) {
         let screen = *slot.driver.screen();
         let (driver, Stage::Flying(step)) = (&slot.driver, &slot.stage) else {
             return;

@@ -6,21 +6,20 @@ use crate::integrator::forcing::RecordForcing;
 use crate::number::dispatch::{Isa, Work};
 
 /// What drives a run.
-pub(super) type Run<'a, const LEN: usize> =
-    Driver<f64, RecordForcing<'a, f64>, LEN, 2, LONGEST>;
+pub(super) type Run<'a> = Driver<f64, RecordForcing<'a, f64>, 2, LONGEST>;
 
 /// A run in its slot.
-pub(super) struct Slot<'a, T, const LEN: usize> {
+pub(super) struct Slot<'a, T> {
     pub task: T,
-    pub driver: Run<'a, LEN>,
+    pub driver: Run<'a>,
     pub stage: Stage<f64>,
     /// What [`shaken`](Self::shaken) was last, and for which peak.
     shaken: usize,
     seen: f64,
 }
 
-impl<'a, T, const LEN: usize> Slot<'a, T, LEN> {
-    pub fn new(task: T, driver: Run<'a, LEN>, stage: Stage<f64>) -> Self {
+impl<'a, T> Slot<'a, T> {
+    pub fn new(task: T, driver: Run<'a>, stage: Stage<f64>) -> Self {
         Self { task, driver, stage, shaken: usize::MAX, seen: 0.0 }
     }
 
@@ -44,15 +43,16 @@ impl<'a, T, const LEN: usize> Slot<'a, T, LEN> {
         self.shaken as u64
     }
 
-    /// A step by the scalar driver.
-    pub fn advance(&mut self, step: Step<f64>, isa: Isa) {
-        self.stage = isa.run(Alone { driver: &mut self.driver, step });
+    /// A step by the scalar driver, by a series of `LEN` coefficients.
+    pub fn advance<const LEN: usize>(&mut self, step: Step<f64>, isa: Isa) {
+        let alone = Alone::<LEN> { driver: &mut self.driver, step };
+        self.stage = isa.run(alone);
     }
 }
 
 /// A step by the scalar driver.
 struct Alone<'r, 'a, const LEN: usize> {
-    driver: &'r mut Run<'a, LEN>,
+    driver: &'r mut Run<'a>,
     step: Step<f64>,
 }
 
@@ -61,6 +61,6 @@ impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
 
     #[inline(always)]
     fn run(self) -> Stage<f64> {
-        self.driver.proceed(self.step)
+        self.driver.proceed::<LEN>(self.step)
     }
 }

@@ -13,15 +13,43 @@ use crate::trials::{Finding, Reading, SHARES, Stratum, Summary, findings};
 struct Input {
     /// Stratum: `ordinary`, `extreme` or `grazing`.
     kind: String,
-    /// Number of scenes.
-    scenes: u64,
-    /// Index of the first.
-    first: u64,
+    /// Which scenes.
+    scenes: Scenes,
 }
 
-/// Findings by stratum, first index and number: wrong readings of the
-/// certificate need no run of their own.
-type Found = BTreeMap<(Stratum, u64, u64), Arc<Vec<Finding>>>;
+/// Which scenes of a stratum.
+#[derive(Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+enum Scenes {
+    /// Those from an index on.
+    Range {
+        /// Number of scenes.
+        count: u64,
+        /// Index of the first.
+        first: u64,
+    },
+    /// Those of these indices.
+    Chosen(Vec<u64>),
+}
+
+impl Scenes {
+    fn indices(self) -> Result<Vec<u64>, MethodError> {
+        match self {
+            Self::Chosen(indices) => Ok(indices),
+            Self::Range { count, first } => {
+                let end = first.checked_add(count).ok_or_else(|| {
+                    let what = format!("count {count} from {first}");
+                    MethodError::Input(format!("{what}: too many"))
+                })?;
+                Ok((first..end).collect())
+            }
+        }
+    }
+}
+
+/// Findings by stratum and indices: wrong readings of the certificate need no
+/// run of their own.
+type Found = BTreeMap<(Stratum, Vec<u64>), Arc<Vec<Finding>>>;
 
 static FOUND: Mutex<Found> = Mutex::new(BTreeMap::new());
 
@@ -33,7 +61,7 @@ pub(super) fn certificate(context: &Context) -> Result<Answer, MethodError> {
         let found = &input.kind;
         MethodError::Input(format!("kind `{found}`: expected one of {names}"))
     })?;
-    let found = all(stratum, input.first, input.scenes)?;
+    let found = all(stratum, input.scenes.indices()?)?;
     let summary = Summary::of(&found, Reading::named(context.wrong));
     let mut answer = Answer::default();
     for (name, count) in [
@@ -59,18 +87,14 @@ pub(super) fn certificate(context: &Context) -> Result<Answer, MethodError> {
 /// while they are made: a thread that waits there may take up another case.
 fn all(
     stratum: Stratum,
-    first: u64,
-    scenes: u64,
+    indices: Vec<u64>,
 ) -> Result<Arc<Vec<Finding>>, MethodError> {
     let lock = || FOUND.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = (stratum, first, scenes);
+    let key = (stratum, indices);
     if let Some(found) = lock().get(&key) {
         return Ok(Arc::clone(found));
     }
-    let end = first.checked_add(scenes).ok_or_else(|| {
-        MethodError::Input(format!("scenes {scenes} from {first}: too many"))
-    })?;
-    let found = Arc::new(findings(stratum, first..end)?);
+    let found = Arc::new(findings(stratum, &key.1)?);
     lock().insert(key, Arc::clone(&found));
     Ok(found)
 }

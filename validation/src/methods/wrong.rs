@@ -159,6 +159,7 @@ pub static WRONG_MODELS: &[WrongModel] = &[
     method("estimate-hundredth", "an error estimate 100 times too small"),
     method("without-branches", "no decision counts but the fate"),
     method("margin-infinity", "an overturned run is sure whatever its error"),
+    method("tenth-of-the-error", "every error a tenth of what it is"),
     method("hundredth-of-the-error", "every error a hundredth of what it is"),
     method(
         "f64-constants",

@@ -47,6 +47,8 @@ pub enum Reading {
     WithoutBranches,
     /// An overturned run is taken for infinitely far from the other fate.
     MarginInfinity,
+    /// Every error a tenth of what it is.
+    TenthOfTheError,
     /// Every error a hundredth of what it is.
     HundredthOfTheError,
 }
@@ -58,6 +60,7 @@ impl Reading {
         match name {
             Some("without-branches") => Self::WithoutBranches,
             Some("margin-infinity") => Self::MarginInfinity,
+            Some("tenth-of-the-error") => Self::TenthOfTheError,
             Some("hundredth-of-the-error") => Self::HundredthOfTheError,
             _ => Self::Whole,
         }
@@ -65,7 +68,11 @@ impl Reading {
 
     /// Factor on every error.
     fn factor(self) -> f64 {
-        if self == Self::HundredthOfTheError { 0.01 } else { 1.0 }
+        match self {
+            Self::TenthOfTheError => 0.1,
+            Self::HundredthOfTheError => 0.01,
+            Self::Whole | Self::WithoutBranches | Self::MarginInfinity => 1.0,
+        }
     }
 
     /// Whether the run may be relied on.

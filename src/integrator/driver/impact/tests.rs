@@ -8,7 +8,7 @@ use crate::number::dispatch::Isa;
 
 const ALPHA: f64 = 0.25;
 
-type Chattering = Driver<f64, PulseForcing<f64>, 4, 2, 4>;
+type Chattering = Driver<f64, PulseForcing<f64>, 2, 4>;
 
 /// A block under whatever pulse, whose peak so far is this.
 fn driver(model: Model, eta: f64, peak: f64) -> Chattering {

@@ -1,0 +1,265 @@
+//! Eight numbers in two registers of AVX2.
+//!
+//! As plain arrays they would be taken apart into single numbers: a sweep
+//! costs twice as much then, and takes a hundred times as long to compile.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::{Number, sin_cos_polynomials};
+
+/// Made only in work that runs at the level [`avx2`](super::avx2_wide):
+/// nothing outside `super` can name it. The lower four lanes come first.
+#[derive(Clone, Copy)]
+pub(super) struct Pair(__m256d, __m256d);
+
+/// All bits of a lane are set where it is true, none where it is false.
+#[derive(Clone, Copy)]
+pub(super) struct Mask(__m256d, __m256d);
+
+/// Instructions of the level.
+macro_rules! level {
+    ($call:expr) => {
+        // SAFETY: `Pair` exists only where the level was found.
+        unsafe { $call }
+    };
+}
+
+/// The same on both halves.
+macro_rules! both {
+    ($out:ident, |$x:ident| $call:expr, $a:expr) => {{
+        let $x = $a.0;
+        let low = level!($call);
+        let $x = $a.1;
+        $out(low, level!($call))
+    }};
+    ($out:ident, |$x:ident, $y:ident| $call:expr, $a:expr, $b:expr) => {{
+        let ($x, $y) = ($a.0, $b.0);
+        let low = level!($call);
+        let ($x, $y) = ($a.1, $b.1);
+        $out(low, level!($call))
+    }};
+}
+
+impl Add for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        both!(Pair, |x, y| _mm256_add_pd(x, y), self, other)
+    }
+}
+
+impl Sub for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        both!(Pair, |x, y| _mm256_sub_pd(x, y), self, other)
+    }
+}
+
+impl Mul for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        both!(Pair, |x, y| _mm256_mul_pd(x, y), self, other)
+    }
+}
+
+impl Div for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        both!(Pair, |x, y| _mm256_div_pd(x, y), self, other)
+    }
+}
+
+impl Neg for Pair {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        both!(Pair, |x| _mm256_xor_pd(x, _mm256_set1_pd(-0.0)), self)
+    }
+}
+
+impl Number for Pair {
+    const LANES: bool = true;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        let half = level!(_mm256_set1_pd(x));
+        Self(half, half)
+    }
+
+    #[inline(always)]
+    fn ratio(i: i32, j: i32) -> Self {
+        Self::from_f64(f64::ratio(i, j))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        level!(Self(
+            _mm256_fmadd_pd(self.0, b.0, c.0),
+            _mm256_fmadd_pd(self.1, b.1, c.1),
+        ))
+    }
+
+    #[inline(always)]
+    fn sin_cos_small(self) -> (Self, Self) {
+        sin_cos_polynomials(self)
+    }
+}
+
+impl Several for Pair {
+    type Truths = Mask;
+
+    #[inline(always)]
+    fn load(from: &Lanes) -> Self {
+        let place = from.0.as_ptr();
+        level!(Self(_mm256_loadu_pd(place), _mm256_loadu_pd(place.add(4)),))
+    }
+
+    #[inline(always)]
+    fn gather(from: [&f64; WIDTH]) -> Self {
+        let [a, b, c, d, e, f, g, h] = from;
+        level!({
+            let pair = |low, high| _mm_loadh_pd(_mm_load_sd(low), high);
+            let four = |a, b, c, d| {
+                let low = _mm256_castpd128_pd256(pair(a, b));
+                _mm256_insertf128_pd::<1>(low, pair(c, d))
+            };
+            Self(four(a, b, c, d), four(e, f, g, h))
+        })
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut Lanes) {
+        let place = to.0.as_mut_ptr();
+        level!({
+            _mm256_storeu_pd(place, self.0);
+            _mm256_storeu_pd(place.add(4), self.1);
+        });
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        both!(Pair, |x| _mm256_andnot_pd(_mm256_set1_pd(-0.0), x), self)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        both!(Pair, |x, y| _mm256_max_pd(x, y), self, other)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        both!(Pair, |x, y| _mm256_min_pd(x, y), self, other)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        both!(Pair, |x| _mm256_sqrt_pd(x), self)
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> Mask {
+        both!(Mask, |x, y| _mm256_cmp_pd::<_CMP_LT_OQ>(x, y), self, other)
+    }
+
+    #[inline(always)]
+    fn unlike(self, other: Self, third: Self) -> Mask {
+        let pair = both!(Pair, |x, y| _mm256_xor_pd(x, y), self, other);
+        let signs = both!(Pair, |x, y| _mm256_or_pd(x, y), pair, third);
+        both!(
+            Mask,
+            |x| {
+                let (zero, signs) =
+                    (_mm256_setzero_si256(), _mm256_castpd_si256(x));
+                _mm256_castsi256_pd(_mm256_cmpgt_epi64(zero, signs))
+            },
+            signs
+        )
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Mask {
+        both!(Mask, |x, y| _mm256_cmp_pd::<_CMP_LE_OQ>(x, y), self, other)
+    }
+
+    #[inline(always)]
+    fn equals(self, other: Self) -> Mask {
+        both!(Mask, |x, y| _mm256_cmp_pd::<_CMP_EQ_OQ>(x, y), self, other)
+    }
+}
+
+impl Truths<Pair> for Mask {
+    #[inline(always)]
+    fn of(bits: u8) -> Self {
+        level!({
+            let all = _mm256_set1_epi64x(i64::from(bits));
+            let half = |own| {
+                let set = _mm256_cmpeq_epi64(_mm256_and_si256(all, own), own);
+                _mm256_castsi256_pd(set)
+            };
+            Self(
+                half(_mm256_setr_epi64x(1, 2, 4, 8)),
+                half(_mm256_setr_epi64x(16, 32, 64, 128)),
+            )
+        })
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u8 {
+        let [low, high] =
+            level!([_mm256_movemask_pd(self.0), _mm256_movemask_pd(self.1)]);
+        (low | high << 4) as u8
+    }
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self::of(u8::MAX).but_not(self)
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        both!(Mask, |x, y| _mm256_and_pd(x, y), self, other)
+    }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        both!(Mask, |x, y| _mm256_or_pd(x, y), self, other)
+    }
+
+    #[inline(always)]
+    fn but_not(self, other: Self) -> Self {
+        both!(Mask, |x, y| _mm256_andnot_pd(y, x), self, other)
+    }
+
+    #[inline(always)]
+    fn select(self, yes: Pair, no: Pair) -> Pair {
+        level!(Pair(
+            _mm256_blendv_pd(no.0, yes.0, self.0),
+            _mm256_blendv_pd(no.1, yes.1, self.1),
+        ))
+    }
+
+    #[inline(always)]
+    fn count(self, counts: &mut [u64; WIDTH]) {
+        let place: *mut __m256i = counts.as_mut_ptr().cast();
+        level!({
+            for (half, mask) in [self.0, self.1].into_iter().enumerate() {
+                let place = place.add(half);
+                let before = _mm256_loadu_si256(place);
+                // A true lane is -1.
+                let mask = _mm256_castpd_si256(mask);
+                let after = _mm256_sub_epi64(before, mask);
+                _mm256_storeu_si256(place, after);
+            }
+        });
+    }
+}

@@ -1,0 +1,201 @@
+//! Eight numbers in one register of AVX-512.
+//!
+//! Compilers make such code of loops over arrays, too, but may take them
+//! apart again with the next change.
+
+use std::arch::x86_64::*;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::{Number, sin_cos_polynomials};
+
+/// Made only in work that runs at the level [`avx512`](super::avx512):
+/// nothing outside `super` can name it.
+#[derive(Clone, Copy)]
+pub(super) struct Eight(__m512d);
+
+/// A bit for each lane.
+#[derive(Clone, Copy)]
+pub(super) struct Bits(__mmask8);
+
+/// An instruction of the level.
+macro_rules! level {
+    ($call:expr) => {
+        // SAFETY: `Eight` exists only where the level was found.
+        unsafe { $call }
+    };
+}
+
+macro_rules! operators {
+    ($($operation:ident $method:ident $instruction:ident;)*) => {$(
+        impl $operation for Eight {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(level!($instruction(self.0, other.0)))
+            }
+        }
+    )*};
+}
+
+operators! {
+    Add add _mm512_add_pd;
+    Sub sub _mm512_sub_pd;
+    Mul mul _mm512_mul_pd;
+    Div div _mm512_div_pd;
+}
+
+impl Neg for Eight {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(level!(_mm512_xor_pd(self.0, _mm512_set1_pd(-0.0))))
+    }
+}
+
+impl Number for Eight {
+    const LANES: bool = true;
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        Self(level!(_mm512_set1_pd(x)))
+    }
+
+    #[inline(always)]
+    fn ratio(i: i32, j: i32) -> Self {
+        Self::from_f64(f64::ratio(i, j))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        Self(level!(_mm512_fmadd_pd(self.0, b.0, c.0)))
+    }
+
+    #[inline(always)]
+    fn sin_cos_small(self) -> (Self, Self) {
+        sin_cos_polynomials(self)
+    }
+}
+
+impl Several for Eight {
+    type Truths = Bits;
+
+    #[inline(always)]
+    fn load(from: &Lanes) -> Self {
+        Self(level!(_mm512_loadu_pd(from.0.as_ptr())))
+    }
+
+    #[inline(always)]
+    fn gather(from: [&f64; WIDTH]) -> Self {
+        let [a, b, c, d, e, f, g, h] = from;
+        // Fewer steps than what compilers make of single numbers.
+        level!({
+            let pair = |low, high| _mm_loadh_pd(_mm_load_sd(low), high);
+            let four = |a, b, c, d| {
+                let low = _mm256_castpd128_pd256(pair(a, b));
+                _mm256_insertf128_pd::<1>(low, pair(c, d))
+            };
+            let low = _mm512_castpd256_pd512(four(a, b, c, d));
+            Self(_mm512_insertf64x4::<1>(low, four(e, f, g, h)))
+        })
+    }
+
+    #[inline(always)]
+    fn store(self, to: &mut Lanes) {
+        level!(_mm512_storeu_pd(to.0.as_mut_ptr(), self.0));
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(level!(_mm512_abs_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(level!(_mm512_max_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self(level!(_mm512_min_pd(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(level!(_mm512_sqrt_pd(self.0)))
+    }
+
+    #[inline(always)]
+    fn below(self, other: Self) -> Bits {
+        Bits(level!(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn unlike(self, other: Self, third: Self) -> Bits {
+        Bits(level!({
+            let pair = _mm512_xor_pd(self.0, other.0);
+            let signs = _mm512_or_pd(pair, third.0);
+            _mm512_movepi64_mask(_mm512_castpd_si512(signs))
+        }))
+    }
+
+    #[inline(always)]
+    fn at_most(self, other: Self) -> Bits {
+        Bits(level!(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0)))
+    }
+
+    #[inline(always)]
+    fn equals(self, other: Self) -> Bits {
+        Bits(level!(_mm512_cmp_pd_mask::<_CMP_EQ_OQ>(self.0, other.0)))
+    }
+}
+
+impl Truths<Eight> for Bits {
+    #[inline(always)]
+    fn of(bits: u8) -> Self {
+        Self(bits)
+    }
+
+    #[inline(always)]
+    fn bits(self) -> u8 {
+        self.0
+    }
+
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(!self.0)
+    }
+
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    #[inline(always)]
+    fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    #[inline(always)]
+    fn but_not(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    #[inline(always)]
+    fn select(self, yes: Eight, no: Eight) -> Eight {
+        Eight(level!(_mm512_mask_blend_pd(self.0, no.0, yes.0)))
+    }
+
+    #[inline(always)]
+    fn count(self, counts: &mut [u64; WIDTH]) {
+        level!({
+            let place = counts.as_mut_ptr().cast();
+            let before = _mm512_loadu_epi64(place);
+            let one = _mm512_set1_epi64(1);
+            let after = _mm512_mask_add_epi64(before, self.0, before, one);
+            _mm512_storeu_epi64(place, after);
+        });
+    }
+}

@@ -2,7 +2,7 @@
 
 use crate::integrator::ImpactError;
 use crate::integrator::accuracy::{Accuracy, Flown};
-use crate::integrator::certificate::{CLEARANCE, Decision};
+use crate::integrator::certificate::{CLEARANCE, Decision, LARGEST_ERROR};
 use crate::integrator::coast::{gap, gap_gradient};
 use crate::integrator::driver::events::next_turning;
 use crate::integrator::driver::impact::Chatter;
@@ -319,7 +319,8 @@ where
     }
 
     /// Largest ratio of the rotation beyond its limit to the error there,
-    /// until the block turns.
+    /// until the block turns, has fallen as far as gravity drives it, or its
+    /// error is no longer small.
     fn clearance_beyond(
         &self,
         from: Place<N>,
@@ -327,6 +328,8 @@ where
         mut tracker: Accuracy,
     ) -> f64 {
         let limit = self.dynamics.limit;
+        let small = LARGEST_ERROR * self.dynamics.alpha.to_f64();
+        let below = N::right_angle() + N::right_angle();
         let Motion { side, mut u, mut w } = motion;
         let Place { mut piece, mut offset } = from;
         let mut best = 0.0;
@@ -346,9 +349,14 @@ where
             let mut v = series.v;
             let turning = next_turning(&mut v, N::one(), self.isa);
             let top = turning.map_or(u, |(x, _)| value(&series.c, x));
-            let ratio = (top - limit).to_f64() / tracker.error();
+            let error = tracker.error();
+            if !(error <= small) {
+                return best;
+            }
+            let ratio = (top - limit).to_f64() / error;
             best = if ratio > best { ratio } else { best };
-            if !(best < FAR_BEYOND) || !(w > N::zero()) {
+            let falls = w > N::zero() && u < below;
+            if !(best < FAR_BEYOND) || !falls {
                 return best;
             }
             (piece, offset) = if whole {

@@ -16,7 +16,7 @@ use rocking::integrator::{
 };
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
-use rocking_validation::curves::Way;
+use rocking_validation::curves::Execution;
 use rocking_validation::speed::cases::{self, Case};
 use rocking_validation::speed::throughput::{analyses, samples_of};
 use rocking_validation::study::grid::blocks;
@@ -50,8 +50,9 @@ fn ida(
 ) {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.expect("threads");
-    let run =
-        || pool.install(|| Way::default().curves(records, analyses, &|| ()));
+    let run = || {
+        pool.install(|| Execution::default().curves(records, analyses, &|| ()))
+    };
     let once = run().expect("curves");
     let count: u64 =
         once.iter().flatten().map(|c| c.analyses).fold(0, u64::saturating_add);
@@ -130,7 +131,7 @@ fn kernel(bencher: Bencher, equation: &str) {
         )
     };
     let one = [analysis];
-    let lanes = Way::default();
+    let lanes = Execution::default();
     let once = lanes.curves(&records, &one, &|| ()).expect("curves");
     let steps = samples_of(&records, &one, &once).expect("steps");
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();

@@ -1,13 +1,13 @@
 //! What moves the ground: a scaled record or an analytic pulse.
 
 mod pulse;
-mod rest_index;
+mod record_index;
 
 pub(crate) use pulse::Shape;
 
 pub use pulse::{Pulse, PulseError, PulseKind};
-pub use rest_index::RestIndex;
-pub(crate) use rest_index::{Left, RUN, Window};
+pub use record_index::RecordIndex;
+pub(crate) use record_index::{RUN, Remaining, Window};
 
 use crate::number::Number;
 use crate::record::{Accelerogram, AccelerogramError};
@@ -37,7 +37,7 @@ pub struct ScaledRecord<'a> {
     /// What every sample is to be divided by: 1, or gravity in m/s2. Kept
     /// apart because the quotient is rounded in the precision of the run.
     divisor: f64,
-    index: Option<&'a RestIndex>,
+    index: Option<&'a RecordIndex>,
 }
 
 impl<'a> ScaledRecord<'a> {
@@ -111,7 +111,7 @@ impl<'a> ScaledRecord<'a> {
 
     /// Index of the samples, where one was made.
     #[must_use]
-    pub fn index(&self) -> Option<&'a RestIndex> {
+    pub fn index(&self) -> Option<&'a RecordIndex> {
         self.index
     }
 
@@ -147,7 +147,7 @@ pub struct NormalisedRecord {
     dt_s: f64,
     pga_g: f64,
     pgv_g_s: f64,
-    index: RestIndex,
+    index: RecordIndex,
 }
 
 impl NormalisedRecord {
@@ -159,7 +159,7 @@ impl NormalisedRecord {
         let samples: Vec<f64> =
             record.samples_g().iter().map(|a| a / unit).collect();
         Self {
-            index: RestIndex::new(&samples),
+            index: RecordIndex::new(&samples),
             name: record.name().to_owned(),
             samples,
             dt_s: record.dt_s(),

@@ -52,7 +52,7 @@
 //! if eta M + (1 - eta) V <= S, so do all that follow, for every impact leaves
 //! less than S.
 
-use crate::excitation::Left;
+use crate::excitation::Remaining;
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::Remainder;
 use crate::number::Real;
@@ -133,7 +133,7 @@ impl<N: Real> Barrier<N> {
     /// reaches its peak again, with that much left of the excitation; not
     /// positive if there is none.
     #[inline(always)]
-    pub fn fastest(&self, dynamics: &Dynamics<N>, left: Left<N>) -> N {
+    pub fn fastest(&self, dynamics: &Dynamics<N>, left: Remaining<N>) -> N {
         self.square(dynamics, left).positive_part().sqrt() - left.speed
     }
 
@@ -142,15 +142,15 @@ impl<N: Real> Barrier<N> {
     pub fn is_above_rest(
         &self,
         dynamics: &Dynamics<N>,
-        left: Left<N>,
+        left: Remaining<N>,
     ) -> bool {
         left.speed * left.speed < self.square(dynamics, left)
     }
 
     /// Twice the energy below which it does not.
     #[inline(always)]
-    fn square(&self, dynamics: &Dynamics<N>, left: Left<N>) -> N {
-        let Left { speed, travel } = left;
+    fn square(&self, dynamics: &Dynamics<N>, left: Remaining<N>) -> N {
+        let Remaining { speed, travel } = left;
         let twice = N::from_f64(2.0 * SURELY);
         let most = self.speed * (self.speed + speed);
         let rate = twice * (dynamics.alpha * most + lean(dynamics));

@@ -24,9 +24,8 @@ use crate::number::Real;
 use crate::number::dispatch::Isa;
 use step::Advance;
 
-/// Truncation allowed in a step, in roundoffs of the velocity and of what the
-/// slenderness angle's own acceleration changes in it: what rounding does
-/// anyway.
+/// Truncation error allowed in a step, in units of roundoff times
+/// (|w| + alpha h): what rounding does anyway.
 const TRUNCATION_SHARE: f64 = 0.5;
 
 /// Truncation allowed in a step, as a share of the velocity.
@@ -103,7 +102,7 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     /// Nothing but outcome and peak is asked for.
     ends_early: bool,
     /// First piece in which it is asked whether that matters.
-    look_from: usize,
+    exit_from: usize,
 }
 
 /// How a flight through the excitation ended.
@@ -161,7 +160,7 @@ where
             screen: None,
             barrier: None,
             ends_early: false,
-            look_from: 0,
+            exit_from: 0,
         }
     }
 
@@ -254,8 +253,8 @@ where
 
     /// First piece in which it is asked whether what is left matters.
     #[inline(always)]
-    pub fn look_from(&self) -> u64 {
-        self.look_from as u64
+    pub fn exit_from(&self) -> u64 {
+        self.exit_from as u64
     }
 
     /// Counts steps taken elsewhere.

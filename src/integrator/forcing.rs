@@ -6,7 +6,7 @@ mod remainder;
 mod shape;
 mod stretch;
 
-use crate::excitation::{Pulse, RestIndex, ScaledRecord};
+use crate::excitation::{Pulse, RecordIndex, ScaledRecord};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
@@ -116,7 +116,7 @@ pub(crate) fn steps_of(length: f64) -> usize {
 #[derive(Clone, Copy)]
 pub(crate) struct RecordForcing<'a, N> {
     record: ScaledRecord<'a>,
-    index: &'a RestIndex,
+    index: &'a RecordIndex,
     factor: N,
     length: N,
     inverse: N,
@@ -126,7 +126,7 @@ pub(crate) struct RecordForcing<'a, N> {
 impl<'a, N: Real> RecordForcing<'a, N> {
     pub fn new(
         record: ScaledRecord<'a>,
-        index: &'a RestIndex,
+        index: &'a RecordIndex,
         frequency_rad_s: f64,
     ) -> Self {
         let length = N::from_f64(record.dt_s()) * N::from_f64(frequency_rad_s);

@@ -19,12 +19,12 @@ use crate::integrator::driver::{Driver, Flight, Stage};
 use crate::integrator::dynamics::{Dynamics, Model};
 use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene, WorkLimit};
-use crate::number::dispatch::{Isa, WideWork};
-use crate::number::lanes::{Several, WIDTH};
+use crate::number::dispatch::{Isa, WithSimd};
+use crate::number::lanes::{Simd, WIDTH};
 use batch::{Batch, Solved};
 use group::Group;
 use slot::Slot;
-use waiting::{Kind, Lane, Line, Waiting};
+use waiting::{Kind, Lane, Queue, Waiting};
 
 /// All lanes.
 type Groups<'a> = [Group<'a>; GROUPS];
@@ -63,8 +63,8 @@ pub(crate) fn class_of(
     (steps_of(length) == 1).then(|| Class::of(model, length, order))
 }
 
-/// Work of a pool: what its screens do not tell costs more than it should,
-/// and changes nothing else.
+/// Counters of the lane engine. A screen that is too cautious only costs
+/// time; these counters show it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Tally {
     /// Steps of all groups together.
@@ -131,7 +131,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
     fn run(mut self) -> Tally {
         let (model, isa) = (self.class.model(), self.isa);
         let mut groups = std::array::from_fn(|_| Group::idle());
-        let mut waiting = Waiting { lines: [Line::EMPTY; 3] };
+        let mut waiting = Waiting { queues: [Queue::EMPTY; 3] };
         let mut batch = Batch::empty();
         let mut solved = Solved::nothing();
         // A response may give the source something to do.
@@ -152,10 +152,12 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             self.tally.sweeps += 1;
             // Few runs do not wait for many of a kind.
             let most = if moved { (self.busy / 4).max(1) } else { 1 };
-            for kind in [Kind::Hard, Kind::Events, Kind::Both] {
+            for kind in
+                [Kind::LongSeries, Kind::Roots, Kind::LongSeriesAndRoots]
+            {
                 let enough = kind.worth().min(most);
-                while waiting.line(kind).count >= enough {
-                    let line = waiting.line(kind);
+                while waiting.queue(kind).count >= enough {
+                    let line = waiting.queue(kind);
                     batch.gather(line, &mut groups, &mut self.slots);
                     let done = isa.run_wide(Solve::<LEN, HARD> {
                         model,
@@ -278,7 +280,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             }
             if solved.hard & bit != 0 {
                 self.tally.passed += 1;
-                waiting.line(Kind::Both).push(id);
+                waiting.queue(Kind::LongSeriesAndRoots).push(id);
                 continue;
             }
             self.tally.solved += 1;
@@ -291,7 +293,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 let (u, tau) = (solved.top[i], solved.turn[i]);
                 slot.driver.raise_peak(u, place, tau);
                 group.peak[lane] = slot.driver.peak();
-                group.shaken[lane] = slot.driver.look_from();
+                group.exit_from[lane] = slot.driver.exit_from();
             }
             group.u[lane] = solved.u[i];
             group.w[lane] = solved.w[i];
@@ -339,11 +341,11 @@ struct Sweep<'g, 'a, const LEN: usize> {
     waiting: &'g mut Waiting,
 }
 
-impl<const LEN: usize> WideWork for Sweep<'_, '_, LEN> {
+impl<const LEN: usize> WithSimd for Sweep<'_, '_, LEN> {
     type Output = bool;
 
     #[inline(always)]
-    fn run<V: Several>(self) -> bool {
+    fn run<V: Simd>(self) -> bool {
         match self.model {
             Model::Nonlinear => self.step::<V>(Model::Nonlinear),
             Model::Linearized => self.step::<V>(Model::Linearized),
@@ -354,7 +356,7 @@ impl<const LEN: usize> WideWork for Sweep<'_, '_, LEN> {
 impl<const LEN: usize> Sweep<'_, '_, LEN> {
     /// The model, a constant here, is not asked for in the loop.
     #[inline(always)]
-    fn step<V: Several>(self, model: Model) -> bool {
+    fn step<V: Simd>(self, model: Model) -> bool {
         let mut moved = false;
         let (mut stopped, mut hard) = ([0; GROUPS], [0; GROUPS]);
         for (k, group) in self.groups.iter_mut().enumerate() {
@@ -377,11 +379,11 @@ struct Land<'b> {
     solved: &'b mut Solved,
 }
 
-impl WideWork for Land<'_> {
+impl WithSimd for Land<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Several>(self) {
+    fn run<V: Simd>(self) {
         self.batch.land::<V>(self.model, self.solved);
     }
 }
@@ -395,25 +397,25 @@ struct Solve<'b, const LEN: usize, const HARD: usize> {
     solved: &'b mut Solved,
 }
 
-impl<const LEN: usize, const HARD: usize> WideWork for Solve<'_, LEN, HARD> {
+impl<const LEN: usize, const HARD: usize> WithSimd for Solve<'_, LEN, HARD> {
     type Output = ();
 
     #[inline(always)]
-    fn run<V: Several>(self) {
+    fn run<V: Simd>(self) {
         let Self { model, kind, tolerance, batch, solved } = self;
         match kind {
-            Kind::Hard => {
+            Kind::LongSeries => {
                 batch.solve::<V, LEN, HARD, HARD, true>(
                     model, tolerance, solved,
                 );
             }
-            Kind::Both if HARD > LEN => {
+            Kind::LongSeriesAndRoots if HARD > LEN => {
                 batch.solve::<V, LEN, HARD, HARD, false>(
                     model, tolerance, solved,
                 );
             }
             // No lane waits for both where there is no longer series.
-            Kind::Events | Kind::Both => {
+            Kind::Roots | Kind::LongSeriesAndRoots => {
                 batch.solve::<V, LEN, HARD, LEN, false>(
                     model, tolerance, solved,
                 );

@@ -7,7 +7,7 @@
 
 use crate::integrator::taylor::{slope, value};
 use crate::number::Real;
-use crate::number::dispatch::{Isa, Work};
+use crate::number::dispatch::{Isa, Kernel};
 
 /// Depth at which a pair of roots that halving could not tell apart counts
 /// as contact without crossing: 48 in double precision, a few bits short of
@@ -76,7 +76,7 @@ struct Isolation<'c, N> {
     length: N,
 }
 
-impl<N: Real> Work for Isolation<'_, N> {
+impl<N: Real> Kernel for Isolation<'_, N> {
     type Output = Option<N>;
 
     #[inline(always)]

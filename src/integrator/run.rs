@@ -1,12 +1,12 @@
 //! One run of a scene: its driver, by the kind of excitation and the class.
 
-use crate::excitation::{Excitation, RestIndex};
+use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::{Ground, RecordForcing};
 use crate::integrator::{Observe, Order, Response, Scene, SceneError};
-use crate::number::dispatch::{Isa, Work as Dispatched};
+use crate::number::dispatch::{Isa, Kernel};
 
 /// How a scene is run.
 #[derive(Clone, Copy)]
@@ -27,10 +27,10 @@ pub(super) fn run(
 }
 
 /// Index of a record that brings none.
-pub(super) fn own_index(scene: &Scene<'_>) -> Option<RestIndex> {
+pub(super) fn own_index(scene: &Scene<'_>) -> Option<RecordIndex> {
     match scene.excitation {
         Excitation::Record(record) if record.index().is_none() => {
-            Some(RestIndex::new(record.samples()))
+            Some(RecordIndex::new(record.samples()))
         }
         Excitation::Record(_) | Excitation::Pulse(_) | Excitation::Free => {
             None
@@ -41,8 +41,8 @@ pub(super) fn own_index(scene: &Scene<'_>) -> Option<RestIndex> {
 /// The record's index, or its own; none without a record.
 pub(super) fn index_of<'a>(
     scene: &Scene<'a>,
-    own: Option<&'a RestIndex>,
-) -> Option<&'a RestIndex> {
+    own: Option<&'a RecordIndex>,
+) -> Option<&'a RecordIndex> {
     match scene.excitation {
         Excitation::Record(record) => record.index().or(own),
         Excitation::Pulse(_) | Excitation::Free => None,
@@ -53,11 +53,11 @@ pub(super) fn index_of<'a>(
 struct Run<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
-    index: Option<&'a RestIndex>,
+    index: Option<&'a RecordIndex>,
     method: Method,
 }
 
-impl Dispatched for Run<'_> {
+impl Kernel for Run<'_> {
     type Output = Result<Response, SceneError>;
 
     #[inline(always)]

@@ -18,7 +18,7 @@ mod avx512;
 
 #[cfg(not(target_arch = "x86_64"))]
 use crate::number::lanes::Lanes;
-use crate::number::lanes::Several;
+use crate::number::lanes::Simd;
 
 /// An instruction-set level that this machine was found to have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,7 +37,7 @@ enum Level {
 ///
 /// Everything that `run` calls on its hot path must be `#[inline(always)]`:
 /// code that is not inlined keeps the baseline instruction set.
-pub trait Work {
+pub trait Kernel {
     /// What the work gives.
     type Output;
 
@@ -47,12 +47,12 @@ pub trait Work {
 
 /// A piece of work that [`Isa::run_wide`] compiles once for each level, with
 /// the level's own numbers in lanes.
-pub(crate) trait WideWork {
+pub(crate) trait WithSimd {
     /// What the work gives.
     type Output;
 
     /// Does the work.
-    fn run<V: Several>(self) -> Self::Output;
+    fn run<V: Simd>(self) -> Self::Output;
 }
 
 impl Isa {
@@ -110,7 +110,7 @@ impl Isa {
 
     /// Runs `work` on one number at a time with this level's instructions.
     #[inline]
-    pub fn run<W: Work>(self, work: W) -> W::Output {
+    pub fn run<W: Kernel>(self, work: W) -> W::Output {
         match self.0 {
             Level::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]
@@ -123,7 +123,7 @@ impl Isa {
     /// Runs `work` on several numbers at once with this level's
     /// instructions; none where that [is not faster](Self::is_wide).
     #[inline]
-    pub(crate) fn run_wide<W: WideWork>(self, work: W) -> Option<W::Output> {
+    pub(crate) fn run_wide<W: WithSimd>(self, work: W) -> Option<W::Output> {
         match self.0 {
             #[cfg(not(target_arch = "x86_64"))]
             Level::Baseline => Some(work.run::<Lanes>()),
@@ -142,18 +142,18 @@ impl Isa {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2<W: Work>(work: W) -> W::Output {
+fn avx2<W: Kernel>(work: W) -> W::Output {
     work.run()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn avx2_wide<W: WideWork>(work: W) -> W::Output {
+fn avx2_wide<W: WithSimd>(work: W) -> W::Output {
     work.run::<avx2::Pair>()
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,avx512f,avx512vl,avx512dq")]
-fn avx512<W: WideWork>(work: W) -> W::Output {
+fn avx512<W: WithSimd>(work: W) -> W::Output {
     work.run::<avx512::Eight>()
 }

@@ -1,4 +1,4 @@
-//! Several numbers at once, operation by operation as one.
+//! Simd numbers at once, operation by operation as one.
 #![expect(
     clippy::needless_range_loop,
     reason = "comparisons by index become one instruction, by iterator not"
@@ -13,9 +13,9 @@ pub(crate) const WIDTH: usize = 8;
 
 /// Numbers in lanes, on which every operation acts one by one: each has the
 /// bits that it would have alone.
-pub(crate) trait Several: Number {
+pub(crate) trait Simd: Number {
     /// A truth in every lane.
-    type Truths: Truths<Self>;
+    type Mask: Mask<Self>;
 
     /// From memory.
     fn load(from: &Lanes) -> Self;
@@ -39,21 +39,21 @@ pub(crate) trait Several: Number {
     fn sqrt(self) -> Self;
 
     /// Lanes in which this is less than `other`.
-    fn below(self, other: Self) -> Self::Truths;
+    fn lt(self, other: Self) -> Self::Mask;
 
     /// Lanes in which this and `other` have different signs, or `third` has a
     /// negative one.
-    fn unlike(self, other: Self, third: Self) -> Self::Truths;
+    fn unlike(self, other: Self, third: Self) -> Self::Mask;
 
     /// Lanes in which this is at most `other`.
-    fn at_most(self, other: Self) -> Self::Truths;
+    fn le(self, other: Self) -> Self::Mask;
 
     /// Lanes in which this equals `other`.
-    fn equals(self, other: Self) -> Self::Truths;
+    fn eq(self, other: Self) -> Self::Mask;
 }
 
 /// A truth in every lane.
-pub(crate) trait Truths<N>: Copy {
+pub(crate) trait Mask<N>: Copy {
     /// True in the lanes whose bits are set.
     fn of(bits: u8) -> Self;
 
@@ -104,8 +104,8 @@ impl Lanes {
     }
 }
 
-impl Several for Lanes {
-    type Truths = Mask;
+impl Simd for Lanes {
+    type Mask = LaneMask;
 
     #[inline(always)]
     fn load(from: &Lanes) -> Self {
@@ -133,12 +133,12 @@ impl Several for Lanes {
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        other.below(self).select(self, other)
+        other.lt(self).select(self, other)
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        self.below(other).select(self, other)
+        self.lt(other).select(self, other)
     }
 
     #[inline(always)]
@@ -151,41 +151,41 @@ impl Several for Lanes {
     }
 
     #[inline(always)]
-    fn below(self, other: Self) -> Mask {
+    fn lt(self, other: Self) -> LaneMask {
         let mut out = [0; WIDTH];
         for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] < other.0[lane]);
         }
-        Mask(out)
+        LaneMask(out)
     }
 
     #[inline(always)]
-    fn unlike(self, other: Self, third: Self) -> Mask {
+    fn unlike(self, other: Self, third: Self) -> LaneMask {
         let mut out = [0; WIDTH];
         for lane in 0..WIDTH {
             let pair = self.0[lane].to_bits() ^ other.0[lane].to_bits();
             let signs = pair | third.0[lane].to_bits();
             out[lane] = ones((signs as i64) < 0);
         }
-        Mask(out)
+        LaneMask(out)
     }
 
     #[inline(always)]
-    fn at_most(self, other: Self) -> Mask {
+    fn le(self, other: Self) -> LaneMask {
         let mut out = [0; WIDTH];
         for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] <= other.0[lane]);
         }
-        Mask(out)
+        LaneMask(out)
     }
 
     #[inline(always)]
-    fn equals(self, other: Self) -> Mask {
+    fn eq(self, other: Self) -> LaneMask {
         let mut out = [0; WIDTH];
         for lane in 0..WIDTH {
             out[lane] = ones(self.0[lane] == other.0[lane]);
         }
-        Mask(out)
+        LaneMask(out)
     }
 }
 
@@ -197,9 +197,9 @@ fn ones(truth: bool) -> u64 {
 /// A truth in every lane, as all its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(align(64))]
-pub(crate) struct Mask([u64; WIDTH]);
+pub(crate) struct LaneMask([u64; WIDTH]);
 
-impl Truths<Lanes> for Mask {
+impl Mask<Lanes> for LaneMask {
     #[inline(always)]
     fn of(bits: u8) -> Self {
         let mut out = [0; WIDTH];

@@ -8,8 +8,8 @@ use super::{Fault, RecordError};
 pub(super) struct Text<'a> {
     file: &'a str,
     text: &'a str,
-    /// Byte at which each line begins, and the end of the last: of two
-    /// bytes that a line has at least, a slice would take sixteen.
+    /// Byte offset at which each line begins, and the end of the last line.
+    /// A `&str` per line would cost 16 bytes for lines as short as 2.
     starts: Vec<u32>,
     ended: bool,
 }

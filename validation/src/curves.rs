@@ -8,20 +8,20 @@ use rocking::number::dispatch::Isa;
 
 /// The way curves are made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum Execution {
     /// Chains in lanes, by instructions of this level.
     Lanes(Isa),
     /// One analysis at a time.
     OneByOne,
 }
 
-impl Default for Way {
+impl Default for Execution {
     fn default() -> Self {
         Self::Lanes(Isa::best())
     }
 }
 
-impl Way {
+impl Execution {
     /// The curves of every record under every analysis, as
     /// [`rocking::ida::curves`] gives them; `done` is called after each.
     ///

@@ -14,8 +14,8 @@ use zip::ZipArchive;
 /// The index in an archive as PEER's site delivers it.
 const SEARCH_RESULTS: &str = "_SearchResults.csv";
 
-/// How many times its size an archive may unpack to: records shrink to a
-/// third or a fourth, such with as many zeros again to a sixth.
+/// How many times its size an archive may unpack to. Real records compress
+/// by 3 to 4, zero-padded ones by up to 6.
 const LARGEST_RATIO: u64 = 6;
 
 /// What an archive of any size may unpack to, in bytes.

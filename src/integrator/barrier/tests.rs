@@ -1,6 +1,6 @@
 use super::{Barrier, Hop, least_potential};
 use crate::block::{Block, Restitution};
-use crate::excitation::RestIndex;
+use crate::excitation::RecordIndex;
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::forcing::Remainder;
 
@@ -84,7 +84,7 @@ fn growth(
 }
 
 /// The bound of a hop's gain holds under grounds of all periods and phases,
-/// and some hop comes near it: by less, it would not hold.
+/// and some hop comes close, so the bound cannot be tightened.
 #[test]
 fn no_hop_gains_more_than_its_bound() {
     let mut nearest = 0.0_f64;
@@ -162,7 +162,7 @@ fn what_the_ground_travels_until_the_calm_is_allowed_for() {
         size * libm::sin(0.05 * f64::from(k))
     };
     let samples: Vec<f64> = (0..6000).map(wave).collect();
-    let index = RestIndex::new(&samples);
+    let index = RecordIndex::new(&samples);
     let remainder = Remainder::new(&index, 0.01, 1.0);
     let mut barrier = Barrier::none();
     barrier.raise(0.12, &d, &remainder);

@@ -7,7 +7,7 @@ use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
-use crate::number::dispatch::{Isa, Work as Dispatched};
+use crate::number::dispatch::{Isa, Kernel};
 
 /// Pieces after a peak before it is asked whether what is left matters: most
 /// peaks are followed by a higher one, and the answer costs as much as some
@@ -132,7 +132,7 @@ where
         if u > self.record.peak {
             self.record.work.turning_points += 1;
             self.record.peak = u;
-            self.look_from = place.piece.saturating_add(PATIENCE);
+            self.exit_from = place.piece.saturating_add(PATIENCE);
             let offset = place.offset + tau;
             let time_s = self.time_s(Place { offset, ..place });
             self.record.peak_time_s = Some(time_s);
@@ -208,7 +208,7 @@ struct Beyond<'d, N, G, const SIZE: usize, const F: usize, const HARD: usize> {
     motion: Motion<N>,
 }
 
-impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Dispatched
+impl<N, G, const SIZE: usize, const F: usize, const HARD: usize> Kernel
     for Beyond<'_, N, G, SIZE, F, HARD>
 where
     N: Real,
@@ -230,7 +230,7 @@ struct Turning<'d, N, G, const LEN: usize, const F: usize, const HARD: usize> {
     step: (Place<N>, N),
 }
 
-impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Dispatched
+impl<N, G, const LEN: usize, const F: usize, const HARD: usize> Kernel
     for Turning<'_, N, G, LEN, F, HARD>
 where
     N: Real,

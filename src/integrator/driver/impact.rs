@@ -100,7 +100,7 @@ where
     /// and moves at `w` on the base.
     #[inline(always)]
     pub(super) fn is_settled(&mut self, piece: usize, w: N) -> bool {
-        if piece < self.look_from {
+        if piece < self.exit_from {
             return false;
         }
         self.see_peak();
@@ -145,7 +145,7 @@ where
     /// First piece from which on a block at rest need not be followed, looked
     /// for about a guess; the guess where that is not known.
     #[inline(always)]
-    pub fn calm_from(&self, guess: usize) -> usize {
+    pub fn first_exit(&self, guess: usize) -> usize {
         let first = || {
             let (barrier, remainder) =
                 (self.barrier.as_ref()?, self.forcing.remainder()?);

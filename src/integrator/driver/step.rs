@@ -7,7 +7,7 @@ use crate::integrator::driver::{Driver, Flight, Motion, Step};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::taylor::{Series, expand, slope, value};
-use crate::number::dispatch::Work as Dispatched;
+use crate::number::dispatch::Kernel;
 use crate::number::{Number, Real};
 
 /// Halvings of a step at most: 2^-12 of it is accepted as it is, and the
@@ -234,7 +234,7 @@ struct Hard<'d, N, G, const F: usize, const HARD: usize> {
     length: N,
 }
 
-impl<N, G, const F: usize, const HARD: usize> Dispatched
+impl<N, G, const F: usize, const HARD: usize> Kernel
     for Hard<'_, N, G, F, HARD>
 where
     N: Real,

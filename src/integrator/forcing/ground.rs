@@ -1,7 +1,7 @@
 //! Whatever moves the ground, or nothing, as one type: for runs in which the
 //! kind of excitation need not be known to the compiler.
 
-use crate::excitation::{Excitation, RestIndex};
+use crate::excitation::{Excitation, RecordIndex};
 use crate::integrator::Scene;
 use crate::integrator::forcing::{
     Exceedance, Forcing, LONGEST_STEP, Place, PulseForcing, RecordForcing,
@@ -22,7 +22,7 @@ pub(crate) enum Ground<'a, N> {
 
 impl<'a, N: Real> Ground<'a, N> {
     /// What moves the ground of a scene; a record comes with its index.
-    pub fn of(scene: &Scene<'a>, index: Option<&'a RestIndex>) -> Self {
+    pub fn of(scene: &Scene<'a>, index: Option<&'a RecordIndex>) -> Self {
         let p = scene.block.frequency_rad_s();
         match (scene.excitation, index) {
             (Excitation::Record(record), Some(index)) => {

@@ -1,12 +1,12 @@
 //! What is left of a record, in units of 1/p.
 
-use crate::excitation::{Left, RUN, RestIndex, Window};
+use crate::excitation::{RUN, RecordIndex, Remaining, Window};
 use crate::number::Real;
 
 /// What is left of a record from each of its pieces on.
 #[derive(Clone, Copy)]
 pub(crate) struct Remainder<'a, N> {
-    index: &'a RestIndex,
+    index: &'a RecordIndex,
     /// Length of a piece.
     length: N,
     /// Units of velocity and of places.
@@ -17,25 +17,25 @@ pub(crate) struct Remainder<'a, N> {
 impl<'a, N: Real> Remainder<'a, N> {
     /// Of a record with pieces of `length`, scaled by a factor.
     #[inline(always)]
-    pub fn new(index: &'a RestIndex, length: N, factor: N) -> Self {
+    pub fn new(index: &'a RecordIndex, length: N, factor: N) -> Self {
         let speed = factor.abs() * length;
         Self { index, length, speed, way: speed * length }
     }
 
     /// What is left from a piece on.
     #[inline(always)]
-    pub fn left(&self, piece: usize) -> Left<N> {
-        let Left { speed, travel } = self.index.left(piece);
-        Left {
+    pub fn left(&self, piece: usize) -> Remaining<N> {
+        let Remaining { speed, travel } = self.index.left(piece);
+        Remaining {
             speed: N::from_f64(speed) * self.speed,
             travel: N::from_f64(travel) * self.way,
         }
     }
 
-    /// The shortest window that holds whatever lasts that time.
+    /// Shortest tabulated window at least `time` (in 1/p) long.
     #[inline(always)]
     pub fn window(&self, time: N) -> Option<Window> {
-        RestIndex::window((time / self.length).to_f64())
+        RecordIndex::window((time / self.length).to_f64())
     }
 
     /// How far apart the ground's places within a window are at most, from a

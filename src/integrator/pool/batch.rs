@@ -10,11 +10,11 @@ use crate::integrator::pool::chatter::{Impacted, restoring};
 use crate::integrator::pool::group::Group;
 use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
-use crate::integrator::pool::waiting::{Lane, Line};
+use crate::integrator::pool::waiting::{Lane, Queue};
 use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
 use crate::integrator::screen::{LOW, Landing, Screen};
 use crate::integrator::taylor::{Series, expand, total, value};
-use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
 /// A bit for each lane of a batch.
 type Bits = u8;
@@ -110,21 +110,21 @@ impl Solved {
 }
 
 /// A turning point of a step.
-struct Turning<V: Several> {
+struct Turning<V: Simd> {
     /// There surely is one, after the part `x`.
-    found: V::Truths,
+    found: V::Mask,
     x: V,
     /// It takes more to tell.
-    unsure: V::Truths,
+    unsure: V::Mask,
 }
 
 /// The first impact of a step.
-struct FirstImpact<V: Several> {
+struct FirstImpact<V: Simd> {
     /// There surely is one, after the part `x`.
-    found: V::Truths,
+    found: V::Mask,
     x: V,
     /// It takes more to tell.
-    unsure: V::Truths,
+    unsure: V::Mask,
     /// Lower bound of the rotation.
     lowest: V,
 }
@@ -160,14 +160,14 @@ impl Batch {
         }
     }
 
-    /// Takes up to eight lanes out of a line; those beyond have no meaning.
+    /// Takes up to eight lanes out of a queue; those beyond have no meaning.
     pub fn gather<'a, T>(
         &mut self,
-        line: &mut Line,
+        queue: &mut Queue,
         groups: &mut [Group<'a>; GROUPS],
         slots: &mut [Option<Slot<'a, T>>],
     ) {
-        (self.lanes, self.count) = line.take();
+        (self.lanes, self.count) = queue.take();
         let out = self;
         let lanes = out.lanes;
         for (i, id) in lanes.iter().take(out.count).enumerate() {
@@ -199,13 +199,13 @@ impl Batch {
         }
     }
 
-    /// Solves the steps by series of `SIZE` coefficients, the class' own
-    /// being `LEN` and its longest `HARD`, truncated by at most `tolerance` as
-    /// a share of the velocity; nothing happens in them if they
-    /// are `FREE`.
+    /// Solves the steps by series of `SIZE` coefficients. The class' own
+    /// length is `LEN`, its longest `HARD`. The truncation error is at most
+    /// `tolerance` as a share of the velocity. `FREE` skips the search for
+    /// events: the caller knows that there is none.
     #[inline(always)]
     pub fn solve<
-        V: Several,
+        V: Simd,
         const LEN: usize,
         const HARD: usize,
         const SIZE: usize,
@@ -217,7 +217,7 @@ impl Batch {
         out: &mut Solved,
     ) {
         let zero = V::zero();
-        let (all, none) = (V::Truths::splat(true), V::Truths::splat(false));
+        let (all, none) = (V::Mask::splat(true), V::Mask::splat(false));
         let (u, w) = (V::load(&self.u), V::load(&self.w));
         let (here, ahead) = (V::load(&self.here), V::load(&self.ahead));
         let (whole, offset) = (V::load(&self.whole), V::load(&self.offset));
@@ -237,14 +237,14 @@ impl Batch {
             expand(model, (u, w), h, &drive, small);
         // Beyond it the driver takes other functions.
         let large = match model {
-            Model::Nonlinear => all.but_not(u.below(V::from_f64(SMALL))),
+            Model::Nonlinear => all.but_not(u.lt(V::from_f64(SMALL))),
             Model::Linearized => none,
         };
         let mut left = large;
         let (tolerance, alpha) =
             (V::from_f64(tolerance), V::load(&self.alpha));
         let allowed = tolerance * alpha.mul_add(h, w.abs());
-        let again = allowed.below(last_term(v[LEN - 1].abs(), h));
+        let again = allowed.lt(last_term(v[LEN - 1].abs(), h));
         let mut hard = none;
         if SIZE > LEN {
             // Where the class' own series is enough, it is it.
@@ -253,7 +253,7 @@ impl Batch {
                 v[k] = again.select(v[k], zero);
             }
             let last = last_term(v[SIZE - 1].abs(), h);
-            left = left.or(allowed.below(last));
+            left = left.or(allowed.lt(last));
         } else if LEN < HARD {
             hard = again;
         } else {
@@ -286,24 +286,24 @@ impl Batch {
         let end_w = impact.select(value(&v, x), total(&v));
         // One that sinks and rises is looked at where that may be near the
         // base.
-        let lowest = first.lowest.below(V::from_f64(LOW * SAFETY) * alpha);
-        let rises = w.below(zero).and(zero.below(end_w)).but_not(impact);
+        let lowest = first.lowest.lt(V::from_f64(LOW * SAFETY) * alpha);
+        let rises = w.lt(zero).and(zero.lt(end_w)).but_not(impact);
         left = left.or(rises.and(lowest));
 
         // The impact, and whether the motion comes to rest after it.
-        let fall = zero.below(-end_w);
+        let fall = zero.lt(-end_w);
         let eta = V::load(&self.eta);
         let w = eta * fall.select(-end_w, zero);
         let there = offset + x * h;
         let rest = whole - there;
         // Neither a step of no length nor an impact of no speed is one here.
-        let plain = there.below(whole).and(zero.below(w));
+        let plain = there.lt(whole).and(zero.lt(w));
         left = left.or(impact.but_not(plain));
         let top = value(&c, turning.x);
         let peak = V::load(&self.peak);
-        let raised = turning.found.and(peak.below(top));
+        let raised = turning.found.and(peak.lt(top));
         let peak = raised.select(top, peak);
-        let settled = w.below(V::load(&self.fastest)).but_not(raised);
+        let settled = w.lt(V::load(&self.fastest)).but_not(raised);
         out.settled = impact.and(settled).bits();
         let f = rate.mul_add(there, here);
         fall.select(-end_w, zero).store(&mut out.speed);
@@ -337,7 +337,7 @@ impl Batch {
 
     /// The rough certificates after the impacts of what was solved.
     #[inline(always)]
-    pub fn land<V: Several>(&self, model: Model, out: &mut Solved) {
+    pub fn land<V: Simd>(&self, model: Model, out: &mut Solved) {
         let (threshold, cosine) =
             (V::load(&self.threshold), V::load(&self.cosine));
         let f = V::load(&out.f);
@@ -366,7 +366,7 @@ impl Batch {
 
     /// The first impact, as the driver and its root finder see it.
     #[inline(always)]
-    fn first_impact<V: Several, const SIZE: usize>(
+    fn first_impact<V: Simd, const SIZE: usize>(
         &self,
         c: &[V; SIZE],
     ) -> FirstImpact<V> {
@@ -375,13 +375,13 @@ impl Batch {
         for k in (2..SIZE).rev() {
             rest = rest + c[k].abs();
         }
-        let falling = c[1].below(zero);
+        let falling = c[1].lt(zero);
         let down = falling.select(c[1], zero);
         let up = falling.select(zero, c[1]);
-        let at_base = c[0].equals(zero);
+        let at_base = c[0].eq(zero);
         let clear_of_base =
-            rest.below(c[0] + down).or(at_base.and(rest.below(c[1])));
-        let clear_of_limit = (c[0] + up + rest).below(V::load(&self.limit));
+            rest.lt(c[0] + down).or(at_base.and(rest.lt(c[1])));
+        let clear_of_limit = (c[0] + up + rest).lt(V::load(&self.limit));
 
         // A start on the base is divided out.
         let mut q = *c;
@@ -396,14 +396,14 @@ impl Batch {
         let x = refine(&q, one, found);
         // At the vertex of the first three terms, if they have one.
         let vertex = c[1] * c[1] / c[2] * V::from_f64(0.25 * SAFETY);
-        let drop = zero.below(c[2]).select(vertex.min(-down), -down);
+        let drop = zero.lt(c[2]).select(vertex.min(-down), -down);
         let lowest = c[0] - drop - (rest - c[2].abs());
         FirstImpact { found, x, unsure: sure.not(), lowest }
     }
 
     /// A turning point in the part (0, `x`) that may be above the peak.
     #[inline(always)]
-    fn turning<V: Several, const SIZE: usize>(
+    fn turning<V: Simd, const SIZE: usize>(
         &self,
         c: &[V; SIZE],
         v: &[V; SIZE],
@@ -417,16 +417,16 @@ impl Batch {
             }
             variation = variation.mul_add(x, v[k].abs());
         }
-        let rise = zero.below(c[1]).select(c[1] * x, zero);
+        let rise = zero.lt(c[1]).select(c[1] * x, zero);
         let high = c[0] + rise + rest * x * x;
         let may = V::load(&self.peak)
-            .below(high)
-            .but_not((variation * x).below(v[0].abs()));
+            .lt(high)
+            .but_not((variation * x).lt(v[0].abs()));
         if !may.any() {
             return Turning { found: may, x: zero, unsure: may };
         }
         // Only a velocity that falls all the way turns just once.
-        let sinking = v[0].below(zero);
+        let sinking = v[0].lt(zero);
         let mut q = *v;
         for k in 0..SIZE {
             q[k] = sinking.select(-v[k], v[k]);
@@ -434,7 +434,7 @@ impl Batch {
         let descent = descent(&q, x);
         let found = may.and(descent.one).but_not(sinking);
         let turn = refine(v, x, found);
-        let found = found.and(turn.below(x));
+        let found = found.and(turn.lt(x));
         // One that sinks may turn upwards, and if so does not turn back.
         let none = descent.none.or(found).or(sinking.and(descent.falls));
         Turning { found, x: turn, unsure: may.but_not(none) }

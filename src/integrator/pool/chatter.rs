@@ -2,7 +2,7 @@
 //! the same order.
 
 use crate::integrator::dynamics::Model;
-use crate::number::lanes::{Several, Truths};
+use crate::number::lanes::{Mask, Simd};
 
 /// Blocks just after an impact.
 pub(super) struct Impacted<V> {
@@ -21,42 +21,42 @@ pub(super) struct Impacted<V> {
     pub peak: V,
 }
 
-impl<V: Several> Impacted<V> {
+impl<V: Simd> Impacted<V> {
     /// The blocks of `which` whose impacts provably accumulate within the
     /// sample, and the time in which they do.
     #[inline(always)]
-    pub fn come_to_rest(&self, which: V::Truths) -> (V::Truths, V) {
+    pub fn come_to_rest(&self, which: V::Mask) -> (V::Mask, V) {
         let (zero, one) = (V::zero(), V::one());
         let Self { eta, f, rate, w, left, .. } = *self;
         let size = f.abs();
         let guess = (w + w) / (self.restoring(-size) * (one - eta));
         let may = which
-            .and(zero.below(self.threshold - size))
-            .and(eta.below(one))
-            .and(guess.below(left));
+            .and(zero.lt(self.threshold - size))
+            .and(eta.lt(one))
+            .and(guess.lt(left));
         if !may.any() {
             return (may, zero);
         }
         let two = V::ratio(2, 1);
         let window = two * guess;
-        let window = window.below(left).select(window, left);
+        let window = window.lt(left).select(window, left);
         let drift = rate.abs() * window;
         let least = self.restoring(-(size + drift));
-        let ends = may.and(zero.below(least));
+        let ends = may.and(zero.lt(least));
         let rise = w * w / least;
         let push = (one + self.threshold) * (rise + rise);
         let least = least - push;
-        let ends = ends.and(zero.below(least));
+        let ends = ends.and(zero.lt(least));
         let here = self.unevenness(f, drift, push);
         let there = self.unevenness(-f, drift, push);
-        let worst = there.below(here).select(here, there);
+        let worst = there.lt(here).select(here, there);
         let decay = eta * worst.sqrt();
         let bound = two * w * worst.sqrt() / (least * (one - decay));
         let top = w * w / (two * least) * worst;
         let ends = ends
-            .and(decay.below(one))
-            .and(bound.below(window))
-            .and(top.below(self.peak));
+            .and(decay.lt(one))
+            .and(bound.lt(window))
+            .and(top.lt(self.peak));
         let (up, down) = (self.restoring(f), self.restoring(-f));
         let hops = one / up + eta / down;
         (ends, two * w * hops / (one - eta * eta))
@@ -79,7 +79,7 @@ impl<V: Several> Impacted<V> {
 
 /// Downward acceleration at the base under forcing `f`.
 #[inline(always)]
-pub(super) fn restoring<V: Several>(
+pub(super) fn restoring<V: Simd>(
     model: Model,
     threshold: V,
     cosine: V,

@@ -8,7 +8,7 @@ use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
 use crate::integrator::screen::{LOW, Screen};
 use crate::integrator::taylor::{Series, expand};
-use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
 /// Share of its start above which a rotation that sinks surely ends above the
 /// base.
@@ -63,8 +63,8 @@ pub(super) struct Group<'a> {
     pub impacts: [u64; WIDTH],
     /// Impacts here beyond which the run is refused.
     pub most: [u64; WIDTH],
-    /// Sample up to which no impact is taken for the last that matters.
-    pub shaken: [u64; WIDTH],
+    /// First sample from which the early-exit test is worth asking.
+    pub exit_from: [u64; WIDTH],
     /// Lanes that fly; the others are empty or wait.
     active: u8,
 }
@@ -111,7 +111,7 @@ impl<'a> Group<'a> {
             extra: [0; WIDTH],
             impacts: [0; WIDTH],
             most: [0; WIDTH],
-            shaken: [0; WIDTH],
+            exit_from: [0; WIDTH],
             active: 0,
         }
     }
@@ -145,11 +145,11 @@ impl<'a> Group<'a> {
     /// be followed; not positive if there is none.
     #[inline(always)]
     pub fn fastest<T>(&mut self, lane: usize, slot: &mut Slot<'a, T>) -> f64 {
-        if self.next[lane] <= self.shaken[lane] {
+        if self.next[lane] <= self.exit_from[lane] {
             return 0.0;
         }
-        self.shaken[lane] = slot.shaken();
-        if self.next[lane] <= self.shaken[lane] {
+        self.exit_from[lane] = slot.exit_from();
+        if self.next[lane] <= self.exit_from[lane] {
             return 0.0;
         }
         slot.driver.fastest(self.piece(lane))
@@ -205,7 +205,7 @@ impl<'a> Group<'a> {
         self.first[lane] = piece as u64 + 1;
         (self.extra[lane], self.impacts[lane]) = (0, 0);
         self.most[lane] = driver.impacts_left();
-        self.shaken[lane] = driver.look_from();
+        self.exit_from[lane] = driver.exit_from();
         self.last[lane] = driver.last_allowed(h) / SAFETY;
         self.least[lane] = dynamics.alpha * h;
         let ceiling = dynamics.limit.min(SMALL);
@@ -225,10 +225,7 @@ impl<'a> Group<'a> {
     /// One step, to the end of the sample, in every lane that is clear of
     /// events.
     #[inline(always)]
-    pub fn step<V: Several, const LEN: usize>(
-        &mut self,
-        model: Model,
-    ) -> Parked {
+    pub fn step<V: Simd, const LEN: usize>(&mut self, model: Model) -> Parked {
         let ahead = V::gather(std::array::from_fn(|lane| {
             let sample = self.samples[lane].get(self.next[lane] as usize);
             sample.unwrap_or(&f64::NAN)
@@ -251,8 +248,8 @@ impl<'a> Group<'a> {
         let end = series.end();
         let free = self.free_of_events(forcing, ahead, h, end);
         let size = w.abs() + V::load(&self.least);
-        let enough = series.v[LEN - 1].abs().below(V::load(&self.last) * size);
-        let active = V::Truths::of(self.active);
+        let enough = series.v[LEN - 1].abs().lt(V::load(&self.last) * size);
+        let active = V::Mask::of(self.active);
         let clear = active.and(free).and(enough);
         clear.select(end.0, u).store(&mut self.u);
         clear.select(end.1, w).store(&mut self.w);
@@ -273,13 +270,13 @@ impl<'a> Group<'a> {
     /// below N, so does the velocity within N h^2/8. (Eq. 2 has less of
     /// either.) Were the limit passed, M would grow by less than is passed.
     #[inline(always)]
-    fn free_of_events<V: Several>(
+    fn free_of_events<V: Simd>(
         &self,
         [f, rate]: [V; 2],
         ahead: V,
         h: V,
         end: (V, V),
-    ) -> V::Truths {
+    ) -> V::Mask {
         let (u, w) = (V::load(&self.u), V::load(&self.w));
         let eighth = h * V::from_f64(0.125 * SAFETY);
         // Linear in time, so largest at an end.
@@ -295,15 +292,15 @@ impl<'a> Group<'a> {
 
         // A start below the base is not free.
         let turns = w.unlike(end.1, u);
-        let goes_on = bow.below(speed.min(end.1.abs())).but_not(turns);
+        let goes_on = bow.lt(speed.min(end.1.abs())).but_not(turns);
         // By more than the root finder's rounding.
-        let stays = (u * V::from_f64(STAYS)).below(end.0);
+        let stays = (u * V::from_f64(STAYS)).lt(end.0);
         // Nor low enough for its lowest rotation to decide anything.
         let low = sag + V::load(&self.low);
-        let above_base = low.below(u.min(end.0)).or(goes_on.and(stays));
+        let above_base = low.lt(u.min(end.0)).or(goes_on.and(stays));
         let top = u.max(end.0) + sag;
-        let below_limit = top.below(V::load(&self.ceiling));
-        let below_peak = top.below(V::load(&self.peak)).or(goes_on);
+        let below_limit = top.lt(V::load(&self.ceiling));
+        let below_peak = top.lt(V::load(&self.peak)).or(goes_on);
         above_base.and(below_limit).and(below_peak)
     }
 }

@@ -4,7 +4,7 @@
 use crate::integrator::roots::{NEAR_END, NEWTON_LIMIT, SURELY};
 use crate::integrator::taylor::{slope, value};
 use crate::number::Real;
-use crate::number::lanes::{Several, Truths};
+use crate::number::lanes::{Mask, Simd};
 
 /// What is told of the first descent of polynomials over a length.
 pub(super) struct Descent<T> {
@@ -18,10 +18,10 @@ pub(super) struct Descent<T> {
 
 /// First descents, where nothing need be isolated.
 #[inline(always)]
-pub(super) fn descent<V: Several, const SIZE: usize>(
+pub(super) fn descent<V: Simd, const SIZE: usize>(
     q: &[V; SIZE],
     length: V,
-) -> Descent<V::Truths> {
+) -> Descent<V::Mask> {
     let zero = V::zero();
     let (mut rest, mut steep, mut bent) = (zero, zero, zero);
     for k in (2..SIZE).rev() {
@@ -34,19 +34,19 @@ pub(super) fn descent<V: Several, const SIZE: usize>(
             bent = bent.mul_add(length, bend);
         }
     }
-    let begins = zero.below(q[0]);
-    let falling = q[1].below(zero).select(q[1], zero);
+    let begins = zero.lt(q[0]);
+    let falling = q[1].lt(zero).select(q[1], zero);
     let low = falling.mul_add(length, q[0]);
-    let positive = zero.below(low - rest * length * length);
+    let positive = zero.lt(low - rest * length * length);
 
-    let falls = q[1].below(steep * length * V::from_f64(SURELY));
+    let falls = q[1].lt(steep * length * V::from_f64(SURELY));
     let twice = q[2] + q[2];
-    let concave = twice.below(bent * length * V::from_f64(SURELY));
+    let concave = twice.lt(bent * length * V::from_f64(SURELY));
     let end = value(q, length);
     let size = q[0].abs() + q[1].abs() * length;
-    let clear = (size * V::from_f64(NEAR_END)).below(end.abs());
+    let clear = (size * V::from_f64(NEAR_END)).lt(end.abs());
     let told = falls.or(concave).and(clear);
-    let below = told.and(end.below(zero));
+    let below = told.and(end.lt(zero));
     Descent {
         none: begins.and(positive.or(told.but_not(below))),
         one: begins.and(below).but_not(positive),
@@ -56,10 +56,10 @@ pub(super) fn descent<V: Several, const SIZE: usize>(
 
 /// The roots in (0, high) of polynomials that have one.
 #[inline(always)]
-pub(super) fn refine<V: Several, const SIZE: usize>(
+pub(super) fn refine<V: Simd, const SIZE: usize>(
     q: &[V; SIZE],
     high: V,
-    which: V::Truths,
+    which: V::Mask,
 ) -> V {
     let half = V::ratio(1, 2);
     let zero = V::zero();
@@ -75,7 +75,7 @@ pub(super) fn refine<V: Several, const SIZE: usize>(
             .mul_add(guess, q[1]);
         guess = guess - beyond * guess / steep;
     }
-    let inside = low.below(guess).and(guess.below(high));
+    let inside = low.lt(guess).and(guess.lt(high));
     let mut tau = inside.select(guess, half * (low + high));
     let mut open = which;
     for _ in 0..NEWTON_LIMIT {
@@ -83,23 +83,23 @@ pub(super) fn refine<V: Several, const SIZE: usize>(
             break;
         }
         let here = value(q, tau);
-        let above = zero.below(here);
-        let under = here.below(zero);
+        let above = zero.lt(here);
+        let under = here.lt(zero);
         low = open.and(above).select(tau, low);
         high = open.and(under).select(tau, high);
         open = open.and(above.or(under));
         let step = here / slope(q, tau);
         let next = tau - step;
         let bound = tau.abs() * V::from_f64(f64::NEWTON_STEP);
-        let close = step.abs().at_most(bound);
-        let within = low.at_most(next).and(next.at_most(high));
+        let close = step.abs().le(bound);
+        let within = low.le(next).and(next.le(high));
         let done = open.and(close).and(within);
         tau = done.select(next, tau);
         open = open.but_not(done);
-        let wide = (high * V::from_f64(2.0 * f64::ROUNDOFF)).below(high - low);
+        let wide = (high * V::from_f64(2.0 * f64::ROUNDOFF)).lt(high - low);
         tau = open.but_not(wide).select(high, tau);
         open = open.and(wide);
-        let inside = low.below(next).and(next.below(high));
+        let inside = low.lt(next).and(next.lt(high));
         let next = inside.select(next, half * (low + high));
         tau = open.select(next, tau);
     }

@@ -3,7 +3,7 @@
 use crate::integrator::class::LONGEST;
 use crate::integrator::driver::{Driver, Stage, Step};
 use crate::integrator::forcing::RecordForcing;
-use crate::number::dispatch::{Isa, Work};
+use crate::number::dispatch::{Isa, Kernel};
 
 /// What drives a run.
 pub(super) type Run<'a> = Driver<f64, RecordForcing<'a, f64>, 2, LONGEST>;
@@ -13,14 +13,15 @@ pub(super) struct Slot<'a, T> {
     pub task: T,
     pub driver: Run<'a>,
     pub stage: Stage<f64>,
-    /// What [`shaken`](Self::shaken) was last, and for which peak.
-    shaken: usize,
+    /// Cached result of [`exit_from`](Self::exit_from), and the peak for
+    /// which it is valid.
+    exit_from: usize,
     seen: f64,
 }
 
 impl<'a, T> Slot<'a, T> {
     pub fn new(task: T, driver: Run<'a>, stage: Stage<f64>) -> Self {
-        Self { task, driver, stage, shaken: usize::MAX, seen: 0.0 }
+        Self { task, driver, stage, exit_from: usize::MAX, seen: 0.0 }
     }
 
     /// Comes to rest, some time after an impact.
@@ -33,14 +34,14 @@ impl<'a, T> Slot<'a, T> {
     /// First piece from which on nothing that is left could raise the peak
     /// of a block at rest.
     #[inline(always)]
-    pub fn shaken(&mut self) -> u64 {
+    pub fn exit_from(&mut self) -> u64 {
         let peak = self.driver.peak();
         if self.seen < peak {
             self.seen = peak;
             self.driver.see_peak();
-            self.shaken = self.driver.calm_from(self.shaken);
+            self.exit_from = self.driver.first_exit(self.exit_from);
         }
-        self.shaken as u64
+        self.exit_from as u64
     }
 
     /// A step by the scalar driver, by a series of `LEN` coefficients.
@@ -56,7 +57,7 @@ struct Alone<'r, 'a, const LEN: usize> {
     step: Step<f64>,
 }
 
-impl<const LEN: usize> Work for Alone<'_, '_, LEN> {
+impl<const LEN: usize> Kernel for Alone<'_, '_, LEN> {
     type Output = Stage<f64>;
 
     #[inline(always)]

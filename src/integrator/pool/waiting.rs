@@ -7,28 +7,28 @@ use crate::number::lanes::WIDTH;
 #[derive(Clone, Copy)]
 pub(super) enum Kind {
     /// The longest series, clear of events.
-    Hard,
+    LongSeries,
     /// The roots of the class' own series.
-    Events,
+    Roots,
     /// The roots of the longest series.
-    Both,
+    LongSeriesAndRoots,
 }
 
 impl Kind {
-    /// Lanes that are worth a batch: where they come seldom, those that wait
-    /// for more cost more than lanes of the batch that stay empty.
+    /// How many waiting lanes start a batch. For rare kinds a part-filled
+    /// batch is cheaper than waiting.
     pub fn worth(self) -> usize {
         match self {
-            Self::Hard => 5,
-            Self::Events => WIDTH,
-            Self::Both => 2,
+            Self::LongSeries => 5,
+            Self::Roots => WIDTH,
+            Self::LongSeriesAndRoots => 2,
         }
     }
 }
 
 /// Lanes that wait for others of their [`Kind`], in the order of kinds.
 pub(super) struct Waiting {
-    pub lines: [Line; 3],
+    pub queues: [Queue; 3],
 }
 
 impl Waiting {
@@ -44,23 +44,23 @@ impl Waiting {
             left &= left - 1;
             // An index, not a branch: nobody can predict it.
             let kind = 1 - (hard >> slot & 1) as usize;
-            self.lines[kind].push(Lane::of(slot));
+            self.queues[kind].push(Lane::of(slot));
         }
     }
 
-    pub fn line(&mut self, kind: Kind) -> &mut Line {
-        &mut self.lines[kind as usize]
+    pub fn queue(&mut self, kind: Kind) -> &mut Queue {
+        &mut self.queues[kind as usize]
     }
 }
 
-/// Lanes in a line, a ring: there is room for all of them.
-pub(super) struct Line {
+/// A queue of lanes: a ring with room for all of them.
+pub(super) struct Queue {
     lanes: [Lane; GROUPS * WIDTH],
     first: usize,
     pub count: usize,
 }
 
-impl Line {
+impl Queue {
     pub const EMPTY: Self =
         Self { lanes: [Lane(0); GROUPS * WIDTH], first: 0, count: 0 };
 
@@ -70,8 +70,7 @@ impl Line {
         self.count += 1;
     }
 
-    /// Takes up to eight out, those that wait longest first; the others are
-    /// the first once more.
+    /// Takes up to eight, oldest first; unused entries repeat the first.
     #[inline(always)]
     pub fn take(&mut self) -> ([Lane; WIDTH], usize) {
         let taken = self.count.min(WIDTH);

@@ -6,7 +6,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 use crate::number::{Number, sin_cos_polynomials};
 
 /// Made only in work that runs at the level [`avx2`](super::avx2_wide):
@@ -16,7 +16,7 @@ pub(super) struct Pair(__m256d, __m256d);
 
 /// All bits of a lane are set where it is true, none where it is false.
 #[derive(Clone, Copy)]
-pub(super) struct Mask(__m256d, __m256d);
+pub(super) struct PairMask(__m256d, __m256d);
 
 /// Instructions of the level.
 macro_rules! level {
@@ -115,8 +115,8 @@ impl Number for Pair {
     }
 }
 
-impl Several for Pair {
-    type Truths = Mask;
+impl Simd for Pair {
+    type Mask = PairMask;
 
     #[inline(always)]
     fn load(from: &Lanes) -> Self {
@@ -167,16 +167,16 @@ impl Several for Pair {
     }
 
     #[inline(always)]
-    fn below(self, other: Self) -> Mask {
-        both!(Mask, |x, y| _mm256_cmp_pd::<_CMP_LT_OQ>(x, y), self, other)
+    fn lt(self, other: Self) -> PairMask {
+        both!(PairMask, |x, y| _mm256_cmp_pd::<_CMP_LT_OQ>(x, y), self, other)
     }
 
     #[inline(always)]
-    fn unlike(self, other: Self, third: Self) -> Mask {
+    fn unlike(self, other: Self, third: Self) -> PairMask {
         let pair = both!(Pair, |x, y| _mm256_xor_pd(x, y), self, other);
         let signs = both!(Pair, |x, y| _mm256_or_pd(x, y), pair, third);
         both!(
-            Mask,
+            PairMask,
             |x| {
                 let (zero, signs) =
                     (_mm256_setzero_si256(), _mm256_castpd_si256(x));
@@ -187,17 +187,17 @@ impl Several for Pair {
     }
 
     #[inline(always)]
-    fn at_most(self, other: Self) -> Mask {
-        both!(Mask, |x, y| _mm256_cmp_pd::<_CMP_LE_OQ>(x, y), self, other)
+    fn le(self, other: Self) -> PairMask {
+        both!(PairMask, |x, y| _mm256_cmp_pd::<_CMP_LE_OQ>(x, y), self, other)
     }
 
     #[inline(always)]
-    fn equals(self, other: Self) -> Mask {
-        both!(Mask, |x, y| _mm256_cmp_pd::<_CMP_EQ_OQ>(x, y), self, other)
+    fn eq(self, other: Self) -> PairMask {
+        both!(PairMask, |x, y| _mm256_cmp_pd::<_CMP_EQ_OQ>(x, y), self, other)
     }
 }
 
-impl Truths<Pair> for Mask {
+impl Mask<Pair> for PairMask {
     #[inline(always)]
     fn of(bits: u8) -> Self {
         level!({
@@ -227,17 +227,17 @@ impl Truths<Pair> for Mask {
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        both!(Mask, |x, y| _mm256_and_pd(x, y), self, other)
+        both!(PairMask, |x, y| _mm256_and_pd(x, y), self, other)
     }
 
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        both!(Mask, |x, y| _mm256_or_pd(x, y), self, other)
+        both!(PairMask, |x, y| _mm256_or_pd(x, y), self, other)
     }
 
     #[inline(always)]
     fn but_not(self, other: Self) -> Self {
-        both!(Mask, |x, y| _mm256_andnot_pd(y, x), self, other)
+        both!(PairMask, |x, y| _mm256_andnot_pd(y, x), self, other)
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 use crate::number::{Number, sin_cos_polynomials};
 
 /// Made only in work that runs at the level [`avx512`](super::avx512):
@@ -16,7 +16,7 @@ pub(super) struct Eight(__m512d);
 
 /// A bit for each lane.
 #[derive(Clone, Copy)]
-pub(super) struct Bits(__mmask8);
+pub(super) struct EightMask(__mmask8);
 
 /// An instruction of the level.
 macro_rules! level {
@@ -79,8 +79,8 @@ impl Number for Eight {
     }
 }
 
-impl Several for Eight {
-    type Truths = Bits;
+impl Simd for Eight {
+    type Mask = EightMask;
 
     #[inline(always)]
     fn load(from: &Lanes) -> Self {
@@ -128,13 +128,13 @@ impl Several for Eight {
     }
 
     #[inline(always)]
-    fn below(self, other: Self) -> Bits {
-        Bits(level!(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)))
+    fn lt(self, other: Self) -> EightMask {
+        EightMask(level!(_mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0)))
     }
 
     #[inline(always)]
-    fn unlike(self, other: Self, third: Self) -> Bits {
-        Bits(level!({
+    fn unlike(self, other: Self, third: Self) -> EightMask {
+        EightMask(level!({
             let pair = _mm512_xor_pd(self.0, other.0);
             let signs = _mm512_or_pd(pair, third.0);
             _mm512_movepi64_mask(_mm512_castpd_si512(signs))
@@ -142,17 +142,17 @@ impl Several for Eight {
     }
 
     #[inline(always)]
-    fn at_most(self, other: Self) -> Bits {
-        Bits(level!(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0)))
+    fn le(self, other: Self) -> EightMask {
+        EightMask(level!(_mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0)))
     }
 
     #[inline(always)]
-    fn equals(self, other: Self) -> Bits {
-        Bits(level!(_mm512_cmp_pd_mask::<_CMP_EQ_OQ>(self.0, other.0)))
+    fn eq(self, other: Self) -> EightMask {
+        EightMask(level!(_mm512_cmp_pd_mask::<_CMP_EQ_OQ>(self.0, other.0)))
     }
 }
 
-impl Truths<Eight> for Bits {
+impl Mask<Eight> for EightMask {
     #[inline(always)]
     fn of(bits: u8) -> Self {
         Self(bits)

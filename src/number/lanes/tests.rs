@@ -1,5 +1,5 @@
-use super::{Lanes, Several, Truths, WIDTH};
-use crate::number::dispatch::{Isa, WideWork};
+use super::{Lanes, Mask, Simd, WIDTH};
+use crate::number::dispatch::{Isa, WithSimd};
 
 /// Numbers at which operations differ if they differ anywhere: either zero,
 /// what has no order, what has no end, and what is too small or too large.
@@ -12,14 +12,14 @@ struct Everything {
     b: Lanes,
 }
 
-impl WideWork for Everything {
+impl WithSimd for Everything {
     type Output = (Vec<[u64; WIDTH]>, Vec<u8>, [u64; WIDTH]);
 
-    fn run<V: Several>(self) -> Self::Output {
+    fn run<V: Simd>(self) -> Self::Output {
         let (a, b) = (V::load(&self.a), V::load(&self.b));
         let c = V::gather(std::array::from_fn(|lane| &self.b.0[7 - lane]));
         let (sine, cosine) = b.sin_cos_small();
-        let (less, same) = (a.below(b), a.equals(b));
+        let (less, same) = (a.lt(b), a.eq(b));
         let numbers = [
             a + b,
             a - b,
@@ -40,14 +40,14 @@ impl WideWork for Everything {
         let truths = [
             less,
             same,
-            a.at_most(b),
+            a.le(b),
             a.unlike(b, c),
             less.not(),
             less.and(same.not()),
             less.or(same),
-            a.at_most(b).but_not(same),
-            Truths::of(0b1010_0110),
-            Truths::splat(true),
+            a.le(b).but_not(same),
+            Mask::of(0b1010_0110),
+            Mask::splat(true),
         ];
         let mut counts = [7; WIDTH];
         less.count(&mut counts);
@@ -57,7 +57,7 @@ impl WideWork for Everything {
             // What is not a number has no bits that matter.
             out.0.map(|x| if x.is_nan() { u64::MAX } else { x.to_bits() })
         };
-        let truths = truths.map(|truth: V::Truths| {
+        let truths = truths.map(|truth: V::Mask| {
             assert_eq!(truth.any(), truth.bits() != 0);
             truth.bits()
         });

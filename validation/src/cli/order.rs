@@ -17,7 +17,7 @@ pub enum OrderName {
     /// Statistics of many analyses.
     #[value(name = "8")]
     Eight,
-    /// One above what most steps need.
+    /// More accurate than most steps need.
     #[value(name = "10")]
     Ten,
 }

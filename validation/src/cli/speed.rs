@@ -10,7 +10,7 @@ use rocking::record::ReadOptions;
 use serde_json::{Value, json};
 
 use super::{Failure, print, progress};
-use crate::curves::Way;
+use crate::curves::Execution;
 use crate::files::write_atomically;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};
@@ -74,7 +74,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let records = records(args)?;
         let analyses = analyses(&blocks()?, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
-        let way = Way::default();
+        let way = Execution::default();
         let job = Job { analyses: &analyses, records: &records, way, threads };
         let (_, found) = job.measure("")?;
         for (analysis, found) in analyses.iter().zip(&found) {

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use rocking::number::dispatch::Isa;
 
 use super::Failure;
-use crate::curves::Way;
+use crate::curves::Execution;
 
 /// How curves are made; results are the same bits.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -36,14 +36,14 @@ impl WayArgs {
     /// # Errors
     /// [`Failure`] for an instruction set that this machine has not, or one
     /// for an engine that doesn't take it.
-    pub fn way(self) -> Result<Way, Failure> {
+    pub fn way(self) -> Result<Execution, Failure> {
         match (self.engine, self.isa) {
-            (Some(EngineName::Scalar), None) => Ok(Way::OneByOne),
+            (Some(EngineName::Scalar), None) => Ok(Execution::OneByOne),
             (Some(EngineName::Scalar), Some(_)) => Err(Failure::input(
                 "--isa is for --engine lanes; scalar has no choice of it",
             )),
-            (_, None) => Ok(Way::default()),
-            (_, Some(level)) => level.isa().map(Way::Lanes),
+            (_, None) => Ok(Execution::default()),
+            (_, Some(level)) => level.isa().map(Execution::Lanes),
         }
     }
 }

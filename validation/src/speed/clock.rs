@@ -23,8 +23,8 @@ fn seconds(clock: ClockId) -> f64 {
     (tv_nsec as f64).mul_add(1e-9, tv_sec as f64)
 }
 
-/// Least processor time of this thread that `work` takes a turn, in s, and
-/// what it gives: over `batches` batches of as many turns as `batch_s` hold.
+/// Minimum processor time (s) of this thread per call of `work`, over
+/// `batches` batches that each last about `batch_s`; and the result of `work`.
 pub fn least_s<T>(
     batches: u32,
     batch_s: f64,

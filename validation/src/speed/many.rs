@@ -10,7 +10,7 @@ use super::singles::ORDERS;
 use super::throughput::{
     Job, Throughput, analyses, kernel, lilliefors, moved, samples_of,
 };
-use crate::curves::Way;
+use crate::curves::Execution;
 use crate::study::grid::blocks;
 
 /// Names of both ways of making curves.
@@ -76,7 +76,7 @@ fn whole(
     let threads = rayon::current_num_threads();
     if threads > 1 {
         let work = format!("15 blocks, {words}, in lanes");
-        let way = Way::default();
+        let way = Execution::default();
         let job = Job { analyses: &shipped, records, way, threads };
         all.push(job.measure_thrice(&work)?.0);
     }
@@ -107,7 +107,7 @@ fn make(
     how: &str,
 ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
     let lanes = how == WAYS[0];
-    let way = if lanes { Way::default() } else { Way::OneByOne };
+    let way = if lanes { Execution::default() } else { Execution::OneByOne };
     let job = Job { analyses, records, way, threads: 1 };
     if lanes { job.measure_thrice(work) } else { job.measure(work) }
 }

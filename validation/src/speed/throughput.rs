@@ -14,7 +14,7 @@ use super::SpeedError;
 use super::cases::ETA;
 use super::clock::process_s;
 use super::measured::rounded;
-use crate::curves::Way;
+use crate::curves::Execution;
 
 /// A piece of work and what it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,7 +57,7 @@ pub struct Job<'a> {
     /// The records.
     pub records: &'a [NormalisedRecord],
     /// In lanes or one by one.
-    pub way: Way,
+    pub way: Execution,
     /// Threads.
     pub threads: usize,
 }
@@ -251,7 +251,7 @@ pub fn kernel(
     let job = Job {
         analyses: &one,
         records: &records,
-        way: Way::default(),
+        way: Execution::default(),
         threads: 1,
     };
     let (mut least, found) = job.measure(work)?;

@@ -12,7 +12,7 @@ use rocking::integrator::{
 
 use super::StudyError;
 use super::certainty::{Certainty, certainty};
-use crate::curves::Way;
+use crate::curves::Execution;
 use crate::figures::data::Arm;
 
 /// The paper's coefficient of restitution, for every block.
@@ -29,7 +29,7 @@ pub struct Setup {
     /// dimensionless intensity.
     pub tolerance: f64,
     /// How curves are made.
-    pub way: Way,
+    pub way: Execution,
 }
 
 /// The curves of blocks under records, and what they took.

@@ -10,11 +10,11 @@ use super::analyses::Plan;
 use super::output::{FINDINGS, Files};
 use super::runs::Setup;
 use super::suites::StudySuite;
-use crate::curves::Way;
+use crate::curves::Execution;
 use crate::figures::data::Arm;
 use crate::ledger::requirements;
 
-fn small(threads: usize, way: Way) -> Files {
+fn small(threads: usize, way: Execution) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     ordinary.motions.truncate(10);
     pulse.motions.truncate(4);
@@ -36,8 +36,8 @@ fn small(threads: usize, way: Way) -> Files {
 
 #[test]
 fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
-    let one = small(1, Way::default());
-    let two = small(2, Way::OneByOne);
+    let one = small(1, Execution::default());
+    let two = small(2, Execution::OneByOne);
     assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
     for (name, content) in &one {
         assert!(*content == two[name], "{name} differs");

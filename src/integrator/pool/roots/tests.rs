@@ -1,7 +1,7 @@
 use super::{descent, refine};
 use crate::integrator::roots;
-use crate::number::dispatch::{Isa, WideWork};
-use crate::number::lanes::{Lanes, Several, Truths, WIDTH};
+use crate::number::dispatch::{Isa, WithSimd};
+use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
 /// A polynomial, the same each time; exact zeros among its coefficients, and
 /// ends near to zero.
@@ -47,10 +47,10 @@ struct Told<'p> {
     lengths: &'p Lanes,
 }
 
-impl WideWork for Told<'_> {
+impl WithSimd for Told<'_> {
     type Output = (u8, u8, Lanes);
 
-    fn run<V: Several>(self) -> (u8, u8, Lanes) {
+    fn run<V: Simd>(self) -> (u8, u8, Lanes) {
         let lanes: [V; 6] = std::array::from_fn(|k| {
             V::load(&Lanes(self.polynomials.map(|c| c[k])))
         });
@@ -112,5 +112,5 @@ fn lanes_decide_and_solve_as_the_scalar_root_finder() {
 fn lanes_not_asked_for_are_left() {
     let c = [0.3, -1.0, 0.0].map(Lanes::splat);
     let high = Lanes::splat(1.0);
-    assert_eq!(refine(&c, high, Truths::of(1 << 3))[3], 0.3);
+    assert_eq!(refine(&c, high, Mask::of(1 << 3))[3], 0.3);
 }

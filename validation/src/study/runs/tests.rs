@@ -17,7 +17,7 @@ fn setup() -> Setup {
         restitution: Restitution::constant(0.92).expect("restitution"),
         overturning: Overturning::Alpha,
         tolerance: 1e-4,
-        way: Way::default(),
+        way: Execution::default(),
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{RUN, RestIndex, WINDOWS, Window};
+use super::{RUN, RecordIndex, WINDOWS, Window};
 
 /// Noise with a drift, no multiple of a run long.
 fn samples() -> Vec<f64> {
@@ -35,7 +35,7 @@ fn motion(samples: &[f64]) -> Vec<(f64, f64)> {
 #[test]
 fn what_is_left_is_bounded_by_fine_sums() {
     let samples = samples();
-    let index = RestIndex::new(&samples);
+    let index = RecordIndex::new(&samples);
     let motion = motion(&samples);
     for interval in (0..samples.len() - 1).step_by(7) {
         let rest = &motion[100 * interval..];
@@ -57,7 +57,7 @@ fn what_is_left_is_bounded_by_fine_sums() {
             };
             let sway = index.sway(interval, Window(k));
             let longest = RUN * (runs - 1);
-            assert_eq!(RestIndex::window(longest as f64), Some(Window(k)));
+            assert_eq!(RecordIndex::window(longest as f64), Some(Window(k)));
             assert!(sway >= width(interval, interval + longest));
             if interval / RUN + runs > 50 {
                 let first = interval / RUN * RUN;
@@ -66,8 +66,8 @@ fn what_is_left_is_bounded_by_fine_sums() {
         }
     }
     let most = RUN * (WINDOWS[WINDOWS.len() - 1] - 1);
-    assert_eq!(RestIndex::window(most as f64 + 0.5), None);
-    assert_eq!(RestIndex::window(f64::NAN), None);
+    assert_eq!(RecordIndex::window(most as f64 + 0.5), None);
+    assert_eq!(RecordIndex::window(f64::NAN), None);
 }
 
 #[test]

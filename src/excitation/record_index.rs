@@ -11,11 +11,11 @@ const WINDOWS: [usize; 16] =
 /// block skips whole runs, and how fast and how far the ground still moves
 /// from there on. Made once a record, shared by all levels and blocks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RestIndex {
+pub struct RecordIndex {
     /// Largest absolute sample of each run.
     peaks: Vec<f64>,
     /// What is left from each run on.
-    left: Vec<Left<f64>>,
+    left: Vec<Remaining<f64>>,
     /// For each length of windows, how far apart the ground's places within
     /// a window are at most, from each run on.
     sway: Vec<Vec<f64>>,
@@ -24,14 +24,14 @@ pub struct RestIndex {
 /// What is left of a record from some place on, its velocity being zero at
 /// the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Left<N> {
+pub(crate) struct Remaining<N> {
     /// Bound of the absolute velocity.
     pub speed: N,
     /// Bound of the integral of the absolute velocity.
     pub travel: N,
 }
 
-impl Left<f64> {
+impl Remaining<f64> {
     /// Of nothing.
     const NOTHING: Self = Self { speed: 0.0, travel: 0.0 };
 }
@@ -40,7 +40,7 @@ impl Left<f64> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Window(usize);
 
-impl RestIndex {
+impl RecordIndex {
     /// Index of the samples of a record, before scaling.
     #[must_use]
     pub fn new(samples: &[f64]) -> Self {
@@ -54,7 +54,7 @@ impl RestIndex {
         let runs = intervals.div_ceil(RUN);
         let mut left = Vec::with_capacity(runs);
         let mut spans = Vec::with_capacity(runs);
-        let (mut end, mut sum) = (0.0_f64, Left::NOTHING);
+        let (mut end, mut sum) = (0.0_f64, Remaining::NOTHING);
         let mut place = 0.0;
         let mut span = Span::at(place);
         for interval in (0..intervals).rev() {
@@ -85,8 +85,8 @@ impl RestIndex {
     /// What is left from the run of `interval` on, in units of samples and
     /// intervals.
     #[inline(always)]
-    pub(crate) fn left(&self, interval: usize) -> Left<f64> {
-        *self.left.get(interval / RUN).unwrap_or(&Left::NOTHING)
+    pub(crate) fn left(&self, interval: usize) -> Remaining<f64> {
+        *self.left.get(interval / RUN).unwrap_or(&Remaining::NOTHING)
     }
 
     /// Number of runs.
@@ -119,8 +119,8 @@ impl RestIndex {
     }
 }
 
-/// Largest width within windows of each length from each run on, of runs that
-/// span so much.
+/// For each window length and first run: the largest (max - min) of the
+/// ground displacement in any later window of that length.
 fn sway(runs: Vec<Span>) -> Vec<Vec<f64>> {
     let mut length = 1;
     let mut spans = runs;

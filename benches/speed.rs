@@ -11,9 +11,7 @@ use divan::counter::ItemsCount;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, curve};
-use rocking::integrator::{
-    Model, Observe, Order, respond, respond_at_order, respond_precise,
-};
+use rocking::integrator::{Model, Observe, Order, Solver, respond_precise};
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use rocking_validation::curves::Execution;
@@ -66,12 +64,9 @@ mod analysis {
     use super::*;
 
     fn all(bencher: Bencher, order: Option<Order>) {
-        let run = |case: &Case| match order {
-            Some(order) => {
-                respond_at_order(&case.scene(), &Observe::default(), order)
-            }
-            None => respond(&case.scene(), &Observe::default()),
-        };
+        let solver = Solver { order, ..Solver::default() };
+        let run =
+            |case: &Case| solver.respond(&case.scene(), &Observe::default());
         let steps = CASES
             .iter()
             .map(|case| run(case).expect("scene").work.steps)

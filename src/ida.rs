@@ -10,9 +10,13 @@ mod certification;
 mod climb;
 mod levels;
 
+use std::fmt;
+use std::ops::ControlFlow;
+
 use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
+use crate::capacity::{CapacityError, ResponseCurve};
 use crate::excitation::NormalisedRecord;
 use crate::integrator::{
     Model, Order, Outcome, Overturning, SceneError, WorkLimit,
@@ -38,9 +42,9 @@ pub enum Grid {
     },
 }
 
-/// How a level's intensity is reached.
+/// What is adjusted to reach a level's intensity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum Adjust {
     /// The record is scaled; the block stays.
     RecordScaling,
     /// The record stays as recorded; the slenderness is adjusted to
@@ -63,8 +67,8 @@ pub struct Analysis {
     pub overturning: Overturning,
     /// Levels.
     pub grid: Grid,
-    /// How levels are reached.
-    pub method: Method,
+    /// What is adjusted to reach a level.
+    pub adjust: Adjust,
     /// Width in IM to which the first overturning bracket is bisected.
     pub refine: Option<f64>,
     /// Where levels end if the block does not overturn (IM).
@@ -109,7 +113,7 @@ impl Analysis {
             model: Model::Nonlinear,
             overturning: Overturning::Alpha,
             grid: Grid::Pga { step_g: 0.01 },
-            method: Method::RecordScaling,
+            adjust: Adjust::RecordScaling,
             refine: None,
             highest_im: HIGHEST_IM,
             resurrections: None,
@@ -163,6 +167,9 @@ pub enum IdaError {
     /// The scene could not be integrated.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The caller stopped the work.
+    #[error("stopped by the caller")]
+    Stopped,
 }
 
 /// One analysis of a curve.
@@ -218,6 +225,8 @@ pub struct IdaCurve {
     pub record_pga_g: f64,
     /// PGV/PGA of the record in s.
     pub velocity_ratio_s: f64,
+    /// Onset of rocking: IM = 1, EDP = 0. It is known and was not run.
+    pub onset: IdaPoint,
     /// Analyses in rising intensity, the first overturned one last; levels
     /// at or below the uplift threshold are not run.
     pub points: Vec<IdaPoint>,
@@ -231,7 +240,56 @@ pub struct IdaCurve {
     pub analyses: u64,
 }
 
+/// Which end of its bracket counts as the first overturning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overturned {
+    /// The level of the grid that overturned first.
+    Scanned,
+    /// The upper end of the bisected bracket where there is one, else the
+    /// level.
+    Refined,
+}
+
 impl IdaCurve {
+    /// The curve of demand (EDP) against intensity (IM = PGA/(g tan alpha)):
+    /// the onset (1, 0), the standing analyses, and the first overturning.
+    ///
+    /// # Errors
+    /// None for a curve that [`curve`] or [`curves`] made; [`CapacityError`]
+    /// for fields set otherwise.
+    ///
+    /// ```
+    /// use rocking::{Block, Restitution};
+    /// use rocking::capacity::InversionRule;
+    /// use rocking::excitation::NormalisedRecord;
+    /// use rocking::ida::{Analysis, Overturned, curve};
+    /// use rocking::record::Accelerogram;
+    /// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+    /// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
+    /// let block = Block::try_new(0.1, 3.0)?;
+    /// let analysis = Analysis::paper(block, Restitution::constant(0.92)?);
+    /// let ida = curve(&NormalisedRecord::new(&record), &analysis)?;
+    /// let response = ida.response(Overturned::Scanned)?;
+    /// assert_eq!(response.onset_im(), 1.0);
+    /// // The intensity at which |theta| reaches half of alpha.
+    /// let half = response.crossings(0.5)?.capacity(InversionRule::Median);
+    /// assert!(half.im() > 1.0 && half.im() < ida.points.last().unwrap().im);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn response(
+        &self,
+        overturned: Overturned,
+    ) -> Result<ResponseCurve, CapacityError> {
+        let points = std::iter::once(&self.onset).chain(self.standing());
+        let vertices: Vec<(f64, f64)> =
+            points.map(|point| (point.im, point.edp())).collect();
+        let overturning = self.overturning.map(|first| match overturned {
+            Overturned::Scanned => first.scanned_im,
+            Overturned::Refined => first.im(),
+        });
+        ResponseCurve::try_new(&vertices, overturning)
+    }
+
     /// Standing analyses, in rising intensity.
     pub fn standing(&self) -> impl Iterator<Item = &IdaPoint> {
         self.points.iter().filter(|point| !point.outcome.is_overturned())
@@ -278,11 +336,11 @@ pub fn curve(
     record: &NormalisedRecord,
     analysis: &Analysis,
 ) -> Result<IdaCurve, IdaError> {
-    curve_with(record, analysis, Isa::best())
+    curve_at(record, analysis, Isa::best())
 }
 
 /// [`curve`] at an instruction-set level.
-fn curve_with(
+fn curve_at(
     record: &NormalisedRecord,
     analysis: &Analysis,
     isa: Isa,
@@ -294,42 +352,60 @@ fn curve_with(
     Ok(climb.finish())
 }
 
+/// How many curves are made. The default uses the machine's best
+/// instruction-set level and reports nothing.
+#[derive(Clone, Copy)]
+pub struct Batch<'a> {
+    /// Instruction-set level. It changes the speed alone.
+    pub isa: Isa,
+    /// Called after each curve, from any thread. `Break` ends the work: the
+    /// curves under way are given up, and [`IdaError::Stopped`] is returned.
+    pub progress: &'a (dyn Fn() -> ControlFlow<()> + Sync),
+}
+
+impl Default for Batch<'_> {
+    fn default() -> Self {
+        Self { isa: Isa::best(), progress: &|| ControlFlow::Continue(()) }
+    }
+}
+
+impl fmt::Debug for Batch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Batch").field("isa", &self.isa).finish()
+    }
+}
+
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
-/// over chains, the same for any number of threads. `done` is called after
-/// each chain.
+/// over curves, the same for any number of threads.
 ///
 /// # Errors
-/// The first error in the order of analyses and records.
+/// The first error in the order of analyses and records;
+/// [`IdaError::Stopped`] where `batch.progress` asked for it.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, IdaError, curves};
+/// use rocking::record::Accelerogram;
+/// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
+/// let records = [NormalisedRecord::new(&record)];
+/// let restitution = Restitution::constant(0.92)?;
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analyses = [Analysis::paper(block, restitution)];
+/// let all = curves(&records, &analyses, &Batch::default())?;
+/// assert!(all[0][0].overturning.is_some());
+/// let stop = Batch { progress: &|| ControlFlow::Break(()), ..Batch::default() };
+/// assert_eq!(curves(&records, &analyses, &stop), Err(IdaError::Stopped));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn curves(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
-    done: impl Fn() + Sync,
+    batch: &Batch<'_>,
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    curves_with(records, analyses, Isa::best(), done)
-}
-
-/// [`curves`] at a given instruction-set level, which changes the speed
-/// alone.
-///
-/// # Errors
-/// As [`curves`].
-pub fn curves_with(
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-    isa: Isa,
-    done: impl Fn() + Sync,
-) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    curves_reporting(records, analyses, isa, &done)
-}
-
-/// The lanes are compiled here, once, whatever the type of `done`.
-fn curves_reporting(
-    records: &[NormalisedRecord],
-    analyses: &[Analysis],
-    isa: Isa,
-    done: &(dyn Fn() + Sync),
-) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    batch::curves(records, analyses, isa, &|| done())
+    batch::curves(records, analyses, batch)
 }
 
 /// Engineering demand parameter at one intensity, whatever happens below it:
@@ -340,7 +416,7 @@ fn curves_reporting(
 ///
 /// # Errors
 /// As [`curve`].
-pub fn at(
+pub fn demand_at(
     record: &NormalisedRecord,
     analysis: &Analysis,
     im: f64,

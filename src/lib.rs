@@ -29,6 +29,10 @@ pub mod statistics;
 pub mod streams;
 pub mod units;
 
+pub use block::{Block, Restitution};
+pub use excitation::Excitation;
+pub use integrator::{Observe, Response, Scene, respond};
+
 #[doc = include_str!("certainty.md")]
 pub mod certainty {}
 

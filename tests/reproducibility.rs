@@ -7,10 +7,9 @@ use rayon::prelude::*;
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use rocking::ida::{Analysis, Grid, IdaPoint, Resurrections, curves_with};
+use rocking::ida::{Analysis, Batch, Grid, IdaPoint, Resurrections, curves};
 use rocking::integrator::{
-    Model, Observe, Outcome, Overturning, Scene, respond_with,
-    uplift_threshold,
+    Model, Observe, Outcome, Overturning, Scene, Solver, uplift_threshold,
 };
 use rocking::number::dispatch::Isa;
 use rocking::record::Accelerogram;
@@ -92,7 +91,8 @@ fn hash(analyses: &[[u64; 4]]) -> String {
 
 /// All chains in lanes.
 fn in_lanes(isa: Isa) -> Vec<[u64; 4]> {
-    let curves = curves_with(&records(), &panel(), isa, || {}).unwrap();
+    let batch = Batch { isa, ..Batch::default() };
+    let curves = curves(&records(), &panel(), &batch).unwrap();
     let of = |p: &IdaPoint| bits(p.im, &p.outcome, p.fate_margin);
     curves
         .iter()
@@ -126,7 +126,9 @@ fn alone(isa: Isa) -> Vec<[u64; 4]> {
                 initial_ratio: 0.0,
             };
             let observe = Observe::default();
-            let found = respond_with(&scene, &observe, isa).unwrap();
+            let found = Solver { isa: isa, ..Solver::default() }
+                .respond(&scene, &observe)
+                .unwrap();
             bits(im, &found.outcome, found.fate_margin)
         })
         .collect()

@@ -14,7 +14,7 @@ use peaks::gauss;
 /// ```
 /// use rocking::excitation::{Pulse, PulseKind};
 /// let pulse = Pulse::try_new(PulseKind::OneSine {
-///     amplitude_g: 0.3,
+///     amplitude: 0.3,
 ///     omega_rad_s: 6.0,
 /// })?;
 /// assert_eq!(pulse.pga_g(), 0.3);
@@ -82,7 +82,7 @@ impl Pulse {
     /// [`PulseError`] for an amplitude or phase that is not finite, and for a
     /// frequency, period, duration or count that is not positive.
     pub fn try_new(kind: PulseKind) -> Result<Self, PulseError> {
-        let amplitude = |a: f64| {
+        let finite = |a: f64| {
             if a.is_finite() { Ok(()) } else { Err(PulseError::Amplitude(a)) }
         };
         let positive = |what, x: f64| {
@@ -93,34 +93,31 @@ impl Pulse {
             }
         };
         match kind {
-            PulseKind::OneSine { amplitude_g, omega_rad_s }
-            | PulseKind::HalfSine { amplitude_g, omega_rad_s }
-            | PulseKind::OneCosine { amplitude_g, omega_rad_s } => {
-                amplitude(amplitude_g)?;
+            PulseKind::OneSine { amplitude, omega_rad_s }
+            | PulseKind::HalfSine { amplitude, omega_rad_s }
+            | PulseKind::OneCosine { amplitude, omega_rad_s } => {
+                finite(amplitude)?;
                 positive("circular frequency", omega_rad_s)?;
             }
-            PulseKind::Rectangle { amplitude_g, duration_s }
-            | PulseKind::Triangle { amplitude_g, duration_s } => {
-                amplitude(amplitude_g)?;
+            PulseKind::Rectangle { amplitude, duration_s }
+            | PulseKind::Triangle { amplitude, duration_s } => {
+                finite(amplitude)?;
                 positive("duration", duration_s)?;
             }
-            PulseKind::RickerSymmetric { amplitude_g, period_s, cycles }
-            | PulseKind::RickerAntisymmetric {
-                amplitude_g,
-                period_s,
-                cycles,
-            } => {
-                amplitude(amplitude_g)?;
+            PulseKind::RickerSymmetric { amplitude, period_s, cycles }
+            | PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } =>
+            {
+                finite(amplitude)?;
                 positive("period", period_s)?;
                 positive("number of cycles", cycles)?;
             }
             PulseKind::MavroeidisPapageorgiou {
-                velocity_g_s,
+                velocity,
                 frequency_hz,
                 gamma,
                 phase_rad,
             } => {
-                amplitude(velocity_g_s)?;
+                finite(velocity)?;
                 positive("frequency", frequency_hz)?;
                 positive("gamma", gamma)?;
                 if !phase_rad.is_finite() {
@@ -140,7 +137,7 @@ impl Pulse {
     ///
     /// ```
     /// use rocking::excitation::{Pulse, PulseKind};
-    /// let kind = PulseKind::Rectangle { amplitude_g: 4.0, duration_s: 0.25 };
+    /// let kind = PulseKind::Rectangle { amplitude: 4.0, duration_s: 0.25 };
     /// let pulse = Pulse::try_new_si(kind, 9.81)?;
     /// assert_eq!(pulse.pga_g(), 4.0 / 9.81);
     /// # Ok::<(), rocking::excitation::PulseError>(())
@@ -185,12 +182,12 @@ impl Pulse {
         let own = self.pga_g();
         let mut kind = self.kind();
         match &mut kind {
-            PulseKind::OneSine { amplitude_g: a, .. }
-            | PulseKind::HalfSine { amplitude_g: a, .. }
-            | PulseKind::OneCosine { amplitude_g: a, .. }
-            | PulseKind::Rectangle { amplitude_g: a, .. }
-            | PulseKind::Triangle { amplitude_g: a, .. }
-            | PulseKind::RickerSymmetric { amplitude_g: a, .. }
+            PulseKind::OneSine { amplitude: a, .. }
+            | PulseKind::HalfSine { amplitude: a, .. }
+            | PulseKind::OneCosine { amplitude: a, .. }
+            | PulseKind::Rectangle { amplitude: a, .. }
+            | PulseKind::Triangle { amplitude: a, .. }
+            | PulseKind::RickerSymmetric { amplitude: a, .. }
                 if own > 0.0 =>
             {
                 *a = pga_g.copysign(*a);

@@ -2,12 +2,15 @@
 //! threads.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::excitation::NormalisedRecord;
 use crate::ida::climb::{Aim, Climb};
 use crate::ida::levels::Level;
-use crate::ida::{Analysis, Grid, IdaCurve, IdaError, IdaPoint, curve_with};
+use crate::ida::{
+    Analysis, Batch, Grid, IdaCurve, IdaError, IdaPoint, curve_at,
+};
 use crate::integrator::class::Class;
 use crate::integrator::pool;
 use crate::integrator::{Response, Scene, WorkLimit, uplift_threshold};
@@ -52,23 +55,46 @@ struct Task<'a> {
     level: Level<'a>,
 }
 
-/// [`crate::ida::curves`] at an instruction-set level.
+/// Whoever watches the work, and whether the work was stopped.
+struct Watch<'a> {
+    batch: &'a Batch<'a>,
+    stopped: AtomicBool,
+}
+
+impl Watch<'_> {
+    /// Reports a curve.
+    fn done(&self) {
+        if (self.batch.progress)().is_break() {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+}
+
+/// See [`crate::ida::curves`]. The lanes are compiled here, once.
 pub(super) fn curves(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
-    isa: Isa,
-    done: &(impl Fn() + Sync),
+    batch: &Batch<'_>,
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    let isa = batch.isa;
+    let watch = Watch { batch, stopped: AtomicBool::new(false) };
     let queues = queues(records, analyses, isa);
     rayon::scope(|scope| {
         for _ in 0..rayon::current_num_threads() {
             scope.spawn(|_| {
                 for queue in &queues {
-                    queue.work(isa, done);
+                    queue.work(isa, &watch);
                 }
             });
         }
     });
+    if watch.is_stopped() {
+        return Err(IdaError::Stopped);
+    }
     let mut flat: Vec<_> = queues
         .into_iter()
         .flat_map(|queue| queue.open().results.split_off(0))
@@ -81,20 +107,20 @@ pub(super) fn curves(
 }
 
 impl<'a> Queue<'a> {
-    /// Makes curves until none is left to start.
-    fn work(&self, isa: Isa, done: &impl Fn()) {
+    /// Makes curves until none is left to start, or the work is stopped.
+    fn work(&self, isa: Isa, watch: &Watch<'_>) {
         if let Some(class) = self.class {
-            let mut desk = Desk { queue: self, last: None, done };
+            let mut desk = Desk { queue: self, last: None, watch };
             pool::run(class, isa, &mut desk);
             return;
         }
-        loop {
+        while !watch.is_stopped() {
             // Not within the loop's condition: it would hold the book.
             let job = self.open().jobs.pop();
             let Some(job) = job else { return };
-            let result = curve_with(job.record, job.analysis, isa);
+            let result = curve_at(job.record, job.analysis, isa);
             self.open().results.push((job.index, result));
-            done();
+            watch.done();
         }
     }
 
@@ -104,11 +130,11 @@ impl<'a> Queue<'a> {
 }
 
 /// A thread at a queue.
-struct Desk<'q, 'a, D> {
+struct Desk<'q, 'a> {
     queue: &'q Queue<'a>,
     /// Curve of which it settled an analysis last.
     last: Option<usize>,
-    done: &'q D,
+    watch: &'q Watch<'q>,
 }
 
 impl<'a> Book<'a> {
@@ -208,14 +234,17 @@ impl<'a> Book<'a> {
     }
 }
 
-impl<'a, D: Fn()> pool::Source<'a> for Desk<'_, 'a, D> {
+impl<'a> pool::Source<'a> for Desk<'_, 'a> {
     type Task = Task<'a>;
 
     fn take(&mut self) -> Option<(Task<'a>, Scene<'a>, WorkLimit)> {
+        if self.watch.is_stopped() {
+            return None;
+        }
         let mut ended = 0;
         let task = self.queue.open().take(self.last, &mut ended);
         for _ in 0..ended {
-            (self.done)();
+            self.watch.done();
         }
         task.map(|task| {
             let (scene, limit) = (task.level.scene, task.level.work_limit);
@@ -231,7 +260,7 @@ impl<'a, D: Fn()> pool::Source<'a> for Desk<'_, 'a, D> {
             None => task.level.run(Isa::best()),
         };
         if self.queue.open().settle(&task, point) {
-            (self.done)();
+            self.watch.done();
         }
     }
 }

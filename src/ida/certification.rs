@@ -1,20 +1,11 @@
 //! In which arithmetic the analyses of a curve were told.
 
 use crate::ida::IdaPoint;
-use crate::integrator::Engine;
+use crate::integrator::Arithmetic;
 
-/// Largest rough estimate of error over margin at which an analysis is
-/// taken for clear in double precision.
-///
-/// Found by experiment: of 1,164 analyses of recorded suites, a fourth of the
-/// levels of twelve records under fifteen blocks with an estimate above 1e-7,
-/// the first whose peak was another by more than 1e-6 in double-double had an
-/// estimate of 0.1, and the first whose certificate was not clear one of
-/// 0.01. `tests/trials.rs` looks at whole suites.
-pub(crate) const DOUBTFUL: f64 = 3e-3;
-
-/// The same where fates are certified: all above have their decisions
-/// assessed one by one.
+/// Rough estimate (see [`DOUBTFUL`](crate::integrator::DOUBTFUL)) above which
+/// an analysis has its decisions assessed one by one, where fates are
+/// certified.
 pub(crate) const WORTH_ASSESSING: f64 = 3e-5;
 
 /// How outcome and peak of an analysis were told.
@@ -22,7 +13,7 @@ pub(crate) const WORTH_ASSESSING: f64 = 3e-5;
 pub struct Told {
     /// Which arithmetic assessed every decision, the widest if several did;
     /// none where the rough estimate of the run was enough.
-    pub by: Option<Engine>,
+    pub by: Option<Arithmetic>,
     /// False where outcome and peak are not known: the error of the run may
     /// have turned one of its decisions.
     pub resolved: bool,
@@ -77,9 +68,9 @@ impl Certification {
         self.only_these_doubles += u64::from(!for_inputs);
         match by {
             None => {}
-            Some(Engine::Double) => self.double += 1,
-            Some(Engine::DoubleDouble) => self.double_double += 1,
-            Some(Engine::Octuple) => self.octuple += 1,
+            Some(Arithmetic::Double) => self.double += 1,
+            Some(Arithmetic::DoubleDouble) => self.double_double += 1,
+            Some(Arithmetic::Octuple) => self.octuple += 1,
         }
     }
 

@@ -29,6 +29,7 @@ pub(super) enum Aim {
 pub(super) struct Climb<'a> {
     levels: Levels<'a>,
     stage: Stage,
+    onset: IdaPoint,
     points: Vec<IdaPoint>,
     overturning: Option<FirstOverturning>,
     middles: u64,
@@ -65,11 +66,13 @@ impl<'a> Climb<'a> {
         analysis: &'a Analysis,
     ) -> Result<Self, IdaError> {
         let levels = Levels::new(record, analysis)?;
+        let onset = levels.onset();
         let first = levels.first();
         let early = BTreeMap::new();
         let mut climb = Self {
             levels,
             stage: Stage::Rising { given: first, due: first, early },
+            onset,
             points: Vec::new(),
             overturning: None,
             middles: 0,
@@ -246,6 +249,7 @@ impl<'a> Climb<'a> {
             record: record.name().to_owned(),
             record_pga_g: record.pga_g(),
             velocity_ratio_s: record.velocity_ratio_s(),
+            onset: self.onset,
             points: self.points,
             overturning: self.overturning,
             above: self.above.into_values().collect(),

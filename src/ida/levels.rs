@@ -3,11 +3,11 @@
 
 use crate::block::Block;
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use crate::ida::certification::{DOUBTFUL, Told, WORTH_ASSESSING};
-use crate::ida::{Analysis, Grid, IdaError, IdaPoint, Method, Resurrections};
+use crate::ida::certification::{Told, WORTH_ASSESSING};
+use crate::ida::{Adjust, Analysis, Grid, IdaError, IdaPoint, Resurrections};
 use crate::integrator::{
-    self, Model, Observe, Order, Outcome, Response, Scene, SceneError,
-    WorkLimit, certify_within, respond_peak_as, uplift_threshold,
+    self, DOUBTFUL, Model, Observe, Order, Outcome, Response, Scene,
+    SceneError, Solver, WorkLimit, certify, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
 
@@ -74,6 +74,37 @@ impl<'a> Levels<'a> {
         }
     }
 
+    /// Onset of rocking: the uplift threshold itself, IM = 1, at which no
+    /// block has moved.
+    pub fn onset(&self) -> IdaPoint {
+        let (slenderness_rad, pga_g) = self.reached(1.0, self.threshold);
+        IdaPoint {
+            im: 1.0,
+            pga_g,
+            slenderness_rad,
+            outcome: Outcome::NoUplift,
+            fate_margin: 0.0,
+            told: Told::roughly(true),
+        }
+    }
+
+    /// Slenderness and PGA of the analysis at an intensity, which is `pga_g`
+    /// for the block of the grid.
+    fn reached(&self, im: f64, pga_g: f64) -> (f64, f64) {
+        let analysis = self.analysis;
+        match analysis.adjust {
+            Adjust::RecordScaling => (analysis.block.slenderness_rad(), pga_g),
+            Adjust::SlendernessAdjustment => {
+                let own = self.record.pga_g();
+                let slenderness_rad = match analysis.model {
+                    Model::Nonlinear => libm::atan(own / im),
+                    Model::Linearized => own / im,
+                };
+                (slenderness_rad, own)
+            }
+        }
+    }
+
     /// First level above the uplift threshold.
     pub fn first(&self) -> u64 {
         match self.analysis.grid {
@@ -102,26 +133,12 @@ impl<'a> Levels<'a> {
     /// grid.
     fn scaled(&self, im: f64, pga_g: f64) -> Result<Level<'a>, IdaError> {
         let analysis = self.analysis;
-        let (block, amplitude) = match analysis.method {
-            Method::RecordScaling => (analysis.block, pga_g),
-            Method::SlendernessAdjustment => {
-                let own = self.record.pga_g();
-                let slenderness_rad = match analysis.model {
-                    Model::Nonlinear => libm::atan(own / im),
-                    Model::Linearized => own / im,
-                };
-                let block = Block::try_new(
-                    slenderness_rad,
-                    analysis.block.frequency_rad_s(),
-                )
-                .map_err(|source| IdaError::Slenderness {
-                    record: self.record.name().to_owned(),
-                    im,
-                    source,
-                })?;
-                (block, own)
-            }
-        };
+        let (slenderness_rad, amplitude) = self.reached(im, pga_g);
+        let p = analysis.block.frequency_rad_s();
+        let block = Block::try_new(slenderness_rad, p).map_err(|source| {
+            let record = self.record.name().to_owned();
+            IdaError::Slenderness { record, im, source }
+        })?;
         let record = ScaledRecord::to_pga(self.record, amplitude);
         let scene = Scene {
             block,
@@ -147,8 +164,10 @@ impl<'a> Levels<'a> {
 impl Level<'_> {
     /// The analysis, made alone.
     pub fn run(&self, isa: Isa) -> Result<IdaPoint, IdaError> {
-        let Self { scene, work_limit, order, .. } = self;
-        let response = respond_peak_as(scene, *work_limit, *order, isa);
+        let Self { scene, work_limit, order, .. } = *self;
+        let observe = Observe { work_limit, ..Observe::default() };
+        let solver = Solver { order, isa, peak_only: true };
+        let response = solver.respond(&scene, &observe);
         self.point(&response.map_err(|error| self.refused(error))?)
     }
 
@@ -173,7 +192,7 @@ impl Level<'_> {
         if clear || !self.certify {
             return Ok(self.made(outcome, fate_margin, Told::roughly(clear)));
         }
-        let fate = certify_within(&self.scene, self.work_limit)
+        let fate = certify(&self.scene, self.work_limit)
             .map_err(|error| self.refused(error))?;
         let told = Told {
             by: Some(fate.by),

@@ -1,19 +1,17 @@
 //! Fates told in the precision that they need.
 
 use crate::integrator::precise::respond_until_sure;
-use crate::integrator::run::{Method, run};
 use crate::integrator::{
     Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
-    SceneError, WorkLimit, check,
+    SceneError, Solver, WorkLimit,
 };
 use crate::number::Real;
-use crate::number::dispatch::Isa;
 use crate::number::double::DoubleDouble;
 use crate::number::octuple::Octuple;
 
 /// Arithmetic of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Engine {
+pub enum Arithmetic {
     /// Double precision.
     Double,
     /// Double-double, about 30 digits.
@@ -22,7 +20,7 @@ pub enum Engine {
     Octuple,
 }
 
-impl Engine {
+impl Arithmetic {
     /// The arithmetic in a word.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -51,13 +49,13 @@ pub struct Certified {
     /// another outcome: the fate is that of these doubles alone.
     pub decided_for_inputs: bool,
     /// Which engine decided, or tried last.
-    pub by: Engine,
+    pub by: Arithmetic,
     /// What double precision says.
     pub double: Outcome,
 }
 
 impl Certified {
-    fn of<N: Real>(response: &Response<N>, by: Engine) -> Self {
+    fn of<N: Real>(response: &Response<N>, by: Arithmetic) -> Self {
         let outcome = match response.outcome {
             Outcome::NoUplift => Outcome::NoUplift,
             Outcome::Rocked { peak_ratio } => {
@@ -94,89 +92,76 @@ impl Certified {
 /// precision where one is not clear in that either; undecided beyond.
 ///
 /// The problem told is that of the doubles given. Whether it is that of all
-/// inputs that round to them is told beside it.
+/// inputs that round to them is told beside it. The limit is that of each
+/// run's work.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
 ///
 /// ```
-/// use rocking::block::{Block, Restitution};
-/// use rocking::excitation::{Excitation, Pulse, PulseKind};
-/// use rocking::integrator::{
-///     Engine, Model, Overturning, Scene, certify,
-/// };
+/// use rocking::{Block, Excitation, Restitution, Scene};
+/// use rocking::excitation::{Pulse, PulseKind};
+/// use rocking::integrator::{Arithmetic, Overturning, WorkLimit, certify};
 /// // One unit in the last place above the critical amplitude.
 /// let kind = PulseKind::HalfSine {
-///     amplitude_g: 4.072395807424461,
+///     amplitude: 4.072395807424461,
 ///     omega_rad_s: 5.0,
 /// };
 /// let pulse = Pulse::try_new_si(kind, 9.81)?;
-/// let fate = certify(&Scene {
-///     block: Block::try_new(0.2, 2.0)?,
-///     restitution: Restitution::constant(0.92)?,
-///     model: Model::Nonlinear,
+/// let block = Block::try_new(0.2, 2.0)?;
+/// let restitution = Restitution::constant(0.92)?;
+/// let scene = Scene {
 ///     overturning: Overturning::HalfPi,
-///     excitation: Excitation::Pulse(&pulse),
-///     initial_ratio: 0.0,
-/// })?;
-/// assert_eq!(fate.by, Engine::DoubleDouble);
+///     ..Scene::new(block, restitution, Excitation::Pulse(&pulse))
+/// };
+/// let fate = certify(&scene, WorkLimit::default())?;
+/// assert_eq!(fate.by, Arithmetic::DoubleDouble);
 /// assert!(fate.decided && fate.outcome.is_overturned());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn certify(scene: &Scene<'_>) -> Result<Certified, SceneError> {
-    certify_within(scene, WorkLimit::default())
-}
-
-/// [`certify`] within a limit of each run's work.
-///
-/// # Errors
-/// As [`respond`](crate::integrator::respond).
-pub fn certify_within(
+pub fn certify(
     scene: &Scene<'_>,
     work_limit: WorkLimit,
 ) -> Result<Certified, SceneError> {
     let observe = Observe { accuracy: true, work_limit, ..Observe::default() };
-    check(scene, &observe)?;
-    let method = Method { order: None, isa: Isa::best(), peak_only: true };
-    let quick = run(scene, &observe, method)?;
-    let quick = Certified::of(&quick, Engine::Double);
+    let solver = Solver { peak_only: true, ..Solver::default() };
+    let quick = solver.respond_once(scene, &observe)?;
+    let quick = Certified::of(&quick, Arithmetic::Double);
     if quick.decided {
         return Ok(quick);
     }
     let double = quick.outcome;
     let wide = respond_until_sure::<DoubleDouble>(scene, &observe)?;
-    let wide = Certified::of(&wide, Engine::DoubleDouble);
+    let wide = Certified::of(&wide, Arithmetic::DoubleDouble);
     if wide.decided {
         return Ok(Certified { double, ..wide });
     }
     let widest = respond_until_sure::<Octuple>(scene, &observe)?;
-    let widest = Certified::of(&widest, Engine::Octuple);
+    let widest = Certified::of(&widest, Arithmetic::Octuple);
     Ok(Certified { double, ..widest })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Engine, certify};
+    use super::{Arithmetic, certify};
     use crate::block::{Block, Restitution};
     use crate::excitation::{Excitation, Pulse, PulseKind};
-    use crate::integrator::{Model, Overturning, Scene};
+    use crate::integrator::{Overturning, Scene, WorkLimit};
 
     /// Fate of the reference `hs-near-ulp-above` at another amplitude.
     fn fate(amplitude_m_s2: f64) -> super::Certified {
         let kind = PulseKind::HalfSine {
-            amplitude_g: amplitude_m_s2,
+            amplitude: amplitude_m_s2,
             omega_rad_s: 5.0,
         };
         let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
+        let block = Block::try_new(0.2, 2.0).unwrap();
+        let restitution = Restitution::constant(0.92).unwrap();
         let scene = Scene {
-            block: Block::try_new(0.2, 2.0).unwrap(),
-            restitution: Restitution::constant(0.92).unwrap(),
-            model: Model::Nonlinear,
             overturning: Overturning::HalfPi,
-            excitation: Excitation::Pulse(&pulse),
-            initial_ratio: 0.0,
+            ..Scene::new(block, restitution, Excitation::Pulse(&pulse))
         };
-        certify(&scene).unwrap()
+        certify(&scene, WorkLimit::default()).unwrap()
     }
 
     #[test]
@@ -198,7 +183,7 @@ mod tests {
             }
             above = above.next_up();
         }
-        assert_eq!(fate(first).by, Engine::DoubleDouble);
+        assert_eq!(fate(first).by, Arithmetic::DoubleDouble);
     }
 
     #[test]
@@ -206,7 +191,7 @@ mod tests {
         for amplitude in [3.0, 5.0] {
             let fate = fate(amplitude);
             assert!(
-                fate.decided && fate.by == Engine::Double && !fate.moved()
+                fate.decided && fate.by == Arithmetic::Double && !fate.moved()
             );
         }
     }

@@ -281,6 +281,8 @@ where
             self.record.accuracy = Some(own);
             self.record.inputs = wide.then(|| Accuracy::of_inputs(alpha));
             self.barrier.get_or_insert_with(Barrier::none);
+        } else if N::ROUNDOFF >= f64::ROUNDOFF {
+            self.screen.get_or_insert_with(Screen::at_rest);
         }
     }
 

@@ -9,71 +9,37 @@ use crate::integrator::roots::MOST;
 use crate::integrator::run::{index_of, own_index};
 use crate::integrator::{Observe, Response, Scene, SceneError, check};
 use crate::number::dispatch::Isa;
-use crate::number::double::DoubleDouble;
-use crate::number::octuple::Octuple;
 use crate::number::{Real, SeriesWork};
 
-/// Integrates a scene in double-double arithmetic: about 30 digits, at some
-/// hundred times the cost of [`respond`](crate::integrator::respond).
+/// Integrates a scene in the arithmetic of `N`, by series as long as that
+/// needs: [`DoubleDouble`](crate::number::double::DoubleDouble), about 30
+/// digits at some hundred times the cost of
+/// [`respond`](crate::integrator::respond), or
+/// [`Octuple`](crate::number::octuple::Octuple), about 77 digits at ten times
+/// the cost of that.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
 ///
 /// ```
-/// use rocking::block::{Block, Restitution};
-/// use rocking::excitation::{Excitation, Pulse, PulseKind};
-/// use rocking::integrator::{
-///     Model, Observe, Overturning, Scene, respond_precise,
-/// };
-/// // Amplitude in m/s2: its quotient by g is rounded to 32 digits.
-/// let kind = PulseKind::OneSine { amplitude_g: 1.5, omega_rad_s: 12.0 };
+/// use rocking::{Block, Excitation, Observe, Restitution, Scene};
+/// use rocking::excitation::{Pulse, PulseKind};
+/// use rocking::integrator::respond_precise;
+/// use rocking::number::{Number, Real, double::DoubleDouble};
+/// use rocking::number::octuple::Octuple;
+/// // Amplitude in m/s2: its quotient by g is rounded in the arithmetic.
+/// let kind = PulseKind::OneSine { amplitude: 1.5, omega_rad_s: 12.0 };
 /// let pulse = Pulse::try_new_si(kind, 9.81)?;
-/// let scene = Scene {
-///     block: Block::try_new(0.1, 3.0)?,
-///     restitution: Restitution::constant(0.92)?,
-///     model: Model::Nonlinear,
-///     overturning: Overturning::Alpha,
-///     excitation: Excitation::Pulse(&pulse),
-///     initial_ratio: 0.0,
-/// };
-/// let answer = respond_precise(&scene, &Observe::default())?;
+/// let scene = Scene::new(
+///     Block::try_new(0.1, 3.0)?,
+///     Restitution::constant(0.92)?,
+///     Excitation::Pulse(&pulse),
+/// );
+/// let observe = Observe::default();
+/// let double = respond_precise::<DoubleDouble>(&scene, &observe)?;
 /// // A 36-digit reference: 0.493881599743772889432469876681278552.
-/// assert_eq!(answer.peak_ratio.hi(), 0.4938815997437729);
-/// assert!((answer.peak_ratio.lo() - 8.348755566601465e-18).abs() < 1e-30);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn respond_precise(
-    scene: &Scene<'_>,
-    observe: &Observe,
-) -> Result<Response<DoubleDouble>, SceneError> {
-    respond_in(scene, observe)
-}
-
-/// Integrates a scene in octuple precision: about 77 digits, at some ten
-/// times the cost of [`respond_precise`].
-///
-/// # Errors
-/// As [`respond`](crate::integrator::respond).
-///
-/// ```
-/// use rocking::block::{Block, Restitution};
-/// use rocking::excitation::{Excitation, Pulse, PulseKind};
-/// use rocking::integrator::{
-///     Model, Observe, Overturning, Scene, respond_octuple,
-/// };
-/// use rocking::number::{Number, Real, octuple::Octuple};
-/// // Amplitude in m/s2: its quotient by g is rounded to 77 digits.
-/// let kind = PulseKind::OneSine { amplitude_g: 1.5, omega_rad_s: 12.0 };
-/// let pulse = Pulse::try_new_si(kind, 9.81)?;
-/// let scene = Scene {
-///     block: Block::try_new(0.1, 3.0)?,
-///     restitution: Restitution::constant(0.92)?,
-///     model: Model::Nonlinear,
-///     overturning: Overturning::Alpha,
-///     excitation: Excitation::Pulse(&pulse),
-///     initial_ratio: 0.0,
-/// };
-/// let answer = respond_octuple(&scene, &Observe::default())?;
+/// assert_eq!(double.peak_ratio.hi(), 0.4938815997437729);
+/// assert!((double.peak_ratio.lo() - 8.348755566601465e-18).abs() < 1e-30);
 /// // By series of 70 terms in mpmath, to 115 digits, as a sum of doubles:
 /// // 0.493881599743772889432469876681278552283020767363913170322647914506...
 /// let reference = [
@@ -83,33 +49,22 @@ pub fn respond_precise(
 ///     -4.698813367950177e-51,
 ///     8.681026477841767e-69,
 /// ];
+/// let octuple = respond_precise::<Octuple>(&scene, &observe)?;
 /// let error = reference
 ///     .map(Octuple::from_f64)
 ///     .into_iter()
-///     .fold(answer.peak_ratio, |rest, part| rest - part);
+///     .fold(octuple.peak_ratio, |rest, part| rest - part);
 /// assert!(error.abs().to_f64() < 1e-75);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn respond_octuple(
-    scene: &Scene<'_>,
-    observe: &Observe,
-) -> Result<Response<Octuple>, SceneError> {
-    respond_in(scene, observe)
-}
-
-/// Integrates a scene in the arithmetic of `N`, by series as long as that
-/// needs.
-///
-/// # Errors
-/// As [`respond`](crate::integrator::respond).
-pub fn respond_in<N: Real>(
+pub fn respond_precise<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
 ) -> Result<Response<N>, SceneError> {
     respond_as_asked(scene, observe, false)
 }
 
-/// [`respond_in`] that ends as soon as outcome and peak are surely known.
+/// [`respond_precise`] that ends as soon as outcome and peak are surely known.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).

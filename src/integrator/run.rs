@@ -5,25 +5,17 @@ use crate::integrator::class::{Class, LONGEST};
 use crate::integrator::driver::Driver;
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::{Ground, RecordForcing};
-use crate::integrator::{Observe, Order, Response, Scene, SceneError};
-use crate::number::dispatch::{Isa, Kernel};
-
-/// How a scene is run.
-#[derive(Clone, Copy)]
-pub(super) struct Method {
-    pub order: Option<Order>,
-    pub isa: Isa,
-    pub peak_only: bool,
-}
+use crate::integrator::{Observe, Order, Response, Scene, SceneError, Solver};
+use crate::number::dispatch::Kernel;
 
 pub(super) fn run(
     scene: &Scene<'_>,
     observe: &Observe,
-    method: Method,
+    solver: Solver,
 ) -> Result<Response, SceneError> {
     let own = own_index(scene);
     let index = index_of(scene, own.as_ref());
-    method.isa.run(Run { scene, observe, index, method })
+    solver.isa.run(Run { scene, observe, index, solver })
 }
 
 /// Index of a record that brings none.
@@ -54,7 +46,7 @@ struct Run<'a> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     index: Option<&'a RecordIndex>,
-    method: Method,
+    solver: Solver,
 }
 
 impl Kernel for Run<'_> {
@@ -70,7 +62,7 @@ impl Kernel for Run<'_> {
             (Excitation::Record(record), Some(index)) => {
                 let forcing = RecordForcing::new(record, index, p);
                 let step = forcing.step();
-                match Class::of(model, step, self.method.order) {
+                match Class::of(model, step, self.solver.order) {
                     Class::Eight => self.at::<9>(dynamics, forcing),
                     Class::Nine => self.at::<10>(dynamics, forcing),
                     Class::Ten => self.at::<11>(dynamics, forcing),
@@ -87,8 +79,9 @@ impl Kernel for Run<'_> {
                 Driver::<_, _, LONGEST, LONGEST>::new(
                     dynamics,
                     ground,
-                    self.method.isa,
+                    self.solver.isa,
                 )
+                .for_peak_if(self.solver.peak_only)
                 .run::<LONGEST>(self.scene, self.observe)
             }
         }
@@ -139,7 +132,7 @@ impl Run<'_> {
         dynamics: Dynamics<f64>,
         forcing: RecordForcing<'r, f64>,
     ) -> Driver<f64, RecordForcing<'r, f64>, 2, LONGEST> {
-        let driver = Driver::new(dynamics, forcing, self.method.isa);
-        if self.method.peak_only { driver.for_peak() } else { driver }
+        let driver = Driver::new(dynamics, forcing, self.solver.isa);
+        if self.solver.peak_only { driver.for_peak() } else { driver }
     }
 }

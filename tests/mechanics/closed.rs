@@ -4,7 +4,7 @@ use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     Assessment, Model, Observe, Order, Outcome, Overturning, Scene,
-    SceneError, Side, respond, respond_at_order, uplift_threshold,
+    SceneError, Side, Solver, respond, uplift_threshold,
 };
 use rocking::record::Accelerogram;
 
@@ -204,7 +204,7 @@ fn a_history_ends_with_rest_and_shows_it() {
 /// observation cuts is the peak.
 #[test]
 fn observation_cuts_a_rise() {
-    let kind = PulseKind::Rectangle { amplitude_g: 0.5, duration_s: 0.1 };
+    let kind = PulseKind::Rectangle { amplitude: 0.5, duration_s: 0.1 };
     let pulse = Pulse::try_new(kind).unwrap();
     let cut = scene(Model::Linearized, Excitation::Pulse(&pulse));
     let observe = Observe { until_s: Some(0.05), ..Observe::default() };
@@ -225,7 +225,7 @@ fn observation_cuts_a_rise() {
 /// The condition number against what eta and the state do to the peak.
 #[test]
 fn a_condition_number_is_the_derivative_by_eta() {
-    let kind = PulseKind::OneSine { amplitude_g: 0.3, omega_rad_s: 8.0 };
+    let kind = PulseKind::OneSine { amplitude: 0.3, omega_rad_s: 8.0 };
     let pulse = Pulse::try_new(kind).unwrap();
     for model in [Model::Nonlinear, Model::Linearized] {
         let base = scene(model, Excitation::Pulse(&pulse));
@@ -260,8 +260,9 @@ fn orders_converge() {
     let wave = scene(Model::Nonlinear, Excitation::Record(record));
     let observe = Observe { until_s: Some(0.6), ..Observe::default() };
     let exact = respond(&wave, &observe).unwrap();
+    let solver = |order| Solver { order: Some(order), ..Solver::default() };
     let errors = [Order::Four, Order::Six, Order::Eight, Order::Ten]
-        .map(|order| respond_at_order(&wave, &observe, order).unwrap())
+        .map(|order| solver(order).respond(&wave, &observe).unwrap())
         .map(|found| (found.peak_ratio - exact.peak_ratio).abs());
     assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
     assert!(errors[0] > 1e-9 && errors[3] < 1e-10, "{errors:?}");

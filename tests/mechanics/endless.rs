@@ -29,24 +29,23 @@ fn scene<'a>(model: Model, eta: f64, excitation: Excitation<'a>) -> Scene<'a> {
 
 /// Pulses that last about `duration_s`, of peaks of at most an amplitude, and
 /// of most of it.
-fn long(duration_s: f64, amplitude_g: f64) -> Vec<PulseKind> {
+fn long(duration_s: f64, amplitude: f64) -> Vec<PulseKind> {
     let omega_rad_s = 1.0 / duration_s;
     let kinds = vec![
-        PulseKind::OneSine { amplitude_g, omega_rad_s },
-        PulseKind::HalfSine { amplitude_g, omega_rad_s },
-        PulseKind::OneCosine { amplitude_g, omega_rad_s },
-        PulseKind::Rectangle { amplitude_g, duration_s },
-        PulseKind::Triangle { amplitude_g, duration_s },
+        PulseKind::OneSine { amplitude, omega_rad_s },
+        PulseKind::HalfSine { amplitude, omega_rad_s },
+        PulseKind::OneCosine { amplitude, omega_rad_s },
+        PulseKind::Rectangle { amplitude, duration_s },
+        PulseKind::Triangle { amplitude, duration_s },
     ];
     // Long in one period, and in many.
     let both = [(duration_s / 4.0, 4.0), (1.0, duration_s)];
     let more = both.into_iter().flat_map(|(period_s, cycles)| {
         [
-            PulseKind::RickerSymmetric { amplitude_g, period_s, cycles },
-            PulseKind::RickerAntisymmetric { amplitude_g, period_s, cycles },
+            PulseKind::RickerSymmetric { amplitude, period_s, cycles },
+            PulseKind::RickerAntisymmetric { amplitude, period_s, cycles },
             PulseKind::MavroeidisPapageorgiou {
-                velocity_g_s: amplitude_g * period_s
-                    / (TAU * (1.0 + 1.0 / cycles)),
+                velocity: amplitude * period_s / (TAU * (1.0 + 1.0 / cycles)),
                 frequency_hz: 1.0 / period_s,
                 gamma: cycles,
                 phase_rad: 0.3,
@@ -105,7 +104,7 @@ fn endures(kind: PulseKind, model: Model, share: f64) {
 #[test]
 fn a_long_pulse_lifts_the_block_when_it_passes_the_threshold() {
     for omega_rad_s in [1e-3, 1e-6, 1e-9] {
-        let kind = PulseKind::OneSine { amplitude_g: 0.3, omega_rad_s };
+        let kind = PulseKind::OneSine { amplitude: 0.3, omega_rad_s };
         let pulse = Pulse::try_new(kind).unwrap();
         let of = scene(Model::Linearized, 0.92, Excitation::Pulse(&pulse));
         let found = respond(&of, &Observe::default()).unwrap();
@@ -119,7 +118,7 @@ fn a_long_pulse_lifts_the_block_when_it_passes_the_threshold() {
 
 #[test]
 fn a_pulse_of_which_no_clock_tells_the_steps_is_refused() {
-    let kind = PulseKind::Rectangle { amplitude_g: 0.1, duration_s: 1e16 };
+    let kind = PulseKind::Rectangle { amplitude: 0.1, duration_s: 1e16 };
     let pulse = Pulse::try_new(kind).unwrap();
     let of = scene(Model::Nonlinear, 0.92, Excitation::Pulse(&pulse));
     let found = respond(&of, &Observe::default());
@@ -180,7 +179,7 @@ fn steps_and_points_of_a_history_are_bounded() {
     let under = Excitation::Record(ScaledRecord::to_pga(&record, 0.5));
     let of = scene(Model::Nonlinear, 0.9999, under);
     refused(respond(&of, &observe), "steps");
-    let kind = PulseKind::Rectangle { amplitude_g: 0.1, duration_s: 1e9 };
+    let kind = PulseKind::Rectangle { amplitude: 0.1, duration_s: 1e9 };
     let pulse = Pulse::try_new(kind).unwrap();
     let of = scene(Model::Nonlinear, 0.92, Excitation::Pulse(&pulse));
     let history_interval_s = Some(0.005);
@@ -211,7 +210,7 @@ fn a_level_that_is_refused_is_named_and_the_same_in_lanes() {
         let text = format!("{source}");
         assert!(text.starts_with("more than 20000 impacts by "), "{text}");
         let many = vec![record.clone(); 20];
-        let together = curves(&many, &[analysis], || {});
+        let together = curves(&many, &[analysis], &Batch::default());
         assert_eq!(together.unwrap_err(), alone.unwrap_err());
     }
 }

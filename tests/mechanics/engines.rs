@@ -6,7 +6,7 @@ use rocking::excitation::{
 };
 use rocking::ida::{Analysis, Grid, curve, curves};
 use rocking::integrator::{
-    Engine, Model, Observe, Outcome, Overturning, Scene, certify, respond,
+    Arithmetic, Model, Observe, Outcome, Overturning, Scene, certify, respond,
     respond_precise,
 };
 use rocking::record::Accelerogram;
@@ -54,7 +54,7 @@ fn lanes_have_the_bits_of_single_runs() {
         panel.push(Analysis { overturning: Overturning::HalfPi, ..base });
         panel.push(Analysis { model: Model::Linearized, ..base });
     }
-    let found = curves(&records, &panel, || ()).unwrap();
+    let found = curves(&records, &panel, &Batch::default()).unwrap();
     for (analysis, found) in panel.iter().zip(&found) {
         for (record, found) in records.iter().zip(found) {
             assert_eq!(*found, curve(record, analysis).unwrap());
@@ -67,7 +67,7 @@ fn lanes_have_the_bits_of_single_runs() {
 fn estimates_bound_the_distance_from_double_double() {
     let observe =
         Observe { events: true, accuracy: true, ..Observe::default() };
-    let kind = PulseKind::OneSine { amplitude_g: 0.25, omega_rad_s: 14.0 };
+    let kind = PulseKind::OneSine { amplitude: 0.25, omega_rad_s: 14.0 };
     let pulse = Pulse::try_new(kind).unwrap();
     let samples = vec![0.0, 0.3, -0.1, -0.4, 0.2, 0.05, 0.0];
     let record = Accelerogram::try_new("short", 0.05, samples).unwrap();
@@ -111,13 +111,13 @@ fn estimates_bound_the_distance_from_double_double() {
 #[test]
 fn neighbours_of_a_critical_amplitude_are_told() {
     let first = 4.072_395_807_424_461_f64;
-    for (amplitude_g, overturns, by) in [
-        (first.next_down(), false, Engine::DoubleDouble),
-        (first, true, Engine::DoubleDouble),
-        (3.0, false, Engine::Double),
-        (5.0, true, Engine::Double),
+    for (amplitude, overturns, by) in [
+        (first.next_down(), false, Arithmetic::DoubleDouble),
+        (first, true, Arithmetic::DoubleDouble),
+        (3.0, false, Arithmetic::Double),
+        (5.0, true, Arithmetic::Double),
     ] {
-        let kind = PulseKind::HalfSine { amplitude_g, omega_rad_s: 5.0 };
+        let kind = PulseKind::HalfSine { amplitude, omega_rad_s: 5.0 };
         let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
         let near = Scene {
             block: Block::try_new(0.2, 2.0).unwrap(),
@@ -142,20 +142,20 @@ fn neighbours_of_a_critical_amplitude_are_told() {
 /// says is kept beside what is so.
 #[test]
 fn a_fate_that_double_precision_misses_is_told_and_said_so() {
-    for (amplitude_g, overturns, missed) in [
+    for (amplitude, overturns, missed) in [
         (9.922_004_265_836_232, false, false),
         (9.922_004_265_836_234, true, true),
         (9.922_004_265_836_236, true, true),
         (9.922_004_265_836_238, true, false),
     ] {
-        let kind = PulseKind::OneSine { amplitude_g, omega_rad_s: 12.5 };
+        let kind = PulseKind::OneSine { amplitude, omega_rad_s: 12.5 };
         let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
         let near = Scene {
             block: Block::try_new(0.2, 2.0).unwrap(),
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
         let fate = certify(&near).unwrap();
-        assert!(fate.decided && fate.by == Engine::DoubleDouble);
+        assert!(fate.decided && fate.by == Arithmetic::DoubleDouble);
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();
         assert_eq!(fate.double, quick.outcome);

@@ -42,47 +42,43 @@ fn pulses() -> Vec<(PulseKind, f64, Formula)> {
     };
     vec![
         (
-            PulseKind::OneSine { amplitude_g: a, omega_rad_s: w },
+            PulseKind::OneSine { amplitude: a, omega_rad_s: w },
             TAU / w,
             Box::new(sine),
         ),
         (
-            PulseKind::HalfSine { amplitude_g: a, omega_rad_s: w },
+            PulseKind::HalfSine { amplitude: a, omega_rad_s: w },
             PI / w,
             Box::new(sine),
         ),
         (
-            PulseKind::OneCosine { amplitude_g: a, omega_rad_s: w },
+            PulseKind::OneCosine { amplitude: a, omega_rad_s: w },
             TAU / w,
             Box::new(move |t| a * libm::sin(w * t + FRAC_PI_2)),
         ),
         (
-            PulseKind::Rectangle { amplitude_g: a, duration_s: 0.6 },
+            PulseKind::Rectangle { amplitude: a, duration_s: 0.6 },
             0.6,
             Box::new(move |_| a),
         ),
         (
-            PulseKind::Triangle { amplitude_g: a, duration_s: 0.8 },
+            PulseKind::Triangle { amplitude: a, duration_s: 0.8 },
             0.8,
             Box::new(move |t| a * (t / 0.4).min(2.0 - t / 0.4)),
         ),
         (
-            PulseKind::RickerSymmetric { amplitude_g: a, period_s, cycles },
+            PulseKind::RickerSymmetric { amplitude: a, period_s, cycles },
             cycles * period_s,
             Box::new(symmetric),
         ),
         (
-            PulseKind::RickerAntisymmetric {
-                amplitude_g: a,
-                period_s,
-                cycles,
-            },
+            PulseKind::RickerAntisymmetric { amplitude: a, period_s, cycles },
             cycles * period_s,
             Box::new(antisymmetric),
         ),
         (
             PulseKind::MavroeidisPapageorgiou {
-                velocity_g_s: 0.03,
+                velocity: 0.03,
                 frequency_hz: f,
                 gamma,
                 phase_rad: phase,

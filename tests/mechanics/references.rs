@@ -43,37 +43,37 @@ fn pulse(forcing: &Value) -> Option<PulseKind> {
     let get = |key: &str| number(&forcing[key]);
     Some(match forcing["kind"].as_str().unwrap() {
         "one_sine" => PulseKind::OneSine {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             omega_rad_s: get("omega"),
         },
         "half_sine" => PulseKind::HalfSine {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             omega_rad_s: get("omega"),
         },
         "one_cosine" => PulseKind::OneCosine {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             omega_rad_s: get("omega"),
         },
         "rectangular" => PulseKind::Rectangle {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             duration_s: get("t_d"),
         },
         "triangular" => PulseKind::Triangle {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             duration_s: get("t_d"),
         },
         "ricker_sym" => PulseKind::RickerSymmetric {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             period_s: get("T_p"),
             cycles: get("n_Tp"),
         },
         "ricker_anti" => PulseKind::RickerAntisymmetric {
-            amplitude_g: get("a_p"),
+            amplitude: get("a_p"),
             period_s: get("T_p"),
             cycles: get("n_Tp"),
         },
         "mavroeidis" => PulseKind::MavroeidisPapageorgiou {
-            velocity_g_s: get("A_v"),
+            velocity: get("A_v"),
             frequency_hz: get("f_p"),
             gamma: get("gamma"),
             phase_rad: get("nu"),
@@ -292,7 +292,7 @@ fn rectangular_pulses_are_met() {
     for case in cases(&fixture!("rect_pulse.json")) {
         let get = |key: &str| number(&case[key]);
         let kind = PulseKind::Rectangle {
-            amplitude_g: get("a0"),
+            amplitude: get("a0"),
             duration_s: get("td"),
         };
         let pulse = Pulse::try_new_si(kind, GRAVITY).unwrap();

@@ -74,13 +74,13 @@ fn regresses_estimates_margins_and_work() {
                     lines.push(text(&respond(&scene, &observe).unwrap()));
                 }
             }
-            for (amplitude_g, omega_rad_s) in
+            for (amplitude, omega_rad_s) in
                 [(0.3, 7.0), (0.5, 12.0), (0.4, 5.0), (1.3, 12.0)]
             {
                 for kind in [
-                    PulseKind::OneSine { amplitude_g, omega_rad_s },
+                    PulseKind::OneSine { amplitude, omega_rad_s },
                     PulseKind::RickerSymmetric {
-                        amplitude_g,
+                        amplitude,
                         period_s: 6.0 / omega_rad_s,
                         cycles: 3.0,
                     },

@@ -3,7 +3,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Certificate, Certified, Engine, Model, Observe, Outcome, Overturning,
+    Arithmetic, Certificate, Certified, Model, Observe, Outcome, Overturning,
     Response, Scene, Side, Work, respond,
 };
 use rocking::record::Accelerogram;
@@ -58,7 +58,7 @@ fn a_pulse_that_touches_the_threshold_does_not_lift() {
     for (excess, lifts) in [(0.0, false), (1e-9, true), (-1e-9, false)] {
         for sign in [1.0, -1.0] {
             let kind = PulseKind::Triangle {
-                amplitude_g: sign * alpha * (1.0 + excess),
+                amplitude: sign * alpha * (1.0 + excess),
                 duration_s: 1.5,
             };
             let pulse = Pulse::try_new(kind).unwrap();
@@ -157,7 +157,7 @@ fn engines_disagree_about_a_fate_or_they_do_not() {
             least: Certificate::default().least(),
             decided: true,
             decided_for_inputs: true,
-            by: Engine::DoubleDouble,
+            by: Arithmetic::DoubleDouble,
             double,
         };
         assert_eq!(fate.moved(), moved);

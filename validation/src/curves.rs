@@ -1,9 +1,11 @@
 //! How many curves are made: in lanes at an instruction-set level, or one
 //! analysis at a time. Results are the same bits.
 
+use std::ops::ControlFlow;
+
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, IdaCurve, IdaError, curve, curves_with};
+use rocking::ida::{Analysis, Batch, IdaCurve, IdaError, curve, curves};
 use rocking::number::dispatch::Isa;
 
 /// The way curves are made.
@@ -34,7 +36,11 @@ impl Execution {
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
         if let Self::Lanes(isa) = self {
-            return curves_with(records, analyses, isa, done);
+            let progress = &|| {
+                done();
+                ControlFlow::Continue(())
+            };
+            return curves(records, analyses, &Batch { isa, progress });
         }
         analyses
             .iter()

@@ -111,7 +111,7 @@ pub fn respond_in<N: Real>(
     quotient: Quotient,
 ) -> Result<Response<N>, EngineError> {
     with_core_scene(scene, quotient, |scene| {
-        integrator::respond_in(scene, observe)
+        integrator::respond_precise(scene, observe)
     })
 }
 
@@ -126,7 +126,8 @@ pub fn respond_at_order(
 ) -> Result<Response, EngineError> {
     let observe = Observe { events: true, ..Observe::default() };
     with_core_scene(scene, Quotient::Rounded, |scene| {
-        integrator::respond_at_order(scene, &observe, order)
+        let order = Some(order);
+        Solver { order, ..Solver::default() }.respond(scene, &observe)
     })
 }
 
@@ -196,28 +197,28 @@ fn with_core_scene<R>(
 fn pulse(scene: &Scene, unit: f64) -> Option<PulseKind> {
     Some(match scene.forcing {
         Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles } => {
-            let amplitude_g = amplitude_m_s2 / unit;
+            let amplitude = amplitude_m_s2 / unit;
             match half_cycles {
-                1 => PulseKind::HalfSine { amplitude_g, omega_rad_s },
-                2 => PulseKind::OneSine { amplitude_g, omega_rad_s },
+                1 => PulseKind::HalfSine { amplitude, omega_rad_s },
+                2 => PulseKind::OneSine { amplitude, omega_rad_s },
                 _ => return None,
             }
         }
         Forcing::Cosine { amplitude_m_s2, omega_rad_s } => {
             PulseKind::OneCosine {
-                amplitude_g: amplitude_m_s2 / unit,
+                amplitude: amplitude_m_s2 / unit,
                 omega_rad_s,
             }
         }
         Forcing::Rectangle { amplitude_m_s2, duration_s } => {
             PulseKind::Rectangle {
-                amplitude_g: amplitude_m_s2 / unit,
+                amplitude: amplitude_m_s2 / unit,
                 duration_s,
             }
         }
         Forcing::Triangle { amplitude_m_s2, duration_s } => {
             PulseKind::Triangle {
-                amplitude_g: amplitude_m_s2 / unit,
+                amplitude: amplitude_m_s2 / unit,
                 duration_s,
             }
         }
@@ -227,15 +228,11 @@ fn pulse(scene: &Scene, unit: f64) -> Option<PulseKind> {
             cycles,
             antisymmetric,
         } => {
-            let amplitude_g = amplitude_m_s2 / unit;
+            let amplitude = amplitude_m_s2 / unit;
             if antisymmetric {
-                PulseKind::RickerAntisymmetric {
-                    amplitude_g,
-                    period_s,
-                    cycles,
-                }
+                PulseKind::RickerAntisymmetric { amplitude, period_s, cycles }
             } else {
-                PulseKind::RickerSymmetric { amplitude_g, period_s, cycles }
+                PulseKind::RickerSymmetric { amplitude, period_s, cycles }
             }
         }
         Forcing::Mavroeidis {
@@ -244,7 +241,7 @@ fn pulse(scene: &Scene, unit: f64) -> Option<PulseKind> {
             gamma,
             phase_rad,
         } => PulseKind::MavroeidisPapageorgiou {
-            velocity_g_s: velocity_m_s / unit,
+            velocity: velocity_m_s / unit,
             frequency_hz,
             gamma,
             phase_rad,

@@ -2,7 +2,10 @@
 
 use thiserror::Error;
 
-/// Shape of a pulse; amplitudes in multiples of gravity.
+/// Shape of a pulse. The constructor says in which unit its amplitude is:
+/// multiples of gravity for [`Pulse::try_new`](super::Pulse::try_new), m/s2
+/// for [`Pulse::try_new_si`](super::Pulse::try_new_si) (a velocity: gravity
+/// times s, or m/s).
 ///
 /// Every pulse starts at t = 0 and is zero afterwards (a jump, if it does not
 /// end at zero).
@@ -11,44 +14,44 @@ use thiserror::Error;
 pub enum PulseKind {
     /// a sin(omega t) for one full period.
     OneSine {
-        /// Peak acceleration over g.
-        amplitude_g: f64,
+        /// Peak acceleration.
+        amplitude: f64,
         /// Circular frequency in rad/s.
         omega_rad_s: f64,
     },
     /// a sin(omega t) for half a period.
     HalfSine {
-        /// Peak acceleration over g.
-        amplitude_g: f64,
+        /// Peak acceleration.
+        amplitude: f64,
         /// Circular frequency in rad/s.
         omega_rad_s: f64,
     },
     /// a cos(omega t) for one full period.
     OneCosine {
-        /// Peak acceleration over g.
-        amplitude_g: f64,
+        /// Peak acceleration.
+        amplitude: f64,
         /// Circular frequency in rad/s.
         omega_rad_s: f64,
     },
     /// Constant a.
     Rectangle {
-        /// Acceleration over g.
-        amplitude_g: f64,
+        /// Acceleration.
+        amplitude: f64,
         /// Duration in s.
         duration_s: f64,
     },
     /// Isosceles triangle.
     Triangle {
-        /// Peak acceleration over g, at half the duration.
-        amplitude_g: f64,
+        /// Peak acceleration, at half the duration.
+        amplitude: f64,
         /// Duration in s.
         duration_s: f64,
     },
     /// a (1 - x^2) exp(-x^2/2), x = sqrt(2) pi (t - t_c)/T, over `cycles`
     /// periods T about the centre t_c.
     RickerSymmetric {
-        /// Peak acceleration over g.
-        amplitude_g: f64,
+        /// Peak acceleration.
+        amplitude: f64,
         /// Period T in s.
         period_s: f64,
         /// Length in periods.
@@ -57,8 +60,8 @@ pub enum PulseKind {
     /// (a / beta) (x^2 - 3) x exp(-x^2/2), x = 2 pi (t - t_c)/(sqrt(3) T),
     /// with beta = 1.38 such that the peak is a.
     RickerAntisymmetric {
-        /// Peak acceleration over g.
-        amplitude_g: f64,
+        /// Peak acceleration.
+        amplitude: f64,
         /// Period T in s.
         period_s: f64,
         /// Length in periods.
@@ -68,8 +71,8 @@ pub enum PulseKind {
     /// (V/2) (1 + cos(2 pi f u/gamma)) cos(2 pi f u + nu), with
     /// u = t - gamma/(2 f) and |u| <= gamma/(2 f).
     MavroeidisPapageorgiou {
-        /// Velocity amplitude V over g, in s.
-        velocity_g_s: f64,
+        /// Velocity amplitude V.
+        velocity: f64,
         /// Prevailing frequency f in Hz.
         frequency_hz: f64,
         /// Oscillatory character gamma.
@@ -106,14 +109,14 @@ impl PulseKind {
     /// The amplitude: an acceleration, or a velocity.
     pub(super) fn amplitude(self) -> f64 {
         match self {
-            Self::OneSine { amplitude_g: a, .. }
-            | Self::HalfSine { amplitude_g: a, .. }
-            | Self::OneCosine { amplitude_g: a, .. }
-            | Self::Rectangle { amplitude_g: a, .. }
-            | Self::Triangle { amplitude_g: a, .. }
-            | Self::RickerSymmetric { amplitude_g: a, .. }
-            | Self::RickerAntisymmetric { amplitude_g: a, .. }
-            | Self::MavroeidisPapageorgiou { velocity_g_s: a, .. } => a,
+            Self::OneSine { amplitude: a, .. }
+            | Self::HalfSine { amplitude: a, .. }
+            | Self::OneCosine { amplitude: a, .. }
+            | Self::Rectangle { amplitude: a, .. }
+            | Self::Triangle { amplitude: a, .. }
+            | Self::RickerSymmetric { amplitude: a, .. }
+            | Self::RickerAntisymmetric { amplitude: a, .. }
+            | Self::MavroeidisPapageorgiou { velocity: a, .. } => a,
         }
     }
 
@@ -123,14 +126,14 @@ impl PulseKind {
         change: impl Fn(f64) -> f64,
     ) -> Self {
         match &mut self {
-            Self::OneSine { amplitude_g: a, .. }
-            | Self::HalfSine { amplitude_g: a, .. }
-            | Self::OneCosine { amplitude_g: a, .. }
-            | Self::Rectangle { amplitude_g: a, .. }
-            | Self::Triangle { amplitude_g: a, .. }
-            | Self::RickerSymmetric { amplitude_g: a, .. }
-            | Self::RickerAntisymmetric { amplitude_g: a, .. }
-            | Self::MavroeidisPapageorgiou { velocity_g_s: a, .. } => {
+            Self::OneSine { amplitude: a, .. }
+            | Self::HalfSine { amplitude: a, .. }
+            | Self::OneCosine { amplitude: a, .. }
+            | Self::Rectangle { amplitude: a, .. }
+            | Self::Triangle { amplitude: a, .. }
+            | Self::RickerSymmetric { amplitude: a, .. }
+            | Self::RickerAntisymmetric { amplitude: a, .. }
+            | Self::MavroeidisPapageorgiou { velocity: a, .. } => {
                 *a = change(*a);
             }
         }

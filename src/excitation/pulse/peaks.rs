@@ -7,14 +7,12 @@ impl Pulse {
     #[must_use]
     pub fn pga_g(&self) -> f64 {
         match self.kind() {
-            PulseKind::OneSine { amplitude_g, .. }
-            | PulseKind::HalfSine { amplitude_g, .. }
-            | PulseKind::OneCosine { amplitude_g, .. }
-            | PulseKind::Rectangle { amplitude_g, .. }
-            | PulseKind::Triangle { amplitude_g, .. }
-            | PulseKind::RickerSymmetric { amplitude_g, .. } => {
-                amplitude_g.abs()
-            }
+            PulseKind::OneSine { amplitude, .. }
+            | PulseKind::HalfSine { amplitude, .. }
+            | PulseKind::OneCosine { amplitude, .. }
+            | PulseKind::Rectangle { amplitude, .. }
+            | PulseKind::Triangle { amplitude, .. }
+            | PulseKind::RickerSymmetric { amplitude, .. } => amplitude.abs(),
             PulseKind::RickerAntisymmetric { .. }
             | PulseKind::MavroeidisPapageorgiou { .. } => {
                 self.extreme(|t| self.acceleration_g(t))
@@ -26,39 +24,39 @@ impl Pulse {
     #[must_use]
     pub fn pgv_g_s(&self) -> f64 {
         match self.kind() {
-            PulseKind::OneSine { amplitude_g, omega_rad_s }
-            | PulseKind::HalfSine { amplitude_g, omega_rad_s } => {
-                2.0 * amplitude_g.abs() / omega_rad_s
+            PulseKind::OneSine { amplitude, omega_rad_s }
+            | PulseKind::HalfSine { amplitude, omega_rad_s } => {
+                2.0 * amplitude.abs() / omega_rad_s
             }
-            PulseKind::OneCosine { amplitude_g, omega_rad_s } => {
-                amplitude_g.abs() / omega_rad_s
+            PulseKind::OneCosine { amplitude, omega_rad_s } => {
+                amplitude.abs() / omega_rad_s
             }
-            PulseKind::Rectangle { amplitude_g, duration_s } => {
-                amplitude_g.abs() * duration_s
+            PulseKind::Rectangle { amplitude, duration_s } => {
+                amplitude.abs() * duration_s
             }
-            PulseKind::Triangle { amplitude_g, duration_s } => {
-                0.5 * amplitude_g.abs() * duration_s
+            PulseKind::Triangle { amplitude, duration_s } => {
+                0.5 * amplitude.abs() * duration_s
             }
             // Antiderivatives of the Gaussian shapes: (1 - x^2) G = (x G)',
             // (x^2 - 3) x G = ((1 - x^2) G)'.
-            PulseKind::RickerSymmetric { amplitude_g, .. } => {
+            PulseKind::RickerSymmetric { amplitude, .. } => {
                 let x = |t: f64| self.gauss_argument(t);
                 let first = x(0.0) * gauss(x(0.0));
                 let rate = self.gauss_rate();
                 self.extreme(|t| {
-                    amplitude_g / rate * (x(t) * gauss(x(t)) - first)
+                    amplitude / rate * (x(t) * gauss(x(t)) - first)
                 })
             }
-            PulseKind::RickerAntisymmetric { amplitude_g, .. } => {
+            PulseKind::RickerAntisymmetric { amplitude, .. } => {
                 let x = |t: f64| self.gauss_argument(t);
                 let part = |x: f64| (1.0 - x * x) * gauss(x);
                 let first = part(x(0.0));
                 let scale =
-                    amplitude_g / (ricker_beta::<f64>() * self.gauss_rate());
+                    amplitude / (ricker_beta::<f64>() * self.gauss_rate());
                 self.extreme(|t| scale * (part(x(t)) - first))
             }
             PulseKind::MavroeidisPapageorgiou {
-                velocity_g_s,
+                velocity,
                 frequency_hz,
                 gamma,
                 phase_rad,
@@ -68,7 +66,7 @@ impl Pulse {
                 // The velocity is zero at both ends: 1 + cos(pi) = 0.
                 self.extreme(|t| {
                     let u = t - half;
-                    0.5 * velocity_g_s
+                    0.5 * velocity
                         * (1.0 + libm::cos(rate * u / gamma))
                         * libm::cos(rate * u + phase_rad)
                 })

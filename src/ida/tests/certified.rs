@@ -1,5 +1,5 @@
 use super::super::*;
-use crate::integrator::Engine;
+use crate::integrator::Arithmetic;
 use crate::record::Accelerogram;
 
 /// A triangular lobe of half a second, 0.2 g high.
@@ -47,7 +47,7 @@ fn bisection_to_the_last_bit_needs_double_double() {
     assert!(count.double_double > 0, "{count:?}");
     assert_eq!(count.unresolved, 0, "{count:?}");
     assert!(top.told.resolved && top.outcome.is_overturned());
-    assert_eq!(top.told.by, Some(Engine::DoubleDouble));
+    assert_eq!(top.told.by, Some(Arithmetic::DoubleDouble));
     assert!(first.standing_im.next_up() >= top.im, "{first:?}");
     // Double precision is off by roundings.
     let plain_im = plain.refined.unwrap().im;

@@ -7,8 +7,7 @@ use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
 use crate::integrator::pool::{Source, Tally, class_of, run};
 use crate::integrator::{
-    Model, Observe, Overturning, Response, Scene, WorkLimit, respond,
-    respond_peak,
+    Model, Observe, Overturning, Response, Scene, Solver, WorkLimit, respond,
 };
 use crate::number::dispatch::Isa;
 use crate::record::Accelerogram;
@@ -131,10 +130,18 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
         tallies.push(tally);
         due.push(regressed);
         for (scene, found) in &bench.done {
-            assert_eq!(*found, respond_peak(scene).unwrap());
+            assert_eq!(*found, peak(scene));
         }
     }
     assert_eq!(tallies, due);
+}
+
+/// A run that ends early.
+fn peak(scene: &Scene<'_>) -> Response {
+    let solver = Solver { peak_only: true, ..Solver::default() };
+    let work_limit = WorkLimit::IDA;
+    let observe = Observe { work_limit, ..Observe::default() };
+    solver.respond(scene, &observe).unwrap()
 }
 
 /// Nothing is lost with the end of a record that can change nothing, and what
@@ -174,7 +181,7 @@ fn runs_that_end_early_say_what_whole_runs_say() {
                     initial_ratio: 0.0,
                 };
                 let whole = respond(&scene, &Observe::default()).unwrap();
-                let peak = respond_peak(&scene).unwrap();
+                let peak = peak(&scene);
                 assert!(peak.work.steps <= whole.work.steps);
                 if peak.work.steps < whole.work.steps {
                     shorter += 1;

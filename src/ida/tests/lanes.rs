@@ -1,6 +1,8 @@
 use crate::block::{Block, Restitution};
 use crate::excitation::NormalisedRecord;
-use crate::ida::{Analysis, Grid, Method, Resurrections, curve, curves_with};
+use crate::ida::{
+    Adjust, Analysis, Batch, Grid, Resurrections, curve, curves,
+};
 use crate::integrator::{Model, Order, Overturning};
 use crate::number::dispatch::Isa;
 use crate::record::{Accelerogram, AccelerogramError};
@@ -43,7 +45,7 @@ fn panel() -> Result<Vec<Analysis>, Box<dyn std::error::Error>> {
             ..paper
         });
         out.push(Analysis {
-            method: Method::SlendernessAdjustment,
+            adjust: Adjust::SlendernessAdjustment,
             grid: im,
             resurrections: Some(Resurrections::Multiple(1.5)),
             ..paper
@@ -79,8 +81,8 @@ fn lanes_have_the_bits_of_the_scalar_engine()
             let pool = rayon::ThreadPoolBuilder::new()
                 .num_threads(threads)
                 .build()?;
-            let found =
-                pool.install(|| curves_with(&records, &panel, isa, || {}))?;
+            let batch = Batch { isa, ..Batch::default() };
+            let found = pool.install(|| curves(&records, &panel, &batch))?;
             assert!(found == expected, "{} on {threads}", isa.name());
         }
     }

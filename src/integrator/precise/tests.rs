@@ -1,4 +1,4 @@
-use super::{respond_octuple, respond_precise};
+use super::respond_precise;
 use crate::block::{Block, Restitution};
 use crate::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
@@ -28,8 +28,8 @@ fn gap(found: DoubleDouble, exact: Octuple) -> f64 {
 
 fn agree(scene: &Scene<'_>) {
     let observe = Observe { accuracy: true, ..Observe::default() };
-    let wide = respond_octuple(scene, &observe).unwrap();
-    let found = respond_precise(scene, &observe).unwrap();
+    let wide = respond_precise::<Octuple>(scene, &observe).unwrap();
+    let found = respond_precise::<DoubleDouble>(scene, &observe).unwrap();
     assert_eq!(wide.outcome.is_overturned(), found.outcome.is_overturned());
     assert_eq!(wide.work.impacts, found.work.impacts);
     let error = gap(found.peak_ratio, wide.peak_ratio);
@@ -43,8 +43,8 @@ fn agree(scene: &Scene<'_>) {
 #[test]
 fn a_pulse_gives_in_double_double_what_it_gives_in_octuple_precision() {
     for kind in [
-        PulseKind::OneSine { amplitude_g: 3.5, omega_rad_s: 8.0 },
-        PulseKind::HalfSine { amplitude_g: 3.9, omega_rad_s: 5.0 },
+        PulseKind::OneSine { amplitude: 3.5, omega_rad_s: 8.0 },
+        PulseKind::HalfSine { amplitude: 3.9, omega_rad_s: 5.0 },
     ] {
         let pulse = Pulse::try_new_si(kind, 9.81).unwrap();
         for model in [Model::Nonlinear, Model::Linearized] {
@@ -76,7 +76,7 @@ fn free_rocking_comes_to_rest_when_it_does_in_octuple_precision() {
     let observe = Observe { events: true, ..Observe::default() };
     for model in [Model::Nonlinear, Model::Linearized] {
         let scene = scene(model, Excitation::Free, 0.6);
-        let wide = respond_octuple(&scene, &observe).unwrap();
+        let wide = respond_precise::<Octuple>(&scene, &observe).unwrap();
         let found = respond_precise(&scene, &observe).unwrap();
         let (exact, rest) = (wide.rest_time_s, found.rest_time_s);
         assert!(gap(rest.unwrap(), exact.unwrap()) < 1e-29);

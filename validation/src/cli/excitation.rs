@@ -295,45 +295,45 @@ impl ExcitationArgs {
                 Failure::input(format!("--pulse {} needs {flag}", name.name()))
             })
         };
-        let amplitude_g = || need("--amplitude-m-s2", self.amplitude_m_s2);
+        let amplitude = || need("--amplitude-m-s2", self.amplitude_m_s2);
         let omega_rad_s = || need("--omega-rad-s", self.omega_rad_s);
         let duration_s = || need("--duration-s", self.duration_s);
         let period_s = || need("--period-s", self.period_s);
         let cycles = self.cycles.unwrap_or(4.0);
         Ok(match name {
             PulseName::OneSine => PulseKind::OneSine {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 omega_rad_s: omega_rad_s()?,
             },
             PulseName::HalfSine => PulseKind::HalfSine {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 omega_rad_s: omega_rad_s()?,
             },
             PulseName::OneCosine => PulseKind::OneCosine {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 omega_rad_s: omega_rad_s()?,
             },
             PulseName::Rectangle => PulseKind::Rectangle {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 duration_s: duration_s()?,
             },
             PulseName::Triangle => PulseKind::Triangle {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 duration_s: duration_s()?,
             },
             PulseName::RickerSymmetric => PulseKind::RickerSymmetric {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 period_s: period_s()?,
                 cycles,
             },
             PulseName::RickerAntisymmetric => PulseKind::RickerAntisymmetric {
-                amplitude_g: amplitude_g()?,
+                amplitude: amplitude()?,
                 period_s: period_s()?,
                 cycles,
             },
             PulseName::MavroeidisPapageorgiou => {
                 PulseKind::MavroeidisPapageorgiou {
-                    velocity_g_s: need("--velocity-m-s", self.velocity_m_s)?,
+                    velocity: need("--velocity-m-s", self.velocity_m_s)?,
                     frequency_hz: need("--frequency-hz", self.frequency_hz)?,
                     gamma: need("--gamma", self.gamma)?,
                     phase_rad: need("--phase-rad", self.phase_rad)?,

@@ -9,7 +9,7 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaPoint, Method,
+    Adjust, Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaPoint,
     REFINEMENT, Resurrections, Told,
 };
 use rocking::integrator::{WorkLimit, uplift_threshold};
@@ -164,8 +164,8 @@ impl Args {
             overturning: self.model.overturning(),
             grid,
             method: match self.by {
-                By::RecordScaling => Method::RecordScaling,
-                By::SlendernessAdjustment => Method::SlendernessAdjustment,
+                By::RecordScaling => Adjust::RecordScaling,
+                By::SlendernessAdjustment => Adjust::SlendernessAdjustment,
             },
             refine: self.refine.map_or(Some(REFINEMENT), Refine::width),
             highest_im: HIGHEST_IM,
@@ -248,9 +248,9 @@ fn csv(table: &[IdaCurve], analysis: &Analysis, gravity_m_s2: f64) -> String {
 /// The onset of rocking: IM = 1, no demand.
 fn vertex(curve: &IdaCurve, analysis: &Analysis) -> IdaPoint {
     let threshold = uplift_threshold(&analysis.block, analysis.model);
-    let (pga_g, slenderness_rad) = match analysis.method {
-        Method::RecordScaling => (threshold, analysis.block.slenderness_rad()),
-        Method::SlendernessAdjustment => {
+    let (pga_g, slenderness_rad) = match analysis.adjust {
+        Adjust::RecordScaling => (threshold, analysis.block.slenderness_rad()),
+        Adjust::SlendernessAdjustment => {
             let own = curve.record_pga_g;
             (own, libm::atan(own))
         }

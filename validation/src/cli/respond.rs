@@ -117,7 +117,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let name = args.excitation.name();
         write_atomically(path, drawing(&scene, &response, name, pga_g)?)?;
     }
-    let certify = || certify_within(&scene, work_limit).map_err(refused);
+    let certify = || certify(&scene, work_limit).map_err(refused);
     let certified = if args.certify { Some(certify()?) } else { None };
     let (scene, done) = (&scene, args.excitation.processing()?);
     let setting =

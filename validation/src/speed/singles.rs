@@ -1,8 +1,7 @@
 //! Our own methods on the single analyses.
 
 use rocking::integrator::{
-    Observe, Order, Response, Scene, SceneError, respond, respond_at_order,
-    respond_precise,
+    Observe, Order, Response, Scene, SceneError, Solver, respond_precise,
 };
 
 use super::answers::Answer;
@@ -25,15 +24,20 @@ pub const ORDERS: [(&str, Option<Order>); 5] = [
     ("as shipped", None),
 ];
 
+/// [`respond_precise`] in double-double.
+fn double_double(
+    scene: &Scene<'_>,
+    observe: &Observe,
+) -> Result<Response<DoubleDouble>, SceneError> {
+    respond_precise(scene, observe)
+}
+
 fn run(
     scene: &Scene<'_>,
     observe: &Observe,
     order: Option<Order>,
 ) -> Result<Response, SceneError> {
-    match order {
-        Some(order) => respond_at_order(scene, observe, order),
-        None => respond(scene, observe),
-    }
+    Solver { order, ..Solver::default() }.respond(scene, observe)
 }
 
 /// Measures every order on every case, and double-double once.
@@ -65,7 +69,7 @@ pub fn measure(
     for (case, reference) in cases {
         let scene = case.scene();
         let (cpu_s, plain) =
-            least_s(1, 0.0, || respond_precise(&scene, &Observe::default()));
+            least_s(1, 0.0, || double_double(&scene, &Observe::default()));
         let took = (cpu_s, plain?.work.steps);
         rows.push(row(label, (case, reference), took, reference));
         done();

@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Grid, IdaCurve, curve};
-use rocking::integrator::{Model, Order, Overturning, Scene, respond_peak};
+use rocking::integrator::{
+    Model, Observe, Order, Overturning, Scene, Solver, WorkLimit,
+};
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
@@ -164,10 +166,13 @@ pub fn samples_of(
     let steps: Vec<Result<u64, SpeedError>> = chains
         .par_iter()
         .map(|(analysis, record, curve)| {
+            let solver = Solver { peak_only: true, ..Solver::default() };
+            let work_limit = WorkLimit::IDA;
+            let observe = Observe { work_limit, ..Observe::default() };
             let mut steps = 0;
             for point in &curve.points {
                 let scene = scene(analysis, record, point.pga_g);
-                steps += respond_peak(&scene)?.work.steps;
+                steps += solver.respond(&scene, &observe)?.work.steps;
             }
             Ok(steps)
         })

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::Method;
+use rocking::ida::Adjust;
 use rocking::intensity::{Measures, Settings};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
@@ -246,7 +246,7 @@ impl Plan {
         records: &[NormalisedRecord],
         progress: &ProgressBar,
     ) -> Result<(Vec<ArmCurves>, Work), StudyError> {
-        let method = Method::RecordScaling;
+        let method = Adjust::RecordScaling;
         let done = || progress.inc(1);
         let chains =
             self.setup.chains(blocks, records, &self.arms, method, done)?;
@@ -333,7 +333,7 @@ impl Plan {
             .collect();
         let tasks = drawn.len() * references.len() * records.len();
         progress.inc_length(tasks as u64);
-        let method = Method::SlendernessAdjustment;
+        let method = Adjust::SlendernessAdjustment;
         let done = || progress.inc(1);
         let chains =
             self.setup.chains(&references, records, &drawn, method, done)?;

@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
-use rocking::integrator::{Certified, Engine, Scene, certify};
+use rocking::integrator::{Arithmetic, Certified, Scene, certify};
 
 use super::StudyError;
 
@@ -47,9 +47,9 @@ impl Ends {
         self.moved += usize::from(fate.moved());
         let by = match fate.by {
             _ if !fate.decided => &mut self.undecided,
-            Engine::Double => &mut self.double,
-            Engine::DoubleDouble => &mut self.double_double,
-            Engine::Octuple => &mut self.octuple,
+            Arithmetic::Double => &mut self.double,
+            Arithmetic::DoubleDouble => &mut self.double_double,
+            Arithmetic::Octuple => &mut self.octuple,
         };
         *by += 1;
     }
@@ -194,7 +194,8 @@ mod tests {
             overturning: Overturning::HalfPi,
             ..Analysis::paper(block, eta)
         };
-        let runs = ida::curves(&records, &[analysis], || {}).unwrap();
+        let runs =
+            ida::curves(&records, &[analysis], &Batch::default()).unwrap();
         let found = certainty(&[analysis], &records, &runs).unwrap();
         let ends = found.ends;
         assert!(found.unresolved > 0 && ends.all > 0, "{found:?}");
@@ -204,7 +205,8 @@ mod tests {
         assert!(found.largest_shift < 0.1, "{found:?}");
         // Nothing is open at the study's own refinement.
         let analysis = Analysis { refine: Some(1e-4), ..analysis };
-        let runs = ida::curves(&records, &[analysis], || {}).unwrap();
+        let runs =
+            ida::curves(&records, &[analysis], &Batch::default()).unwrap();
         let found = certainty(&[analysis], &records, &runs).unwrap();
         assert_eq!(found, Certainty::default());
     }

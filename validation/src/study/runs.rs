@@ -4,7 +4,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use rocking::ida::{self, Analysis, Grid, IdaCurve, Method};
+use rocking::ida::{self, Adjust, Analysis, Grid, IdaCurve};
 use rocking::integrator::{
     Model, Observe, Outcome, Overturning, Response, Scene, respond,
     uplift_threshold,
@@ -128,7 +128,7 @@ impl Setup {
         method: Method,
     ) -> Result<f64, StudyError> {
         let analysis = self.analysis(block, Arm::A, method);
-        Ok(ida::at(record, &analysis, im)?.edp())
+        Ok(ida::demand_at(record, &analysis, im)?.edp())
     }
 
     /// The response of `block` to the record scaled to `pga_g`.

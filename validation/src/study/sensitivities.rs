@@ -4,7 +4,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::Method;
+use rocking::ida::Adjust;
 use rocking::integrator::Overturning;
 
 use super::StudyError;
@@ -127,7 +127,7 @@ impl Plan {
                     let arm = [self.common()];
                     let present: Vec<NormalisedRecord> =
                         records.iter().flatten().cloned().collect();
-                    let method = Method::RecordScaling;
+                    let method = Adjust::RecordScaling;
                     let chains = setup.chains(
                         &[block],
                         &present,

@@ -6,9 +6,11 @@ use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, IdaError, curve};
 use rocking::integrator::{
     Assessment, Model, Observe, Outcome, Overturning, Response, Scene,
-    SceneError, respond, respond_octuple, respond_peak, respond_precise,
+    SceneError, Solver, respond, respond_precise,
 };
 use rocking::number::Real;
+use rocking::number::double::DoubleDouble;
+use rocking::number::octuple::Octuple;
 
 /// Levels below the first overturning that wider arithmetic tells.
 const LEVELS_BELOW: usize = 5;
@@ -196,10 +198,15 @@ impl Survey {
         if !(missed || near) {
             return Ok(());
         }
-        let quick = respond_peak(scene)?;
-        let truth = Truth::of(&respond_precise(scene, &observe)?);
+        let solver = Solver { peak_only: true, ..Solver::default() };
+        let quick = solver.respond(scene, &Observe::default())?;
+        let truth =
+            Truth::of(&respond_precise::<DoubleDouble>(scene, &observe)?);
         let (truth, octuple) = match truth {
-            None => (Truth::of(&respond_octuple(scene, &observe)?), true),
+            None => (
+                Truth::of(&respond_precise::<Octuple>(scene, &observe)?),
+                true,
+            ),
             told => (told, false),
         };
         let own = Truth {

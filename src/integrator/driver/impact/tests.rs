@@ -16,7 +16,7 @@ fn driver(model: Model, eta: f64, peak: f64) -> Chattering {
     let restitution = Restitution::constant(eta).unwrap();
     let dynamics =
         Dynamics::new(&block, restitution, model, Overturning::Alpha);
-    let kind = PulseKind::Rectangle { amplitude_g: 1.0, duration_s: 1.0 };
+    let kind = PulseKind::Rectangle { amplitude: 1.0, duration_s: 1.0 };
     let forcing = PulseForcing::new(&Pulse::try_new(kind).unwrap(), 1.0);
     let mut driver = Driver::new(dynamics, forcing, Isa::best());
     driver.record.peak = peak;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::Method;
+use rocking::ida::Adjust;
 
 use super::{ArmCurves, Plan, StripeDemands, SuiteResults};
 use crate::study::StudyError;
@@ -23,7 +23,7 @@ impl Plan {
         results: &SuiteResults,
     ) -> Result<Vec<StripeDemands>, StudyError> {
         let used = self.used_stripes(results);
-        let scaling = Method::RecordScaling;
+        let scaling = Adjust::RecordScaling;
         let runs: Vec<Vec<Vec<f64>>> = blocks
             .iter()
             .map(|block| {
@@ -36,7 +36,7 @@ impl Plan {
             .map(|frequency| {
                 let block = blocks[position(frequency, REFERENCE)];
                 on_levels(&used, records, |im, record| {
-                    let method = Method::SlendernessAdjustment;
+                    let method = Adjust::SlendernessAdjustment;
                     self.setup.demand(block, record, im, method)
                 })
             })

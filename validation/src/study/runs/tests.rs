@@ -28,7 +28,7 @@ fn chain(
     arms: &[Arm],
 ) -> Vec<ResponseCurve> {
     let records = std::slice::from_ref(record);
-    let method = Method::RecordScaling;
+    let method = Adjust::RecordScaling;
     let chains = setup.chains(&[block], records, arms, method, || {});
     let curves = chains.expect("chain").curves;
     curves.into_iter().flatten().flatten().collect()

@@ -139,7 +139,7 @@ impl Timings {
             "Moved: of the chains of 15 blocks and all embedded records \
              (0.01 g steps), those whose first overturning is at another \
              level than as shipped. An order is chosen by ida --order or, \
-             in the library, by Analysis::order and respond_at_order; the \
+             in the library, by Analysis::order and Solver::order; the \
              other commands, and this study, run as shipped."
                 .into(),
             &[

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::Method;
+use rocking::ida::Adjust;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 use rocking::statistics::{ExtendedSample, QuantileType};
@@ -71,7 +71,7 @@ fn capacities(
         &blocks()?,
         &records,
         &[arm],
-        Method::RecordScaling,
+        Adjust::RecordScaling,
         || (),
     )?;
     let certainty: Certainty = chains.certainty;

@@ -1,0 +1,252 @@
+//! A scene and its answer.
+
+use crate::block::{Block, Restitution};
+use crate::excitation::Excitation;
+use crate::integrator::{Certificate, Model, Overturning, WorkLimit};
+
+/// A scene: what is integrated.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// The block.
+    pub block: Block,
+    /// What an impact leaves of the angular velocity.
+    pub restitution: Restitution,
+    /// Equation of motion.
+    pub model: Model,
+    /// When the block counts as overturned.
+    pub overturning: Overturning,
+    /// What moves the ground.
+    pub excitation: Excitation<'a>,
+    /// Initial rotation over the slenderness angle, released at rest; in
+    /// [0, 1).
+    pub initial_ratio: f64,
+}
+
+impl<'a> Scene<'a> {
+    /// A block under an excitation as the paper has it: Eq. 1, overturning
+    /// where |theta| exceeds alpha, from rest. Other choices are fields.
+    ///
+    /// ```
+    /// use rocking::{Block, Excitation, Restitution, Scene};
+    /// use rocking::integrator::Model;
+    /// let block = Block::try_new(0.1, 3.0)?;
+    /// let restitution = Restitution::constant(0.92)?;
+    /// let free = Scene {
+    ///     model: Model::Linearized,
+    ///     initial_ratio: 0.5,
+    ///     ..Scene::new(block, restitution, Excitation::Free)
+    /// };
+    /// assert_eq!(free.initial_ratio, 0.5);
+    /// # Ok::<(), rocking::block::BlockError>(())
+    /// ```
+    #[must_use]
+    pub fn new(
+        block: Block,
+        restitution: Restitution,
+        excitation: Excitation<'a>,
+    ) -> Self {
+        Self {
+            block,
+            restitution,
+            model: Model::Nonlinear,
+            overturning: Overturning::Alpha,
+            excitation,
+            initial_ratio: 0.0,
+        }
+    }
+}
+
+/// What to record beyond outcome and peak; each costs what it needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Observe {
+    /// Impacts and the time of coming to rest.
+    pub events: bool,
+    /// Error estimate and condition number.
+    pub accuracy: bool,
+    /// Rotation every so many seconds.
+    pub history_interval_s: Option<f64>,
+    /// Stop at this time (s) instead of when nothing more can happen.
+    pub until_s: Option<f64>,
+    /// Work beyond which the run is refused.
+    pub work_limit: WorkLimit,
+}
+
+/// What became of the block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Outcome<N = f64> {
+    /// The ground acceleration never exceeded the uplift threshold.
+    NoUplift,
+    /// It rocked and stands.
+    Rocked {
+        /// Peak |theta|/alpha.
+        peak_ratio: N,
+    },
+    /// It overturned.
+    Overturned {
+        /// When the criterion was met, s.
+        time_s: N,
+        /// Sign of the rotation.
+        side: Side,
+    },
+}
+
+impl Outcome {
+    /// Engineering demand parameter: peak |theta|/alpha, infinite when
+    /// overturned, zero without uplift.
+    #[must_use]
+    pub fn edp(&self) -> f64 {
+        match self {
+            Self::NoUplift => 0.0,
+            Self::Rocked { peak_ratio } => *peak_ratio,
+            Self::Overturned { .. } => f64::INFINITY,
+        }
+    }
+}
+
+impl<N> Outcome<N> {
+    /// True when the block overturned.
+    #[must_use]
+    pub fn is_overturned(&self) -> bool {
+        matches!(self, Self::Overturned { .. })
+    }
+}
+
+/// Side of the rotation: the sign of theta.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// theta > 0.
+    Positive,
+    /// theta < 0, the side to which a positive ground acceleration drives.
+    Negative,
+}
+
+impl Side {
+    /// +1 or -1.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
+        }
+    }
+
+    pub(crate) fn flipped(self) -> Self {
+        match self {
+            Self::Positive => Self::Negative,
+            Self::Negative => Self::Positive,
+        }
+    }
+}
+
+/// An impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact<N = f64> {
+    /// Time in s.
+    pub time_s: N,
+    /// Absolute angular velocity just before it, rad/s.
+    pub speed_before_rad_s: N,
+    /// Bounds on the errors of both; recorded with accuracy, none where a
+    /// decision before it is not clear.
+    pub error: Option<ImpactError>,
+}
+
+/// Bounds on the errors of an impact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImpactError {
+    /// Of its time, s.
+    pub time_s: f64,
+    /// Of the angular velocity before it, rad/s.
+    pub speed_rad_s: f64,
+}
+
+/// A point of a history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HistoryPoint<N = f64> {
+    /// Time in s.
+    pub time_s: N,
+    /// Rotation theta in rad, signed.
+    pub rotation_rad: N,
+    /// Angular velocity in rad/s, signed.
+    pub velocity_rad_s: N,
+}
+
+/// How much was computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Taylor polynomials expanded.
+    pub steps: u64,
+    /// Impacts solved.
+    pub impacts: u64,
+    /// Turning points above all before.
+    pub turning_points: u64,
+    /// Uplifts from rest.
+    pub uplifts: u64,
+    /// Intervals (or blocks of intervals) looked at while at rest.
+    pub rest_scans: u64,
+}
+
+/// The answer to a scene, in the numbers of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response<N = f64> {
+    /// What became of the block, by this run.
+    pub outcome: Outcome<N>,
+    /// Largest |theta|/alpha reached before overturning or at all.
+    pub peak_ratio: N,
+    /// When the peak was reached, s.
+    pub peak_time_s: Option<N>,
+    /// First uplift, s.
+    pub uplift_time_s: Option<N>,
+    /// Final coming to rest, s; recorded with events.
+    pub rest_time_s: Option<N>,
+    /// Impacts in order; recorded with events.
+    pub impacts: Vec<Impact<N>>,
+    /// Distance of the run from the other fate, in units of the slenderness
+    /// angle (see the design of the criterion in [`Overturning`]).
+    pub fate_margin: f64,
+    /// Bound on the error of the peak ratio; recorded with accuracy, none
+    /// where a decision is not clear.
+    pub error_estimate: Option<f64>,
+    /// Bound on the error of the final coming to rest, s; likewise.
+    pub rest_error_s: Option<f64>,
+    /// Bound on the error of the time of overturning, s; likewise.
+    pub overturning_error_s: Option<f64>,
+    /// Relative sensitivity of the peak to restitution and initial state;
+    /// recorded with accuracy.
+    pub condition_number: Option<f64>,
+    /// How clearly outcome and peak were decided; recorded with accuracy.
+    pub certificate: Option<Certificate>,
+    /// The same for all inputs that round to the doubles that were given;
+    /// recorded with accuracy.
+    pub input_certificate: Option<Certificate>,
+    /// Rough estimate of the largest ratio of error to margin among the
+    /// decisions, made by runs of which outcome and peak alone are asked:
+    /// whether their certificate is worth its cost.
+    pub doubt: Option<f64>,
+    /// Work counters.
+    pub work: Work,
+    /// Signed rotation in time; recorded when asked for.
+    pub history: Vec<HistoryPoint<N>>,
+}
+
+impl<N> Response<N> {
+    /// Whether outcome and peak can be told in this precision.
+    #[must_use]
+    pub fn assessment(&self) -> Assessment {
+        match self.certificate {
+            None => Assessment::NotAssessed,
+            Some(certificate) if certificate.is_clear() => Assessment::Clear,
+            Some(_) => Assessment::Unresolved,
+        }
+    }
+}
+
+/// Whether outcome and peak of a run can be told in its precision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Assessment {
+    /// No error of the run can turn any of its decisions.
+    Clear,
+    /// The error of the run may have turned one of its decisions.
+    Unresolved,
+    /// Nobody looked.
+    NotAssessed,
+}

@@ -12,6 +12,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, curve};
 use rocking::integrator::{Model, Observe, Order, Solver, respond_precise};
+use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use rocking_validation::curves::Execution;
@@ -98,7 +99,10 @@ mod analysis {
     fn one_in_double_double(bencher: Bencher) {
         let scene = CASES[0].scene();
         bencher.bench_local(|| {
-            black_box(respond_precise(&scene, &Observe::default()))
+            black_box(respond_precise::<DoubleDouble>(
+                &scene,
+                &Observe::default(),
+            ))
         });
     }
 }

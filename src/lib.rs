@@ -1,20 +1,68 @@
-//! The statistics of rocking.
+//! How free-standing rigid blocks (columns, statues, cabinets) rock and
+//! overturn under earthquakes, and the statistics of it.
 //!
-//! A free-standing rigid block (a column, a statue, a cabinet) answers an
-//! earthquake by rocking about its two base corners, and sometimes by
-//! overturning. This crate integrates that motion to rounding error and
-//! does the statistics on top of it. Data flow one way:
+//! ```
+//! use rocking::excitation::{Pulse, PulseKind};
+//! use rocking::{Block, Excitation, Observe, Restitution, Scene, respond};
 //!
-//! ```text
-//! record -> excitation -> (block, integrator) -> response -> IDA
-//!        -> capacity -> statistics/fragility
+//! // A block of 0.3 m by 1.5 m under one sine of 0.4 g at 12 rad/s.
+//! let block = Block::from_dimensions(0.3, 1.5, 9.81)?;
+//! let restitution = Restitution::housner(&block)?;
+//! let sine = PulseKind::OneSine { amplitude: 0.4, omega_rad_s: 12.0 };
+//! let pulse = Pulse::try_new(sine)?;
+//! let scene = Scene::new(block, restitution, Excitation::Pulse(&pulse));
+//! let response = respond(&scene, &Observe::default())?;
+//! assert!(response.peak_ratio > 0.3 && response.peak_ratio < 0.5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A *scene* is a block, an excitation, a model and an observer: the caller
-//! says what is to be recorded and pays for nothing else.
+//! | you have | you want | call |
+//! |---|---|---|
+//! | a block and a pulse or record | what it does | [`respond`] a [`Scene`] |
+//! | the same | impacts, history, error bound | the fields of [`Observe`] |
+//! | a run that may be chaotic | a fate that is sure | [`certify`](integrator::certify) |
+//! | the same | 30 or 77 digits | [`respond_precise`](integrator::respond_precise) |
+//! | a file of a record | the record | [`record::read`] |
+//! | a folder or an index of records | a suite | [`Suite::read`](record::Suite::read) |
+//! | a record and a block | demand at rising intensity | [`ida::curve`] |
+//! | many of both | the same, on all cores | [`ida::curves`] |
+//! | an IDA curve | capacities | [`IdaCurve::response`](ida::IdaCurve::response), [`capacity`] |
+//! | capacities | a fragility with a shift | [`lognormal::fit`](statistics::lognormal::fit) |
+//! | a fragility without a shift | one with it (Eqs. 5 to 7) | [`fragility::transform`] |
+//! | a sample | is it lognormal? | [`lilliefors::Assessment`](statistics::lilliefors::Assessment) |
+//! | a record | its intensity measures | [`intensity`] |
+//!
+//! # The chain
+//!
+//! Data flow one way, one module a step:
+//!
+//! ```text
+//! record -> excitation -> (block, integrator) -> ida
+//!        -> capacity -> statistics, fragility
+//! ```
+//!
+//! [`record`] reads files; [`excitation`] scales them and has analytic
+//! pulses; [`block`] has geometry and restitution; [`integrator`] answers a
+//! scene; [`ida`] raises the intensity until the block overturns;
+//! [`capacity`] inverts that; [`statistics`] and [`fragility`] do the rest.
+//! `examples/fragility.rs` goes from a folder of records to a fragility in 25
+//! lines.
+//!
+//! # What is modelled
+//!
+//! A planar, rigid, symmetric block on a rigid base under horizontal ground
+//! acceleration: uplift, rocking about either corner, impact with a
+//! coefficient of restitution, rest, overturning; Eq. 1 (nonlinear) and
+//! Eq. 2 (linearized). *Not* modelled: sliding, bouncing, vertical
+//! acceleration, motion out of the plane, flexible blocks or bases.
+//!
+//! Rocking under a long record is chaotic. [`certainty`] says what rounding
+//! does to it, and what the words `clear` and `unresolved` promise.
 //!
 //! Equation numbers refer to Lachanas, Vamvatsikos and Dimitrakopoulos,
 //! "Statistical property parameterization of simple rocking block response".
+//! `ARCHITECTURE.md` in the repository is the map of the code: where a new
+//! pulse, impact law or record format goes.
 
 pub mod block;
 pub mod capacity;

@@ -76,7 +76,7 @@ pub struct Suite {
 }
 
 /// How a suite is read.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct SuiteOptions {
     /// What the caller knows about the records; an index's `dt_s` and
     /// `units` come before it.

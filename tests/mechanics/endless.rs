@@ -7,11 +7,12 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
 };
-use rocking::ida::{Analysis, Grid, IdaError, curve, curves};
+use rocking::ida::{Analysis, Batch, Grid, IdaError, curve, curves};
 use rocking::integrator::{
     Model, Observe, Outcome, Overturning, Scene, SceneError, WorkLimit,
     respond, respond_precise, uplift_threshold,
 };
+use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 
 const MODELS: [Model; 2] = [Model::Nonlinear, Model::Linearized];
@@ -153,7 +154,10 @@ fn a_block_that_never_rests_is_refused_within_a_record_and_after() {
             refused(respond(&scene(model, 1.0, within), &observe), "impacts");
         }
         refused(
-            respond_precise(&scene(model, 1.0, within), &plain),
+            respond_precise::<DoubleDouble>(
+                &scene(model, 1.0, within),
+                &plain,
+            ),
             "impacts",
         );
         for eta in [1.0 - 1e-6, 1.0 - 1e-9, 1.0_f64.next_down()] {

@@ -4,11 +4,12 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
 };
-use rocking::ida::{Analysis, Grid, curve, curves};
+use rocking::ida::{Analysis, Batch, Grid, curve, curves};
 use rocking::integrator::{
-    Arithmetic, Model, Observe, Outcome, Overturning, Scene, certify, respond,
-    respond_precise,
+    Arithmetic, Model, Observe, Outcome, Overturning, Scene, WorkLimit,
+    certify, respond, respond_precise,
 };
+use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 
 fn wave(seed: f64, dt_s: f64) -> Accelerogram {
@@ -76,7 +77,8 @@ fn estimates_bound_the_distance_from_double_double() {
         for model in [Model::Nonlinear, Model::Linearized] {
             let scene = scene(model, excitation);
             let double = respond(&scene, &observe).unwrap();
-            let precise = respond_precise(&scene, &observe).unwrap();
+            let precise =
+                respond_precise::<DoubleDouble>(&scene, &observe).unwrap();
             let gap = (double.peak_ratio - precise.peak_ratio.hi()).abs();
             let error = double.error_estimate.unwrap();
             assert!(gap <= error && error < 1e-12, "{gap:e} {error:e}");
@@ -123,7 +125,7 @@ fn neighbours_of_a_critical_amplitude_are_told() {
             block: Block::try_new(0.2, 2.0).unwrap(),
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
-        let fate = certify(&near).unwrap();
+        let fate = certify(&near, WorkLimit::default()).unwrap();
         assert!(fate.decided && fate.by == by, "{fate:?}");
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();
@@ -154,7 +156,7 @@ fn a_fate_that_double_precision_misses_is_told_and_said_so() {
             block: Block::try_new(0.2, 2.0).unwrap(),
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
-        let fate = certify(&near).unwrap();
+        let fate = certify(&near, WorkLimit::default()).unwrap();
         assert!(fate.decided && fate.by == Arithmetic::DoubleDouble);
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();

@@ -8,6 +8,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
     self, Model, Observe, Order, Outcome, Overturning, Response, SceneError,
+    Solver,
 };
 use rocking::number::Real;
 

@@ -10,9 +10,9 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
     Adjust, Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaPoint,
-    REFINEMENT, Resurrections, Told,
+    REFINEMENT, Resurrections,
 };
-use rocking::integrator::{WorkLimit, uplift_threshold};
+use rocking::integrator::WorkLimit;
 use rocking::record::{ReadOptions, Suite};
 use serde_json::json;
 
@@ -163,7 +163,7 @@ impl Args {
             model,
             overturning: self.model.overturning(),
             grid,
-            method: match self.by {
+            adjust: match self.by {
                 By::RecordScaling => Adjust::RecordScaling,
                 By::SlendernessAdjustment => Adjust::SlendernessAdjustment,
             },
@@ -233,7 +233,7 @@ fn csv(table: &[IdaCurve], analysis: &Analysis, gravity_m_s2: f64) -> String {
                 point.fate_margin
             );
         };
-        row(&vertex(curve, analysis), "no-uplift");
+        row(&curve.onset, "no-uplift");
         for point in curve.points.iter().chain(&curve.above) {
             row(point, outcome_name(&point.outcome, point.told.resolved));
         }
@@ -243,31 +243,6 @@ fn csv(table: &[IdaCurve], analysis: &Analysis, gravity_m_s2: f64) -> String {
         }
     }
     text
-}
-
-/// The onset of rocking: IM = 1, no demand.
-fn vertex(curve: &IdaCurve, analysis: &Analysis) -> IdaPoint {
-    let threshold = uplift_threshold(&analysis.block, analysis.model);
-    let (pga_g, slenderness_rad) = match analysis.adjust {
-        Adjust::RecordScaling => (threshold, analysis.block.slenderness_rad()),
-        Adjust::SlendernessAdjustment => {
-            let own = curve.record_pga_g;
-            (own, libm::atan(own))
-        }
-    };
-    IdaPoint {
-        im: 1.0,
-        pga_g,
-        slenderness_rad,
-        outcome: rocking::integrator::Outcome::NoUplift,
-        fate_margin: 0.0,
-        told: Told {
-            by: None,
-            resolved: true,
-            moved: false,
-            for_inputs: true,
-        },
-    }
 }
 
 /// Median first overturning intensity, counting the curves that stand as

@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{
     Assessment, CLEARANCE, Certificate, Certified, Clearance, Decision,
-    HistoryPoint, Observe, Outcome, Response, Scene, Side, WorkLimit,
-    certify_within, respond, uplift_threshold,
+    HistoryPoint, Observe, Outcome, Response, Scene, Side, WorkLimit, certify,
+    respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
 

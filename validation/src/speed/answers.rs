@@ -3,6 +3,7 @@
 use rocking::integrator::{
     Observe, Outcome, Response, SceneError, respond_precise,
 };
+use rocking::number::double::DoubleDouble;
 
 use super::cases::{Case, ETA};
 use super::rest::{Ground, without_chatter};
@@ -52,7 +53,8 @@ impl Answer {
     /// As [`respond_precise`].
     pub fn reference(case: &Case) -> Result<Self, SceneError> {
         let observe = Observe { events: true, ..Observe::default() };
-        let response = respond_precise(&case.scene(), &observe)?;
+        let response =
+            respond_precise::<DoubleDouble>(&case.scene(), &observe)?;
         let peak_ratio = match response.outcome {
             Outcome::NoUplift => 0.0,
             Outcome::Rocked { peak_ratio } => peak_ratio.hi(),

@@ -3,6 +3,7 @@
 use rocking::integrator::{
     Observe, Order, Response, Scene, SceneError, Solver, respond_precise,
 };
+use rocking::number::double::DoubleDouble;
 
 use super::answers::Answer;
 use super::cases::Case;

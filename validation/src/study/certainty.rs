@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
-use rocking::integrator::{Arithmetic, Certified, Scene, certify};
+use rocking::integrator::{Arithmetic, Certified, Scene, WorkLimit, certify};
 
 use super::StudyError;
 
@@ -121,17 +121,14 @@ fn again(
         point.slenderness_rad,
         analysis.block.frequency_rad_s(),
     )?;
-    Ok(certify(&Scene {
-        block,
-        restitution: analysis.restitution,
+    let record = ScaledRecord::to_pga(record, point.pga_g);
+    let excitation = Excitation::Record(record);
+    let scene = Scene {
         model: analysis.model,
         overturning: analysis.overturning,
-        excitation: Excitation::Record(ScaledRecord::to_pga(
-            record,
-            point.pga_g,
-        )),
-        initial_ratio: 0.0,
-    })?)
+        ..Scene::new(block, analysis.restitution, excitation)
+    };
+    Ok(certify(&scene, WorkLimit::default())?)
 }
 
 /// The next level above a first overturning that overturns.
@@ -194,8 +191,8 @@ mod tests {
             overturning: Overturning::HalfPi,
             ..Analysis::paper(block, eta)
         };
-        let runs =
-            ida::curves(&records, &[analysis], &Batch::default()).unwrap();
+        let runs = ida::curves(&records, &[analysis], &ida::Batch::default())
+            .unwrap();
         let found = certainty(&[analysis], &records, &runs).unwrap();
         let ends = found.ends;
         assert!(found.unresolved > 0 && ends.all > 0, "{found:?}");
@@ -205,8 +202,8 @@ mod tests {
         assert!(found.largest_shift < 0.1, "{found:?}");
         // Nothing is open at the study's own refinement.
         let analysis = Analysis { refine: Some(1e-4), ..analysis };
-        let runs =
-            ida::curves(&records, &[analysis], &Batch::default()).unwrap();
+        let runs = ida::curves(&records, &[analysis], &ida::Batch::default())
+            .unwrap();
         let found = certainty(&[analysis], &records, &runs).unwrap();
         assert_eq!(found, Certainty::default());
     }

@@ -4,7 +4,7 @@
 use rocking::block::{Block, Restitution};
 use rocking::capacity::ResponseCurve;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use rocking::ida::{self, Adjust, Analysis, Grid, IdaCurve};
+use rocking::ida::{self, Adjust, Analysis, Grid, Overturned};
 use rocking::integrator::{
     Model, Observe, Outcome, Overturning, Response, Scene, respond,
     uplift_threshold,
@@ -45,14 +45,14 @@ pub struct Chains {
 
 impl Setup {
     /// What an arm asks of a block.
-    fn analysis(&self, block: Block, arm: Arm, method: Method) -> Analysis {
+    fn analysis(&self, block: Block, arm: Arm, adjust: Adjust) -> Analysis {
         Analysis {
             overturning: self.overturning,
             grid: match arm {
                 Arm::A | Arm::B => Grid::Pga { step_g: 0.01 },
                 Arm::C => Grid::Im { step: 0.02 },
             },
-            method,
+            adjust,
             refine: match arm {
                 Arm::A => None,
                 Arm::B | Arm::C => Some(self.tolerance),
@@ -72,14 +72,14 @@ impl Setup {
         blocks: &[Block],
         records: &[NormalisedRecord],
         arms: &[Arm],
-        method: Method,
+        adjust: Adjust,
         done: impl Fn() + Sync,
     ) -> Result<Chains, StudyError> {
         let scans = Self::scans(arms);
         let analyses: Vec<Analysis> = scans
             .iter()
             .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
-            .map(|(block, arm)| self.analysis(block, arm, method))
+            .map(|(block, arm)| self.analysis(block, arm, adjust))
             .collect();
         let runs = self.way.curves(records, &analyses, &done)?;
         let all = || runs.iter().flatten();
@@ -92,7 +92,9 @@ impl Setup {
                 runs[first..first + blocks.len()]
                     .iter()
                     .map(|runs| {
-                        runs.iter().map(|r| response_curve(r, *arm)).collect()
+                        runs.iter()
+                            .map(|run| Ok(run.response(overturned(*arm))?))
+                            .collect()
                     })
                     .collect()
             })
@@ -125,9 +127,9 @@ impl Setup {
         block: Block,
         record: &NormalisedRecord,
         im: f64,
-        method: Method,
+        adjust: Adjust,
     ) -> Result<f64, StudyError> {
-        let analysis = self.analysis(block, Arm::A, method);
+        let analysis = self.analysis(block, Arm::A, adjust);
         Ok(ida::demand_at(record, &analysis, im)?.edp())
     }
 
@@ -197,20 +199,12 @@ impl Setup {
     }
 }
 
-/// The standing points above the onset (1, 0), and the first overturning:
-/// the level of the grid in arm A, the bracket's upper end in B and C.
-fn response_curve(
-    run: &IdaCurve,
-    arm: Arm,
-) -> Result<ResponseCurve, StudyError> {
-    let standing = run.standing().map(|point| (point.im, point.edp()));
-    let vertices: Vec<(f64, f64)> =
-        std::iter::once((1.0, 0.0)).chain(standing).collect();
-    let overturning = run.overturning.map(|first| match arm {
-        Arm::A => first.scanned_im,
-        Arm::B | Arm::C => first.im(),
-    });
-    Ok(ResponseCurve::try_new(&vertices, overturning)?)
+/// What an arm counts as the first overturning.
+fn overturned(arm: Arm) -> Overturned {
+    match arm {
+        Arm::A => Overturned::Scanned,
+        Arm::B | Arm::C => Overturned::Refined,
+    }
 }
 
 #[cfg(test)]

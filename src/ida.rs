@@ -153,14 +153,15 @@ pub enum IdaError {
         #[source]
         source: BlockError,
     },
-    /// A level's run passed the limit of its work.
+    /// A level's run passed the limit of its work, or ended in what is not a
+    /// number.
     #[error("record {record} at IM {im}: {source}")]
     Work {
         /// The record.
         record: String,
         /// The level.
         im: f64,
-        /// What was counted, and to what limit.
+        /// Why it was refused.
         #[source]
         source: SceneError,
     },

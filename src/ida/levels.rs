@@ -174,11 +174,13 @@ impl Level<'_> {
     /// Which level a scene that is refused belongs to.
     fn refused(&self, error: SceneError) -> IdaError {
         match error {
-            SceneError::Work { .. } => IdaError::Work {
-                record: self.record.to_owned(),
-                im: self.im,
-                source: error,
-            },
+            SceneError::Work { .. } | SceneError::NotANumber { .. } => {
+                IdaError::Work {
+                    record: self.record.to_owned(),
+                    im: self.im,
+                    source: error,
+                }
+            }
             other => other.into(),
         }
     }

@@ -277,12 +277,13 @@ impl<N: Real> RecordForcing<'_, N> {
 pub(crate) struct PulseForcing<N> {
     stretches: Vec<Stretch<N>>,
     p: N,
+    isa: Isa,
 }
 
 impl<N: Real> PulseForcing<N> {
-    pub fn new(pulse: &Pulse, frequency_rad_s: f64) -> Self {
+    pub fn new(pulse: &Pulse, frequency_rad_s: f64, isa: Isa) -> Self {
         let p = N::from_f64(frequency_rad_s);
-        Self { stretches: Stretch::all(pulse, frequency_rad_s), p }
+        Self { stretches: Stretch::all(pulse, frequency_rad_s), p, isa }
     }
 
     fn count(&self) -> usize {
@@ -366,7 +367,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 return (Some(found), scan(scanned, gap));
             }
             let left = self.of(piece).length(self.p) - offset;
-            if let Some(crest) = crest(&series, left) {
+            if let Some(crest) = crest(&series, left, self.isa) {
                 let near = (crest - threshold).abs();
                 gap = if near < gap { near } else { gap };
             }
@@ -378,7 +379,7 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 }
                 gap[0] = gap[0] + threshold;
                 // What is met at the end belongs to the next piece.
-                let Some(tau) = first_descent(&gap, left, Isa::best())
+                let Some(tau) = first_descent(&gap, left, self.isa)
                     .filter(|tau| *tau < left)
                 else {
                     continue;
@@ -419,7 +420,7 @@ impl<N: Real> PulseForcing<N> {
             let series: [N; F] = self.series(place);
             let left = self.of(place.piece).length(self.p) - place.offset;
             let end = value(&series, left).abs();
-            let top = crest(&series, left);
+            let top = crest(&series, left, self.isa);
             for here in [Some(series[0].abs()), Some(end), top] {
                 let over = here.map_or(N::zero(), |here| here - threshold);
                 most = if over > most { over } else { most };
@@ -432,7 +433,8 @@ impl<N: Real> PulseForcing<N> {
         most
     }
 
-    /// True where the piece goes on from the one before without a jump.
+    /// True where the piece goes on from the one before without a jump:
+    /// every pulse is continuous after its first instant.
     fn continues(&self, piece: usize) -> bool {
         piece > 0
     }

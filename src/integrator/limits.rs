@@ -104,6 +104,15 @@ pub enum SceneError {
         /// When in the scene it was passed, s.
         time_s: f64,
     },
+    /// Rotation or velocity went beyond the largest number.
+    #[error(
+        "rotation or velocity is not a number at {time_s} s: expected \
+         accelerations and times within the range of double precision"
+    )]
+    NotANumber {
+        /// When in the scene that happened, s.
+        time_s: f64,
+    },
 }
 
 /// What is no scene, or a scene that is asked for what cannot be.

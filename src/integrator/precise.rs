@@ -103,7 +103,7 @@ impl<N: Real> SeriesWork for Run<'_, N> {
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
         let own = own_index(scene);
         let isa = Isa::best();
-        let ground = Ground::of(scene, index_of(scene, own.as_ref()));
+        let ground = Ground::of(scene, index_of(scene, own.as_ref()), isa);
         let short = match &ground {
             Ground::Record(record) => is_short::<N>(record.step(), SHORT),
             Ground::Pulse(_) | Ground::Silence(_) => false,

@@ -75,7 +75,7 @@ impl Kernel for Run<'_> {
                 }
             }
             (_, index) => {
-                let ground = Ground::of(self.scene, index);
+                let ground = Ground::of(self.scene, index, self.solver.isa);
                 Driver::<_, _, LONGEST, LONGEST>::new(
                     dynamics,
                     ground,

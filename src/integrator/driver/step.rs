@@ -1,12 +1,12 @@
 //! One step of the driver: its series, and how much that leaves.
 
-use crate::integrator::Side;
 use crate::integrator::driver::decisions::Stepped;
 use crate::integrator::driver::events::Event;
 use crate::integrator::driver::{Driver, Flight, Motion, Step};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::taylor::{Series, expand, slope, value};
+use crate::integrator::{SceneError, Side};
 use crate::number::dispatch::Kernel;
 use crate::number::{Number, Real};
 
@@ -77,7 +77,10 @@ where
                 None => part = part * N::ratio(1, 2),
             }
         }
-        // Not a number: nothing bounds the motion any more.
+        // Nothing bounds a motion that is not a number.
+        let time_s = self.time_s(step.place).to_f64();
+        let error = SceneError::NotANumber { time_s };
+        self.record.exceeded.get_or_insert(error);
         Advance::Ended(Flight::Stopped)
     }
 
@@ -94,7 +97,7 @@ where
         let series: Series<N, LEN> = self.expand((u, w), length, &drive);
         let Series { c, v } = &series;
         self.record.work.steps += 1;
-        if left_by(v, length) > self.allowed(w, length) {
+        if !(left_by(v, length) <= self.allowed(w, length)) {
             return None;
         }
         let event = self.first_event(c);

@@ -10,6 +10,7 @@ use crate::number::dispatch::Isa;
 pub(super) fn crest<N: Real, const F: usize>(
     c: &[N; F],
     length: N,
+    isa: Isa,
 ) -> Option<N> {
     let mut slope = [N::zero(); F];
     for k in 1..F {
@@ -20,22 +21,22 @@ pub(super) fn crest<N: Real, const F: usize>(
         slope = slope.map(|x| -x);
     }
     // A derivative that starts at zero has that crest before.
-    let tau = first_descent(&slope, length, Isa::best())?;
+    let tau = first_descent(&slope, length, isa)?;
     (tau > N::zero() && tau < length).then(|| value(c, tau).abs())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::crest;
+    use super::{Isa, crest};
 
     #[test]
     fn a_crest_is_where_the_slope_vanishes() {
         // 1 - (x - 1/2)^2 is 1 at its crest; upside down as well.
         let c = [0.75, 1.0, -1.0, 0.0];
-        assert_eq!(crest(&c, 1.0), Some(1.0));
-        assert_eq!(crest(&c.map(|x: f64| -x), 1.0), Some(1.0));
-        assert_eq!(crest(&c, 0.4), None);
-        assert_eq!(crest(&[1.0, 2.0], 9.0), None);
-        assert_eq!(crest(&[0.0; 3], 9.0), None);
+        assert_eq!(crest(&c, 1.0, Isa::best()), Some(1.0));
+        assert_eq!(crest(&c.map(|x: f64| -x), 1.0, Isa::best()), Some(1.0));
+        assert_eq!(crest(&c, 0.4, Isa::best()), None);
+        assert_eq!(crest(&[1.0, 2.0], 9.0, Isa::best()), None);
+        assert_eq!(crest(&[0.0; 3], 9.0, Isa::best()), None);
     }
 }

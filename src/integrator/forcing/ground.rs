@@ -8,6 +8,7 @@ use crate::integrator::forcing::{
     Remainder, Scan,
 };
 use crate::number::Real;
+use crate::number::dispatch::Isa;
 
 /// A ground motion of any kind. Its series has as many coefficients as a
 /// pulse needs; those that a record lacks are zero.
@@ -22,14 +23,18 @@ pub(crate) enum Ground<'a, N> {
 
 impl<'a, N: Real> Ground<'a, N> {
     /// What moves the ground of a scene; a record comes with its index.
-    pub fn of(scene: &Scene<'a>, index: Option<&'a RecordIndex>) -> Self {
+    pub fn of(
+        scene: &Scene<'a>,
+        index: Option<&'a RecordIndex>,
+        isa: Isa,
+    ) -> Self {
         let p = scene.block.frequency_rad_s();
         match (scene.excitation, index) {
             (Excitation::Record(record), Some(index)) => {
                 Self::Record(RecordForcing::new(record, index, p))
             }
             (Excitation::Pulse(pulse), _) => {
-                Self::Pulse(PulseForcing::new(pulse, p))
+                Self::Pulse(PulseForcing::new(pulse, p, isa))
             }
             (Excitation::Record(_) | Excitation::Free, _) => Self::nothing(),
         }

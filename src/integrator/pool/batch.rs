@@ -244,7 +244,8 @@ impl Batch {
         let (tolerance, alpha) =
             (V::from_f64(tolerance), V::load(&self.alpha));
         let allowed = tolerance * alpha.mul_add(h, w.abs());
-        let again = allowed.lt(last_term(v[LEN - 1].abs(), h));
+        // What is not a number is too much.
+        let again = last_term(v[LEN - 1].abs(), h).le(allowed).not();
         let mut hard = none;
         if SIZE > LEN {
             // Where the class' own series is enough, it is it.
@@ -253,7 +254,7 @@ impl Batch {
                 v[k] = again.select(v[k], zero);
             }
             let last = last_term(v[SIZE - 1].abs(), h);
-            left = left.or(allowed.lt(last));
+            left = left.or(last.le(allowed).not());
         } else if LEN < HARD {
             hard = again;
         } else {

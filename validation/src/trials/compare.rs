@@ -1,7 +1,7 @@
 //! A run in double precision against the truth.
 
 use rocking::integrator::{
-    Assessment, CLEARANCE, Certificate, Decision, Observe, Response,
+    Assessment, CLEARANCE, Certificate, Decision, Observe, Response, WorkLimit,
 };
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
@@ -157,9 +157,13 @@ pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
     }
 }
 
+/// Work of a run in wider arithmetic: a step there takes up to a millisecond.
+const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
+
 /// The truth as one arithmetic tells it.
 fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
-    let observe = Observe { accuracy: true, ..Observe::default() };
+    let observe =
+        Observe { accuracy: true, work_limit: WORK, ..Observe::default() };
     let rounded = Quotient::Rounded;
     let response = respond_in::<N>(&trial.scene, &observe, rounded)?;
     let error = response.error_estimate.unwrap_or(f64::INFINITY);

@@ -17,7 +17,8 @@ fn driver(model: Model, eta: f64, peak: f64) -> Chattering {
     let dynamics =
         Dynamics::new(&block, restitution, model, Overturning::Alpha);
     let kind = PulseKind::Rectangle { amplitude: 1.0, duration_s: 1.0 };
-    let forcing = PulseForcing::new(&Pulse::try_new(kind).unwrap(), 1.0);
+    let forcing =
+        PulseForcing::new(&Pulse::try_new(kind).unwrap(), 1.0, Isa::best());
     let mut driver = Driver::new(dynamics, forcing, Isa::best());
     driver.record.peak = peak;
     driver

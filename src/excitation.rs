@@ -6,8 +6,7 @@ mod record_index;
 pub(crate) use pulse::Shape;
 
 pub use pulse::{Pulse, PulseError, PulseKind};
-pub use record_index::RecordIndex;
-pub(crate) use record_index::{RUN, Remaining, Window};
+pub(crate) use record_index::{RUN, RecordIndex, Remaining, Window};
 
 use crate::number::Number;
 use crate::record::{Accelerogram, AccelerogramError};
@@ -111,7 +110,7 @@ impl<'a> ScaledRecord<'a> {
 
     /// Index of the samples, where one was made.
     #[must_use]
-    pub fn index(&self) -> Option<&'a RecordIndex> {
+    pub(crate) fn index(&self) -> Option<&'a RecordIndex> {
         self.index
     }
 

@@ -11,7 +11,7 @@ const WINDOWS: [usize; 16] =
 /// block skips whole runs, and how fast and how far the ground still moves
 /// from there on. Made once a record, shared by all levels and blocks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RecordIndex {
+pub(crate) struct RecordIndex {
     /// Largest absolute sample of each run.
     peaks: Vec<f64>,
     /// What is left from each run on.

@@ -37,7 +37,7 @@ enum Level {
 ///
 /// Everything that `run` calls on its hot path must be `#[inline(always)]`:
 /// code that is not inlined keeps the baseline instruction set.
-pub trait Kernel {
+pub(crate) trait Kernel {
     /// What the work gives.
     type Output;
 
@@ -110,7 +110,7 @@ impl Isa {
 
     /// Runs `work` on one number at a time with this level's instructions.
     #[inline]
-    pub fn run<W: Kernel>(self, work: W) -> W::Output {
+    pub(crate) fn run<W: Kernel>(self, work: W) -> W::Output {
         match self.0 {
             Level::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]

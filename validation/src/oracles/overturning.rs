@@ -66,17 +66,6 @@ pub fn mode_1_upper(omega: f64, eta: f64) -> Option<f64> {
     (f(top) > 0.0).then(|| bisect(top, mode_2, f))
 }
 
-/// Lower edge of mode 1 where the impact comes after the pulse; none beyond
-/// the fold.
-#[must_use]
-pub fn mode_1_lower_after_pulse(omega: f64, eta: f64) -> Option<f64> {
-    let need = 1.0 / (eta * eta) - 1.0;
-    let mode_2 = sine_without_impact(2, omega);
-    let top = maximum(1.0, mode_2, |a| after_pulse(a, omega));
-    let f = |a: f64| after_pulse(a, omega) - need;
-    (f(top) > 0.0).then(|| bisect(1.0, top, f))
-}
-
 /// Where mode 1 of the one-sine pulse ends (eta > 1/sqrt(2)): Omega and A
 /// at which the largest F equals 1/eta^2 - 1.
 #[must_use]

@@ -48,17 +48,6 @@ impl Rectangular {
         bisect(0.0, most * (1.0 - 1e-9), |y| self.time_s(y) - t_s)
     }
 
-    /// Energy after the pulse has lifted the block to y, less that of the
-    /// saddle: cos alpha - 1 + (a/g)[sin alpha - sin(alpha - y)].
-    #[must_use]
-    pub fn energy_over_saddle(&self, y_rad: f64) -> f64 {
-        let half = libm::sin(0.5 * self.alpha_rad);
-        let work = 2.0
-            * libm::sin(0.5 * y_rad)
-            * libm::cos(self.alpha_rad - 0.5 * y_rad);
-        self.pull * work - 2.0 * half * half
-    }
-
     /// Shortest pulse that overturns, s: the one that lifts the block to
     /// alpha - asin[sin alpha - (1 - cos alpha) g/a].
     #[must_use]

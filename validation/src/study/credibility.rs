@@ -183,8 +183,7 @@ fn short(x: f64) -> String {
 /// After NASA-STD-7009B, by our own judgement: factor, level of 0 to 4,
 /// evidence, gaps.
 fn assessment(results: &Results) -> PlainTable {
-    let synthetic = results.ordinary.source.contains("synthetic");
-    let input = if synthetic {
+    let input = if results.embedded() {
         [
             "Input pedigree",
             "1",

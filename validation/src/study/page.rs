@@ -324,8 +324,7 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
     out
 }
 
-fn limits(results: &Results) -> Vec<String> {
-    let synthetic = results.ordinary.source.contains("synthetic");
+pub(super) fn limits(results: &Results) -> Vec<String> {
     let mut out = vec![
         "The block is planar, rigid and slides nowhere; the paper's model."
             .into(),
@@ -336,7 +335,7 @@ fn limits(results: &Results) -> Vec<String> {
          and are not independent."
             .into(),
     ];
-    if synthetic {
+    if results.embedded() {
         out.push(
             "The embedded suites are synthetic, from published stochastic \
              models; they can show how the procedure works, not what \

@@ -141,8 +141,8 @@ fn accuracy(results: &Value, timings: &Timings) -> String {
     )
 }
 
-fn not_checked(results: &Results) -> String {
-    let records = if results.ordinary.source.contains("synthetic") {
+pub(super) fn not_checked(results: &Results) -> String {
+    let records = if results.embedded() {
         "recorded earthquakes (these suites are synthetic), "
     } else {
         ""

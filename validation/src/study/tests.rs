@@ -4,27 +4,60 @@
 use indicatif::ProgressBar;
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
+use rocking::record::Processing;
 
 use super::Study;
-use super::analyses::Plan;
+use super::analyses::{Plan, SuiteResults, Work};
+use super::certainty::Certainty;
+use super::figures::Results;
 use super::output::{FINDINGS, Files};
 use super::runs::Setup;
-use super::suites::StudySuite;
+use super::suites::{Source, StudySuite};
+use super::{credibility, page, plain};
 use crate::curves::Way;
 use crate::figures::data::Arm;
 use crate::ledger::requirements;
 
-fn small(threads: usize, way: Way) -> Files {
-    let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
-    ordinary.motions.truncate(10);
-    pulse.motions.truncate(4);
+fn plan(way: Way) -> Plan {
     let setup = Setup {
         restitution: Restitution::constant(0.92).expect("restitution"),
         overturning: Overturning::Alpha,
         tolerance: 1e-3,
         way,
     };
-    let plan = Plan { setup, arms: vec![Arm::A, Arm::B] };
+    Plan { setup, arms: vec![Arm::A, Arm::B] }
+}
+
+/// Results of nothing, on two suites from there.
+fn empty(source: &Source) -> Results {
+    let suite = |kind| SuiteResults {
+        kind,
+        source: source.clone(),
+        component_rule: String::new(),
+        sha256: String::new(),
+        work: Work { analyses: 0, certainty: Certainty::default() },
+        records: Vec::new(),
+        onset_violations: 0,
+        chosen: [0; 3],
+        arms: Vec::new(),
+        single: Vec::new(),
+        stripes: Vec::new(),
+        adjusted: Vec::new(),
+    };
+    Results {
+        plan: plan(Way::default()),
+        ordinary: suite("ordinary"),
+        pulse: suite("pulse-type"),
+        distributions: Vec::new(),
+        varied: Vec::new(),
+    }
+}
+
+fn small(threads: usize, way: Way) -> Files {
+    let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
+    ordinary.motions.truncate(10);
+    pulse.motions.truncate(4);
+    let plan = plan(way);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("pool").install(|| {
         let progress = ProgressBar::hidden();
@@ -32,6 +65,33 @@ fn small(threads: usize, way: Way) -> Files {
             .and_then(|study| study.files())
             .expect("study")
     })
+}
+
+/// Everything that is said of where the records come from.
+fn said_of(source: &Source) -> String {
+    let results = empty(source);
+    let limits = page::limits(&results).concat();
+    let tables = credibility::tables(&results, &[]);
+    let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
+    let cells: String = cells.collect();
+    limits + &plain::not_checked(&results) + &cells
+}
+
+#[test]
+fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
+    let named = |name: &str| Source::Files {
+        name: name.into(),
+        processing: Processing::default(),
+    };
+    let own = said_of(&named("my-synthetic"));
+    assert!(own.contains("Suites given by the user"), "{own}");
+    assert!(!own.contains("ynthetic"), "{own}");
+    // The words in which the embedded suites are named.
+    assert_eq!(own, said_of(&named("embedded synthetic suite, streams x")));
+    let embedded = said_of(&Source::Embedded { streams: "x" });
+    assert!(embedded.contains("Synthetic suites from two"), "{embedded}");
+    assert!(embedded.contains("The embedded suites are synthetic"));
+    assert!(embedded.contains("these suites are synthetic"));
 }
 
 #[test]

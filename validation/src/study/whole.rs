@@ -242,7 +242,7 @@ fn suite(suite: &SuiteResults) -> Value {
     let certainty = &suite.work.certainty;
     json!({
         "kind": suite.kind,
-        "source": suite.source,
+        "source": suite.source.to_string(),
         "component_rule": suite.component_rule,
         "records": suite.records.len(),
         "sha256": suite.sha256,

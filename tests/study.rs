@@ -80,6 +80,34 @@ fn a_file_in_the_way_of_the_report() {
     refused("way", &args, &["input"]);
 }
 
+/// Results of the declared cases in `input`, after a change of their text.
+fn proof(name: &str, change: impl Fn(&str) -> String) {
+    let input = folder(name).join("input");
+    std::fs::create_dir_all(&input).expect("folder");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    for file in ["validation.json", "precision.csv"] {
+        let path = PathBuf::from(data).join(file);
+        let text = std::fs::read_to_string(path).expect("read");
+        std::fs::write(input.join(file), change(&text)).expect("write");
+    }
+}
+
+#[test]
+fn results_of_cases_that_are_missing_damaged_or_of_others() {
+    let args = ["--proof", "absent"];
+    refused("no-proof", &args, &["absent", "validation.json", "validate"]);
+    let args = ["--proof", "input"];
+    proof("cut-proof", |text| text[..text.len() / 2].into());
+    refused("cut-proof", &args, &["validation.json"]);
+    let renamed = |text: &str| {
+        text.replace("\"hard-cases/hs-graze-0.001\"", "\"hard-cases/other\"")
+    };
+    proof("other-proof", renamed);
+    let ids =
+        ["Missing: hard-cases/hs-graze-0.001. Unknown: hard-cases/other"];
+    refused("other-proof", &args, &ids);
+}
+
 #[test]
 fn the_committed_report_is_what_the_study_gives() {
     let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");

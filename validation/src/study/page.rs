@@ -15,14 +15,15 @@ use super::plain;
 use super::questions::Answer;
 use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
-use crate::evidence::{self, ShownChart};
+use crate::evidence::{self, NOT_RUN, Proof, ShownChart};
 use crate::figures::Figure as _;
 use crate::ledger;
 use crate::report::{
     self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
 };
 
-/// What the page shows.
+/// What the page shows; `proof` are the results of the declared cases, if
+/// they were handed in.
 ///
 /// # Errors
 /// [`StudyError`] where a figure cannot be drawn.
@@ -32,6 +33,7 @@ pub fn input(
     charts: &[ShownChart],
     claims: &[Claim],
     answers: &[Answer],
+    proof: Option<&Proof>,
 ) -> Result<ReportInput, StudyError> {
     let timings = Timings::kept()?;
     let mut drawn: Vec<ShownFigure> =
@@ -50,14 +52,15 @@ pub fn input(
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        summary: summary(results, claims, &timings)?,
+        summary: summary(results, claims, &timings, proof),
         findings: claims.iter().map(|c| finding(c, &names)).collect(),
-        families: evidence::committed_families()?,
-        tables: tables(answers)?,
+        proof: proof.map_or(NOT_RUN.into(), Proof::to_string),
+        families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
+        tables: tables(answers, proof)?,
         figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
-        credibility: credibility(results, claims, &timings)?,
+        credibility: credibility(results, claims, &timings, proof)?,
     })
 }
 
@@ -65,16 +68,21 @@ fn credibility(
     results: &Results,
     claims: &[Claim],
     timings: &Timings,
+    proof: Option<&Proof>,
 ) -> Result<Vec<PlainTable>, StudyError> {
-    let proof = evidence::committed_results()?;
-    let mut tables = vec![ledger::table(&proof, claims)?];
-    tables.extend(credibility::tables(results, claims));
+    let cases = proof.map(Proof::results);
+    let mut tables = vec![ledger::table(cases, claims)?];
+    tables.extend(credibility::tables(results, claims, proof));
     tables.extend(timings.tables());
     Ok(tables)
 }
 
-fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
-    let mut tables = vec![table_1()?, evidence::digits_table()];
+fn tables(
+    answers: &[Answer],
+    proof: Option<&Proof>,
+) -> Result<Vec<PlainTable>, StudyError> {
+    let mut tables = vec![table_1()?];
+    tables.extend(proof.map(Proof::digits_table));
     for answer in answers {
         tables.extend(answer.tables.iter().cloned());
     }
@@ -85,7 +93,8 @@ fn summary(
     results: &Results,
     claims: &[Claim],
     timings: &Timings,
-) -> Result<Summary, StudyError> {
+    proof: Option<&Proof>,
+) -> Summary {
     let found = |suite: &SuiteResults| {
         let certainty = suite.work.certainty;
         let work = format!(
@@ -118,7 +127,7 @@ fn summary(
             rounded_text(certainty.largest_shift)
         )
     };
-    Ok(Summary {
+    Summary {
         asked: "Can the slenderness of a rocking block be normalized out, \
                 and are its capacities lognormal above the intensity of \
                 uplift? Fifteen rigid blocks, p = 1, 3, 4 rad/s and alpha = \
@@ -126,7 +135,7 @@ fn summary(
                 of two suites."
             .into(),
         found: [
-            plain::answers(results, claims, timings)?,
+            plain::answers(results, claims, timings, proof),
             answers(claims),
             vec![found(&results.ordinary), found(&results.pulse)],
         ]
@@ -141,7 +150,7 @@ fn summary(
                 alone decides, and that is said there. Verdicts hold for \
                 these suites."
             .into(),
-    })
+    }
 }
 
 /// The figures among `names` that a claim is about: those of its section, in

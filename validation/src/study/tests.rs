@@ -14,7 +14,9 @@ use super::output::{FINDINGS, Files};
 use super::runs::Setup;
 use super::suites::{Source, StudySuite};
 use super::{credibility, page, plain};
+use crate::cases::load_all;
 use crate::curves::Way;
+use crate::evidence::{NOT_RUN, Proof};
 use crate::figures::data::Arm;
 use crate::ledger::requirements;
 
@@ -53,7 +55,7 @@ fn empty(source: &Source) -> Results {
     }
 }
 
-fn small(threads: usize, way: Way) -> Files {
+fn small(threads: usize, way: Way, proof: Option<&Proof>) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     ordinary.motions.truncate(10);
     pulse.motions.truncate(4);
@@ -62,7 +64,7 @@ fn small(threads: usize, way: Way) -> Files {
     pool.expect("pool").install(|| {
         let progress = ProgressBar::hidden();
         Study::run(plan, &[ordinary, pulse], false, &progress)
-            .and_then(|study| study.files())
+            .and_then(|study| study.files(proof))
             .expect("study")
     })
 }
@@ -71,7 +73,7 @@ fn small(threads: usize, way: Way) -> Files {
 fn said_of(source: &Source) -> String {
     let results = empty(source);
     let limits = page::limits(&results).concat();
-    let tables = credibility::tables(&results, &[]);
+    let tables = credibility::tables(&results, &[], None);
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
     limits + &plain::not_checked(&results) + &cells
@@ -96,12 +98,32 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
 
 #[test]
 fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
-    let one = small(1, Way::default());
-    let two = small(2, Way::OneByOne);
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    let proof = Proof::read(data.as_ref()).expect("proof");
+    let mut one = small(1, Way::default(), Some(&proof));
+    let mut two = small(2, Way::OneByOne, None);
+    // The proof is on the page alone.
+    let pages = [&mut one, &mut two].map(|files| {
+        let page = files.remove("index.html").expect("page");
+        String::from_utf8(page).expect("text")
+    });
     assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
     for (name, content) in &one {
         assert!(*content == two[name], "{name} differs");
     }
+    let [page, without] = pages;
+    let (id, table) = (&load_all().expect("cases")[0].id, "table-precision");
+    assert!(page.contains(&proof.to_string()) && !page.contains("run here"));
+    assert!(page.contains(id) && page.contains(table));
+    assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
+    assert!(!without.contains(id) && !without.contains(table));
+    // Up to what the proof says, they are the same.
+    let findings = |page: &str| {
+        let start = page.find("<section id=\"findings\"").expect("findings");
+        let end = page.find("<section id=\"evidence\"").expect("evidence");
+        page[start..end].to_owned()
+    };
+    assert!(findings(&page) == findings(&without));
     // Every figure with its numbers, the findings, Table 1 and the page.
     for number in 1..=18 {
         for (folder, suffix) in [("figures", "svg"), ("data", "csv")] {
@@ -112,7 +134,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
             assert!(found, "{stem}: no {suffix}");
         }
     }
-    for name in [FINDINGS, "data/table-01.csv", "index.html"] {
+    for name in [FINDINGS, "data/table-01.csv"] {
         assert!(one.contains_key(name), "{name}");
     }
     let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
@@ -146,7 +168,6 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         let listed = named.iter().any(|name| key.starts_with(name.as_str()));
         assert!(listed, "the ledger does not name {key}");
     }
-    let page = String::from_utf8(one["index.html"].clone()).expect("text");
     for table in ["ledger", "comparison-error", "credibility-assessment"] {
         assert!(page.contains(&format!("<div id=\"{table}\">")), "{table}");
     }

@@ -9,7 +9,7 @@ use super::answers::answers;
 use super::claims::PAPER_GRAVITY_M_S2;
 use super::credibility;
 use super::figures::{Figure, Results};
-use super::findings::{Claim, Verdict};
+use super::findings::Claim;
 use super::grid::blocks;
 use super::plain;
 use super::questions::Answer;
@@ -18,9 +18,7 @@ use super::whole::{arm_words, rounded_text};
 use crate::evidence::{self, NOT_RUN, Proof, ShownChart};
 use crate::figures::Figure as _;
 use crate::ledger;
-use crate::report::{
-    self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
-};
+use crate::report::{Finding, PlainTable, ReportInput, ShownFigure, Summary};
 
 /// What the page shows; `proof` are the results of the declared cases, if
 /// they were handed in.
@@ -213,11 +211,7 @@ fn finding(claim: &Claim, names: &[&str]) -> Finding {
         value: rounded_text(claim.measured.value),
         interval,
         margin: claim.margin.clone(),
-        verdict: match claim.verdict {
-            Verdict::Confirmed => report::Verdict::Confirmed,
-            Verdict::NotConfirmed => report::Verdict::NotConfirmed,
-            Verdict::Inconclusive => report::Verdict::Inconclusive,
-        },
+        verdict: claim.verdict,
         figures: shown_by(claim, names),
         remark: claim.note.clone(),
     }

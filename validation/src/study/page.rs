@@ -230,9 +230,9 @@ pub fn table_1() -> Result<PlainTable, StudyError> {
             Ok(vec![
                 format!("{}", block.frequency_rad_s()),
                 format!("{:.2}", block.slenderness_rad()),
-                format!("{:.3}", size.width_m),
-                format!("{:.3}", size.height_m),
-                format!("{:.3}", size.half_diagonal_m),
+                millimetres(size.width_m),
+                millimetres(size.height_m),
+                millimetres(size.half_diagonal_m),
                 format!("{eta:.4}"),
             ])
         })
@@ -248,6 +248,12 @@ pub fn table_1() -> Result<PlainTable, StudyError> {
         header: header.map(String::from).into(),
         rows,
     })
+}
+
+/// A length in m with three decimals, half a millimetre up as the paper
+/// rounds it: `{:.3}` takes 7.3575 down, whose double lies below it.
+fn millimetres(length_m: f64) -> String {
+    format!("{:.3}", (1e3 * length_m).round() / 1e3)
 }
 
 fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
@@ -347,4 +353,19 @@ pub(super) fn limits(results: &Results) -> Vec<String> {
         );
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_1_rounds_as_the_paper_does() {
+        let rows = table_1().expect("table").rows;
+        let radii: Vec<&str> = rows.iter().map(|r| r[4].as_str()).collect();
+        assert_eq!(radii[..5], ["7.358"; 5]);
+        assert_eq!(radii[5..10], ["0.818"; 5]);
+        assert_eq!(radii[10..], ["0.460"; 5]);
+        assert_eq!(rows[0][2..4], ["0.735", "14.697"]);
+    }
 }

@@ -11,6 +11,14 @@ use super::{Listed, line};
 use crate::cli::Failure;
 use crate::json::{number, optional};
 
+/// A peak ground displacement above this, in m, is remarked where nothing
+/// filtered slow drifts out: the largest that processed records of
+/// earthquakes have are of 4 m or so, permanent offsets aside.
+const LARGEST_PGD_M: f64 = 5.0;
+
+/// Code of that remark.
+const DRIFT: &str = "drift";
+
 /// What is asked for beside the list.
 #[derive(clap::Args)]
 pub(super) struct MeasureArgs {
@@ -37,6 +45,8 @@ pub(super) struct MeasureArgs {
 /// Results, in the order of the records and of the pairs.
 pub(super) struct Found {
     settings: Settings,
+    /// What was done to the baseline, where drifts were not filtered out.
+    baseline: Option<String>,
     singles: Option<Vec<Result<Measures, IntensityError>>>,
     pairs: Vec<FoundPair>,
 }
@@ -57,6 +67,7 @@ impl MeasureArgs {
         &self,
         records: &[Listed],
         gravity_m_s2: f64,
+        baseline: Option<String>,
     ) -> Result<Found, Failure> {
         let usual = Settings::default();
         let periods = self.periods.as_deref().unwrap_or(usual.periods_s());
@@ -107,7 +118,7 @@ impl MeasureArgs {
                 }
             })
             .collect();
-        Ok(Found { settings, singles, pairs })
+        Ok(Found { settings, baseline, singles, pairs })
     }
 }
 
@@ -141,10 +152,27 @@ fn pairs(records: &[Listed]) -> Vec<(String, [usize; 2])> {
 }
 
 impl Found {
+    /// What makes the displacement implausible, if it is.
+    fn drift(
+        &self,
+        found: &Result<Measures, IntensityError>,
+    ) -> Option<String> {
+        let (baseline, m) = (self.baseline.as_ref()?, found.as_ref().ok()?);
+        let pgd_m = m.pgd_m;
+        (!(pgd_m <= LARGEST_PGD_M))
+            .then(|| format!("PGD {pgd_m:.1} m: {baseline}; see --high-pass"))
+    }
+
     /// Adds the measures to the record's JSON.
     pub(super) fn add_to(&self, position: usize, record: &mut Value) {
         let own = self.singles.as_ref().and_then(|all| all.get(position));
         if let (Some(own), Some(map)) = (own, record.as_object_mut()) {
+            if let (Some(message), Some(remarks)) = (
+                self.drift(own),
+                map.get_mut("remarks").and_then(Value::as_array_mut),
+            ) {
+                remarks.push(json!({ "code": DRIFT, "message": message }));
+            }
             let settings = &self.settings;
             map.insert(
                 "intensity".into(),
@@ -207,6 +235,15 @@ impl Found {
                 ));
             }
             self.measures_table(&mut text, &rows);
+            for (listed, found) in records.iter().zip(singles) {
+                if let Some(message) = self.drift(found) {
+                    let file = &listed.file;
+                    line(
+                        &mut text,
+                        format_args!("{file}: {DRIFT}: {message}"),
+                    );
+                }
+            }
         }
         self.pulse_table(&mut text);
         text

@@ -16,6 +16,7 @@ use crate::inputs;
 use crate::json::number;
 use measures::{Found, MeasureArgs};
 
+mod drift;
 mod measures;
 mod plot;
 

@@ -7,17 +7,9 @@ use rocking::intensity::velocity_pulse::{Candidate, candidates, pulse};
 use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
 use serde_json::{Value, json};
 
-use super::{Listed, line};
+use super::{Listed, drift, line};
 use crate::cli::Failure;
 use crate::json::{number, optional};
-
-/// A peak ground displacement above this, in m, is remarked where nothing
-/// filtered slow drifts out: the largest that processed records of
-/// earthquakes have are of 4 m or so, permanent offsets aside.
-const LARGEST_PGD_M: f64 = 5.0;
-
-/// Code of that remark.
-const DRIFT: &str = "drift";
 
 /// What is asked for beside the list.
 #[derive(clap::Args)]
@@ -152,26 +144,16 @@ fn pairs(records: &[Listed]) -> Vec<(String, [usize; 2])> {
 }
 
 impl Found {
-    /// What makes the displacement implausible, if it is.
-    fn drift(
-        &self,
-        found: &Result<Measures, IntensityError>,
-    ) -> Option<String> {
-        let (baseline, m) = (self.baseline.as_ref()?, found.as_ref().ok()?);
-        let pgd_m = m.pgd_m;
-        (!(pgd_m <= LARGEST_PGD_M))
-            .then(|| format!("PGD {pgd_m:.1} m: {baseline}; see --high-pass"))
-    }
-
     /// Adds the measures to the record's JSON.
     pub(super) fn add_to(&self, position: usize, record: &mut Value) {
         let own = self.singles.as_ref().and_then(|all| all.get(position));
         if let (Some(own), Some(map)) = (own, record.as_object_mut()) {
             if let (Some(message), Some(remarks)) = (
-                self.drift(own),
+                drift::remark(own, self.baseline.as_deref()),
                 map.get_mut("remarks").and_then(Value::as_array_mut),
             ) {
-                remarks.push(json!({ "code": DRIFT, "message": message }));
+                remarks
+                    .push(json!({ "code": drift::CODE, "message": message }));
             }
             let settings = &self.settings;
             map.insert(
@@ -236,12 +218,10 @@ impl Found {
             }
             self.measures_table(&mut text, &rows);
             for (listed, found) in records.iter().zip(singles) {
-                if let Some(message) = self.drift(found) {
-                    let file = &listed.file;
-                    line(
-                        &mut text,
-                        format_args!("{file}: {DRIFT}: {message}"),
-                    );
+                let baseline = self.baseline.as_deref();
+                if let Some(message) = drift::remark(found, baseline) {
+                    let (file, code) = (&listed.file, drift::CODE);
+                    line(&mut text, format_args!("{file}: {code}: {message}"));
                 }
             }
         }

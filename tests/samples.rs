@@ -89,6 +89,35 @@ fn fragility_agrees_with_scipy_and_mpmath() {
 }
 
 #[test]
+fn fragility_tells_intervals_in_rows_and_the_unit() {
+    let sample = file("intervals.txt", SAMPLE);
+    let args = [
+        "fragility",
+        "--sample",
+        &sample,
+        "--shift",
+        "1",
+        "--bootstrap",
+        "50",
+    ];
+    let text = String::from_utf8(rocking(&args).stdout).unwrap();
+    assert!(!text.contains(['{', '}', '"']), "{text}");
+    let row = |name: &str| {
+        let mut rows = text.lines().filter(|line| line.starts_with(name));
+        rows.next_back().unwrap().split_whitespace().collect::<Vec<_>>()
+    };
+    let head = text.lines().find(|line| line.contains("bca_low")).unwrap();
+    let columns = head.split_whitespace().count();
+    for name in ["mu ", "beta ", "median ", "eq5 ", "eq6 ", "eq7 "] {
+        assert_eq!(row(name).len(), columns + 1, "{text}");
+    }
+    assert!(text.contains("that of the sample"), "{text}");
+    let out = json(&[&args[..], &["--json"]].concat());
+    assert_eq!(out["im_unit"], "that of the sample");
+    assert_eq!(out["bootstrap"]["replicates"], 50);
+}
+
+#[test]
 fn equations_are_undefined_with_their_limit() {
     let with_c = |c| {
         json(&[

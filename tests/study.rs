@@ -1,8 +1,14 @@
 //! What `rocking study` refuses, that it then leaves nothing behind, and
-//! that the committed report is what it gives.
+//! what of the committed report can be held without a study.
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
+
+use rocking_validation::evidence::{Proof, charts};
+use rocking_validation::figures::Figure as _;
+use rocking_validation::study::suites::StudySuite;
+use rocking_validation::study::{output, page};
+use serde_json::Value;
 
 fn study(folder: &PathBuf, args: &[&str]) -> Output {
     std::fs::create_dir_all(folder).expect("folder");
@@ -80,15 +86,67 @@ fn a_file_in_the_way_of_the_report() {
     refused("way", &args, &["input"]);
 }
 
+/// Results of the declared cases in `input`, after a change of their text.
+fn proof(name: &str, change: impl Fn(&str) -> String) {
+    let input = folder(name).join("input");
+    std::fs::create_dir_all(&input).expect("folder");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    for file in ["validation.json", "precision.csv"] {
+        let path = PathBuf::from(data).join(file);
+        let text = std::fs::read_to_string(path).expect("read");
+        std::fs::write(input.join(file), change(&text)).expect("write");
+    }
+}
+
 #[test]
-fn the_committed_report_is_what_the_study_gives() {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");
-    let output = study(&root, &["--out", "reports", "--check"]);
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    assert!(
-        output.status.success(),
-        "{}{}",
-        text(&output.stdout),
-        text(&output.stderr)
-    );
+fn results_of_cases_that_are_missing_damaged_or_of_others() {
+    let args = ["--proof", "absent"];
+    refused("no-proof", &args, &["absent", "validation.json", "validate"]);
+    let args = ["--proof", "input"];
+    proof("cut-proof", |text| text[..text.len() / 2].into());
+    refused("cut-proof", &args, &["validation.json"]);
+    let renamed = |text: &str| {
+        text.replace("\"hard-cases/hs-graze-0.001\"", "\"hard-cases/other\"")
+    };
+    proof("other-proof", renamed);
+    let ids =
+        ["Missing: hard-cases/hs-graze-0.001. Unknown: hard-cases/other"];
+    refused("other-proof", &args, &ids);
+}
+
+/// What of the committed report costs no study: suites, declared cases,
+/// Table 1 and the figures of closed forms. `.ci/run` holds every byte of the
+/// report, by `rocking study --out reports --check` of the release build.
+#[test]
+fn the_committed_report_is_of_this_program_where_that_is_cheap() {
+    let reports = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../reports");
+    let read = |name: &str| {
+        std::fs::read_to_string(reports.join(name)).expect("read")
+    };
+    let findings: Value =
+        serde_json::from_str(&read(output::FINDINGS)).expect("JSON");
+    let suites = StudySuite::embedded().expect("suites");
+    for (k, suite) in suites.iter().enumerate() {
+        let found = &findings["suites"][k];
+        assert_eq!(found["sha256"], suite.sha256(), "{}", suite.kind);
+        assert_eq!(found["source"], suite.source.to_string());
+    }
+    // As many results as declared cases: or they are refused.
+    let proof = Proof::read(&reports.join("data")).expect("proof");
+    assert_eq!(proof.passed(), proof.results().len());
+    let page = read("index.html");
+    assert!(page.contains(&proof.to_string()), "the page has other cases");
+    for (line, row) in read("data/table-01.csv")
+        .lines()
+        .skip(1)
+        .zip(page::table_1().expect("table").rows)
+    {
+        assert_eq!(line, row.join(","));
+    }
+    for shown in charts().expect("charts") {
+        let name = &shown.chart.heading.name;
+        let svg = shown.chart.svg().expect("drawing");
+        assert!(read(&format!("figures/{name}.svg")) == svg, "{name}");
+        assert!(read(&format!("data/{name}.csv")) == shown.chart.csv());
+    }
 }

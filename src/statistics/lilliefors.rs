@@ -25,9 +25,14 @@ use super::{Sample, normal};
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LillieforsError {
-    /// Fewer than four values tell nothing.
-    #[error("{0} values: expected at least 4")]
-    TooFew(usize),
+    /// Fewer values than are needed: 3 for the statistic, 4 for the test.
+    #[error("{found} values: expected at least {least}")]
+    TooFew {
+        /// Number of values.
+        found: usize,
+        /// Number needed.
+        least: usize,
+    },
     /// The values don't vary (to 1e-12 of their mean).
     #[error("the values do not vary: expected a positive standard deviation")]
     Degenerate,
@@ -145,7 +150,7 @@ pub(super) fn standardised(
 fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
     let n = sample.len();
     if n < least {
-        return Err(LillieforsError::TooFew(n));
+        return Err(LillieforsError::TooFew { found: n, least });
     }
     let mean = sample.mean();
     let deviation = (sample.sum_of_squares() / (n as f64 - 1.0)).sqrt();

@@ -124,6 +124,26 @@ fn measures_and_pulses_of_a_pair_are_listed() {
 }
 
 #[test]
+fn a_displacement_of_a_drifting_baseline_is_remarked() {
+    // A hundredth of g too much: 0.5 a t^2 is 19.6 m after 20 s.
+    let text = "0.01\n".repeat(2000);
+    let folder = folder("drift", &[("raw.txt", text.as_bytes())]);
+    let listed = |own: &[&str]| {
+        let rest = ["--intensity", "--dt", "0.01", "--units", "g", "raw.txt"];
+        let (status, out, error) = records(&folder, &[own, &rest].concat());
+        assert_eq!(status, 0, "{error}");
+        out
+    };
+    let words = "drift: PGD 19.6 m: no baseline correction; see --high-pass";
+    assert!(listed(&[]).contains(words), "{}", listed(&[]));
+    let json: serde_json::Value =
+        serde_json::from_str(&listed(&["--json"])).unwrap();
+    let remarks = json["records"][0]["remarks"].as_array().unwrap();
+    assert!(remarks.iter().any(|r| r["code"] == "drift"), "{remarks:?}");
+    assert!(!listed(&["--high-pass", "0.5"]).contains("drift"));
+}
+
+#[test]
 fn what_cannot_be_asked_for_is_refused() {
     let folder = pair("refused-measures");
     let refused = |own: &[&str], word: &str| {

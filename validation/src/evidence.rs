@@ -4,21 +4,16 @@
 
 mod defect;
 mod families;
+mod proof;
 mod spectrum;
 
 pub use families::families;
-
-use serde_json::Value;
+pub use proof::{NOT_RUN, Proof, ProofError};
 
 use crate::cases::{CaseError, load_all};
 use crate::figures::data::Chart;
-use crate::report::{Family, PlainTable};
+use crate::report::Family;
 use crate::scene::EngineError;
-
-/// The committed results of the declared cases.
-const RESULTS: &str = include_str!("../../reports/data/validation.json");
-/// The committed table of digits.
-const DIGITS: &str = include_str!("../../reports/data/precision.csv");
 
 /// Why there is nothing to show.
 #[derive(Debug, thiserror::Error)]
@@ -27,9 +22,6 @@ pub enum EvidenceError {
     /// The cases cannot be read.
     #[error(transparent)]
     Case(#[from] CaseError),
-    /// The results cannot be read.
-    #[error("reports/data/validation.json: {0}")]
-    Results(#[from] serde_json::Error),
     /// A scene of a figure cannot be run.
     #[error(transparent)]
     Engine(#[from] EngineError),
@@ -45,51 +37,12 @@ pub struct ShownChart {
     pub reading: String,
 }
 
-/// Declared cases with the committed results, family by family.
+/// Declared cases with their results, family by family.
 ///
 /// # Errors
-/// [`EvidenceError`] where cases or results cannot be read.
-pub fn committed_families() -> Result<Vec<Family>, EvidenceError> {
-    Ok(families(&load_all()?, &committed_results()?))
-}
-
-/// The committed results of the declared cases, by id.
-///
-/// # Errors
-/// [`EvidenceError::Results`] where they cannot be read.
-pub fn committed_results() -> Result<Value, EvidenceError> {
-    Ok(serde_json::from_str(RESULTS)?)
-}
-
-/// Significant digits that each precision reaches on the hard cases and the
-/// reference trajectories.
-#[must_use]
-pub fn digits_table() -> PlainTable {
-    let mut table = PlainTable::from_csv(
-        "table-precision",
-        "Table 2. Significant digits reached by three precisions",
-        "End: the peak of |theta|/alpha, or the instant of overturning. \
-         Impacts: the worst of the instants and speeds of the first ten. \
-         Where there is no reference of 36 digits the truth is the \
-         double-double run. The same source runs in all three; a digit \
-         missing in double precision is missing for the sensitivity of the \
-         motion, which the error estimate states.",
-        DIGITS,
-    );
-    table.header = [
-        "case",
-        "equation",
-        "truth",
-        "end, single",
-        "end, double",
-        "end, double-double",
-        "impacts, single",
-        "impacts, double",
-        "impacts, double-double",
-    ]
-    .map(String::from)
-    .into();
-    table
+/// [`EvidenceError`] where the cases cannot be read.
+pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
+    Ok(families(&load_all()?, proof.results()))
 }
 
 /// The figures of the proof.
@@ -119,14 +72,15 @@ mod tests {
     }
 
     #[test]
-    fn committed_results_fit_the_cases() {
-        let families = committed_families().unwrap();
+    fn every_quick_case_is_shown_with_its_result() {
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        let proof = Proof::read(data.as_ref()).unwrap();
+        let families = shown(&proof).unwrap();
         let cases: usize = families.iter().map(|f| f.cases.len()).sum();
         let all = load_all().unwrap();
         let quick = all.iter().filter(|c| c.cost == Cost::Quick).count();
         assert_eq!(cases, quick);
         let shown = families.iter().flat_map(|f| &f.cases);
         assert!(shown.into_iter().all(|c| c.error != "no result"));
-        assert!(digits_table().rows.len() > 30);
     }
 }

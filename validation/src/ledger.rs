@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use thiserror::Error;
 
 use crate::report::PlainTable;
@@ -94,6 +94,8 @@ pub struct Standing {
     pub passed: usize,
     /// Cases that did not.
     pub failed: Vec<String>,
+    /// Whether cases are named whose results are not there.
+    pub not_run: bool,
     /// Patterns and names that no executed evidence fits.
     pub missing: Vec<String>,
     /// Whether anything at all is named as evidence.
@@ -104,7 +106,10 @@ impl Standing {
     /// Whether all evidence named was executed, and the cases passed.
     #[must_use]
     pub fn is_met(&self) -> bool {
-        self.named && self.failed.is_empty() && self.missing.is_empty()
+        self.named
+            && !self.not_run
+            && self.failed.is_empty()
+            && self.missing.is_empty()
     }
 }
 
@@ -117,24 +122,24 @@ impl Requirement {
             && !self.tests.is_empty()
     }
 
-    /// How it stands, given the results of the declared cases and whether a
-    /// claim was measured, a test is part of the gate.
+    /// How it stands, given the results of the declared cases, if there are
+    /// any, and whether a claim was measured, a test is part of the gate.
     #[must_use]
     pub fn standing(
         &self,
-        results: &Value,
+        results: Option<&Map<String, Value>>,
         measured: &dyn Fn(&str) -> bool,
         is_test: &dyn Fn(&str) -> bool,
     ) -> Standing {
         let named = [&self.cases, &self.findings, &self.tests];
         let mut out = Standing {
             named: named.iter().any(|list| !list.is_empty()),
+            not_run: results.is_none() && !self.cases.is_empty(),
             ..Standing::default()
         };
-        let none = serde_json::Map::new();
-        let results = results.as_object().unwrap_or(&none);
         let mut met = BTreeSet::new();
         for pattern in &self.cases {
+            let Some(results) = results else { break };
             let mut fits = false;
             for (id, result) in results.iter().filter(|r| fit(pattern, r.0)) {
                 fits = true;
@@ -178,7 +183,7 @@ fn fit(pattern: &str, id: &str) -> bool {
 /// # Errors
 /// [`LedgerError`] where the requirements cannot be read.
 pub fn table(
-    results: &Value,
+    results: Option<&Map<String, Value>>,
     claims: &[Claim],
 ) -> Result<PlainTable, LedgerError> {
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
@@ -222,7 +227,9 @@ pub fn table(
 
 fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     let mut parts = Vec::new();
-    if !r.cases.is_empty() {
+    if standing.not_run {
+        parts.push(format!("cases, not run here ({})", r.cases.join(", ")));
+    } else if !r.cases.is_empty() {
         let n = standing.passed;
         let cases = if n == 1 { "case" } else { "cases" };
         parts.push(format!("{n} {cases} passed ({})", r.cases.join(", ")));
@@ -254,6 +261,9 @@ fn state(r: &Requirement, standing: &Standing) -> String {
     if !standing.missing.is_empty() {
         return format!("✗ no evidence: {}", standing.missing.join(", "));
     }
+    if standing.not_run {
+        return "not run here".into();
+    }
     match (standing.named, r.is_tests_alone()) {
         (false, _) => "✗ no evidence named",
         (true, true) => "in the gate alone",
@@ -263,128 +273,4 @@ fn state(r: &Requirement, standing: &Standing) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::path::Path;
-
-    use serde_json::json;
-
-    use super::*;
-    use crate::evidence::committed_results;
-
-    /// Whether `file::function` is a test of the gate.
-    fn in_the_gate(name: &str) -> bool {
-        let Some((file, function)) = name.split_once("::") else {
-            return false;
-        };
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        let Ok(text) = std::fs::read_to_string(root.join(file)) else {
-            return false;
-        };
-        let lines: Vec<&str> = text.lines().map(str::trim).collect();
-        let head = format!("fn {function}()");
-        lines.windows(2).any(|w| w[0] == "#[test]" && w[1].starts_with(&head))
-    }
-
-    #[test]
-    fn every_requirement_has_executed_evidence() {
-        let results = committed_results().unwrap();
-        let mut problems = Vec::new();
-        for r in requirements().unwrap() {
-            // A study that is run holds the names of claims: study::tests.
-            let standing = r.standing(&results, &|_| true, &in_the_gate);
-            if !standing.is_met() {
-                problems.push(format!("{}: {}", r.id, state(&r, &standing)));
-            }
-            for text in [&r.id, &r.text, &r.place] {
-                assert!(!text.trim().is_empty(), "{}", r.id);
-            }
-        }
-        assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));
-    }
-
-    #[test]
-    fn the_whole_paper_is_required() {
-        let requirements = requirements().unwrap();
-        let paper: Vec<&Requirement> = requirements
-            .iter()
-            .filter(|r| r.source == Origin::Paper)
-            .collect();
-        let mut wanted: Vec<String> =
-            (1..=7).map(|k| format!("Eq. {k}")).collect();
-        wanted.push("Table 1".into());
-        for place in wanted {
-            assert!(paper.iter().any(|r| r.place == place), "{place}");
-        }
-        for figure in 2..=18 {
-            let digits = |place: &str| -> Vec<u32> {
-                place
-                    .split(|c: char| !c.is_ascii_digit())
-                    .filter_map(|n| n.parse().ok())
-                    .collect()
-            };
-            let named = paper.iter().any(|r| {
-                let figures = r.place.split("Figure").nth(1);
-                figures.is_some_and(|f| digits(f).contains(&figure))
-            });
-            assert!(named, "Figure {figure}");
-        }
-        for origin in [Origin::User, Origin::Ours] {
-            assert!(requirements.iter().any(|r| r.source == origin));
-        }
-    }
-
-    #[test]
-    fn a_failed_or_missing_case_is_red() {
-        let requirement = Requirement {
-            id: "r".into(),
-            source: Origin::Ours,
-            place: "p".into(),
-            text: "t".into(),
-            cases: vec!["a/*".into(), "b/one".into(), "a/x*z".into()],
-            findings: vec!["f".into()],
-            tests: vec!["tests/x.rs::y".into()],
-            gap: String::new(),
-        };
-        let results = |b: &str| {
-            json!({
-                "a/one": { "verdict": "pass" },
-                "a/xyz": { "verdict": "pass" },
-                "b/one": { "verdict": b },
-            })
-        };
-        let yes = |_: &str| true;
-        let no = |_: &str| false;
-        let standing = |b| requirement.standing(&results(b), &yes, &yes);
-        assert_eq!(standing("pass").passed, 3);
-        assert!(standing("pass").is_met());
-        for verdict in ["fail", "error", "known-failure", ""] {
-            assert_eq!(standing(verdict).failed, ["b/one"]);
-            assert!(!standing(verdict).is_met());
-        }
-        let all = results("pass");
-        assert!(!requirement.standing(&all, &no, &yes).is_met());
-        assert!(!requirement.standing(&all, &yes, &no).is_met());
-        let empty = requirement.standing(&json!({}), &yes, &yes);
-        assert_eq!(empty.missing.len(), 3);
-        let nothing = Requirement {
-            cases: Vec::new(),
-            findings: Vec::new(),
-            tests: Vec::new(),
-            ..requirement
-        };
-        assert!(!nothing.standing(&all, &yes, &yes).is_met());
-    }
-
-    #[test]
-    fn unknown_keys_and_duplicates_are_refused() {
-        let one = "[[requirement]]\nid = \"a\"\nsource = \"ours\"\n\
-                   place = \"p\"\ntext = \"t\"\n";
-        assert_eq!(parse(one).unwrap().len(), 1);
-        assert!(matches!(
-            parse(&format!("{one}{one}")).unwrap_err(),
-            LedgerError::Duplicate(_)
-        ));
-        assert!(parse(&format!("{one}proof = 1\n")).is_err());
-        assert!(parse(&one.replace("ours", "theirs")).is_err());
-    }
-}
+mod tests;

@@ -23,7 +23,7 @@ mod trials;
 mod velocity_pulse;
 mod wrong;
 
-pub use digits::{DigitsError, Reach, Row, digits, digits_csv};
+pub use digits::{DIGITS_HEADER, DigitsError, Reach, Row, digits, digits_csv};
 pub use wrong::{RIGHT_NAIVE, WRONG_MODELS, WrongModel, wrong_model};
 
 use std::collections::BTreeMap;

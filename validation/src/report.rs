@@ -29,6 +29,9 @@ pub struct ReportInput {
     pub summary: Summary,
     /// The table of findings.
     pub findings: Vec<Finding>,
+    /// Whose results of the declared cases these are, or that there are
+    /// none.
+    pub proof: String,
     /// Declared cases, family by family.
     pub families: Vec<Family>,
     /// Table 1 and any other tables that stand before the figures.

@@ -51,7 +51,7 @@ impl ShiftedNull {
     ) -> Result<Self, LillieforsError> {
         let n = onsets.len().min(capacities.len());
         if n < 4 || onsets.len() != capacities.len() {
-            return Err(LillieforsError::TooFew(n));
+            return Err(LillieforsError::TooFew { found: n, least: 4 });
         }
         let shift = onsets.iter().copied().fold(f64::INFINITY, f64::min);
         for (i, (&onset, &capacity)) in
@@ -249,7 +249,10 @@ mod tests {
             LillieforsError::Pair { number: 4, .. }
         ));
         assert_eq!(refused(&[1.0; 4], &x), LillieforsError::Degenerate);
-        assert_eq!(refused(&u[1..], &x[1..]), LillieforsError::TooFew(3));
+        assert_eq!(
+            refused(&u[1..], &x[1..]),
+            LillieforsError::TooFew { found: 3, least: 4 }
+        );
         assert!(ShiftedNull::smallest_value(50, 0.0, 1000, 0).is_err());
     }
 }

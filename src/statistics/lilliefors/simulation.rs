@@ -107,7 +107,7 @@ impl NullDistribution {
         replicates: u64,
     ) -> Result<(), LillieforsError> {
         if n < 4 {
-            return Err(LillieforsError::TooFew(n));
+            return Err(LillieforsError::TooFew { found: n, least: 4 });
         }
         if !(100..=100_000_000).contains(&replicates) {
             return Err(LillieforsError::Replicates(replicates));

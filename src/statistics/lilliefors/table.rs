@@ -170,7 +170,7 @@ impl Table {
         }
         let (Some(above), true) = (above, i > 0) else {
             return Err(if n < 4 {
-                LillieforsError::TooFew(n)
+                LillieforsError::TooFew { found: n, least: 4 }
             } else {
                 LillieforsError::BeyondTable(n)
             });

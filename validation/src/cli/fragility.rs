@@ -17,7 +17,8 @@ use crate::json;
 /// With a shift IM_R, mu and beta are fitted to the sample above it (SSFL);
 /// eq5, eq6 and eq7 are what the unshifted statistics give instead: eq5 and
 /// eq7 from the same method's fit to the unshifted sample (USFL7), eq6 from
-/// the sample's 16 and 84 % quantiles.
+/// the sample's 16 and 84 % quantiles. Medians, quantiles and shift are in
+/// the unit of the sample.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("mode").required(true)
     .args(["sample", "transform"]))]
@@ -151,6 +152,7 @@ fn transform(args: &Args) -> Result<(), Failure> {
         ));
     };
     let mut out = Map::new();
+    out.insert("im_unit".to_owned(), "that of the numbers given".into());
     out.insert("shift".to_owned(), json::number(shift));
     let given = [
         ("im16", args.im16),
@@ -194,16 +196,51 @@ fn show(args: &Args, out: Map<String, Value>) -> Result<(), Failure> {
     if args.json {
         return print(&format!("{:#}\n", json!(out)));
     }
-    let line = |(key, value): (&String, &Value)| match value {
-        Value::Null => format!("{key:<24}undefined\n"),
-        Value::String(text) => format!("{key:<24}{text}\n"),
-        Value::Number(number) => {
-            let value = number.as_f64().filter(|_| number.is_f64());
-            let text = value
-                .map_or(number.to_string(), |value| format!("{value:.6}"));
-            format!("{key:<24}{text}\n")
+    print(&rows(&out))
+}
+
+/// Rows of a name and a value; after them, for each object among the values,
+/// its own rows and a table of the objects in it.
+fn rows(out: &Map<String, Value>) -> String {
+    let mut text = String::new();
+    let mut tables = String::new();
+    for (key, value) in out {
+        if let Value::Object(inner) = value {
+            tables += &format!("\n{key}\n{}", table(inner));
+        } else {
+            text += &format!("{key:<24}{}\n", cell(value));
         }
-        other => format!("{key:<24}{other}\n"),
-    };
-    print(&out.iter().map(line).collect::<String>())
+    }
+    text + &tables
+}
+
+/// Rows of the values, then one row for each object, its keys in the head.
+fn table(out: &Map<String, Value>) -> String {
+    let mut text = String::new();
+    let mut body = String::new();
+    let mut names: Vec<&String> = Vec::new();
+    for (key, value) in out {
+        let Value::Object(inner) = value else {
+            text += &format!("{key:<24}{}\n", cell(value));
+            continue;
+        };
+        names = inner.keys().collect();
+        let cells = inner.values().map(|v| format!(" {:>14}", cell(v)));
+        body += &format!("{key:<9}{}\n", cells.collect::<String>());
+    }
+    let head: String =
+        names.iter().map(|name| format!(" {name:>14}")).collect();
+    format!("{text}{:<9}{head}\n{body}", "")
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Null => "undefined".into(),
+        Value::String(text) => text.clone(),
+        Value::Number(number) => number
+            .as_f64()
+            .filter(|_| number.is_f64())
+            .map_or(number.to_string(), |value| format!("{value:.6}")),
+        other => other.to_string(),
+    }
 }

@@ -26,6 +26,12 @@ impl ProcessingArgs {
             .map_err(|error| Failure::input(format!("--high-pass: {error}")))
     }
 
+    /// Whether slow drifts are filtered out.
+    #[must_use]
+    pub fn passes_high(self) -> bool {
+        self.high_pass.is_some()
+    }
+
     /// The first flag given, to be refused where no record is read.
     #[must_use]
     pub fn given(self) -> Option<&'static str> {

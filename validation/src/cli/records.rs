@@ -16,6 +16,7 @@ use crate::inputs;
 use crate::json::number;
 use measures::{Found, MeasureArgs};
 
+mod drift;
 mod measures;
 mod plot;
 
@@ -132,7 +133,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let svg = plot::svg(&listing.records, done, args.gravity)?;
         write_atomically(path, svg)?;
     }
-    let found = args.measures.run(&listing.records, args.gravity)?;
+    let baseline = (!args.processing.passes_high()).then(|| {
+        let done = listing.processing.as_deref();
+        done.unwrap_or("no baseline correction").to_owned()
+    });
+    let found = args.measures.run(&listing.records, args.gravity, baseline)?;
     if args.json {
         print(&listing.json(args.gravity, &found))?;
     } else {

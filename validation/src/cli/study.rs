@@ -11,6 +11,7 @@ use rocking::integrator::Overturning;
 use super::processing::ProcessingArgs;
 use super::way::WayArgs;
 use super::{Failure, print};
+use crate::evidence::{NOT_RUN, Proof};
 use crate::figures::data::Arm;
 use crate::study::analyses::Plan;
 use crate::study::runs::{RESTITUTION, Setup};
@@ -62,6 +63,11 @@ pub struct Args {
     threads: Option<NonZeroUsize>,
     #[command(flatten)]
     way: WayArgs,
+    /// Folder into which `rocking validate` wrote validation.json and
+    /// precision.csv, the results of the declared cases, which the page
+    /// then shows; the folder data of the report if it holds them.
+    #[arg(long, value_name = "DIR")]
+    proof: Option<PathBuf>,
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
@@ -126,6 +132,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else {
         output::check(&args.out)?;
     }
+    let proof = match &args.proof {
+        Some(folder) => Some(Proof::read(folder)?),
+        None => Proof::find(&args.out.join("data"))?,
+    };
     // Drawn on a terminal only.
     let progress = ProgressBar::new(0);
     if let Ok(style) =
@@ -137,7 +147,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Study::run(plan, &suites, args.full, &progress)
     })??;
     progress.finish_and_clear();
-    let files = study.files()?;
+    let files = study.files(proof.as_ref())?;
     if args.check {
         return check(&args.out, &files);
     }
@@ -146,8 +156,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         print(&study.findings_text())
     } else {
         print(&format!(
-            "{}\nReport: {}\n",
+            "{}\n{}\nReport: {}\n",
             study.table(),
+            proof.map_or(NOT_RUN.into(), |proof| proof.to_string()),
             args.out.join("index.html").display()
         ))
     }

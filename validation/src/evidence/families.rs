@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::cases::{Bound, Case, Cost, FAMILIES};
 use crate::report::{Family, ShownCase};
@@ -8,7 +8,7 @@ use crate::report::{Family, ShownCase};
 /// Declared cases with their results, as the snapshot has them: all but those
 /// that are run only with `--full`.
 #[must_use]
-pub fn families(cases: &[Case], results: &Value) -> Vec<Family> {
+pub fn families(cases: &[Case], results: &Map<String, Value>) -> Vec<Family> {
     FAMILIES
         .iter()
         .map(|(name, _)| {
@@ -29,8 +29,8 @@ pub fn families(cases: &[Case], results: &Value) -> Vec<Family> {
         .collect()
 }
 
-fn shown(case: &Case, results: &Value) -> ShownCase {
-    let result = &results[&case.id];
+fn shown(case: &Case, results: &Map<String, Value>) -> ShownCase {
+    let result = results.get(&case.id).unwrap_or(&Value::Null);
     let worst = worst(result);
     let (error, margin) = match &worst {
         Some((quantity, margin)) => {
@@ -127,7 +127,7 @@ mod tests {
             "quantities": { "a": { "margin": 0.5 }, "b": { "margin": 0.25 } },
             "rejected": {},
         } });
-        let shown = families(&cases, &results);
+        let shown = families(&cases, results.as_object().unwrap());
         let all: Vec<&ShownCase> =
             shown.iter().flat_map(|f| &f.cases).collect();
         let quick = cases.iter().filter(|c| c.cost == Cost::Quick).count();

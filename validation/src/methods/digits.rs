@@ -216,13 +216,14 @@ impl Reach {
     }
 }
 
+/// First line of the table as CSV.
+pub const DIGITS_HEADER: &str = "case,equation,truth,end_single,end_double,\
+    end_double_double,impacts_single,impacts_double,impacts_double_double\n";
+
 /// The table as CSV.
 #[must_use]
 pub fn digits_csv(rows: &[Row]) -> String {
-    let mut text = String::from(
-        "case,equation,truth,end_single,end_double,end_double_double,\
-         impacts_single,impacts_double,impacts_double_double\n",
-    );
+    let mut text = String::from(DIGITS_HEADER);
     for row in rows {
         let truth =
             if row.has_reference { "36 digits" } else { "double-double" };

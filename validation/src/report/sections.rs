@@ -22,8 +22,12 @@ pub fn all(input: &ReportInput) -> Vec<Part> {
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
         findings(&i.findings, &i.figures)
     });
-    add(!i.families.is_empty(), "evidence", "Evidence", &|| {
-        html! { @for family in &i.families { (cases(family)) } }
+    let proof = !i.proof.is_empty() || !i.families.is_empty();
+    add(proof, "evidence", "Evidence", &|| {
+        html! {
+            @if !i.proof.is_empty() { p { (i.proof) } }
+            @for family in &i.families { (cases(family)) }
+        }
     });
     add(!i.tables.is_empty(), "tables", "Tables", &|| {
         html! { @for t in &i.tables { (table::plain(t)) } }

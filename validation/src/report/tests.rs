@@ -54,6 +54,7 @@ fn made_up() -> ReportInput {
             trust: "As far as the cases go. ".repeat(3),
         },
         findings: (0..7).map(finding).collect(),
+        proof: "By the results handed in: all cases pass.".into(),
         families: vec![Family {
             name: "free-rocking".into(),
             purpose: "The motion has closed forms.".into(),

@@ -18,7 +18,7 @@ use super::grid::{
 };
 use super::histories::{distance, mean_log_ratio};
 use super::runs::Setup;
-use super::suites::{Motion, StudySuite};
+use super::suites::{Motion, Source, StudySuite};
 use super::{StudyError, capacities};
 use crate::figures::data::Arm;
 
@@ -114,8 +114,8 @@ pub struct StripeDemands {
 pub struct SuiteResults {
     /// `ordinary` or `pulse-type`.
     pub kind: &'static str,
-    /// Where the records come from, in words.
-    pub source: String,
+    /// Where the records come from.
+    pub source: Source,
     /// Who chose the study component, in words.
     pub component_rule: String,
     /// Hash of the input.

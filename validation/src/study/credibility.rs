@@ -4,6 +4,7 @@
 use super::figures::Results;
 use super::findings::Claim;
 use super::whole::rounded_text;
+use crate::evidence::{NOT_RUN, Proof};
 use crate::report::PlainTable;
 
 /// Half width of a 95 % interval in standard uncertainties.
@@ -77,13 +78,17 @@ const PRINTED: [Printed; 9] = [
 
 /// Comparison errors, then the assessment.
 #[must_use]
-pub fn tables(results: &Results, claims: &[Claim]) -> Vec<PlainTable> {
+pub fn tables(
+    results: &Results,
+    claims: &[Claim],
+    proof: Option<&Proof>,
+) -> Vec<PlainTable> {
     let suites = [&results.ordinary, &results.pulse];
     let shift = suites
         .iter()
         .map(|s| s.work.certainty.largest_shift)
         .fold(0.0, |a: f64, b| if b > a { b } else { a });
-    vec![comparison(claims, shift), assessment(results)]
+    vec![comparison(claims, shift), assessment(results, proof)]
 }
 
 /// After ASME V&V 20: E = S - D and its uncertainty. `shift` is the largest
@@ -182,9 +187,8 @@ fn short(x: f64) -> String {
 
 /// After NASA-STD-7009B, by our own judgement: factor, level of 0 to 4,
 /// evidence, gaps.
-fn assessment(results: &Results) -> PlainTable {
-    let synthetic = results.ordinary.source.contains("synthetic");
-    let input = if synthetic {
+fn assessment(results: &Results, proof: Option<&Proof>) -> PlainTable {
+    let input = if results.embedded() {
         [
             "Input pedigree",
             "1",
@@ -203,6 +207,19 @@ fn assessment(results: &Results) -> PlainTable {
              the user's to say.",
         ]
     };
+    let verification = if proof.is_some() {
+        [
+            "Verification",
+            "3",
+            "Closed forms, trajectories with 36 digits, order of \
+             convergence, error estimates, invariants and wrong models that \
+             must fail: the section on evidence.",
+            "No one outside the project has repeated it. Other machines \
+             than x86-64 Linux were not measured.",
+        ]
+    } else {
+        ["Verification", "0", "Not run here.", NOT_RUN]
+    };
     let rows = [
         [
             "Data pedigree",
@@ -213,15 +230,7 @@ fn assessment(results: &Results) -> PlainTable {
             "Most of the high-precision references were computed for this \
              project; the paper's own data are not published.",
         ],
-        [
-            "Verification",
-            "3",
-            "Closed forms, trajectories with 36 digits, order of \
-             convergence, error estimates, invariants and wrong models that \
-             must fail: the section on evidence.",
-            "No one outside the project has repeated it. Other machines \
-             than x86-64 Linux were not measured.",
-        ],
+        verification,
         [
             "Validation",
             "1",

@@ -18,7 +18,6 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
-use super::suites::EMBEDDED;
 use crate::figures::data::Arm;
 
 /// Everything that the figures are made of.
@@ -53,12 +52,11 @@ impl Results {
     pub fn figures(&self) -> Result<Vec<Figure>, StudyError> {
         let drawn = self.plan.drawn();
         let mut out = vec![single::sketch()];
-        for suite in [&self.ordinary, &self.pulse] {
-            out.push(single::histories(suite, self.plan.common()));
-        }
-        for suite in [&self.ordinary, &self.pulse] {
-            out.push(single::curves(suite, self.plan.common())?);
-        }
+        let one = self.plan.common();
+        out.push(single::histories(&self.ordinary, one, 2));
+        out.push(single::histories(&self.pulse, one, 3));
+        out.push(single::curves(&self.ordinary, one, 4)?);
+        out.push(single::curves(&self.pulse, one, 5)?);
         for number in [6, 7] {
             for arm in &drawn {
                 out.extend(ratios::slendernesses(
@@ -77,7 +75,6 @@ impl Results {
         for arm in &drawn {
             out.push(quantiles::adjusted(&self.ordinary, *arm)?);
         }
-        let one = self.plan.common();
         out.push(distributions::inverted(self, one)?);
         out.push(distributions::shares(self, 12)?);
         for arm in &drawn {
@@ -94,8 +91,8 @@ impl Results {
     /// Whether the suites are the embedded ones.
     #[must_use]
     pub fn embedded(&self) -> bool {
-        let own = |suite: &SuiteResults| suite.source.starts_with(EMBEDDED);
-        own(&self.ordinary) && own(&self.pulse)
+        let suites = [&self.ordinary, &self.pulse];
+        suites.iter().all(|suite| suite.source.is_embedded())
     }
 
     /// The suite of that kind.

@@ -9,20 +9,19 @@ use super::answers::answers;
 use super::claims::PAPER_GRAVITY_M_S2;
 use super::credibility;
 use super::figures::{Figure, Results};
-use super::findings::{Claim, Verdict};
+use super::findings::Claim;
 use super::grid::blocks;
 use super::plain;
 use super::questions::Answer;
 use super::speed::Timings;
 use super::whole::{arm_words, rounded_text};
-use crate::evidence::{self, ShownChart};
+use crate::evidence::{self, NOT_RUN, Proof, ShownChart};
 use crate::figures::Figure as _;
 use crate::ledger;
-use crate::report::{
-    self, Finding, PlainTable, ReportInput, ShownFigure, Summary,
-};
+use crate::report::{Finding, PlainTable, ReportInput, ShownFigure, Summary};
 
-/// What the page shows.
+/// What the page shows; `proof` are the results of the declared cases, if
+/// they were handed in.
 ///
 /// # Errors
 /// [`StudyError`] where a figure cannot be drawn.
@@ -32,6 +31,7 @@ pub fn input(
     charts: &[ShownChart],
     claims: &[Claim],
     answers: &[Answer],
+    proof: Option<&Proof>,
 ) -> Result<ReportInput, StudyError> {
     let timings = Timings::kept()?;
     let mut drawn: Vec<ShownFigure> =
@@ -50,14 +50,15 @@ pub fn input(
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        summary: summary(results, claims, &timings)?,
+        summary: summary(results, claims, &timings, proof),
         findings: claims.iter().map(|c| finding(c, &names)).collect(),
-        families: evidence::committed_families()?,
-        tables: tables(answers)?,
+        proof: proof.map_or(NOT_RUN.into(), Proof::to_string),
+        families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
+        tables: tables(answers, proof)?,
         figures: drawn,
         provenance: provenance(results),
         limits: limits(results),
-        credibility: credibility(results, claims, &timings)?,
+        credibility: credibility(results, claims, &timings, proof)?,
     })
 }
 
@@ -65,16 +66,21 @@ fn credibility(
     results: &Results,
     claims: &[Claim],
     timings: &Timings,
+    proof: Option<&Proof>,
 ) -> Result<Vec<PlainTable>, StudyError> {
-    let proof = evidence::committed_results()?;
-    let mut tables = vec![ledger::table(&proof, claims)?];
-    tables.extend(credibility::tables(results, claims));
+    let cases = proof.map(Proof::results);
+    let mut tables = vec![ledger::table(cases, claims)?];
+    tables.extend(credibility::tables(results, claims, proof));
     tables.extend(timings.tables());
     Ok(tables)
 }
 
-fn tables(answers: &[Answer]) -> Result<Vec<PlainTable>, StudyError> {
-    let mut tables = vec![table_1()?, evidence::digits_table()];
+fn tables(
+    answers: &[Answer],
+    proof: Option<&Proof>,
+) -> Result<Vec<PlainTable>, StudyError> {
+    let mut tables = vec![table_1()?];
+    tables.extend(proof.map(Proof::digits_table));
     for answer in answers {
         tables.extend(answer.tables.iter().cloned());
     }
@@ -85,7 +91,8 @@ fn summary(
     results: &Results,
     claims: &[Claim],
     timings: &Timings,
-) -> Result<Summary, StudyError> {
+    proof: Option<&Proof>,
+) -> Summary {
     let found = |suite: &SuiteResults| {
         let certainty = suite.work.certainty;
         let work = format!(
@@ -118,7 +125,7 @@ fn summary(
             rounded_text(certainty.largest_shift)
         )
     };
-    Ok(Summary {
+    Summary {
         asked: "Can the slenderness of a rocking block be normalized out, \
                 and are its capacities lognormal above the intensity of \
                 uplift? Fifteen rigid blocks, p = 1, 3, 4 rad/s and alpha = \
@@ -126,7 +133,7 @@ fn summary(
                 of two suites."
             .into(),
         found: [
-            plain::answers(results, claims, timings)?,
+            plain::answers(results, claims, timings, proof),
             answers(claims),
             vec![found(&results.ordinary), found(&results.pulse)],
         ]
@@ -141,7 +148,7 @@ fn summary(
                 alone decides, and that is said there. Verdicts hold for \
                 these suites."
             .into(),
-    })
+    }
 }
 
 /// The figures among `names` that a claim is about: those of its section, in
@@ -204,11 +211,7 @@ fn finding(claim: &Claim, names: &[&str]) -> Finding {
         value: rounded_text(claim.measured.value),
         interval,
         margin: claim.margin.clone(),
-        verdict: match claim.verdict {
-            Verdict::Confirmed => report::Verdict::Confirmed,
-            Verdict::NotConfirmed => report::Verdict::NotConfirmed,
-            Verdict::Inconclusive => report::Verdict::Inconclusive,
-        },
+        verdict: claim.verdict,
         figures: shown_by(claim, names),
         remark: claim.note.clone(),
     }
@@ -227,9 +230,9 @@ pub fn table_1() -> Result<PlainTable, StudyError> {
             Ok(vec![
                 format!("{}", block.frequency_rad_s()),
                 format!("{:.2}", block.slenderness_rad()),
-                format!("{:.3}", size.width_m),
-                format!("{:.3}", size.height_m),
-                format!("{:.3}", size.half_diagonal_m),
+                millimetres(size.width_m),
+                millimetres(size.height_m),
+                millimetres(size.half_diagonal_m),
                 format!("{eta:.4}"),
             ])
         })
@@ -245,6 +248,12 @@ pub fn table_1() -> Result<PlainTable, StudyError> {
         header: header.map(String::from).into(),
         rows,
     })
+}
+
+/// A length in m with three decimals, half a millimetre up as the paper
+/// rounds it: `{:.3}` takes 7.3575 down, whose double lies below it.
+fn millimetres(length_m: f64) -> String {
+    format!("{:.3}", (1e3 * length_m).round() / 1e3)
 }
 
 fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
@@ -324,8 +333,7 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
     out
 }
 
-fn limits(results: &Results) -> Vec<String> {
-    let synthetic = results.ordinary.source.contains("synthetic");
+pub(super) fn limits(results: &Results) -> Vec<String> {
     let mut out = vec![
         "The block is planar, rigid and slides nowhere; the paper's model."
             .into(),
@@ -336,7 +344,7 @@ fn limits(results: &Results) -> Vec<String> {
          and are not independent."
             .into(),
     ];
-    if synthetic {
+    if results.embedded() {
         out.push(
             "The embedded suites are synthetic, from published stochastic \
              models; they can show how the procedure works, not what \
@@ -345,4 +353,19 @@ fn limits(results: &Results) -> Vec<String> {
         );
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_1_rounds_as_the_paper_does() {
+        let rows = table_1().expect("table").rows;
+        let radii: Vec<&str> = rows.iter().map(|r| r[4].as_str()).collect();
+        assert_eq!(radii[..5], ["7.358"; 5]);
+        assert_eq!(radii[5..10], ["0.818"; 5]);
+        assert_eq!(radii[10..], ["0.460"; 5]);
+        assert_eq!(rows[0][2..4], ["0.735", "14.697"]);
+    }
 }

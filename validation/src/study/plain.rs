@@ -1,31 +1,26 @@
 //! The questions that a reader asks first, answered in a sentence or two
 //! made from the numbers.
 
-use serde_json::Value;
-
-use super::StudyError;
 use super::figures::Results;
 use super::findings::Claim;
 use super::speed::Timings;
-use crate::evidence::committed_results;
+use crate::evidence::{NOT_RUN, Proof};
 use crate::figures::data::{Arm, Intensity};
 
 /// Slenderness, distribution, accuracy, speed, and what was not checked.
-///
-/// # Errors
-/// [`StudyError`] where the committed results cannot be read.
 pub(super) fn answers(
     results: &Results,
     claims: &[Claim],
     timings: &Timings,
-) -> Result<Vec<String>, StudyError> {
-    Ok(vec![
+    proof: Option<&Proof>,
+) -> Vec<String> {
+    vec![
         slenderness(results, claims),
         distribution(results),
-        accuracy(&committed_results()?, timings),
+        accuracy(proof, timings),
         timings.plain(),
         not_checked(results),
-    ])
+    ]
 }
 
 /// The value of a claim, on the arm if it has arms; NaN where it was not
@@ -115,34 +110,13 @@ fn distribution(results: &Results) -> String {
     )
 }
 
-/// Cases that passed, and the share of the tolerance that half of their
-/// numbers stay below.
-fn accuracy(results: &Value, timings: &Timings) -> String {
-    let none = serde_json::Map::new();
-    let cases = results.as_object().unwrap_or(&none);
-    let passed = cases.values().filter(|c| c["verdict"] == "pass").count();
-    let mut margins: Vec<f64> = cases
-        .values()
-        .filter_map(|case| case["quantities"].as_object())
-        .flat_map(serde_json::Map::values)
-        .filter(|quantity| quantity["kind"] != "waived")
-        .filter_map(|quantity| quantity["margin"].as_f64())
-        .collect();
-    margins.sort_by(f64::total_cmp);
-    let middle = margins.get(margins.len() / 2).copied().unwrap_or(f64::NAN);
-    format!(
-        "How accurate is the integrator? {} {passed} of {} declared cases \
-         pass against closed forms, trajectories with 36 digits and other \
-         oracles; of the {} numbers compared half use less than {middle:.0e} \
-         of their tolerance.",
-        timings.accuracy(),
-        cases.len(),
-        margins.len()
-    )
+fn accuracy(proof: Option<&Proof>, timings: &Timings) -> String {
+    let cases = proof.map_or(NOT_RUN.into(), Proof::to_string);
+    format!("How accurate is the integrator? {} {cases}", timings.accuracy())
 }
 
-fn not_checked(results: &Results) -> String {
-    let records = if results.ordinary.source.contains("synthetic") {
+pub(super) fn not_checked(results: &Results) -> String {
+    let records = if results.embedded() {
         "recorded earthquakes (these suites are synthetic), "
     } else {
         ""
@@ -156,30 +130,7 @@ fn not_checked(results: &Results) -> String {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
-
-    #[test]
-    fn cases_and_the_worst_margin_are_counted() {
-        let results = json!({
-            "a/one": {
-                "verdict": "pass",
-                "quantities": {
-                    "x": {"kind": "exact", "margin": 0.125},
-                    "y": {"kind": "absolute", "margin": 0.2},
-                    "z": {"kind": "absolute", "margin": 0.5},
-                    "other": {"kind": "waived", "margin": 0.9},
-                },
-            },
-            "a/two": {"verdict": "fail", "quantities": {}},
-        });
-        let text = accuracy(&results, &Timings::kept().expect("timings"));
-        assert!(text.contains("1 of 2 declared cases"), "{text}");
-        let end = "of the 3 numbers compared half use less than 2e-1 of \
-                   their tolerance.";
-        assert!(text.ends_with(end), "{text}");
-    }
 
     #[test]
     fn what_was_not_measured_is_said() {

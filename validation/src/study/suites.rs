@@ -1,5 +1,6 @@
 //! The two suites of a study: embedded, or read from files.
 
+use std::fmt;
 use std::path::Path;
 
 use rocking::record::{Accelerogram, Processing, ReadOptions};
@@ -9,8 +10,46 @@ use super::StudyError;
 use crate::inputs::read_suite;
 use crate::synthesis::{self, Pair};
 
-/// How the source of an embedded suite begins.
-pub const EMBEDDED: &str = "embedded synthetic suite";
+/// Where the records of a suite come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// The synthetic suite of these streams, embedded.
+    Embedded {
+        /// Seed of the streams.
+        streams: &'static str,
+    },
+    /// The user's files.
+    Files {
+        /// Name of the folder or index.
+        name: String,
+        /// What was done to the records.
+        processing: Processing,
+    },
+}
+
+impl Source {
+    /// Whether the suite is an embedded one.
+    #[must_use]
+    pub fn is_embedded(&self) -> bool {
+        matches!(self, Self::Embedded { .. })
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Embedded { streams } => {
+                write!(f, "embedded synthetic suite, streams {streams}")
+            }
+            Self::Files { name, processing } if processing.is_none() => {
+                write!(f, "suite {name}")
+            }
+            Self::Files { name, processing } => {
+                write!(f, "suite {name} ({processing})")
+            }
+        }
+    }
+}
 
 /// The component a study uses, and the other of its pair.
 #[derive(Clone, Debug)]
@@ -26,8 +65,8 @@ pub struct Motion {
 pub struct StudySuite {
     /// `ordinary` or `pulse-type`.
     pub kind: &'static str,
-    /// Where the records come from, in words.
-    pub source: String,
+    /// Where the records come from.
+    pub source: Source,
     /// Who chose the study component, in words.
     pub component_rule: String,
     /// The motions, in the suite's order.
@@ -40,9 +79,9 @@ impl StudySuite {
     /// # Errors
     /// None in practice: the samples are finite by construction.
     pub fn embedded() -> Result<[Self; 2], StudyError> {
-        let of = |kind, seed: &str, pairs: Vec<Pair>| Self {
+        let of = |kind, streams, pairs: Vec<Pair>| Self {
             kind,
-            source: format!("{EMBEDDED}, streams {seed}"),
+            source: Source::Embedded { streams },
             component_rule: "the first component of each pair".into(),
             motions: pairs
                 .into_iter()
@@ -83,10 +122,9 @@ impl StudySuite {
             .collect();
         Ok(Self {
             kind,
-            source: if processing.is_none() {
-                format!("suite {}", suite.name())
-            } else {
-                format!("suite {} ({processing})", suite.name())
+            source: Source::Files {
+                name: suite.name().to_owned(),
+                processing: *processing,
             },
             component_rule: suite.study_rule().to_string(),
             motions,

@@ -24,6 +24,7 @@ use super::questions::{self, Answer};
 use super::sensitivities::Varied;
 use super::speed::Timings;
 use super::suites::StudySuite;
+use crate::evidence::Proof;
 use crate::figures::data::{Arm, Table, number};
 use crate::report;
 use crate::{evidence, figures::Figure as _};
@@ -101,11 +102,12 @@ impl Study {
     }
 
     /// The report's files: `index.html`, numbers in `data/`, drawings in
-    /// `figures/`.
+    /// `figures/`. The page shows `proof`, the results of the declared cases,
+    /// if they were handed in.
     ///
     /// # Errors
     /// [`StudyError`] where a figure cannot be drawn.
-    pub fn files(&self) -> Result<Files, StudyError> {
+    pub fn files(&self, proof: Option<&Proof>) -> Result<Files, StudyError> {
         let mut files = Files::new();
         let timed = Timings::kept()?.figure();
         for figure in self.figures.iter().chain([&timed]) {
@@ -135,6 +137,7 @@ impl Study {
             &charts,
             &self.claims,
             &self.answers,
+            proof,
         )?;
         files.insert("index.html".into(), report::page(&input).into_bytes());
         Ok(laid_out(files))
@@ -242,7 +245,7 @@ fn suite(suite: &SuiteResults) -> Value {
     let certainty = &suite.work.certainty;
     json!({
         "kind": suite.kind,
-        "source": suite.source,
+        "source": suite.source.to_string(),
         "component_rule": suite.component_rule,
         "records": suite.records.len(),
         "sha256": suite.sha256,

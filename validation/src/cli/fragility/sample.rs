@@ -96,6 +96,7 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
     let mut put = |key: &str, value: Value| {
         out.insert(key.to_owned(), value);
     };
+    put("im_unit", "that of the sample".into());
     put("n", whole.len().into());
     put("n_kept", fits.fit.n_kept.into());
     put("n_infinite", whole.censored().into());

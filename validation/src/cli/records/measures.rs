@@ -7,7 +7,7 @@ use rocking::intensity::velocity_pulse::{Candidate, candidates, pulse};
 use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
 use serde_json::{Value, json};
 
-use super::{Listed, line};
+use super::{Listed, drift, line};
 use crate::cli::Failure;
 use crate::json::{number, optional};
 
@@ -37,6 +37,8 @@ pub(super) struct MeasureArgs {
 /// Results, in the order of the records and of the pairs.
 pub(super) struct Found {
     settings: Settings,
+    /// What was done to the baseline, where drifts were not filtered out.
+    baseline: Option<String>,
     singles: Option<Vec<Result<Measures, IntensityError>>>,
     pairs: Vec<FoundPair>,
 }
@@ -57,6 +59,7 @@ impl MeasureArgs {
         &self,
         records: &[Listed],
         gravity_m_s2: f64,
+        baseline: Option<String>,
     ) -> Result<Found, Failure> {
         let usual = Settings::default();
         let periods = self.periods.as_deref().unwrap_or(usual.periods_s());
@@ -107,7 +110,7 @@ impl MeasureArgs {
                 }
             })
             .collect();
-        Ok(Found { settings, singles, pairs })
+        Ok(Found { settings, baseline, singles, pairs })
     }
 }
 
@@ -145,6 +148,13 @@ impl Found {
     pub(super) fn add_to(&self, position: usize, record: &mut Value) {
         let own = self.singles.as_ref().and_then(|all| all.get(position));
         if let (Some(own), Some(map)) = (own, record.as_object_mut()) {
+            if let (Some(message), Some(remarks)) = (
+                drift::remark(own, self.baseline.as_deref()),
+                map.get_mut("remarks").and_then(Value::as_array_mut),
+            ) {
+                remarks
+                    .push(json!({ "code": drift::CODE, "message": message }));
+            }
             let settings = &self.settings;
             map.insert(
                 "intensity".into(),
@@ -207,6 +217,13 @@ impl Found {
                 ));
             }
             self.measures_table(&mut text, &rows);
+            for (listed, found) in records.iter().zip(singles) {
+                let baseline = self.baseline.as_deref();
+                if let Some(message) = drift::remark(found, baseline) {
+                    let (file, code) = (&listed.file, drift::CODE);
+                    line(&mut text, format_args!("{file}: {code}: {message}"));
+                }
+            }
         }
         self.pulse_table(&mut text);
         text

@@ -34,8 +34,11 @@ pub(super) fn sketch() -> Figure {
     }
 }
 
-pub(super) fn histories(suite: &SuiteResults, arm: Arm) -> Figure {
-    let number = if suite.kind == "ordinary" { 2 } else { 3 };
+pub(super) fn histories(
+    suite: &SuiteResults,
+    arm: Arm,
+    number: u32,
+) -> Figure {
     let panels = suite
         .single
         .iter()
@@ -134,8 +137,8 @@ pub(crate) fn median_of(
 pub(super) fn curves(
     suite: &SuiteResults,
     arm: Arm,
+    number: u32,
 ) -> Result<Figure, StudyError> {
-    let number = if suite.kind == "ordinary" { 4 } else { 5 };
     let all = suite.curves(arm).ok_or(StudyError::NoArm)?;
     let mut panels = Vec::new();
     for (frequency, p_rad_s) in FREQUENCIES_RAD_S.into_iter().enumerate() {

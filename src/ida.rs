@@ -8,6 +8,7 @@
 mod batch;
 mod certification;
 mod climb;
+mod curve;
 mod levels;
 
 use std::fmt;
@@ -16,14 +17,12 @@ use std::ops::ControlFlow;
 use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
-use crate::capacity::{CapacityError, ResponseCurve};
 use crate::excitation::NormalisedRecord;
-use crate::integrator::{
-    Model, Order, Outcome, Overturning, SceneError, WorkLimit,
-};
+use crate::integrator::{Model, Order, Overturning, SceneError, WorkLimit};
 use crate::number::dispatch::Isa;
 pub use certification::{Certification, Told};
 use climb::Climb;
+pub use curve::{FirstOverturning, IdaCurve, IdaPoint, Overturned};
 use levels::Levels;
 
 /// Intensities at which a curve is sampled.
@@ -171,144 +170,6 @@ pub enum IdaError {
     /// The caller stopped the work.
     #[error("stopped by the caller")]
     Stopped,
-}
-
-/// One analysis of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IdaPoint {
-    /// Dimensionless intensity PGA/(g tan alpha).
-    pub im: f64,
-    /// Peak ground acceleration applied, multiples of gravity.
-    pub pga_g: f64,
-    /// Slenderness of the block analysed, rad.
-    pub slenderness_rad: f64,
-    /// What became of it.
-    pub outcome: Outcome,
-    /// Margin to the other fate.
-    pub fate_margin: f64,
-    /// How outcome and peak were told.
-    pub told: Told,
-}
-
-impl IdaPoint {
-    /// Peak |theta|/alpha; infinite when overturned.
-    #[must_use]
-    pub fn edp(&self) -> f64 {
-        self.outcome.edp()
-    }
-}
-
-/// The first overturning of a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FirstOverturning {
-    /// Level of the grid that overturned first, IM.
-    pub scanned_im: f64,
-    /// Upper end of the bisected bracket, where one was asked for.
-    pub refined: Option<IdaPoint>,
-    /// Highest intensity below it found standing.
-    pub standing_im: f64,
-}
-
-impl FirstOverturning {
-    /// The overturning intensity: refined, or the level.
-    #[must_use]
-    pub fn im(&self) -> f64 {
-        self.refined.map_or(self.scanned_im, |point| point.im)
-    }
-}
-
-/// IDA curve of one record.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IdaCurve {
-    /// The record's name.
-    pub record: String,
-    /// PGA of the record as given, multiples of gravity.
-    pub record_pga_g: f64,
-    /// PGV/PGA of the record in s.
-    pub velocity_ratio_s: f64,
-    /// Onset of rocking: IM = 1, EDP = 0. It is known and was not run.
-    pub onset: IdaPoint,
-    /// Analyses in rising intensity, the first overturned one last; levels
-    /// at or below the uplift threshold are not run.
-    pub points: Vec<IdaPoint>,
-    /// First overturning; none within the highest level otherwise.
-    pub overturning: Option<FirstOverturning>,
-    /// Levels above the first overturning, where resurrections were sought.
-    pub above: Vec<IdaPoint>,
-    /// How many analyses were told in which arithmetic.
-    pub certification: Certification,
-    /// Analyses made, bisection included.
-    pub analyses: u64,
-}
-
-/// Which end of its bracket counts as the first overturning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overturned {
-    /// The level of the grid that overturned first.
-    Scanned,
-    /// The upper end of the bisected bracket where there is one, else the
-    /// level.
-    Refined,
-}
-
-impl IdaCurve {
-    /// The curve of demand (EDP) against intensity (IM = PGA/(g tan alpha)):
-    /// the onset (1, 0), the standing analyses, and the first overturning.
-    ///
-    /// # Errors
-    /// None for a curve that [`curve`] or [`curves`] made; [`CapacityError`]
-    /// for fields set otherwise.
-    ///
-    /// ```
-    /// use rocking::{Block, Restitution};
-    /// use rocking::capacity::InversionRule;
-    /// use rocking::excitation::NormalisedRecord;
-    /// use rocking::ida::{Analysis, Overturned, curve};
-    /// use rocking::record::Accelerogram;
-    /// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
-    /// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
-    /// let block = Block::try_new(0.1, 3.0)?;
-    /// let analysis = Analysis::paper(block, Restitution::constant(0.92)?);
-    /// let ida = curve(&NormalisedRecord::new(&record), &analysis)?;
-    /// let response = ida.response(Overturned::Scanned)?;
-    /// assert_eq!(response.onset_im(), 1.0);
-    /// // The intensity at which |theta| reaches half of alpha.
-    /// let half = response.crossings(0.5)?.capacity(InversionRule::Median);
-    /// assert!(half.im() > 1.0 && half.im() < ida.points.last().unwrap().im);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    pub fn response(
-        &self,
-        overturned: Overturned,
-    ) -> Result<ResponseCurve, CapacityError> {
-        let points = std::iter::once(&self.onset).chain(self.standing());
-        let vertices: Vec<(f64, f64)> =
-            points.map(|point| (point.im, point.edp())).collect();
-        let overturning = self.overturning.map(|first| match overturned {
-            Overturned::Scanned => first.scanned_im,
-            Overturned::Refined => first.im(),
-        });
-        ResponseCurve::try_new(&vertices, overturning)
-    }
-
-    /// Standing analyses, in rising intensity.
-    pub fn standing(&self) -> impl Iterator<Item = &IdaPoint> {
-        self.points.iter().filter(|point| !point.outcome.is_overturned())
-    }
-
-    /// Factor from PGA/(g tan alpha) to p PGV/(g tan alpha) for a block of
-    /// frequency parameter p.
-    #[must_use]
-    pub fn velocity_factor(&self, frequency_rad_s: f64) -> f64 {
-        frequency_rad_s * self.velocity_ratio_s
-    }
-
-    /// Levels above the first overturning at which the block stands again.
-    #[must_use]
-    pub fn resurrections(&self) -> usize {
-        let stands = |point: &&IdaPoint| !point.outcome.is_overturned();
-        self.above.iter().filter(stands).count()
-    }
 }
 
 /// IDA of one record.

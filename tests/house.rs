@@ -22,7 +22,10 @@ const EDGES: &[(&str, &[&str])] = &[
     ("capacity", &["statistics"]),
     ("excitation", &["number", "record"]),
     ("fragility", &["statistics"]),
-    ("ida", &["block", "excitation", "integrator", "number", "record"]),
+    (
+        "ida",
+        &["block", "capacity", "excitation", "integrator", "number", "record"],
+    ),
     ("integrator", &["block", "excitation", "number", "record"]),
     ("intensity", &["record", "units"]),
     ("number", &[]),
@@ -58,8 +61,16 @@ const LONG_FILES: &[(&str, usize, &str)] = &[
 ];
 
 /// Folders of the root that people see in a clone.
-const FOLDERS: &[&str] =
-    &["src", "validation", "tests", "benches", "fixtures", "reports", ".ci"];
+const FOLDERS: &[&str] = &[
+    "src",
+    "validation",
+    "tests",
+    "benches",
+    "examples",
+    "fixtures",
+    "reports",
+    ".ci",
+];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

@@ -8,7 +8,7 @@
 //! atanh (Eq. 2).
 
 use crate::integrator::certificate::Decision;
-use crate::integrator::driver::{Motion, Record, tail_speed};
+use crate::integrator::driver::{Motion, Tracked, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
@@ -78,7 +78,7 @@ impl<N: Real> Level<N> {
 pub(crate) fn coast<N: Real>(
     ask: &Coast<'_, N>,
     motion: Motion<N>,
-    record: &mut Record<N>,
+    record: &mut Tracked<N>,
 ) -> Fate<N> {
     let d = ask.dynamics;
     let Motion { side, u, w } = motion;
@@ -261,7 +261,7 @@ fn fly_out<N: Real>(
     motion: Motion<N>,
     level: Level<N>,
     margin: f64,
-    record: &mut Record<N>,
+    record: &mut Tracked<N>,
 ) -> Fate<N> {
     let d = ask.dynamics;
     let Motion { side, u, w } = motion;
@@ -299,7 +299,7 @@ fn fly_out<N: Real>(
 /// Raises the peak if the top of a hop does and is reached in time.
 fn raise<N: Real>(
     ask: &Coast<'_, N>,
-    record: &mut Record<N>,
+    record: &mut Tracked<N>,
     top: N,
     time_s: N,
     (u, w): (N, N),
@@ -329,7 +329,7 @@ fn slope<N: Real>(d: &Dynamics<N>, u: N) -> N {
 
 fn log_impact<N: Real>(
     ask: &Coast<'_, N>,
-    record: &mut Record<N>,
+    record: &mut Tracked<N>,
     time_s: N,
     speed: N,
     errors: Option<Errors>,
@@ -349,7 +349,7 @@ fn log_impact<N: Real>(
 /// The hops from an impact on, with the level before it, to rest.
 fn hops<N: Real>(
     ask: &Coast<'_, N>,
-    record: &mut Record<N>,
+    record: &mut Tracked<N>,
     first_s: N,
     before: Level<N>,
     state: (N, N),

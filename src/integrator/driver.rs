@@ -42,7 +42,7 @@ pub(crate) struct Motion<N> {
 }
 
 /// What a run gathers.
-pub(crate) struct Record<N> {
+pub(crate) struct Tracked<N> {
     pub peak: N,
     pub peak_time_s: Option<N>,
     pub uplift_time_s: Option<N>,
@@ -61,7 +61,7 @@ pub(crate) struct Record<N> {
     pub inputs: Option<Accuracy>,
 }
 
-impl<N: Real> Record<N> {
+impl<N: Real> Tracked<N> {
     pub fn empty() -> Self {
         Self {
             peak: N::zero(),
@@ -88,7 +88,7 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     dynamics: Dynamics<N>,
     forcing: G,
     isa: Isa,
-    record: Record<N>,
+    record: Tracked<N>,
     events: bool,
     interval_s: Option<f64>,
     until_s: Option<N>,
@@ -151,7 +151,7 @@ where
             dynamics,
             forcing,
             isa,
-            record: Record::empty(),
+            record: Tracked::empty(),
             events: false,
             interval_s: None,
             until_s: None,

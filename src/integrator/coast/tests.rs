@@ -1,6 +1,6 @@
 use super::{Coast, carlson_rf, coast};
 use crate::block::{Block, Restitution};
-use crate::integrator::driver::{Motion, Record};
+use crate::integrator::driver::{Motion, Tracked};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::{Side, WorkLimit};
 use crate::number::double::DoubleDouble;
@@ -22,7 +22,7 @@ fn overturns(model: Model, eta: f64, u: f64, w: f64) -> Option<(f64, Side)> {
         limit: WorkLimit::default(),
     };
     let motion = Motion { side: Side::Positive, u, w };
-    coast(&ask, motion, &mut Record::empty()).overturned
+    coast(&ask, motion, &mut Tracked::empty()).overturned
 }
 
 /// On the saddle's own stable line the block neither passes nor comes back:

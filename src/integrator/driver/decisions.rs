@@ -6,7 +6,7 @@ use crate::integrator::certificate::{CLEARANCE, Decision, LARGEST_ERROR};
 use crate::integrator::coast::{gap, gap_gradient};
 use crate::integrator::driver::events::next_turning;
 use crate::integrator::driver::impact::Chatter;
-use crate::integrator::driver::{Driver, Motion, Record};
+use crate::integrator::driver::{Driver, Motion, Tracked};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Place};
 use crate::integrator::screen::{LOW, Screen};
@@ -30,7 +30,7 @@ pub(super) struct Stepped<N> {
     pub left: N,
 }
 
-impl<N: Real> Record<N> {
+impl<N: Real> Tracked<N> {
     /// What tracks errors.
     pub fn trackers(&mut self) -> impl Iterator<Item = &mut Accuracy> {
         self.accuracy.iter_mut().chain(&mut self.inputs)

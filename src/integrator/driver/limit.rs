@@ -1,11 +1,11 @@
 //! The work of a run is bounded.
 
-use crate::integrator::driver::{Driver, Flight, Record, Stage};
+use crate::integrator::driver::{Driver, Flight, Stage, Tracked};
 use crate::integrator::forcing::Forcing;
 use crate::integrator::{Response, SceneError, Work, WorkLimit};
 use crate::number::Real;
 
-impl<N: Real> Record<N> {
+impl<N: Real> Tracked<N> {
     /// True once the work passes the limit, which is seen first at a time.
     #[inline(always)]
     pub fn exceeds(&mut self, limit: WorkLimit, time_s: N) -> bool {

@@ -126,7 +126,7 @@ fn alone(isa: Isa) -> Vec<[u64; 4]> {
                 initial_ratio: 0.0,
             };
             let observe = Observe::default();
-            let found = Solver { isa: isa, ..Solver::default() }
+            let found = Solver { isa, ..Solver::default() }
                 .respond(&scene, &observe)
                 .unwrap();
             bits(im, &found.outcome, found.fate_margin)

@@ -4,7 +4,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{
     Excitation, NormalisedRecord, Pulse, PulseKind, ScaledRecord,
 };
-use rocking::ida::{Analysis, Batch, Grid, curve, curves};
+use rocking::ida::{Adjust, Analysis, Batch, Grid, curve, curves};
 use rocking::integrator::{
     Arithmetic, Model, Observe, Outcome, Overturning, Scene, WorkLimit,
     certify, respond, respond_precise,
@@ -163,5 +163,30 @@ fn a_fate_that_double_precision_misses_is_told_and_said_so() {
         assert_eq!(fate.double, quick.outcome);
         assert_eq!(fate.double.is_overturned(), overturns != missed);
         assert_eq!(fate.moved(), missed);
+    }
+}
+
+/// Where the slenderness is adjusted, the onset is that of a block whose
+/// uplift threshold is the record's own PGA, by the rule of the equation.
+#[test]
+fn the_onset_of_a_curve_follows_the_rule_of_its_equation() {
+    let samples = (0..200).map(|k| 0.3 * libm::sin(0.1 * f64::from(k)));
+    let record = Accelerogram::try_new("sine", 0.01, samples.collect());
+    let record = NormalisedRecord::new(&record.unwrap());
+    let own = record.pga_g();
+    for (model, slenderness_rad) in
+        [(Model::Nonlinear, libm::atan(own)), (Model::Linearized, own)]
+    {
+        let block = Block::try_new(0.2, 3.0).unwrap();
+        let restitution = Restitution::constant(0.92).unwrap();
+        let analysis = Analysis {
+            model,
+            adjust: Adjust::SlendernessAdjustment,
+            ..Analysis::paper(block, restitution)
+        };
+        let onset = curve(&record, &analysis).unwrap().onset;
+        assert_eq!((onset.im, onset.edp()), (1.0, 0.0));
+        assert_eq!(onset.slenderness_rad, slenderness_rad, "{model:?}");
+        assert_eq!(onset.pga_g, own);
     }
 }

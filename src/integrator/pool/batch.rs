@@ -244,8 +244,10 @@ impl Batch {
         let (tolerance, alpha) =
             (V::from_f64(tolerance), V::load(&self.alpha));
         let allowed = tolerance * alpha.mul_add(h, w.abs());
-        // What is not a number is too much.
-        let again = last_term(v[LEN - 1].abs(), h).le(allowed).not();
+        let last = last_term(v[LEN - 1].abs(), h);
+        let again = allowed.lt(last);
+        // What is not a number is left to the driver.
+        left = left.or(last.le(allowed).or(again).not());
         let mut hard = none;
         if SIZE > LEN {
             // Where the class' own series is enough, it is it.

@@ -3,7 +3,7 @@
 
 use rocking::capacity::{CapacityError, InversionRule};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Batch, Overturned, curves};
+use rocking::ida::{Analysis, Batch, Overturned, REFINEMENT, curves};
 use rocking::record::{Suite, SuiteOptions};
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
@@ -18,11 +18,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .map(|member| NormalisedRecord::new(&member.accelerogram))
         .collect();
     let block = Block::try_new(0.2, 3.0)?;
-    let analysis = Analysis::paper(block, Restitution::constant(0.92)?);
+    let paper = Analysis::paper(block, Restitution::constant(0.92)?);
+    let analysis = Analysis { refine: Some(REFINEMENT), ..paper };
     let ida = curves(&records, &[analysis], &Batch::default())?;
     // The intensity PGA/(g tan alpha) at which each record overturns it.
     let overturning = ida[0].iter().map(|curve| {
-        let response = curve.response(Overturned::Scanned)?;
+        let response = curve.response(Overturned::Refined)?;
         Ok(response.crossings(1.0)?.capacity(InversionRule::Median).im())
     });
     let capacities = overturning.collect::<Result<Vec<_>, CapacityError>>()?;

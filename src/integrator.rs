@@ -1,7 +1,8 @@
 //! Integration of a scene: block, excitation, model, and what to record.
 //!
 //! One driver (rest, flight, events, end) for both equations of motion.
-//! Eq. 1 is stepped by its Taylor polynomial, order 8 to 13, one step a sample;
+//! Eq. 1 is stepped by its Taylor polynomial, order 8 to 13, one step a sample
+//! (several where p dt exceeds 0.1);
 //! Eq. 2 by its exponential series, to rounding. Events are roots of the
 //! step's own polynomial, all isolated. The block goes to rest only when the
 //! series of impacts provably ends; it skips to the next exceedance of the

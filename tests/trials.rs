@@ -56,6 +56,17 @@ fn no_clear_run_is_wrong() {
     assert_eq!(bad, 0, "of {} scenes, {text}", found.len());
 }
 
+/// Scenes that were wrong and clear once: a long Ricker pulse, whose block
+/// passes its saddle at 4e-8 rad/s.
+#[test]
+fn what_was_wrong_and_clear_once_is_not_again() {
+    let found = findings(Stratum::Grazing, &[1241]).unwrap();
+    let wrong = Judgement::of(&found[0], Reading::MarginInfinity);
+    assert_eq!(wrong, Judgement::WrongAndClear);
+    let judgement = Judgement::of(&found[0], Reading::Whole);
+    assert_eq!(judgement, Judgement::Unresolved(true));
+}
+
 #[test]
 fn a_scene_follows_from_its_address() {
     use rocking_validation::trials::trial;

@@ -106,7 +106,7 @@ pub enum SceneError {
     },
     /// Rotation or velocity went beyond the largest number.
     #[error(
-        "rotation or velocity is not a number at {time_s} s: expected \
+        "rotation or velocity is not a number at {time_s:e} s: expected \
          accelerations and times within the range of double precision"
     )]
     NotANumber {

@@ -246,13 +246,7 @@ fn a_run_at_its_limit_is_not_refused() {
 fn what_is_not_a_number_is_refused() {
     let kind = PulseKind::OneSine { amplitude: 1e300, omega_rad_s: 12.0 };
     let pulse = Pulse::try_new(kind).unwrap();
-    let observe = Observe::default();
-    for model in [Model::Nonlinear, Model::Linearized] {
-        let scene = scene(model, 0.9, Excitation::Pulse(&pulse));
-        let found = respond(&scene, &observe);
-        let refused = matches!(found, Err(SceneError::NotANumber { .. }));
-        let overturned =
-            found.as_ref().is_ok_and(|run| run.outcome.is_overturned());
-        assert!(refused || overturned, "{found:?}");
-    }
+    let scene = scene(Model::Nonlinear, 0.9, Excitation::Pulse(&pulse));
+    let found = respond(&scene, &Observe::default());
+    assert!(matches!(found, Err(SceneError::NotANumber { .. })), "{found:?}");
 }

@@ -42,40 +42,24 @@ macro_rules! both {
     }};
 }
 
-impl Add for Pair {
-    type Output = Self;
+macro_rules! operators {
+    ($($operation:ident $method:ident $instruction:ident;)*) => {$(
+        impl $operation for Pair {
+            type Output = Self;
 
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        both!(Pair, |x, y| _mm256_add_pd(x, y), self, other)
-    }
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                both!(Pair, |x, y| $instruction(x, y), self, other)
+            }
+        }
+    )*};
 }
 
-impl Sub for Pair {
-    type Output = Self;
-
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        both!(Pair, |x, y| _mm256_sub_pd(x, y), self, other)
-    }
-}
-
-impl Mul for Pair {
-    type Output = Self;
-
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        both!(Pair, |x, y| _mm256_mul_pd(x, y), self, other)
-    }
-}
-
-impl Div for Pair {
-    type Output = Self;
-
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        both!(Pair, |x, y| _mm256_div_pd(x, y), self, other)
-    }
+operators! {
+    Add add _mm256_add_pd;
+    Sub sub _mm256_sub_pd;
+    Mul mul _mm256_mul_pd;
+    Div div _mm256_div_pd;
 }
 
 impl Neg for Pair {

@@ -17,33 +17,24 @@ struct Input {
     scenes: Scenes,
 }
 
-/// Which scenes of a stratum.
+/// Scenes of a stratum.
 #[derive(Deserialize)]
-#[serde(untagged, deny_unknown_fields)]
-enum Scenes {
-    /// Those from an index on.
-    Range {
-        /// Number of scenes.
-        count: u64,
-        /// Index of the first.
-        first: u64,
-    },
-    /// Those of these indices.
-    Chosen(Vec<u64>),
+#[serde(deny_unknown_fields)]
+struct Scenes {
+    /// Number of scenes.
+    count: u64,
+    /// Index of the first.
+    first: u64,
 }
 
 impl Scenes {
-    fn indices(self) -> Result<Vec<u64>, MethodError> {
-        match self {
-            Self::Chosen(indices) => Ok(indices),
-            Self::Range { count, first } => {
-                let end = first.checked_add(count).ok_or_else(|| {
-                    let what = format!("count {count} from {first}");
-                    MethodError::Input(format!("{what}: too many"))
-                })?;
-                Ok((first..end).collect())
-            }
-        }
+    fn indices(&self) -> Result<Vec<u64>, MethodError> {
+        let Self { count, first } = *self;
+        let end = first.checked_add(count).ok_or_else(|| {
+            let what = format!("count {count} from {first}");
+            MethodError::Input(format!("{what}: too many"))
+        })?;
+        Ok((first..end).collect())
     }
 }
 

@@ -2,18 +2,18 @@
 //! of them. `TRIALS=stratum:first:count` chooses them.
 //!
 //! And what double precision tells of a suite: `SUITES=embedded`, or the two
-//! indices of recorded suites with a comma between, prints the rows of
-//! `fixtures/certainty/suites.csv`.
+//! indices of recorded suites with a comma between, prints the table of
+//! `src/certainty.md`.
 
 use std::path::Path;
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
-use rocking::record::Processing;
+use rocking::record::{Processing, ReadOptions};
 use rocking_validation::study::grid::blocks;
 use rocking_validation::study::suites::StudySuite;
 use rocking_validation::trials::{
-    Judgement, Reading, Stratum, Summary, Survey, findings,
+    Judgement, Reading, Stratum, Summary, Survey, findings, trial,
 };
 
 /// Scenes that are looked at where the environment chooses none.
@@ -21,6 +21,9 @@ const DEFAULT: &str = "ordinary:0:8";
 
 /// So many findings, at most, are all printed.
 const FEW: usize = 40;
+
+/// Characters of a scene that are still printed.
+const LONG: usize = 2000;
 
 /// Share of its estimate from which on an error is printed.
 const NEAR: f64 = 0.1;
@@ -49,6 +52,13 @@ fn no_clear_run_is_wrong() {
         let near = matches!(judgement, Judgement::Within(r) if r >= NEAR);
         if judgement.is_bad() || near || found.len() <= FEW {
             println!("{judgement:?}: {finding}");
+            let address = finding.name.split([':', ' ']).nth(1);
+            let index = address.and_then(|index| index.parse().ok());
+            let scene = index.map(|index| trial(stratum, index));
+            let scene = format!("{scene:?}");
+            if scene.len() < LONG {
+                println!("  {scene}");
+            }
         }
         bad += usize::from(judgement.is_bad());
     }
@@ -69,7 +79,6 @@ fn what_was_wrong_and_clear_once_is_not_again() {
 
 #[test]
 fn a_scene_follows_from_its_address() {
-    use rocking_validation::trials::trial;
     for stratum in Stratum::ALL {
         for index in 0..8 {
             let (a, b) = (trial(stratum, index), trial(stratum, index));
@@ -84,7 +93,8 @@ fn surveyed() -> (Vec<(&'static str, Vec<NormalisedRecord>)>, Vec<Block>) {
     let asked = std::env::var("SUITES").ok();
     let none = Processing::default();
     let read = |kind, path: &str| {
-        StudySuite::read(kind, Path::new(path), &none).unwrap()
+        let options = ReadOptions::default();
+        StudySuite::read(kind, Path::new(path), options, &none).unwrap()
     };
     let suites = match asked.as_deref().map(|text| text.split_once(',')) {
         Some(Some((ordinary, pulse))) => {

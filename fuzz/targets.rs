@@ -8,6 +8,7 @@ use rocking::record::{
     self, Format, ReadOptions, Record, RecordError, Suite, SuiteMember,
     SuiteOptions,
 };
+use rocking::units::AccelerationUnit;
 use rocking_validation::{cases, inputs};
 
 /// Accepts the bytes, or says why not.
@@ -41,10 +42,12 @@ pub fn run(name: &str, bytes: &[u8]) -> Result<(), String> {
     target(bytes)
 }
 
-/// One column states no interval.
+/// One column states neither interval nor unit.
 fn options(format: Option<Format>) -> ReadOptions {
-    let dt_s = (format == Some(Format::Column)).then_some(0.01);
-    ReadOptions { dt_s, ..ReadOptions::default() }
+    let column = format == Some(Format::Column);
+    let unit = column.then_some(AccelerationUnit::Gravity);
+    let dt_s = column.then_some(0.01);
+    ReadOptions { dt_s, unit, ..ReadOptions::default() }
 }
 
 fn format(format: Format, bytes: &[u8]) -> Result<(), String> {

@@ -135,6 +135,16 @@ pub enum IdaError {
         /// What was given.
         found: f64,
     },
+    /// Steps so small that a curve would have no end.
+    #[error(
+        "{found:.1e} levels up to the highest IM: expected at most {most:.0e}, by a larger step"
+    )]
+    Levels {
+        /// Highest IM over step.
+        found: f64,
+        /// The limit.
+        most: f64,
+    },
     /// A record of zeros has no intensity.
     #[error("record {record}: its peak ground acceleration is zero")]
     Silent {

@@ -6,6 +6,7 @@
 //! gives a [`RecordError`] with its place, never a repaired record.
 
 use std::fmt;
+use std::io::Read as _;
 use std::path::Path;
 
 mod accelerogram;
@@ -86,8 +87,7 @@ impl fmt::Display for Format {
 pub struct ReadOptions {
     /// Sampling interval in s, for files that state none.
     pub dt_s: Option<f64>,
-    /// Unit of the samples, for files that state none; without either,
-    /// multiples of gravity.
+    /// Unit of the samples, for files that state none.
     pub unit: Option<AccelerationUnit>,
     /// Gravity in m/s2 by which an SI record is divided.
     pub gravity_m_s2: f64,
@@ -111,11 +111,12 @@ pub struct Record {
     pub format: Format,
     /// Unit in which the file is written.
     pub unit: AccelerationUnit,
-    /// Whether the file or the caller stated the unit; if not, multiples of
-    /// gravity were assumed.
-    pub unit_stated: bool,
-    /// Name of the channel, where the file gives one.
+    /// Name of the channel, where the file gives one: its number, its
+    /// direction or both.
     pub channel: Option<String>,
+    /// Event and station, where the file names both: components of one
+    /// motion share them.
+    pub site: Option<String>,
 }
 
 /// What a format's reader finds: one component in the file's own unit.
@@ -123,7 +124,10 @@ struct Channel {
     dt: Option<f64>,
     unit: Option<AccelerationUnit>,
     samples: Vec<f64>,
+    /// What the file calls the channel.
     label: Option<String>,
+    /// Event and station, where the file names both.
+    site: Option<String>,
 }
 
 /// Reads the one component of a file with content `bytes`; `file` names it
@@ -137,7 +141,12 @@ struct Channel {
 ///
 /// ```
 /// use rocking::record::{self, ReadOptions};
-/// let options = ReadOptions { dt_s: Some(0.01), ..ReadOptions::default() };
+/// use rocking::units::AccelerationUnit;
+/// let options = ReadOptions {
+///     dt_s: Some(0.01),
+///     unit: Some(AccelerationUnit::Gravity),
+///     ..ReadOptions::default()
+/// };
 /// let record = record::read("folder/a.txt", b"0.0\n0.1\n-0.3\n", &options)?;
 /// assert_eq!(record.accelerogram.name(), "a");
 /// assert_eq!(record.accelerogram.pga_g(), 0.3);
@@ -178,8 +187,13 @@ pub fn read_all(
 ///
 /// ```
 /// use rocking::record::{self, Format, ReadOptions};
+/// use rocking::units::AccelerationUnit;
 /// let text = b"0.1\n0.2\n";
-/// let options = ReadOptions { dt_s: Some(0.01), ..ReadOptions::default() };
+/// let options = ReadOptions {
+///     dt_s: Some(0.01),
+///     unit: Some(AccelerationUnit::Gravity),
+///     ..ReadOptions::default()
+/// };
 /// assert!(record::read_as(Format::Column, "a", text, &options).is_ok());
 /// assert!(record::read_as(Format::At2, "a", text, &options).is_err());
 /// ```
@@ -253,15 +267,51 @@ pub fn read_file(
     options: &ReadOptions,
 ) -> Result<Record, RecordError> {
     let file = path.display().to_string();
-    read(&file, &bytes_of(path)?, options)
+    read(&file, &file_bytes(path)?, options)
 }
 
-/// Bytes of the file at `path`.
-fn bytes_of(path: &Path) -> Result<Vec<u8>, RecordError> {
-    std::fs::read(path).map_err(|error| {
+/// Bytes of the file at `path`, or of a pipe that this process was given
+/// (`/dev/fd/63`).
+///
+/// # Errors
+/// [`Fault::Unreadable`] for a file that cannot be read, that has more than
+/// 4 GiB or more than the memory holds, and for a device or a named pipe:
+/// they may never end.
+pub fn file_bytes(path: &Path) -> Result<Vec<u8>, RecordError> {
+    let refuse = |reason: String| {
         let file = path.display().to_string();
-        Fault::Unreadable(error.to_string()).whole(&file)
-    })
+        Fault::Unreadable(reason).whole(&file)
+    };
+    let failed = |error: std::io::Error| refuse(error.to_string());
+    let found = std::fs::metadata(path).map_err(failed)?;
+    let given = path.starts_with("/dev/fd") || path.starts_with("/proc/self");
+    if !(found.is_file() || (given && !found.is_dir())) {
+        let kind =
+            if found.is_dir() { "a folder" } else { "a device or pipe" };
+        return Err(refuse(format!("it is {kind}: expected a file")));
+    }
+    if found.len() > MOST_BYTES {
+        return Err(refuse(format!("it has more than {MOST_BYTES} bytes")));
+    }
+    let mut bytes = Vec::new();
+    bytes
+        .try_reserve_exact(found.len() as usize + 1)
+        .map_err(|error| refuse(error.to_string()))?;
+    let file = std::fs::File::open(path).map_err(failed)?;
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(refuse(format!("it has more than {MOST_BYTES} bytes")));
+    }
+    Ok(bytes)
+}
+
+/// Bytes of a file, at most: places in it are numbers of 32 bits.
+const MOST_BYTES: u64 = u32::MAX as u64;
+
+/// Whether the content is a record's in one of the formats.
+fn is_record(bytes: &[u8]) -> bool {
+    let Ok(content) = text::decode("", bytes) else { return false };
+    Text::new("", &content).is_ok_and(|text| format_of(&text).is_some())
 }
 
 fn unknown(text: &Text<'_>) -> RecordError {
@@ -303,7 +353,9 @@ fn complete(
 ) -> Result<Record, RecordError> {
     let fail = |fault: Fault| fault.whole(text.file());
     let dt_s = match (channel.dt, options.dt_s) {
-        (Some(stated_s), Some(given_s)) if stated_s != given_s => {
+        (Some(stated_s), Some(given_s))
+            if !((stated_s - given_s).abs() <= 1e-9 * stated_s) =>
+        {
             return Err(fail(Fault::IntervalConflict { stated_s, given_s }));
         }
         (Some(dt_s), _) | (None, Some(dt_s)) => dt_s,
@@ -316,13 +368,9 @@ fn complete(
         (Some(stated), Some(given)) if stated != given => {
             return Err(fail(Fault::UnitConflict { stated, given }));
         }
-        (None, None) if format == Format::At2 => {
-            return Err(fail(Fault::UnitMissing));
-        }
-        (stated, given) => stated.or(given),
+        (Some(unit), _) | (None, Some(unit)) => unit,
+        (None, None) => return Err(fail(Fault::UnitMissing)),
     };
-    let unit_stated = unit.is_some();
-    let unit = unit.unwrap_or(AccelerationUnit::Gravity);
     let per_gravity = unit.per_gravity(options.gravity_m_s2);
     let mut samples = channel.samples;
     for sample in &mut samples {
@@ -334,8 +382,8 @@ fn complete(
     }
     let accelerogram = Accelerogram::try_new(name, dt_s, samples)
         .map_err(|error| fail(error.into()))?;
-    let channel = channel.label;
-    Ok(Record { accelerogram, format, unit, unit_stated, channel })
+    let (channel, site) = (channel.label, channel.site);
+    Ok(Record { accelerogram, format, unit, channel, site })
 }
 
 #[cfg(test)]

@@ -36,13 +36,15 @@ impl AccelerationUnit {
     /// ```
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
-        let text = text.trim().to_ascii_lowercase();
+        let text = text.trim().to_ascii_lowercase().replace('²', "2");
+        let text = text.replace("sec", "s").replace("cms/", "cm/");
         match text.as_str() {
             "g" => Some(Self::Gravity),
-            "m/s2" | "m/s^2" | "m/s**2" | "m/s/s" | "m/sec2" | "m/sec^2"
-            | "m/sec/sec" => Some(Self::MetrePerSecondSquared),
-            "cm/s2" | "cm/s^2" | "cm/s**2" | "cm/s/s" | "cm/sec2"
-            | "cm/sec^2" | "cm/sec/sec" | "gal" | "gals" => {
+            "m/s2" | "m/s^2" | "m/s**2" | "m/s/s" | "m.s-2" | "m s-2" => {
+                Some(Self::MetrePerSecondSquared)
+            }
+            "cm/s2" | "cm/s^2" | "cm/s**2" | "cm/s/s" | "cm.s-2"
+            | "cm s-2" | "gal" | "gals" => {
                 Some(Self::CentimetrePerSecondSquared)
             }
             _ => None,

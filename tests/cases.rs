@@ -129,8 +129,8 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         } else {
             Err(Failed::from(
                 "reports/data/validation.json is stale: see what changed \
-                 with `rocking validate --check`, accept it with `rocking \
-                 validate`",
+                 with `rocking validate --check --out reports`, accept it \
+                 with `rocking validate --out reports`",
             ))
         }
     }));
@@ -143,7 +143,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         } else {
             Err(Failed::from(
                 "reports/data/precision.csv is stale: accept it with \
-                 `rocking validate`",
+                 `rocking validate --out reports`",
             ))
         }
     }));

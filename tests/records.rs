@@ -6,13 +6,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
-use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_validation::inputs;
 
 #[path = "records/export.rs"]
 mod export;
 #[path = "records/measures.rs"]
 mod measures;
+#[path = "records/outputs.rs"]
+mod outputs;
 #[path = "records/processing.rs"]
 mod processing;
 
@@ -61,8 +63,10 @@ fn real_files_that_lost_something_are_refused() {
     for row in text.lines().skip(1) {
         let cells: Vec<&str> = row.split(',').collect();
         let bytes = std::fs::read(root.join(cells[0])).unwrap();
-        let dt_s = (cells[1] == "column").then(|| cells[3].parse().unwrap());
-        let options = ReadOptions { dt_s, ..ReadOptions::default() };
+        let column = cells[1] == "column";
+        let unit = column.then_some(AccelerationUnit::Gravity);
+        let dt_s = column.then(|| cells[3].parse().unwrap());
+        let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
         let whole = record::read("x", &bytes, &options).unwrap();
         let count = whole.accelerogram.samples_g().len();
         let from = bytes.len() / 2;
@@ -164,7 +168,7 @@ fn bad_input_gives_one_message_and_status_2() {
         ),
         (
             &["column.txt"],
-            "rocking: column.txt: no sampling interval in the file: expected it to be given (in s)\n",
+            "rocking: column.txt: no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index\n",
         ),
         (
             &["column.txt", "--dt", "-0.01"],
@@ -260,7 +264,7 @@ fn an_index_may_state_checksums() {
     // By coreutils' sha256sum of the file below.
     let sum =
         "103671bc3a6a11aa4e586498034886e5e33d9e67f0cb7f0b0f1d8ae524e35166";
-    let right = format!("file,dt_s,sha256\na.txt,0.01,{sum}\n");
+    let right = format!("file,units,dt_s,sha256\na.txt,g,0.01,{sum}\n");
     let wrong = right.replace("103671", "103672");
     let files: [(&str, &[u8]); 3] = [
         ("a.txt", b"0.1\n0.2\n"),
@@ -280,10 +284,11 @@ fn a_zip_is_read_as_the_folder_in_it() {
     let results = "-- Summary of Metadata of Selected Records --\n\
         Record Sequence Number, Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename\n\
         9001, A_000.AT2, A_090.AT2\n";
+    let up = AT2.replace("Station, 0", "Station, UP");
     let files = [
         ("in/A_000.AT2", AT2),
         ("in/A_090.AT2", AT2),
-        ("in/A_UP.AT2", AT2),
+        ("in/A_UP.AT2", up.as_str()),
         ("in/_SearchResults.csv", results),
         ("__MACOSX/in/._A_000.AT2", "\u{0}"),
     ];

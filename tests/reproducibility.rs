@@ -148,8 +148,8 @@ fn explain(found: &[(String, String)]) -> String {
     } else {
         "All ways agree: some operation of the integrator changed. If that \
          was not meant, find it. If it was, (1) show with `rocking validate` \
-         that every case holds and with `rocking validate --check` what \
-         moved, (2) put the new value into GOLDEN of \
+         that every case holds and with `rocking validate --check --out \
+         reports` what moved, (2) put the new value into GOLDEN of \
          tests/reproducibility.rs, in the commit that makes the change, and \
          say there why, (3) accept the reports in a commit of its own. \
          Check that the value is the same with `--release`."

@@ -222,6 +222,9 @@ impl Level<'_> {
     }
 }
 
+/// Levels of a curve up to its highest intensity, at most.
+const MOST_LEVELS: f64 = 1e7;
+
 fn check(
     record: &NormalisedRecord,
     analysis: &Analysis,
@@ -238,6 +241,16 @@ fn check(
         Grid::Im { step } => positive("step in IM", step)?,
     }
     positive("highest IM", analysis.highest_im)?;
+    let step_im = match analysis.grid {
+        Grid::Pga { step_g } => {
+            step_g / uplift_threshold(&analysis.block, analysis.model)
+        }
+        Grid::Im { step } => step,
+    };
+    let levels = analysis.highest_im / step_im;
+    if !(levels <= MOST_LEVELS) {
+        return Err(IdaError::Levels { found: levels, most: MOST_LEVELS });
+    }
     if let Some(tolerance) = analysis.refine {
         positive("refinement", tolerance)?;
     }

@@ -13,7 +13,7 @@ use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
 
-/// Impacts logged at most where the motion never ends.
+/// Impacts logged at most where neither motion nor observation ends.
 const ENDLESS_IMPACTS: usize = 1000;
 
 /// Relative step of differences, of which one digit is asked.
@@ -376,7 +376,9 @@ fn hops<N: Real>(
             let top = turning(d, level);
             raise(ask, record, top, time_s + half / d.p, state);
         }
-        let endless = !(d.eta < N::one()) && count + 1 >= ENDLESS_IMPACTS;
+        let endless = !(d.eta < N::one())
+            && ask.until_s.is_none()
+            && count + 1 >= ENDLESS_IMPACTS;
         if !ask.events || endless {
             return;
         }

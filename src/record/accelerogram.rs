@@ -90,6 +90,12 @@ impl Accelerogram {
         &self.name
     }
 
+    /// The same motion under another name.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
     /// Sampling interval in s.
     #[must_use]
     pub fn dt_s(&self) -> f64 {

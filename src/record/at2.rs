@@ -45,7 +45,17 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let layout = fields::infer(text, first, 0);
     let samples = fields::read(text, first, text.len(), layout)?;
     text.check_count(samples.len(), count)?;
-    Ok(Channel { dt, unit, samples, label: None })
+    let label = component(text);
+    Ok(Channel { dt, unit, samples, label, site: None })
+}
+
+/// The component, which ends the second line: event, date, station,
+/// component.
+fn component(text: &Text<'_>) -> Option<String> {
+    let mut parts = text.line(1)?.rsplit(',');
+    let last = parts.next()?.trim();
+    let named = parts.count() >= 2 && !last.is_empty() && last.len() <= 8;
+    named.then(|| last.to_owned())
 }
 
 /// The unit named before the counting line.

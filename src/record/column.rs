@@ -1,12 +1,14 @@
 //! One value a line and no header; lines that begin with `#` are comments.
+//! A unit that the comments state in brackets is the samples'.
 //!
 //! Nothing in such a file tells a line that was dropped, doubled or changed:
-//! an index's `npts` or `sha256` does. A file that ends within a line is
-//! refused.
+//! an index's `npts` or `sha256` does. A file that ends within a number is
+//! refused where the number's form tells it.
 
+use super::fields::Forms;
 use super::number::{self, Form, Reading};
 use super::text::{Text, excerpt};
-use super::{Channel, Fault, RecordError};
+use super::{Channel, Fault, RecordError, csv};
 
 /// Whether the first line that is no comment is one number.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
@@ -18,14 +20,41 @@ pub(super) fn recognises(text: &Text<'_>) -> bool {
 /// Reads the file's one channel.
 pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let mut samples = Vec::with_capacity(text.len());
+    let mut forms = Forms::default();
     for (index, line) in text.lines().enumerate() {
         if line.starts_with('#') {
             continue;
         }
-        samples.push(one_number(text, index, line)?.0);
+        let (sample, form) = one_number(text, index, line)?;
+        forms.push(form);
+        samples.push(sample);
     }
-    text.check_ended()?;
-    Ok(Channel { dt: None, unit: None, samples, label: None })
+    check_first(text, &samples, &forms)?;
+    forms.check_ended(text)?;
+    let unit = csv::comments(text)?.acceleration;
+    Ok(Channel { dt: None, unit, samples, label: None, site: None })
+}
+
+/// Refuses a first line that is a count or an interval.
+fn check_first(
+    text: &Text<'_>,
+    samples: &[f64],
+    forms: &Forms,
+) -> Result<(), RecordError> {
+    let Some((&first, rest)) = samples.split_first() else { return Ok(()) };
+    let count = first == rest.len() as f64 && rest.len() > 1;
+    if !(count || (forms.first_differs() && first != 0.0)) {
+        return Ok(());
+    }
+    let (index, line) = text
+        .lines()
+        .enumerate()
+        .find(|(_, line)| !line.starts_with('#'))
+        .unwrap_or_default();
+    let expected = "a sample, written as those on the lines below: a count \
+                    or an interval belongs behind a #";
+    let fault = Fault::Header { found: excerpt(line), expected };
+    Err(text.on_line(index, fault))
 }
 
 /// The number that a line or a field of it is, and its form.

@@ -3,21 +3,26 @@
 //! they are.
 //!
 //! COSMOS: `6000 acceleration pts, approx 60 secs, units=cm/sec2 (4),
-//! Format=(8F10.3)`, the interval in milliseconds as the 34th real header
-//! value. CSMIP V2: `3000 points of accel data equally spaced at .020 sec, in
-//! cm/sec2. (8f10.3)`. CSMIP V1 (raw): `35000 Accelerogram points at 100
-//! pts/sec in units of g. Format: (8f9.6)`. Velocity and displacement blocks
-//! are passed over. A file of several channels that ends after one of them
-//! leaves no trace of the others.
+//! Format=(8F10.3)`, the interval of the series in milliseconds as the 62nd
+//! real header value. (The 34th is the interval of the recorder, another
+//! series.) CSMIP V2: `3000 points of accel data equally spaced at .020 sec,
+//! in cm/sec2. (8f10.3)`; before 1990 `POINTS OF ACCEL DATA EQUALLY SPACED AT
+//! .020 SEC. (UNITS: CM/SEC/SEC)`, whose first line shows the field width.
+//! CSMIP V1 (raw): `35000 Accelerogram points at 100 pts/sec in units of g.
+//! Format: (8f9.6)`. Velocity and displacement blocks are passed over. A file
+//! of several channels that ends after one of them leaves no trace of the
+//! others.
+//!
+//! Count, interval, duration and peak are held against whatever else the
+//! header says of them (`stated.rs`).
 
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
 use super::text::{self, Text, excerpt};
 use super::{Channel, Fault, RecordError};
-use crate::units::AccelerationUnit;
+use stated::{Header, Series};
 
-/// Place of the sampling interval among COSMOS's real header values.
-const INTERVAL_PLACE: usize = 34;
+mod stated;
 
 /// A line that announces a block of samples.
 struct Block<'a> {
@@ -63,12 +68,12 @@ fn ends_block(line: &str) -> bool {
 pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut channels = Vec::new();
     let mut head = 0;
-    let mut interval = None;
+    let mut reals = Vec::new();
     let mut index = 0;
     while let Some(line) = text.line(index) {
         if text::contains(line, "real-header values follow") {
-            let (dt_s, end) = real_header(text, index)?;
-            interval = Some(dt_s);
+            let end;
+            (reals, end) = real_header(text, index)?;
             index = end;
             continue;
         }
@@ -92,24 +97,17 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
         let samples = fields::read(text, index + 1, end, Some(block.layout))?;
         text.check_count_at(end - 1, samples.len(), block.count)?;
         after_block(text, end)?;
-        let header = || text.lines_from(head).take(index - head);
-        if let Some((at, line)) = stated_count(header(), block.count) {
-            let (found, expected) = (excerpt(line), SAME_COUNT);
-            let fault = Fault::Header { found, expected };
-            return Err(text.on_line(head + at, fault));
-        }
-        if text::contains(block.quantity, "accel") {
-            let unit =
-                AccelerationUnit::parse(block.unit).ok_or_else(|| {
-                    text.on_line(index, Fault::Unit(excerpt(block.unit)))
-                })?;
-            let dt = block.dt_s.or(interval);
-            let dt =
-                Some(dt.ok_or_else(|| {
-                    text.on_line(index, Fault::IntervalMissing)
-                })?);
-            let label = Some(label(header(), channels.len() + 1));
-            channels.push(Channel { dt, unit: Some(unit), samples, label });
+        let header = Header { text, head, announced: index };
+        header.check_count(block.count)?;
+        if text::contains(block.quantity, "acc") {
+            let unit = header.unit(block.unit)?;
+            let series = Series { unit, dt_s: block.dt_s, samples: &samples };
+            let dt = match is_cosmos(line) {
+                true => header.of_cosmos(&reals, &series)?,
+                false => header.of_csmip(&series)?,
+            };
+            let label = Some(label(header.lines(), channels.len() + 1));
+            channels.push(Channel { dt, unit, samples, label, site: None });
         }
         head = end;
         index = end;
@@ -161,21 +159,6 @@ fn after_block(text: &Text<'_>, end: usize) -> Result<(), RecordError> {
     Ok(())
 }
 
-const SAME_COUNT: &str = "the number of points that announces the samples";
-
-/// The header line that states another number of points, and its place.
-fn stated_count<'a>(
-    header: impl Iterator<Item = &'a str>,
-    count: usize,
-) -> Option<(usize, &'a str)> {
-    header.enumerate().find(|(_, line)| {
-        let rest = line.trim_start().strip_prefix("No. of Points");
-        let rest = rest.map(|r| r.trim_start_matches([' ', '=']));
-        rest.and_then(|r| r.split_ascii_whitespace().next())
-            .is_some_and(|stated| stated.parse() != Ok(count))
-    })
-}
-
 fn announced<'a>(
     text: &Text<'a>,
     index: usize,
@@ -191,8 +174,12 @@ fn announced<'a>(
     let count: usize = count
         .parse()
         .map_err(|_| header("a number of samples before the quantity"))?;
-    let layout =
-        layout(line).ok_or_else(|| header("a format such as (8F10.3)"))?;
+    let first = || fields::layout_of(text.line(index + 1).unwrap_or(""), 0);
+    let layout = match is_csmip(line) {
+        true => layout(line).or_else(first),
+        false => layout(line),
+    };
+    let layout = layout.ok_or_else(|| header("a format such as (8F10.3)"))?;
     let lower = rest.to_ascii_lowercase();
     if count == 0 {
         return Err(header("a positive number of samples"));
@@ -201,6 +188,7 @@ fn announced<'a>(
         let quantity = lower.find("pts").map_or("", |end| &rest[..end]);
         let unit = lower.find("units=").map_or("", |at| &rest[at + 6..]);
         let unit = unit.split(['(', ',']).next().unwrap_or("").trim();
+        let unit = unit.trim_end_matches('.');
         return Ok(Block { count, quantity, unit, layout, dt_s: None });
     }
     if is_raw(line) {
@@ -224,10 +212,11 @@ fn announced<'a>(
             return Err(text.on_line(index, fault));
         }
     };
-    let unit = seconds.find(" in ").map_or(after.len(), |at| {
-        after.len() - seconds.len() + at + " in ".len()
+    let unit = [" in units ", " in ", "units:"].iter().find_map(|word| {
+        let from = seconds.find(word)? + word.len();
+        let rest = &after[after.len() - seconds.len() + from..];
+        rest.split(['(', ')', ',', ' ']).find(|part| !part.is_empty())
     });
-    let unit = after[unit..].split(['(', ',', ' ']).find(|p| !p.is_empty());
     let unit = unit.unwrap_or("").trim_end_matches('.');
     Ok(Block { count, quantity, unit, layout, dt_s: Some(dt_s) })
 }
@@ -278,12 +267,12 @@ fn layout(line: &str) -> Option<Layout> {
     sane.then_some(layout)
 }
 
-/// The sampling interval (s) of the real header announced on line `index`,
-/// and the index of the line after it.
+/// The values of the real header announced on line `index`, and the index of
+/// the line after it.
 fn real_header(
     text: &Text<'_>,
     index: usize,
-) -> Result<(f64, usize), RecordError> {
+) -> Result<(Vec<f64>, usize), RecordError> {
     let line = text.line(index).unwrap_or("");
     let header = |expected| {
         let found = excerpt(line);
@@ -292,44 +281,52 @@ fn real_header(
     let count = line.split_ascii_whitespace().next();
     let count: usize = count
         .and_then(|word| word.parse().ok())
-        .filter(|count| *count >= INTERVAL_PLACE)
-        .ok_or_else(|| header("34 real header values or more"))?;
+        .ok_or_else(|| header("a number of real header values"))?;
     let layout =
         layout(line).ok_or_else(|| header("a format such as (5F15.6)"))?;
     let end = index.saturating_add(1 + count.div_ceil(layout.per_line));
     if end > text.len() {
         return Err(text.at_end(Fault::Ends("the real header values")));
     }
-    let values = fields::read(text, index + 1, end, Some(layout))?;
+    // Values of a header have each their own number of decimals.
+    let values = fields::read_varied(text, index + 1, end, layout)?;
     if values.len() != count {
         return Err(header("as many values as the line says"));
     }
     // One value more would have shifted those after it.
     after_block(text, end)?;
-    let milliseconds = values[INTERVAL_PLACE - 1];
-    if milliseconds > 0.0 {
-        return Ok((milliseconds / 1000.0, end));
-    }
-    let fault = Fault::Interval(format!("{milliseconds} ms"));
-    let row = (INTERVAL_PLACE - 1) / layout.per_line;
-    Err(text.on_line(index + 1 + row, fault))
+    Ok((values, end))
 }
 
-/// The channel's name in its header: what `Chan 1: 90 deg` says, else its
-/// number.
+/// The channel's name in its header: what `Chan 1: 90 deg`, `Chan ?: 90 Deg`
+/// or `COMP N08W` says, else its number.
 fn label<'a>(
     mut header: impl Iterator<Item = &'a str>,
     number: usize,
 ) -> String {
     let named = header.find_map(|line| {
+        if let Some(name) = line.strip_prefix("COMP ") {
+            let name = name.split_ascii_whitespace().next()?;
+            return Some(format!("{number} {name}"));
+        }
         let end = text::after_word(line, "chan")?;
         let rest = line[end..].trim_start();
-        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
-        let after = rest[digits..].trim_start().strip_prefix(':')?;
+        let known = |c: &char| c.is_ascii_digit() || *c == '?';
+        let stated = rest.chars().take_while(known).count();
+        let after = rest[stated..].trim_start().strip_prefix(':')?;
+        let channel = match &rest[..stated] {
+            "" => return None,
+            "?" => number.to_string(),
+            digits => digits.to_owned(),
+        };
         let name = after.split(['(', ',']).next().unwrap_or("");
-        let words: Vec<&str> = name.split_ascii_whitespace().take(2).collect();
-        (digits > 0 && !words.is_empty())
-            .then(|| format!("{} {}", &rest[..digits], words.join(" ")))
+        let other = |word: &&str| {
+            let next = ["from", "location:", "location"];
+            !next.iter().any(|other| word.eq_ignore_ascii_case(other))
+        };
+        let words = name.split_ascii_whitespace().take_while(other);
+        let words: Vec<&str> = words.take(2).collect();
+        (!words.is_empty()).then(|| format!("{channel} {}", words.join(" ")))
     });
     named.unwrap_or_else(|| number.to_string())
 }

@@ -1,15 +1,22 @@
 //! Two columns, time and acceleration, with one header line or none.
 //!
-//! Separator: semicolon, comma, tab or blanks. Lines that begin with `#` are
-//! comments. The first sample counts as t = 0, whatever its time. Lines
-//! dropped at either end leave no trace: an index's `npts` tells. A file that
-//! ends within a line is refused.
+//! Separator: semicolon, comma, tab or blanks. A header names the columns and
+//! may state their units (`time_ms`, `acc [m/s2]`); lines that begin with `#`
+//! are comments, and may state units in brackets. A first column that is no
+//! time is refused. The first sample counts as t = 0, whatever its time.
+//! Lines dropped at either end leave no trace: an index's `npts` tells. A
+//! file that ends within a number is refused where the number's form tells
+//! it.
 
 use super::column::one_number;
+use super::fields::Forms;
 use super::number;
 use super::text::{Text, excerpt};
 use super::{Channel, Fault, RecordError};
-use crate::units::AccelerationUnit;
+pub(super) use header::comments;
+use header::header;
+
+mod header;
 
 /// Whether the first or second line has two numbers.
 pub(super) fn recognises(text: &Text<'_>) -> bool {
@@ -39,7 +46,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let mut times = Vec::with_capacity(text.len());
     let mut samples = Vec::with_capacity(text.len());
     let mut decimals = 0;
-    let mut unit = None;
+    let mut forms = Forms::default();
+    let mut units = comments(text)?;
     let mut head = true;
     for (index, line) in text.lines().enumerate() {
         if line.starts_with('#') {
@@ -47,7 +55,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         }
         let parts = split(line);
         if head && !parts.iter().all(|p| number::is_number(p)) {
-            unit = header(text, index, line)?;
+            units = units.and(header(text, index, line)?);
             head = false;
             continue;
         }
@@ -57,14 +65,17 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
             let fault = Fault::Number { found: excerpt(line), expected };
             return Err(text.on_line(index, fault));
         };
-        let (time_s, form) = one_number(text, index, time)?;
+        let (time_read, form) = one_number(text, index, time)?;
         decimals = decimals.max(places(time, form));
-        times.push(time_s);
-        samples.push(one_number(text, index, value)?.0);
+        times.push(time_read);
+        let (sample, form) = one_number(text, index, value)?;
+        forms.push(form);
+        samples.push(sample);
     }
-    text.check_ended()?;
-    let dt = step(text, &times, decimals)?;
-    Ok(Channel { dt: Some(dt), unit, samples, label: None })
+    forms.check_ended(text)?;
+    let dt = step(text, &times, decimals)? / units.per_second;
+    let unit = units.acceleration;
+    Ok(Channel { dt: Some(dt), unit, samples, label: None, site: None })
 }
 
 /// Decimal places that a written time resolves.
@@ -101,9 +112,11 @@ fn step(
     if times.len() < 2 {
         return Err(text.at_end(Fault::Ends("a second time")));
     }
-    let unit = (0..places).fold(1.0, |unit, _| unit / 10.0);
+    // Rounded once: products of a rounded unit are not what was written.
+    let per_unit = (0..places).fold(1.0, |scale, _| scale * 10.0);
+    let unit = 1.0 / per_unit;
     let mean = (end - start) / (times.len() - 1) as f64;
-    let written = (mean / unit).round() * unit;
+    let written = (mean * per_unit).round() / per_unit;
     // Rounding of the times, and of the double they are read into.
     let allowed = 0.5000001 * unit + 4.0 * f64::EPSILON * end.abs();
     let off = |dt: f64| {
@@ -124,8 +137,13 @@ fn step(
             first
         });
     }
-    if !(mean > 0.0 && allowed < 0.25 * mean) {
-        let fault = Fault::Interval(format!("{mean}"));
+    if !(mean > 0.0) {
+        let (found_s, expected_s) = (end, start);
+        let fault = Fault::Backwards { found_s, expected_s };
+        return Err(text.on_line(line_of(text, times, times.len() - 1), fault));
+    }
+    if !(allowed < 0.25 * mean) {
+        let fault = Fault::Coarse { step_s: mean, places: places.max(0) };
         return Err(text.on_line(line_of(text, times, 1), fault));
     }
     if off(written).is_none() {
@@ -144,40 +162,4 @@ fn step(
             Err(text.on_line(line_of(text, times, i), fault))
         }
     }
-}
-
-/// The unit of acceleration that a header line names, if it names one.
-fn header(
-    text: &Text<'_>,
-    index: usize,
-    line: &str,
-) -> Result<Option<AccelerationUnit>, RecordError> {
-    let parts = split(line);
-    // Blanks separate words as well as columns.
-    let (time, value) = match parts.as_slice() {
-        [time, value] => (*time, *value),
-        _ => return Ok(None),
-    };
-    if let Some(name) = bracketed(time) {
-        let seconds = ["s", "sec", "secs", "second", "seconds"];
-        if !seconds.iter().any(|s| name.eq_ignore_ascii_case(s)) {
-            let fault = Fault::Interval(excerpt(time));
-            return Err(text.on_line(index, fault));
-        }
-    }
-    if let Some(name) = bracketed(value) {
-        let unit = AccelerationUnit::parse(name);
-        let fault = || text.on_line(index, Fault::Unit(excerpt(name)));
-        return unit.map(Some).ok_or_else(fault);
-    }
-    let named = [("_cm_s2", "cm/s2"), ("_m_s2", "m/s2"), ("_g", "g")];
-    let lower = value.trim_matches('"').to_ascii_lowercase();
-    let suffix = named.iter().find(|(suffix, _)| lower.ends_with(suffix));
-    Ok(suffix.and_then(|(_, unit)| AccelerationUnit::parse(unit)))
-}
-
-fn bracketed(name: &str) -> Option<&str> {
-    let open = name.find(['(', '['])?;
-    let close = name.rfind([')', ']'])?;
-    name.get(open + 1..close)
 }

@@ -122,8 +122,10 @@ pub enum Fault {
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),
-    /// A format that names its unit does not.
-    #[error("no unit in the file: expected it to be given")]
+    /// Neither the file nor the caller states a unit.
+    #[error(
+        "no unit in the file: expected it to be given, as --units g|m/s2|cm/s2 or in a column `units` of an index"
+    )]
     UnitMissing,
     /// The caller's unit and the file's differ.
     #[error(
@@ -140,7 +142,7 @@ pub enum Fault {
     Gravity(f64),
     /// Neither the file nor the caller states a sampling interval.
     #[error(
-        "no sampling interval in the file: expected it to be given (in s)"
+        "no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index"
     )]
     IntervalMissing,
     /// A sampling interval that is not positive and finite.
@@ -166,6 +168,16 @@ pub enum Fault {
         /// Samples that the header promises.
         expected: usize,
     },
+    /// Count and interval contradict the duration in the header.
+    #[error(
+        "samples for {found_s} s: expected {expected_s} s, which the file states"
+    )]
+    Duration {
+        /// Number of samples times the interval, in s.
+        found_s: f64,
+        /// Duration in the header in s.
+        expected_s: f64,
+    },
     /// Something that is not the number expected there.
     #[error("{found:?}: expected {expected}")]
     Number {
@@ -186,6 +198,26 @@ pub enum Fault {
         found_s: f64,
         /// Time expected in s.
         expected_s: f64,
+    },
+    /// A first column whose end does not lie after its beginning.
+    #[error(
+        "the times end at {found_s} s: expected more than {expected_s} s, at which they begin"
+    )]
+    Backwards {
+        /// Last time in s.
+        found_s: f64,
+        /// First time in s.
+        expected_s: f64,
+    },
+    /// Times with too few decimals to tell whether their step is constant.
+    #[error(
+        "times of {places} decimals with a mean step of {step_s:.6} s: expected a constant step that the decimals resolve"
+    )]
+    Coarse {
+        /// Mean step in s.
+        step_s: f64,
+        /// Decimals of the times.
+        places: i32,
     },
     /// The samples contradict the peak in the header.
     #[error(
@@ -228,9 +260,12 @@ impl Fault {
             Self::Interval(_) => "interval",
             Self::IntervalConflict { .. } => "interval-conflict",
             Self::Count { .. } => "count",
+            Self::Duration { .. } => "duration",
             Self::Number { .. } => "number",
             Self::NotFinite(_) => "not-finite",
             Self::Step { .. } => "step",
+            Self::Backwards { .. } => "backwards",
+            Self::Coarse { .. } => "coarse",
             Self::Peak { .. } => "peak",
             Self::SeveralChannels(_) => "several-channels",
             Self::Samples(_) => "samples",

@@ -53,5 +53,5 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         keys::check_peak(text, peaks, expected, allowed, unit)?;
     }
     let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
-    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label })
+    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label, site: None })
 }

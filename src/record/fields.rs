@@ -56,7 +56,7 @@ pub(super) fn infer(
 }
 
 /// The layout of one line of two numbers or more.
-fn layout_of(line: &str, missing: usize) -> Option<Layout> {
+pub(super) fn layout_of(line: &str, missing: usize) -> Option<Layout> {
     let mut tokens = number::tokens(line.as_bytes());
     let (first, second) = (tokens.next()??, tokens.next()??);
     let width = second.end - first.end;
@@ -96,7 +96,7 @@ pub(super) fn read(
     let mut samples = Vec::with_capacity(count);
     let mut form = None;
     for index in first..end {
-        let mut line = Line { text, index, form: &mut form };
+        let mut line = Line { text, index, form: Some(&mut form) };
         match layout {
             Some(layout) => {
                 line.fixed(layout, index + 1 == end, &mut samples)?;
@@ -107,10 +107,27 @@ pub(super) fn read(
     Ok(samples)
 }
 
+/// As [`read`] by a layout, for numbers that are each written in their own
+/// form.
+pub(super) fn read_varied(
+    text: &Text<'_>,
+    first: usize,
+    end: usize,
+    layout: Layout,
+) -> Result<Vec<f64>, RecordError> {
+    let mut values = Vec::new();
+    for index in first..end {
+        let mut line = Line { text, index, form: None };
+        line.fixed(layout, index + 1 == end, &mut values)?;
+    }
+    Ok(values)
+}
+
 struct Line<'t, 'a> {
     text: &'t Text<'a>,
     index: usize,
-    form: &'t mut Option<Form>,
+    /// The first number's form, where all have one.
+    form: Option<&'t mut Option<Form>>,
 }
 
 impl Line<'_, '_> {
@@ -132,7 +149,10 @@ impl Line<'_, '_> {
     ) -> Result<f64, RecordError> {
         match number::read(found) {
             Reading::Finite(value, form) => {
-                let first = *self.form.get_or_insert(form);
+                let Some(first) = self.form.as_mut() else {
+                    return Ok(value);
+                };
+                let first = *first.get_or_insert(form);
                 if form == first {
                     return Ok(value);
                 }
@@ -205,15 +225,38 @@ pub(super) struct Forms {
     before: Option<Form>,
     varied: bool,
     last: Option<Form>,
+    second: Option<Form>,
+    later_varied: bool,
 }
 
 impl Forms {
     /// Adds the next number's form.
     pub(super) fn push(&mut self, form: Form) {
         self.count += 1;
+        if self.count > 1 {
+            let second = *self.second.get_or_insert(form);
+            self.later_varied |= second != form;
+        }
         if let Some(last) = self.last.replace(form) {
             self.varied |= *self.before.get_or_insert(last) != last;
         }
+    }
+
+    /// Whether all numbers but the first have one form, and the first another.
+    pub(super) fn first_differs(&self) -> bool {
+        self.count > 2 && !self.later_varied && self.before != self.second
+    }
+
+    /// Refuses a text that ends within a line, unless the numbers' form
+    /// tells that the last one is whole.
+    pub(super) fn check_ended(
+        &self,
+        text: &Text<'_>,
+    ) -> Result<(), RecordError> {
+        if self.varied || self.count < 4 {
+            return text.check_ended();
+        }
+        self.check_end(text)
     }
 
     /// Refuses a text that was cut within its last number, where that can be

@@ -44,7 +44,13 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     check_maximum(text, &samples)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
     let label = keys::find(text, "Dir.").map(|(_, v)| v.to_owned());
-    Ok(Channel { dt: Some(1.0 / frequency_hz), unit, samples, label })
+    Ok(Channel {
+        dt: Some(1.0 / frequency_hz),
+        unit,
+        samples,
+        label,
+        site: None,
+    })
 }
 
 /// The header's maximum acceleration against the samples less their mean.

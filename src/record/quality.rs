@@ -2,12 +2,16 @@
 //!
 //! A remark changes nothing: samples stay as they are.
 
+use std::collections::BTreeMap;
+
 use thiserror::Error;
 
 use super::Accelerogram;
 
 /// PGA in g outside of which the unit is suspected.
-const PGA_RANGE_G: (f64, f64) = (1e-4, 5.0);
+const PGA_RANGE_G: (f64, f64) = (1e-4, 3.0);
+/// Sampling interval in s outside of which it is suspected.
+const INTERVAL_RANGE_S: (f64, f64) = (1e-4, 0.1);
 /// Consecutive samples at the peak that mean clipping.
 const CLIPPED_SAMPLES: usize = 3;
 /// Time with the same non-zero sample, in s, that means a dead channel.
@@ -24,6 +28,10 @@ const SAME_RECORDING: f64 = 0.98;
 /// at least.
 const COMPARED_SAMPLES: usize = 512;
 const LEAST_COMPARED: usize = 64;
+/// Samples on each side of the peak that are compared first, and the
+/// correlation of them above which the others are.
+const FEW_SAMPLES: usize = 32;
+const NOT_YET_DIFFERENT: f64 = 0.8;
 
 /// One suspicion, with the value that raised it.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -61,11 +69,31 @@ pub enum Remark {
         share: f64,
     },
     /// The samples have a mean.
-    #[error("mean is {:.1} % of PGA: instrument offset?", share * 100.0)]
+    #[error(
+        "mean is {:.1} % of PGA: instrument offset? PGA is {pga_g:.3e} g, and {moving_g:.3e} g without the mean (--demean)",
+        share * 100.0
+    )]
     Offset {
         /// |mean| / PGA.
         share: f64,
+        /// PGA in g.
+        pga_g: f64,
+        /// PGA without the mean in g.
+        moving_g: f64,
     },
+    /// A sampling interval beyond what recorders have.
+    #[error(
+        "sampling interval {dt_s} s, outside {} to {} s: is it an interval, and in s?",
+        INTERVAL_RANGE_S.0,
+        INTERVAL_RANGE_S.1
+    )]
+    Interval {
+        /// Sampling interval in s.
+        dt_s: f64,
+    },
+    /// All samples on one side of zero.
+    #[error("no sample is below zero: a spectrum?")]
+    OneSided,
     /// The sampling rate is not a whole number of samples a second.
     #[error(
         "interval {dt_s} s is {:.2} samples/s: rounded in the header?",
@@ -110,6 +138,8 @@ impl Remark {
             Self::Flat { .. } => "flat",
             Self::EndVelocity { .. } => "end-velocity",
             Self::Offset { .. } => "offset",
+            Self::Interval { .. } => "interval",
+            Self::OneSided => "one-sided",
             Self::IntervalRounded { .. } => "interval-rounded",
             Self::Padding { .. } => "padding",
             Self::UnequalComponents(_) => "unequal-components",
@@ -155,9 +185,19 @@ pub fn remarks(record: &Accelerogram) -> Vec<Remark> {
     for sample in samples {
         sum += sample;
     }
-    let share = f64::abs(sum / samples.len() as f64) / pga_g;
+    let mean = sum / samples.len() as f64;
+    let share = mean.abs() / pga_g;
     if share > OFFSET {
-        found.push(Remark::Offset { share });
+        let peak = |peak: f64, a: &f64| peak.max((a - mean).abs());
+        let moving_g = samples.iter().fold(0.0, peak);
+        found.push(Remark::Offset { share, pga_g, moving_g });
+    }
+    let positive = samples.iter().filter(|a| **a > 0.0).count();
+    if 2 * positive > samples.len() && samples.iter().all(|a| *a >= 0.0) {
+        found.push(Remark::OneSided);
+    }
+    if !(dt_s >= INTERVAL_RANGE_S.0 && dt_s <= INTERVAL_RANGE_S.1) {
+        found.push(Remark::Interval { dt_s });
     }
     let rate = 1.0 / dt_s;
     if (rate - rate.round()).abs() > 1e-6 * rate && dt_s < 1.0 {
@@ -193,8 +233,9 @@ fn longest_run(samples: &[f64], counts: impl Fn(f64) -> bool) -> usize {
 /// Records that look like one recording: for each, the indices and the
 /// absolute correlation.
 ///
-/// Compared are pairs of equal interval, aligned at their peaks, over up to
-/// 512 samples on each side; scale and sign do not matter.
+/// Compared are pairs of equal interval, aligned at their peaks: 32 samples
+/// on each side, and where these are alike, up to 512; scale, sign and mean
+/// do not matter.
 #[must_use]
 pub fn duplicates(records: &[&Accelerogram]) -> Vec<(usize, usize, f64)> {
     let windows: Vec<_> = records.iter().map(|r| about_peak(r)).collect();
@@ -223,14 +264,17 @@ pub fn remarks_together(
     let mut found: Vec<Vec<Remark>> =
         records.iter().map(|(record, _)| remarks(record)).collect();
     let shape = |r: &Accelerogram| (r.samples_g().len(), r.dt_s());
+    let mut pairs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (i, (_, pair)) in records.iter().enumerate() {
+        if let Some(pair) = pair {
+            pairs.entry(pair).or_default().push(i);
+        }
+    }
     for (i, (record, pair)) in records.iter().enumerate() {
-        let other = records.iter().enumerate().find(|(j, (_, other))| {
-            *j != i && pair.is_some() && other == pair
-        });
-        if let Some((_, (other, _))) = other
-            && shape(record) != shape(other)
-        {
-            let name = other.name().to_owned();
+        let others = pair.map_or(&[][..], |pair| &pairs[pair]);
+        let Some(&other) = others.iter().find(|j| **j != i) else { continue };
+        if shape(record) != shape(records[other].0) {
+            let name = records[other].0.name().to_owned();
             found[i].push(Remark::UnequalComponents(name));
         }
     }
@@ -265,10 +309,38 @@ fn correlation(first: &(&[f64], usize), second: &(&[f64], usize)) -> f64 {
     if before + after < LEAST_COMPARED {
         return 0.0;
     }
-    let part = |w: &(&[f64], usize)| w.1 - before..w.1 + after;
+    let part = |w: &(&[f64], usize), before: usize, after: usize| {
+        w.1 - before..w.1 + after
+    };
+    let about = |before: usize, after: usize| {
+        let x = &first.0[part(first, before, after)];
+        let y = &second.0[part(second, before, after)];
+        of_samples(x, y)
+    };
+    // A quick look, which spares most of the work.
+    let few = before.min(FEW_SAMPLES) + after.min(FEW_SAMPLES);
+    if few >= FEW_SAMPLES {
+        let near = about(before.min(FEW_SAMPLES), after.min(FEW_SAMPLES));
+        if !(near > NOT_YET_DIFFERENT) {
+            return 0.0;
+        }
+    }
+    about(before, after)
+}
+
+/// Absolute correlation of samples less their means.
+fn of_samples(x: &[f64], y: &[f64]) -> f64 {
+    let mean = |samples: &[f64]| {
+        let mut sum = 0.0;
+        for sample in samples {
+            sum += sample;
+        }
+        sum / samples.len() as f64
+    };
+    let (mean_x, mean_y) = (mean(x), mean(y));
     let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
-    let (x, y) = (&first.0[part(first)], &second.0[part(second)]);
     for (x, y) in x.iter().zip(y) {
+        let (x, y) = (x - mean_x, y - mean_y);
         xx += x * x;
         yy += y * y;
         xy += x * y;
@@ -277,78 +349,4 @@ fn correlation(first: &(&[f64], usize), second: &(&[f64], usize)) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn codes(dt_s: f64, samples: Vec<f64>) -> Vec<&'static str> {
-        let record = Accelerogram::try_new("x", dt_s, samples).unwrap();
-        remarks(&record).iter().map(Remark::code).collect()
-    }
-
-    /// A motion without a blemish: whole periods, ended at rest.
-    fn clean() -> Vec<f64> {
-        (0..401)
-            .map(|i| {
-                0.3 * libm::sin(0.1 * std::f64::consts::PI * f64::from(i))
-            })
-            .map(|a| if a.abs() < 1e-12 { 0.0 } else { a })
-            .collect()
-    }
-
-    #[test]
-    fn each_blemish_has_its_code() {
-        assert_eq!(codes(0.01, clean()), [""; 0]);
-        let scaled = |f: f64| clean().iter().map(|a| a * f).collect();
-        assert_eq!(codes(0.01, scaled(980.665)), ["units"]);
-        assert_eq!(codes(0.01, scaled(1e-4)), ["units"]);
-        let clipped = clean().iter().map(|a| a.clamp(-0.2, 0.2)).collect();
-        assert_eq!(codes(0.01, clipped), ["clipped"]);
-        let mut flat = clean();
-        flat.splice(100..100, (0..120).map(|i| 0.01 * (i / 60) as f64));
-        assert_eq!(codes(0.01, flat)[..1], ["flat"]);
-        let offset = clean().iter().map(|a| a + 0.004).collect();
-        assert_eq!(codes(0.01, offset), ["end-velocity", "offset"]);
-        assert_eq!(codes(0.0024, clean()), ["interval-rounded"]);
-        for dt_s in [0.001, 0.0025, 0.005, 0.01, 0.02, 1.0 / 410.0] {
-            assert_eq!(codes(dt_s, clean()), [""; 0], "{dt_s}");
-        }
-        let mut padded = clean();
-        padded.extend([0.0; 100]);
-        assert_eq!(codes(0.01, padded), ["padding"]);
-        assert_eq!(codes(0.01, vec![0.0; 10]), ["units"]);
-    }
-
-    #[test]
-    fn components_of_a_pair_are_compared() {
-        let record = |name: &str, n: usize| {
-            let mut samples = clean();
-            samples.truncate(n);
-            Accelerogram::try_new(name, 0.01, samples).unwrap()
-        };
-        let (a, b) = (record("a", 401), record("b", 381));
-        let codes = |pair| {
-            let found = remarks_together(&[(&a, Some("p")), (&b, Some(pair))]);
-            let unequal = Remark::UnequalComponents("b".to_owned());
-            (found[0].contains(&unequal), found[1].len())
-        };
-        assert_eq!(codes("p"), (true, 2));
-        assert_eq!(codes("q"), (false, 1));
-    }
-
-    #[test]
-    fn a_recording_is_known_again_by_its_shape() {
-        let motion = |shift: usize, scale: f64, power: f64| {
-            let wave = (0..600).map(|i| {
-                let t = 0.01 * f64::from(i) - 3.0;
-                scale * libm::exp(-t * t) * libm::cos(power * t)
-            });
-            let samples = std::iter::repeat_n(0.0, shift).chain(wave);
-            Accelerogram::try_new("x", 0.01, samples.collect()).unwrap()
-        };
-        let records =
-            [motion(0, 0.3, 9.0), motion(77, -0.2, 9.0), motion(0, 0.3, 7.0)];
-        let found = duplicates(&records.each_ref());
-        let pairs: Vec<_> = found.iter().map(|(i, j, _)| (*i, *j)).collect();
-        assert_eq!(pairs, [(0, 1)]);
-    }
-}
+mod tests;

@@ -45,5 +45,5 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         keys::check_peak(text, peaks, expected, 1e-6 * expected, unit)?;
     }
     let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
-    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label })
+    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label, site: None })
 }

@@ -1,9 +1,12 @@
 //! USGS SMC: 11 lines of text, 48 integers (8I10), 50 reals (5E15.7),
 //! comments, then samples in 8E10.4, in cm/s2.
+//!
+//! The text names event, station and component; the reals 30 and 32 are the
+//! largest and the least sample, and are checked.
 
 use super::fields::{self, Layout};
 use super::text::{Text, excerpt};
-use super::{Channel, Fault, RecordError};
+use super::{Channel, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 11;
@@ -12,6 +15,9 @@ const INTEGER_LINES: usize = 6;
 const REALS: Layout = Layout::even(5, 15);
 const REAL_LINES: usize = 10;
 const SAMPLES: Layout = Layout::even(8, 10);
+
+/// What real values stay below: the null value is 1.7e38.
+const NULL: f64 = 1e38;
 
 const KINDS: [&str; 6] = [
     "1 UNCORRECTED ACCELEROGRAM",
@@ -70,8 +76,49 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     }
     let samples = fields::read(text, first, text.len(), Some(SAMPLES))?;
     text.check_count(samples.len(), expected)?;
-    let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
-    Ok(Channel { dt: Some(dt), unit, samples, label: None })
+    let unit = AccelerationUnit::CentimetrePerSecondSquared;
+    check_peak(text, &samples, &reals, unit)?;
+    let (label, site) = component(text);
+    let (dt, unit) = (Some(dt), Some(unit));
+    Ok(Channel { dt, unit, samples, label, site })
+}
+
+/// The peak against the largest and the least sample in the header.
+fn check_peak(
+    text: &Text<'_>,
+    samples: &[f64],
+    reals: &[f64],
+    unit: AccelerationUnit,
+) -> Result<(), RecordError> {
+    let known = |place: usize| {
+        reals.get(place - 1).copied().filter(|x| x.abs() < NULL)
+    };
+    let (Some(largest), Some(least)) = (known(30), known(32)) else {
+        return Ok(());
+    };
+    let expected = largest.abs().max(least.abs());
+    // Samples have four digits.
+    let samples = samples.iter().copied();
+    keys::check_peak(text, samples, expected, 1e-3 * expected, unit)
+}
+
+/// The component, and event with station, by the lines `1989 10 18 ...` and
+/// `station = San Francisco component= up`.
+fn component(text: &Text<'_>) -> (Option<String>, Option<String>) {
+    let head = || text.lines().take(TEXT_LINES);
+    let Some((station, name)) = head().find_map(|line| {
+        let (station, name) = line.split_once("component=")?;
+        let station = station.trim_start().strip_prefix("station =")?;
+        Some((station.trim(), name.trim()))
+    }) else {
+        return (None, None);
+    };
+    let event = head().nth(3).unwrap_or("");
+    let words = |text: &str| {
+        text.split_ascii_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let site = format!("{} {}", words(event), words(station));
+    ((!name.is_empty()).then(|| name.to_owned()), Some(site))
 }
 
 /// The interval from the second real value, samples per second.

@@ -55,9 +55,8 @@ pub struct SuiteMember {
     pub format: Format,
     /// Unit in which the file is written.
     pub unit: AccelerationUnit,
-    /// Whether file, index or caller stated the unit; if not, multiples of
-    /// gravity were assumed.
-    pub unit_stated: bool,
+    /// Event and station, where the file names both.
+    pub site: Option<String>,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
@@ -90,14 +89,17 @@ impl Suite {
     /// Reads the suite at `path`: a folder of self-describing files, or an
     /// index.
     ///
-    /// An index is a CSV file with a column `file` (relative to the index).
-    /// Optional columns: `format`, `units`, `dt_s`, `npts`, `pga_g`,
-    /// `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1 or 0);
-    /// others are kept as attributes. PEER's `_SearchResults.csv` is an index
-    /// too, and that of the folder it lies in. In another folder, files of no known format
-    /// and histories of velocity or displacement are set aside
-    /// ([`Suite::ignored`]); any other fault refuses the suite. Pairs are
-    /// found by file name: what is left without the orientation at its end.
+    /// An index is a CSV file with a column `file` (relative to the index),
+    /// separated by commas or semicolons. Optional columns: `name` (of the
+    /// record; the file's stem otherwise), `format`, `units`, `dt_s`, `npts`,
+    /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1
+    /// or 0); others are kept as attributes. PEER's `_SearchResults.csv` is
+    /// an index too, and that of the folder it lies in. In another folder,
+    /// files of no known format, histories of velocity or displacement and
+    /// vertical components are set aside ([`Suite::ignored`]); any other
+    /// fault refuses the suite. Pairs are found by event and station where
+    /// the files name both, and otherwise by file name: what is left without
+    /// the orientation at its end.
     ///
     /// # Errors
     /// [`SuiteError`] naming the folder, index or record, and the line.

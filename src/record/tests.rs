@@ -2,10 +2,20 @@
 
 use super::*;
 
+mod columns;
+mod cosmos;
 mod networks;
+
+pub(super) use networks::smc;
 
 fn options(dt_s: Option<f64>) -> ReadOptions {
     ReadOptions { dt_s, ..ReadOptions::default() }
+}
+
+/// Options for a file that states no unit.
+fn in_g(dt_s: Option<f64>) -> ReadOptions {
+    let unit = Some(AccelerationUnit::Gravity);
+    ReadOptions { unit, ..options(dt_s) }
 }
 
 fn read_text(text: &str) -> Result<Record, RecordError> {
@@ -224,95 +234,6 @@ fn what_the_file_states_cannot_be_overruled() {
     }
 }
 
-#[test]
-fn one_column_needs_an_interval() {
-    let text = "# by hand\n0.00981\n-1.962E-2\r\n 3.0D-3 \n\n\n";
-    assert_eq!(
-        refusal(text),
-        "test: no sampling interval in the file: expected it to be given (in s)"
-    );
-    let given = ReadOptions {
-        unit: Some(AccelerationUnit::MetrePerSecondSquared),
-        gravity_m_s2: 9.81,
-        ..options(Some(0.005))
-    };
-    let record = read("a/b.c.txt", text.as_bytes(), &given).unwrap();
-    assert_eq!(record.format, Format::Column);
-    assert_eq!(record.accelerogram.name(), "b.c");
-    assert!((record.accelerogram.pga_g() - 0.002).abs() < 1e-18);
-    assert!(record.unit_stated);
-    let refused = |text: &str| {
-        read("test", text.as_bytes(), &options(Some(0.01)))
-            .unwrap_err()
-            .to_string()
-    };
-    assert_eq!(refused("0.1\n\n0.2\n"), "test:2: \"\": expected a number");
-    assert_eq!(
-        refused("0.1\n0.2 0.3\n"),
-        "test:2: \"0.2 0.3\": expected a number"
-    );
-    assert_eq!(
-        refused("0.1\nnan\n"),
-        "test:2: \"nan\": expected a finite number"
-    );
-    assert_eq!(
-        refused("-inf\n0\n"),
-        "test:1: \"-inf\": expected a finite number"
-    );
-    assert_eq!(refused("0.1\n"), "test: 1 samples: expected at least 2");
-    assert_eq!(refused("0.1\n0.2E\n"), "test:2: \"0.2E\": expected a number");
-    assert_eq!(refused("0.1\n0x1\n"), "test:2: \"0x1\": expected a number");
-}
-
-#[test]
-fn two_columns_state_their_interval() {
-    for separator in [",", ";", "\t", "  ", " , "] {
-        for head in ["", "time (s)#acceleration (g)\n", "# note\n", "t#a\n"] {
-            let rows = "0.000#0.1\n0.005#-0.2\n0.010#3e-1\n0.015#0\n";
-            let text = format!("{head}{rows}").replace('#', separator);
-            let text =
-                text.replacen(&format!("{separator} note"), "# note", 1);
-            let record = read_text(&text).expect(&text);
-            assert_eq!(record.format, Format::Csv);
-            assert_eq!(record.accelerogram.dt_s(), 0.005);
-            assert_eq!(record.accelerogram.samples_g(), [0.1, -0.2, 0.3, 0.0]);
-        }
-    }
-    // Times rounded to four decimals, a step of 1/410 s.
-    let rows = |times: &mut dyn Iterator<Item = f64>| -> String {
-        times.map(|t| format!("{t:.4},0.5\n")).collect()
-    };
-    let text = rows(&mut (0..411).map(|i| f64::from(i) / 410.0));
-    let dt = read_text(&text).unwrap().accelerogram.dt_s();
-    assert!((dt - 1.0 / 410.0).abs() < 1e-9, "{dt}");
-    // A dropped line, at every place.
-    for dropped in 1..40 {
-        let times = (0..41).filter(|i| *i != dropped);
-        let text = rows(&mut times.map(|i| f64::from(i) * 0.02));
-        assert!(refusal(&text).contains("a constant step"), "{dropped}");
-    }
-    let cases = [
-        ("0,1\n0,2\n", "test:2: sampling interval \"0\""),
-        ("0.1,1\n0.0,2\n", "test:2: sampling interval \"-0.1\""),
-        ("0.00,1\n0.00,1\n0.01,2\n", "test:2: sampling interval"),
-        ("0.0,1\n0.1,2\n0.2\n", "test:3: \"0.2\": expected two numbers"),
-        ("0.0,1\n0.1,2\n0.2,x\n", "test:3: \"x\": expected a number"),
-        ("0.0,1\n0.1,NaN\n", "test:2: \"NaN\": expected a finite"),
-        ("0.0,1\n0.1,\n", "test:2: \"\": expected a number"),
-        ("t (ms),a (g)\n0,1\n10,2\n", "test:1: sampling interval"),
-        ("t,a (furlong)\n0,1\n1,2\n", "test:1: unit \"furlong\""),
-        ("0.0,1\n", "test:1: the file ends: expected a second time"),
-    ];
-    for (text, expected) in cases {
-        let found = refusal(text);
-        assert!(found.starts_with(expected), "{found}");
-    }
-    let si = read_text("t (s),a [m/s^2]\n0,9.80665\n1,2\n").unwrap();
-    assert_eq!(si.accelerogram.pga_g(), 1.0);
-    let gal = read_text("t_s,a_cm_s2\n0,980.665\n1,2\n").unwrap();
-    assert_eq!(gal.accelerogram.pga_g(), 1.0);
-}
-
 const RESORCE: &str = "Event Date & Time             : 1900-01-01 00:00:00\n\
     Station Code / Name           : 1 / Nowhere\n\
     Time Increment (s)            : 0.005\n\
@@ -373,7 +294,7 @@ fn what_is_no_record_is_refused() {
     ));
     assert!(refusal("1 2 3\n4 5 6\n").contains("expected a record in"));
     let latin1 = b"0.1\n\xe9\n";
-    let error = read("test", latin1, &options(Some(0.1))).unwrap_err();
+    let error = read("test", latin1, &in_g(Some(0.1))).unwrap_err();
     assert_eq!(error.to_string(), "test:2: \"\u{e9}\": expected a number");
     assert_eq!(error.line(), Some(2));
     assert_eq!(error.column(), None);
@@ -390,8 +311,8 @@ fn no_bytes_make_a_reader_panic() {
         body(7, GLUED),
         resorce,
         "0.1\n0.2\n-0.3\n".to_owned(),
-        networks::cosmos(),
-        networks::CSMIP.to_owned(),
+        cosmos::cosmos(),
+        cosmos::CSMIP.to_owned(),
         networks::KNET.to_owned(),
         networks::ESM.to_owned(),
         networks::smc(),
@@ -425,9 +346,11 @@ fn no_bytes_make_a_reader_panic() {
             }
         }
         let dt_s = (round % 2 == 0).then_some(0.01);
-        for record in read_all("x", &bytes, &options(dt_s)).iter().flatten() {
-            let motion = &record.accelerogram;
-            assert!(motion.dt_s() > 0.0 && motion.pga_g().is_finite());
+        for given in [options(dt_s), in_g(dt_s)] {
+            for record in read_all("x", &bytes, &given).iter().flatten() {
+                let motion = &record.accelerogram;
+                assert!(motion.dt_s() > 0.0 && motion.pga_g().is_finite());
+            }
         }
     }
 }

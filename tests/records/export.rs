@@ -21,7 +21,8 @@ fn rocking(folder: &Path, arguments: &[&str]) -> (i32, String) {
 #[test]
 fn exported_suites_are_read_back_bit_for_bit() {
     let folder = folder("export", &[]);
-    let (status, error) = rocking(&folder, &["suite", "export", "out"]);
+    let (status, error) =
+        rocking(&folder, &["suite", "export", "--out", "out"]);
     assert_eq!((status, error.as_str()), (0, ""));
     let suites = [
         ("ordinary", synthesis::ordinary().unwrap()),
@@ -47,11 +48,13 @@ fn exported_suites_are_read_back_bit_for_bit() {
         }
     }
     // Once more into the same folder, which is no longer empty.
-    let (status, error) = rocking(&folder, &["suite", "export", "out"]);
+    let (status, error) =
+        rocking(&folder, &["suite", "export", "--out", "out"]);
     assert_eq!(status, 2);
     assert!(error.contains("cannot write out"), "{error}");
     // One of one's own, and a file changed behind the index's back.
-    let mine = ["suite", "export", "mine", "--suite", "out/pulse.csv"];
+    let mine =
+        ["suite", "export", "--out", "mine", "--suite", "out/pulse.csv"];
     assert_eq!(rocking(&folder, &mine), (0, String::new()));
     let same = |a: &str, b: &str| {
         std::fs::read(folder.join(a)).unwrap()
@@ -65,13 +68,20 @@ fn exported_suites_are_read_back_bit_for_bit() {
     let error = inputs::read_suite(&index, ReadOptions::default());
     let error = error.unwrap_err().to_string();
     assert!(error.contains("has sha256"), "{error}");
-    let processed =
-        ["suite", "export", "x", "--suite", "out/pulse.csv", "--demean"];
+    let processed = [
+        "suite",
+        "export",
+        "--out",
+        "x",
+        "--suite",
+        "out/pulse.csv",
+        "--demean",
+    ];
     assert_eq!(rocking(&folder, &processed), (0, String::new()));
     let text = std::fs::read_to_string(folder.join("x/pulse.csv")).unwrap();
     assert!(text.contains(",processing,") && text.contains("mean removed"));
     let (status, error) =
-        rocking(&folder, &["suite", "export", "y", "--demean"]);
+        rocking(&folder, &["suite", "export", "--out", "y", "--demean"]);
     assert_eq!(status, 2);
     assert!(error.contains("--demean is not used without --suite"));
     let left: Vec<_> = std::fs::read_dir(&folder)

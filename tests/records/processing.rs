@@ -113,6 +113,7 @@ fn a_drawing_and_the_words_go_with_the_processing() {
         .map(|i| 0.01 * f64::from(i))
         .map(|t| format!("{t:.2},{:.6}\n", 0.3 * libm::sin(6.0 * t)))
         .collect();
+    let wave = format!("t_s,a_g\n{wave}");
     std::fs::write(folder.join("wave.csv"), wave).unwrap();
     let (status, _, error) =
         records(&folder, &["wave.csv", "--plot", "wave.svg"]);

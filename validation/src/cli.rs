@@ -3,6 +3,7 @@
 mod validate;
 
 use std::io::{self, Write as _};
+use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -19,6 +20,7 @@ mod limit;
 pub mod order;
 pub mod processing;
 pub mod quantile;
+pub mod reading;
 pub mod records;
 pub mod respond;
 pub mod samples;
@@ -26,7 +28,11 @@ pub mod scene;
 pub mod speed;
 pub mod study;
 pub mod suite;
+pub mod table;
 pub mod way;
+
+/// Threads beyond which more only cost.
+const MOST_THREADS_A_PROCESSOR: usize = 8;
 
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
@@ -94,6 +100,9 @@ impl<E: std::error::Error> From<E> for Failure {
     }
 }
 
+/// Name and version of the program, for results.
+pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));
+
 /// A text field, quoted where it must be.
 fn csv_text(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
@@ -119,7 +128,19 @@ pub fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Runs `work` on `threads` threads, or on as many as the machine has.
+/// Prints `value` as JSON, with the version of the program.
+///
+/// # Errors
+/// As [`print`].
+pub fn print_json(mut value: serde_json::Value) -> Result<(), Failure> {
+    if let Some(object) = value.as_object_mut() {
+        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
+    }
+    print(&format!("{value:#}\n"))
+}
+
+/// Runs `work` on `threads` threads, or on as many as the machine has; more
+/// than eight times as many are not used, and that is said.
 ///
 /// # Errors
 /// [`Failure`] for zero threads, or threads that cannot be started.
@@ -130,9 +151,20 @@ pub fn with_threads<T: Send>(
     if threads == Some(0) {
         return Err(Failure::input("--threads 0: expected at least 1"));
     }
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
-        .build()?;
+    let processors =
+        std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let most = MOST_THREADS_A_PROCESSOR * processors;
+    if let Some(asked) = threads.filter(|asked| *asked > most) {
+        eprintln!(
+            "rocking: --threads {asked}: {most} are used, \
+             {MOST_THREADS_A_PROCESSOR} for each of {processors} processors"
+        );
+    }
+    let count = threads.unwrap_or(processors).min(most);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    let pool = pool.map_err(|error| {
+        Failure::input(format!("{count} threads cannot be started: {error}"))
+    })?;
     Ok(pool.install(work))
 }
 

@@ -1,10 +1,27 @@
-//! Writing files whole or not at all.
+//! Files and folders as outputs: opened before the work, so that a bad place
+//! is told at once, and written whole or not at all.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
+use tempfile::{Builder, NamedTempFile};
 use thiserror::Error;
+
+pub use folder::{Folder, is_interrupted};
+
+mod folder;
+
+/// How the names of unfinished files and folders begin and end.
+const PART: (&str, &str) = (".rocking-", ".part");
+
+/// Locks an unfinished folder for its owner.
+const LOCK: &str = "lock";
+
+/// Age from which something unfinished and not locked is somebody's left
+/// behind, not just about to be locked.
+const LEFT_BEHIND: Duration = Duration::from_secs(10);
 
 /// A file that could not be written.
 #[derive(Debug, Error)]
@@ -12,90 +29,254 @@ use thiserror::Error;
 pub struct WriteError {
     /// The file asked for.
     pub path: PathBuf,
-    /// What the system said.
+    /// What the system said, or why it was refused.
     #[source]
     pub source: io::Error,
 }
 
-/// Writes `content` to `path` by way of a temporary file in the same folder,
-/// so that a reader sees the old file or the new one and never a part.
+impl WriteError {
+    fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        |source| Self { path, source }
+    }
+}
+
+/// A place to write to, opened and found writable.
+///
+/// A regular file is replaced at once and keeps its mode; through a link the
+/// linked file is. A device or a named pipe is written to. `-` is standard
+/// output. A file that is mounted by itself is overwritten in place.
+#[derive(Debug)]
+pub struct Output {
+    path: PathBuf,
+    sink: Sink,
+}
+
+#[derive(Debug)]
+enum Sink {
+    Standard,
+    /// A device or a named pipe.
+    Stream(PathBuf),
+    File {
+        target: PathBuf,
+        part: NamedTempFile,
+    },
+}
+
+impl Output {
+    /// Opens `path` for a result that is made of the files `inputs`.
+    ///
+    /// # Errors
+    /// [`WriteError`] for a folder, a place that cannot be written to, and
+    /// one of `inputs`.
+    pub fn open(path: &Path, inputs: &[PathBuf]) -> Result<Self, WriteError> {
+        let sink = Sink::open(path, inputs).map_err(WriteError::at(path))?;
+        Ok(Self { path: path.to_owned(), sink })
+    }
+
+    /// Opens `path`, where a place is given.
+    ///
+    /// # Errors
+    /// As [`Output::open`].
+    pub fn open_some(
+        path: Option<&PathBuf>,
+        inputs: &[PathBuf],
+    ) -> Result<Option<Self>, WriteError> {
+        path.map(|path| Self::open(path, inputs)).transpose()
+    }
+
+    /// Whether it is standard output.
+    #[must_use]
+    pub fn is_standard(&self) -> bool {
+        matches!(self.sink, Sink::Standard)
+    }
+
+    /// Writes all of it.
+    ///
+    /// # Errors
+    /// [`WriteError`]; a regular file is as it was before then.
+    pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), WriteError> {
+        let content = content.as_ref();
+        self.sink.write(content).map_err(WriteError::at(&self.path))
+    }
+}
+
+impl Sink {
+    fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
+        if path == Path::new("-") {
+            return Ok(Self::Standard);
+        }
+        let target = match fs::metadata(path) {
+            Ok(found) if found.is_dir() => {
+                return Err(io::ErrorKind::IsADirectory.into());
+            }
+            Ok(found) if !found.is_file() => {
+                return Ok(Self::Stream(path.to_owned()));
+            }
+            Ok(_) => {
+                refuse_input(path, inputs)?;
+                // Refused before the work, not after it.
+                File::options().append(true).open(path)?;
+                fs::canonicalize(path)?
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                // A link to a file that is not there yet makes that file.
+                let linked = |to| folder_of(path).join(to);
+                fs::read_link(path).map_or(path.to_owned(), linked)
+            }
+            Err(error) => return Err(error),
+        };
+        let folder = folder_of(&target);
+        remove_left_behind(folder);
+        let part = builder().tempfile_in(folder).map_err(said)?;
+        // Other runs leave alone what is locked.
+        part.as_file().lock()?;
+        if let Ok(found) = fs::metadata(&target) {
+            part.as_file().set_permissions(found.permissions())?;
+        }
+        Ok(Self::File { target, part })
+    }
+
+    fn write(self, content: &[u8]) -> io::Result<()> {
+        match self {
+            Self::Standard => {
+                let mut out = io::stdout().lock();
+                match out.write_all(content).and_then(|()| out.flush()) {
+                    Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                    done => done,
+                }
+            }
+            Self::Stream(path) => {
+                File::options().write(true).open(path)?.write_all(content)
+            }
+            Self::File { target, mut part } => {
+                part.write_all(content)?;
+                part.as_file().sync_all()?;
+                match part.persist(&target).map_err(|e| e.error) {
+                    Err(error)
+                        if error.kind() == io::ErrorKind::ResourceBusy =>
+                    {
+                        // The file is mounted by itself.
+                        let mut options = File::options();
+                        let file = options.write(true).truncate(true);
+                        let mut file = file.open(&target)?;
+                        file.write_all(content)?;
+                        file.sync_all()
+                    }
+                    done => done.map(drop),
+                }
+            }
+        }
+    }
+}
+
+/// Refuses to overwrite what is read.
+fn refuse_input(path: &Path, inputs: &[PathBuf]) -> io::Result<()> {
+    let path = fs::canonicalize(path)?;
+    let is_read = |input: &&PathBuf| {
+        fs::canonicalize(input).is_ok_and(|input| path == input)
+            || is_same_file(&path, input)
+    };
+    match inputs.iter().find(is_read) {
+        None => Ok(()),
+        Some(input) => Err(io::Error::other(format!(
+            "{} is read: expected another file",
+            input.display()
+        ))),
+    }
+}
+
+/// Whether two names are links to one file.
+#[cfg(unix)]
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let id = |path| fs::metadata(path).map(|m| (m.dev(), m.ino()));
+    matches!((id(a), id(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+#[cfg(not(unix))]
+fn is_same_file(_: &Path, _: &Path) -> bool {
+    false
+}
+
+/// The folder that holds `path`.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Names and rights of what is unfinished.
+fn builder() -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(PART.0).suffix(PART.1);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // The user's mask takes its part of them.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder
+}
+
+/// An error of the library without the unfinished name.
+fn said(error: io::Error) -> io::Error {
+    match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error.kind().into(),
+    }
+}
+
+/// Removes what killed runs left in `folder`; what cannot be removed stays.
+fn remove_left_behind(folder: &Path) {
+    for path in unfinished(folder) {
+        let is_folder = path.is_dir();
+        let lock = if is_folder { path.join(LOCK) } else { path.clone() };
+        let old =
+            fs::metadata(&path).and_then(|found| found.modified()).is_ok_and(
+                |then| then.elapsed().is_ok_and(|age| age >= LEFT_BEHIND),
+            );
+        let free = match File::open(&lock).map(|lock| lock.try_lock()) {
+            Ok(Ok(())) => true,
+            Ok(Err(TryLockError::WouldBlock | TryLockError::Error(_))) => {
+                false
+            }
+            Err(_) => is_folder,
+        };
+        if old && free {
+            let _ = match is_folder {
+                true => fs::remove_dir_all(&path),
+                false => fs::remove_file(&path),
+            };
+        }
+    }
+}
+
+/// Unfinished files and folders in `folder`.
+fn unfinished(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let ours = |name: &std::ffi::OsStr| {
+        name.to_str().is_some_and(|name| {
+            name.starts_with(PART.0) && name.ends_with(PART.1)
+        })
+    };
+    entries
+        .filter(|entry| ours(&entry.file_name()))
+        .map(|entry| entry.path())
+        .collect()
+}
+
+/// Writes one file whole or not at all, of which nothing is read.
 ///
 /// # Errors
-/// [`WriteError`] naming the file asked for; the temporary file is removed.
+/// As [`Output::open`] and [`Output::write`].
 pub fn write_atomically(
     path: &Path,
     content: impl AsRef<[u8]>,
 ) -> Result<(), WriteError> {
-    let fail = |source| WriteError { path: path.to_owned(), source };
-    let name = path
-        .file_name()
-        .ok_or_else(|| fail(io::Error::other("not a file name")))?;
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.part", std::process::id()));
-    let part = path.with_file_name(hidden);
-    let attempt = || {
-        let mut file = fs::File::create(&part)?;
-        file.write_all(content.as_ref())?;
-        file.sync_all()?;
-        fs::rename(&part, path)
-    };
-    attempt().map_err(|source| {
-        // The error that matters is the first one.
-        let _ = fs::remove_file(&part);
-        fail(source)
-    })
+    Output::open(path, &[])?.write(content)
 }
 
-/// Writes `files` (paths below `folder`, and contents) into a new folder by
-/// way of a hidden one beside it: all of them or nothing.
-///
-/// # Errors
-/// [`WriteError`] for a folder that is there and not empty, and whatever the
-/// system says; the hidden folder is removed.
-pub fn write_new_folder(
-    folder: &Path,
-    files: impl IntoIterator<Item = (PathBuf, Vec<u8>)>,
-) -> Result<(), WriteError> {
-    let fail = |path: &Path, source| WriteError { path: path.into(), source };
-    let name = folder.file_name();
-    let name = name.ok_or_else(|| {
-        fail(folder, io::Error::other("not the name of a folder"))
-    })?;
-    let empty = || -> io::Result<bool> {
-        match fs::read_dir(folder) {
-            Ok(mut entries) => Ok(entries.next().is_none()),
-            Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(true),
-            Err(error) => Err(error),
-        }
-    };
-    if !empty().map_err(|error| fail(folder, error))? {
-        let error = io::Error::from(io::ErrorKind::DirectoryNotEmpty);
-        return Err(fail(folder, error));
-    }
-    let mut hidden = std::ffi::OsString::from(".");
-    hidden.push(name);
-    hidden.push(format!(".{}.part", std::process::id()));
-    let part = folder.with_file_name(hidden);
-    let attempt = || {
-        fs::create_dir_all(&part).map_err(|error| fail(&part, error))?;
-        for (inner, content) in files {
-            let path = part.join(inner);
-            let write = || {
-                fs::create_dir_all(path.parent().unwrap_or(&part))?;
-                let mut file = fs::File::create(&path)?;
-                file.write_all(&content)?;
-                file.sync_all()
-            };
-            write().map_err(|error| fail(&path, error))?;
-        }
-        // Onto an empty folder, or where there is none.
-        fs::rename(&part, folder).map_err(|error| fail(folder, error))
-    };
-    let outcome = attempt();
-    if outcome.is_err() {
-        // The error that matters is the first one.
-        let _ = fs::remove_dir_all(&part);
-    }
-    outcome
-}
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rocking::record::{
     ReadOptions, RecordError, Suite, SuiteError, SuiteOptions, Survey,
@@ -56,6 +56,17 @@ pub fn read_suite(
     read: ReadOptions,
 ) -> Result<Suite, SuiteError> {
     survey(path, read)?.into_suite()
+}
+
+/// The files that the suite read from `path` is made of.
+#[must_use]
+pub fn files(path: &Path, suite: &Suite) -> Vec<PathBuf> {
+    let base = match path.is_dir() {
+        true => path,
+        false => path.parent().unwrap_or(Path::new("")),
+    };
+    let members = suite.members().iter().map(|m| base.join(&m.file));
+    std::iter::once(path.to_owned()).chain(members).collect()
 }
 
 /// Reads every record of the folder, index or zip at `path`, checksums

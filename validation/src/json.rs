@@ -1,18 +1,13 @@
-//! JSON as the command line prints it: numbers that round-trip, `"inf"` for
-//! infinity, never NaN.
+//! JSON numbers: those of the command line, which every reader holds as
+//! numbers, and those of the data files, which tell infinity.
 
 use serde_json::Value;
 
-/// A number as JSON: shortest digits that read back to the same double,
-/// `"inf"` or `"-inf"` for infinities, `null` for NaN.
+/// A number as the command line prints it: shortest digits that read back to
+/// the same double, `null` where it is infinite or not a number.
 #[must_use]
 pub fn number(x: f64) -> Value {
-    match serde_json::Number::from_f64(x) {
-        Some(finite) => Value::Number(finite),
-        None if x == f64::INFINITY => Value::from("inf"),
-        None if x == f64::NEG_INFINITY => Value::from("-inf"),
-        None => Value::Null,
-    }
+    serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
 }
 
 /// A number that may be missing.
@@ -25,4 +20,21 @@ pub fn optional(x: Option<f64>) -> Value {
 #[must_use]
 pub fn numbers(values: &[f64]) -> Value {
     Value::Array(values.iter().copied().map(number).collect())
+}
+
+/// A number as data files hold it: `"inf"` or `"-inf"` for infinities,
+/// `null` for NaN.
+#[must_use]
+pub fn extended(x: f64) -> Value {
+    match number(x) {
+        Value::Null if x == f64::INFINITY => Value::from("inf"),
+        Value::Null if x == f64::NEG_INFINITY => Value::from("-inf"),
+        finite => finite,
+    }
+}
+
+/// A list of numbers as data files hold it.
+#[must_use]
+pub fn all_extended(values: &[f64]) -> Value {
+    Value::Array(values.iter().copied().map(extended).collect())
 }

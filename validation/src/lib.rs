@@ -19,6 +19,7 @@ pub mod ledger;
 pub mod methods;
 pub mod naive;
 pub mod oracles;
+pub mod remarks;
 pub mod report;
 pub mod scene;
 pub mod speed;

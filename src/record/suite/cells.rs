@@ -1,8 +1,8 @@
-//! A line of comma-separated cells.
+//! A line of separated cells.
 
 /// Cells of a line; `None` for a quote that does not close or stands in the
 /// middle of a cell. A doubled quote inside quotes is one quote.
-pub(super) fn split(line: &str) -> Option<Vec<String>> {
+pub(super) fn split(line: &str, separator: char) -> Option<Vec<String>> {
     let mut cells = Vec::new();
     let mut rest = line;
     loop {
@@ -10,7 +10,7 @@ pub(super) fn split(line: &str) -> Option<Vec<String>> {
         let (cell, after) = match quoted {
             Some(quoted) => unquote(quoted)?,
             None => {
-                let end = rest.find(',').unwrap_or(rest.len());
+                let end = rest.find(separator).unwrap_or(rest.len());
                 (rest[..end].trim().to_owned(), &rest[end..])
             }
         };
@@ -18,7 +18,7 @@ pub(super) fn split(line: &str) -> Option<Vec<String>> {
             return None;
         }
         cells.push(cell);
-        match after.trim_start().strip_prefix(',') {
+        match after.trim_start().strip_prefix(separator) {
             Some(more) => rest = more,
             None if after.trim().is_empty() => return Some(cells),
             None => return None,

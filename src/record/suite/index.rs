@@ -32,6 +32,21 @@ const LONGEST_NAME: usize = 64;
 /// Records of an index, at most: twice the largest database of its kind.
 const MOST_ROWS: usize = 50_000;
 
+/// Columns that mean something; others are attributes.
+const COLUMNS: [&str; 11] = [
+    "file",
+    "name",
+    "format",
+    "units",
+    "dt_s",
+    "npts",
+    "pga_g",
+    "pgv_m_s",
+    "sha256",
+    "pair",
+    "study_component",
+];
+
 /// Column of PEER's search results that names the first component.
 const PEER_FIRST: &str = "Horizontal-1 Acc. Filename";
 const PEER_SECOND: &str = "Horizontal-2 Acc. Filename";
@@ -44,8 +59,8 @@ pub(super) fn is_index(bytes: &[u8]) -> bool {
     let mut lines = bytes.split(|b| *b == b'\n' || *b == b'\r');
     let first = lines.next().and_then(|line| std::str::from_utf8(line).ok());
     let plain = first
-        .and_then(split)
-        .is_some_and(|cells| cells.iter().any(|cell| cell == "file"));
+        .and_then(|line| split(line, separator(line)))
+        .is_some_and(|cells| cells.iter().any(|cell| is_file(cell)));
     let peer = |line: &[u8]| {
         let names = |name: &str| {
             line.windows(name.len()).any(|part| part == name.as_bytes())
@@ -53,6 +68,16 @@ pub(super) fn is_index(bytes: &[u8]) -> bool {
         names(PEER_FIRST) && names(PEER_NUMBER)
     };
     plain || lines.any(peer)
+}
+
+fn is_file(cell: &str) -> bool {
+    cell.eq_ignore_ascii_case("file")
+}
+
+/// What separates the cells under a head.
+fn separator(head: &str) -> char {
+    let semicolons = head.contains(';') && !head.contains(',');
+    if semicolons { ';' } else { ',' }
 }
 
 impl Index {
@@ -64,12 +89,16 @@ impl Index {
             line.contains(PEER_FIRST) && line.contains(PEER_NUMBER)
         });
         let head = peer.unwrap_or(0);
-        let columns = Rc::from([]);
-        let mut table = Table { path: path.into(), columns, lines: &lines };
+        let mut table = Table {
+            path: path.into(),
+            columns: Rc::from([]),
+            separator: separator(lines.get(head).copied().unwrap_or("")),
+            lines: &lines,
+        };
         table.columns = table.head(head)?.into();
         let mut rows = Vec::new();
         for (line, text) in lines.iter().enumerate().skip(head + 1) {
-            let blank = text.trim_matches([',', ' ', '\t']).is_empty();
+            let blank = text.trim_matches([',', ';', ' ', '\t']).is_empty();
             if blank && peer.is_some() {
                 break;
             }
@@ -109,6 +138,7 @@ impl Index {
 struct Table<'a> {
     path: Rc<str>,
     columns: Rc<[String]>,
+    separator: char,
     lines: &'a [&'a str],
 }
 
@@ -124,14 +154,19 @@ impl Table<'_> {
 
     fn head(&self, line: usize) -> Result<Vec<String>, SuiteError> {
         let text = self.lines.get(line).copied().unwrap_or("");
-        let known = ["file", PEER_FIRST];
-        let columns = split(text)
-            .filter(|c| c.iter().any(|name| known.contains(&name.as_str())))
+        let known = |name: &String| is_file(name) || name == PEER_FIRST;
+        let mut columns = split(text, self.separator)
+            .filter(|columns| columns.iter().any(known))
             .ok_or_else(|| {
                 let expected =
                     "a folder, or an index: a CSV file with a column `file`";
                 self.refuse(line, text, expected)
             })?;
+        for column in &mut columns {
+            if COLUMNS.iter().any(|name| column.eq_ignore_ascii_case(name)) {
+                column.make_ascii_lowercase();
+            }
+        }
         if let Some(long) = columns.iter().find(|c| c.len() > LONGEST_NAME) {
             let expected = format!("names of at most {LONGEST_NAME} bytes");
             return Err(self.refuse(line, long, &expected));
@@ -154,9 +189,12 @@ impl Table<'_> {
 
     fn cells(&self, line: usize) -> Result<Vec<String>, SuiteError> {
         let text = self.lines[line];
-        let mut cells = split(text).ok_or_else(|| {
-            let expected = "cells separated by commas, quotes closed";
-            self.refuse(line, text, expected)
+        let mut cells = split(text, self.separator).ok_or_else(|| {
+            let expected = format!(
+                "cells separated by {:?}, quotes closed",
+                self.separator
+            );
+            self.refuse(line, text, &expected)
         })?;
         // Some programs end a line with separators.
         while cells.len() > self.columns.len()
@@ -282,29 +320,20 @@ impl Row {
             Some("1" | "true") => true,
             Some(cell) => return Err(self.refuse(cell, "1 or 0")),
         };
-        let used = [
-            "file",
-            "format",
-            "units",
-            "dt_s",
-            "npts",
-            "pga_g",
-            "pgv_m_s",
-            "sha256",
-            "pair",
-            "study_component",
-        ];
         let named = self.columns.iter().zip(&self.cells);
         let attributes = named
-            .filter(|(name, _)| !used.contains(&name.as_str()))
+            .filter(|(name, _)| !COLUMNS.contains(&name.as_str()))
             .map(|(name, cell)| (name.clone(), cell.clone()))
             .collect();
         Ok(SuiteMember {
-            accelerogram: record.accelerogram,
+            accelerogram: match self.cell("name") {
+                Some(name) => record.accelerogram.named(name),
+                None => record.accelerogram,
+            },
             file: self.file.clone(),
+            site: record.site,
             format: record.format,
             unit: record.unit,
-            unit_stated: record.unit_stated,
             pair: match &self.pair {
                 Some(pair) => Some(pair.clone()),
                 None => self.cell("pair").map(str::to_owned),

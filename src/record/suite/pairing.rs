@@ -57,19 +57,69 @@ fn is_code(part: &str) -> bool {
     )
 }
 
-/// Whether a channel's label, or else the end of a record's name, says that
-/// the component is vertical.
-pub(super) fn is_vertical(label: Option<&str>, name: &str) -> bool {
-    let named = |word: &str| {
-        VERTICAL.iter().any(|v| word.eq_ignore_ascii_case(v))
-            || (is_code(word) && word.ends_with('Z'))
+/// Where a component points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Direction {
+    Horizontal,
+    Vertical,
+    Unknown,
+}
+
+/// The direction that a word names, or a letter.
+fn direction(word: &str) -> Direction {
+    if VERTICAL.iter().any(|v| word.eq_ignore_ascii_case(v)) {
+        return Direction::Vertical;
+    }
+    if is_code(word) {
+        return match word.ends_with('Z') {
+            true => Direction::Vertical,
+            false => Direction::Horizontal,
+        };
+    }
+    let word = word.trim_end_matches("deg").replace('-', "");
+    match is_orientation(&word) || is_bearing(&word) {
+        true => Direction::Horizontal,
+        false => Direction::Unknown,
+    }
+}
+
+/// A quadrant bearing such as `N08W`.
+fn is_bearing(word: &str) -> bool {
+    let bytes = word.as_bytes();
+    let (Some((first, rest)), true) =
+        (bytes.split_first(), (3..=4).contains(&bytes.len()))
+    else {
+        return false;
     };
-    let label = label.unwrap_or("");
+    let (degrees, last) = rest.split_at(rest.len() - 1);
+    b"NS".contains(first)
+        && b"EW".contains(&last[0])
+        && degrees.iter().all(u8::is_ascii_digit)
+}
+
+/// The direction by what the header calls the channel: its last word that
+/// names one.
+fn labelled(label: &str) -> Direction {
+    if text::contains(label, "vert") {
+        return Direction::Vertical;
+    }
+    let words = label.split([' ', ',', ':']).rev();
+    let mut known = words.map(direction).filter(|d| *d != Direction::Unknown);
+    known.next().unwrap_or(Direction::Unknown)
+}
+
+/// Whether a component is vertical by its header, or, where the header does
+/// not tell, by the end of the record's name.
+pub(super) fn is_vertical(label: Option<&str>, name: &str) -> bool {
+    match labelled(label.unwrap_or("")) {
+        Direction::Vertical => return true,
+        Direction::Horizontal => return false,
+        Direction::Unknown => {}
+    }
+    let vertical = |word: &str| direction(word) == Direction::Vertical;
     let end = name.rsplit(['-', '_', '.']).next().unwrap_or("");
-    label.split([' ', ',', ':']).any(named)
-        || text::contains(label, "vert")
-        || (end.len() < name.len() && named(end))
-        || name.split('.').any(|part| is_code(part) && named(part))
+    (end.len() < name.len() && vertical(end))
+        || name.split('.').any(|part| is_code(part) && vertical(part))
 }
 
 fn is_orientation(end: &str) -> bool {
@@ -94,16 +144,21 @@ fn glued(stem: &str) -> Option<&str> {
     (letters && after_digit && is_orientation(end)).then_some(key)
 }
 
-/// Gives the two records that share a name but for its orientation that
-/// name as their pair; any other number of records stays unpaired.
+/// Gives the two records that share event and station, or else a name but
+/// for its orientation, that as their pair; any other number of records stays
+/// unpaired.
 pub(super) fn pair_by_name(members: &mut [SuiteMember]) {
-    let key = |m: &SuiteMember| pair_key(m.accelerogram.name());
-    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    for name in members.iter().filter_map(key) {
+    let key = |m: &SuiteMember| {
+        m.site.clone().or_else(|| pair_key(m.accelerogram.name()))
+    };
+    let keys: Vec<_> = members.iter().map(key).collect();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for name in keys.iter().flatten() {
         *counts.entry(name).or_default() += 1;
     }
-    for member in members {
-        member.pair = key(member).filter(|name| counts[name] == 2);
+    for (member, key) in members.iter_mut().zip(&keys) {
+        let pair = key.as_ref().filter(|name| counts[name.as_str()] == 2);
+        member.pair = pair.cloned();
     }
 }
 

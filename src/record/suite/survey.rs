@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::{StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions};
 use super::{index, pairing};
 use crate::record::{
-    Fault, Record, RecordError, bytes_of, name_of, read_all, stem,
+    Fault, Record, RecordError, file_bytes, is_record, name_of, read_all, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -23,7 +23,8 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Reads every record of the folder or index at `path`.
+    /// Reads every record of the folder or index at `path`, or the record
+    /// file there.
     ///
     /// # Errors
     /// [`SuiteError`] where the folder or index itself cannot be read.
@@ -36,13 +37,20 @@ impl Survey {
             let names: Vec<String> =
                 folder_files(path)?.iter().map(|file| name_of(file)).collect();
             return Self::of_files(&shown, &names, options, |name| {
-                bytes_of(&path.join(name))
+                file_bytes(&path.join(name))
             });
         }
-        let bytes = bytes_of(path)?;
+        let bytes = file_bytes(path)?;
         let base = path.parent().unwrap_or(Path::new(""));
+        if !index::is_index(&bytes) && is_record(&bytes) {
+            let base = base.display().to_string();
+            let names = [name_of(path)];
+            return Self::of_files(&base, &names, options, |_| {
+                Ok(bytes.clone())
+            });
+        }
         Self::of_index(&shown, &bytes, options, |file| {
-            bytes_of(&base.join(file))
+            file_bytes(&base.join(file))
         })
     }
 
@@ -176,7 +184,7 @@ fn horizontal(
         file: file.to_owned(),
         format: record.format,
         unit: record.unit,
-        unit_stated: record.unit_stated,
+        site: record.site,
         pair: None,
         study_component: false,
         attributes: BTreeMap::new(),

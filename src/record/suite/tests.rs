@@ -7,8 +7,9 @@ const MOTION: &str = "0\n0.2\n-0.1\n";
 
 fn suite(index: &str) -> Result<Suite, SuiteError> {
     let fake = |bytes: &[u8]| format!("{:04x}", bytes.len());
-    let options =
-        SuiteOptions { read: ReadOptions::default(), sha256_hex: Some(fake) };
+    let unit = Some(AccelerationUnit::Gravity);
+    let read = ReadOptions { unit, ..ReadOptions::default() };
+    let options = SuiteOptions { read, sha256_hex: Some(fake) };
     Suite::from_index("i.csv", index.as_bytes(), &options, |_| {
         Ok(MOTION.as_bytes().to_vec())
     })
@@ -168,11 +169,82 @@ fn pairs_share_a_name_but_for_the_orientation() {
     for (label, name) in verticals {
         assert!(is_vertical(label, name), "{name}");
     }
-    for (label, name) in
-        [(None, "UP"), (None, "A_000"), (Some("1 90 deg"), "A:1_90_deg")]
-    {
+    // What the header says comes before the file's name.
+    for (label, name) in [
+        (None, "UP"),
+        (None, "A_000"),
+        (Some("1 90 deg"), "A:1_90_deg"),
+        (Some("90"), "A_UP"),
+        (Some("1 N08W"), "A.UD"),
+        (Some("E-W"), "A-V"),
+        (Some("Other"), "A"),
+    ] {
         assert!(!is_vertical(label, name), "{name}");
     }
+}
+
+#[test]
+fn an_index_may_have_semicolons_capitals_and_names() {
+    let index = "FILE;Name;DT_S;Event\nx/a-1.txt;one;0.01;X, Y\n\
+        y/a-1.txt;two;0.01;Z\n";
+    let found = suite(index).unwrap();
+    let names: Vec<_> =
+        found.members().iter().map(|m| m.accelerogram.name()).collect();
+    assert_eq!(names, ["one", "two"]);
+    assert_eq!(found.members()[0].attributes["Event"], "X, Y");
+}
+
+/// SMC files name event, station and component: names of files say nothing.
+#[test]
+fn smc_components_are_told_by_their_header() {
+    let text = |station: &str, component: &str| {
+        let mut lines: Vec<String> =
+            crate::record::tests::smc().lines().map(str::to_owned).collect();
+        lines[3] = "     1989  10  18    0004 Nowhere".to_owned();
+        lines[5] =
+            format!("station = {station:20} component= {component:>6}  ");
+        lines.join("\n") + "\n"
+    };
+    let files = [
+        ("0111a", "Town Hall", "270"),
+        ("0111b", "Town Hall", "up"),
+        ("0111c", "Town Hall", "360"),
+        ("0112_UP", "Bridge", "45"),
+    ];
+    let names: Vec<String> =
+        files.iter().map(|f| format!("{}.smc", f.0)).collect();
+    let options = SuiteOptions::default();
+    let survey = Survey::of_files("d", &names, &options, |name| {
+        let stem = name.trim_end_matches(".smc");
+        let file = files.iter().find(|f| f.0 == stem).unwrap();
+        Ok(text(file.1, file.2).into_bytes())
+    });
+    let suite = survey.unwrap().into_suite().unwrap();
+    let kept: Vec<_> = suite.members().iter().map(|m| &*m.file).collect();
+    assert_eq!(kept, ["0111a.smc", "0111c.smc", "0112_UP.smc"]);
+    assert_eq!(suite.both().len(), 1);
+    assert!(suite.ignored()[0].to_string().contains("vertical"));
+}
+
+/// AT2 names the component at the end of its second line.
+#[test]
+fn at2_components_are_told_by_their_header() {
+    let text = |component: &str| {
+        format!(
+            "PEER NGA STRONG MOTION DATABASE RECORD\n\
+             Nowhere, 1/1/1900, Station, {component}\n\
+             ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 2, DT= .01 SEC\n\
+             \x20  .1000000E-02   .2000000E-02\n"
+        )
+    };
+    let names = ["d.AT2".to_owned(), "e.AT2".to_owned()];
+    let options = SuiteOptions::default();
+    let survey = Survey::of_files("f", &names, &options, |name| {
+        Ok(text(if name == "d.AT2" { "UP" } else { "90" }).into_bytes())
+    });
+    let suite = survey.unwrap().into_suite().unwrap();
+    assert_eq!(suite.members().len(), 1);
+    assert_eq!(suite.members()[0].file, "e.AT2");
 }
 
 #[test]

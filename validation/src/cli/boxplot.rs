@@ -7,7 +7,7 @@ use rocking::statistics::{Boxplot, QuantileType};
 use serde_json::{Value, json};
 
 use super::samples::SampleFile;
-use super::{Failure, print};
+use super::{Failure, print, print_json};
 use crate::json;
 
 /// Quartiles, whiskers, outliers and McGill's notch of a sample, with the
@@ -34,7 +34,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let sample = SampleFile::read(&args.sample)?.extended()?;
     let boxplot = Boxplot::try_new(&sample, quantile_type)?;
     if args.json {
-        return print(&format!("{:#}\n", to_json(&boxplot, quantile_type)));
+        return print_json(to_json(&boxplot, quantile_type));
     }
     print(&to_text(&boxplot))
 }

@@ -13,8 +13,9 @@ use rocking::capacity::{
 use rocking::statistics::{ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
-use super::{Failure, print};
-use crate::files::write_atomically;
+use super::samples::SAMPLE_OF;
+use super::{Failure, print, print_json};
+use crate::files::Output;
 use crate::json;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
@@ -38,7 +39,7 @@ pub struct Args {
         allow_negative_numbers = true
     )]
     overturning: Option<f64>,
-    /// CSV of `rocking ida`.
+    /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     ida: Option<PathBuf>,
     /// Intensity measure, of --ida [default: pga].
@@ -56,23 +57,24 @@ pub struct Args {
     /// over the records of --ida [default: median].
     #[arg(long, conflicts_with = "curve")]
     point: Option<Point>,
-    /// EDP level of the sample written by --sample.
+    /// EDP level of the sample written to --out.
     #[arg(
         long,
         value_name = "E",
-        requires = "sample",
+        requires = "out",
         conflicts_with = "curve",
         allow_negative_numbers = true
     )]
     at: Option<f64>,
-    /// Write the records' capacities at --at, one a line, `inf` if censored.
+    /// Write the records' capacities at --at, one a line, `inf` if censored;
+    /// `-` is standard output, and nothing else is printed then.
     #[arg(
         long,
         value_name = "OUT.txt",
         requires = "at",
         conflicts_with = "curve"
     )]
-    sample: Option<PathBuf>,
+    out: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -196,7 +198,7 @@ fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
             "im_r": json::number(curve.onset_im()),
             "levels": levels(curve, &args.levels.0)?,
         });
-        return print(&format!("{out:#}\n"));
+        return print_json(out);
     }
     let mut text = format!(
         "{:>8} {:>10} {:>10} {:>10} {:>10}  crossings\n",
@@ -248,20 +250,20 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let measure = args.im.unwrap_or(Measure::Pga);
     let rule = InversionRule::from(args.point.unwrap_or(Point::Median));
     let suite = ida::read(path, measure)?;
-    if let (Some(level), Some(out)) = (args.at, &args.sample) {
-        let mut text = format!("# IM at EDP {level}, {rule} crossing\n");
-        for (record, curve) in &suite.curves {
-            let im = curve.capacity(level, rule)?.im();
-            writeln!(text, "{im} # {record}")?;
+    if let (Some(level), Some(out)) = (args.at, &args.out) {
+        let out = Output::open(out, &[path.to_owned()])?;
+        let is_standard = out.is_standard();
+        out.write(sample(&suite, measure, level, rule)?)?;
+        if is_standard {
+            return Ok(());
         }
-        write_atomically(out, text)?;
     }
     let mut rows = Vec::new();
     for &level in &args.levels.0 {
         rows.push((level, quantiles(&suite, level, rule)?));
     }
     if args.json {
-        return print(&format!("{:#}\n", json(args, &suite, rule, &rows)?));
+        return print_json(json(args, &suite, rule, &rows)?);
     }
     let mut text = format!(
         "{} records, IM_R {:.6}, {rule} crossing\n\
@@ -283,6 +285,39 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
         )?;
     }
     print(&text)
+}
+
+/// The sample file of the records' capacities at a level.
+fn sample(
+    suite: &ida::Suite,
+    measure: Measure,
+    level: f64,
+    rule: InversionRule,
+) -> Result<String, Failure> {
+    let measure = match measure {
+        Measure::Pga => "PGA/(g tan alpha)",
+        Measure::Pgv => "p PGV/(g tan alpha)",
+    };
+    let (alpha_rad, p_rad_s) = &suite.block;
+    let setting = &suite.setting;
+    let mut text = format!(
+        "{SAMPLE_OF}{measure} at EDP {level}, {rule} crossing\n\
+         # alpha {} rad, p {p_rad_s} rad/s, eta {}, {}, overturned at {}, \
+         {}, g {} m/s2, processing: {}, {}\n",
+        alpha_rad.as_deref().unwrap_or("adjusted"),
+        setting.eta,
+        setting.model,
+        setting.overturn,
+        setting.by,
+        setting.gravity_m_s2,
+        setting.processing,
+        setting.software,
+    );
+    for (record, curve) in &suite.curves {
+        let im = curve.capacity(level, rule)?.im();
+        writeln!(text, "{im} # {record}")?;
+    }
+    Ok(text)
 }
 
 /// Quantiles of the records' capacities at a level.

@@ -11,11 +11,12 @@ use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
 use super::samples::SampleFile;
-use super::{Failure, boxplot, print};
+use super::{Failure, boxplot, print, print_json};
 use crate::json;
 
-/// Paired ratios a/b of two samples, line by line: counts, boxplot, tests of
-/// a centre at 1 and of equivalence to it.
+/// Paired ratios a/b of two samples: counts, boxplot, tests of a centre at 1
+/// and of equivalence to it. Values are paired by the names of their records,
+/// or line by line where a value has none.
 ///
 /// A ratio exists where both values are finite and positive. Pairs in which
 /// one or both are infinite (overturned, censored) or zero are counted by
@@ -25,7 +26,7 @@ pub struct Args {
     /// Sample file of the numerators.
     #[arg(long, value_name = "FILE")]
     a: PathBuf,
-    /// Sample file of the denominators, the same records in the same order.
+    /// Sample file of the denominators, of the same records.
     #[arg(long, value_name = "FILE")]
     b: PathBuf,
     /// Margin of equivalence: ratios between 1/(1 + M) and 1 + M are
@@ -51,17 +52,20 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(PairedError::Margin(args.margin).into());
     }
     let (a, b) = (SampleFile::read(&args.a)?, SampleFile::read(&args.b)?);
-    let (a, b) = (a.values_not_negative()?, b.values_not_negative()?);
-    let pairs = Pairs::try_new(a, b)?;
+    let (a, b, by_name) = a.pairs(&b)?;
+    let pairs = Pairs::try_new(&a, &b)?;
     let sample = ExtendedSample::try_new(&pairs.ratios).ok();
     let quantile_type = QuantileType::default();
     let boxplot =
         sample.and_then(|s| Boxplot::try_new(&s, quantile_type).ok());
     if args.json {
-        let out = to_json(args, &pairs, boxplot.as_ref());
-        return print(&format!("{out:#}\n"));
+        let mut out = to_json(args, &pairs, boxplot.as_ref());
+        out["paired_by_name"] = by_name.into();
+        return print_json(out);
     }
-    print(&to_text(args, &pairs, boxplot.as_ref()))
+    let paired = if by_name { "record" } else { "line" };
+    let text = to_text(args, &pairs, boxplot.as_ref());
+    print(&format!("paired by               {paired}\n{text}"))
 }
 
 fn to_json(args: &Args, pairs: &Pairs, boxplot: Option<&Boxplot>) -> Value {

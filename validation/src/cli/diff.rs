@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::study::REPORT;
-use super::{Failure, print};
+use super::{Failure, print, print_json};
 use crate::diff::{Results, compare};
 
 /// What changed between two results, and whether it matters.
@@ -63,13 +63,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);
     let comparison = compare(&old, &new, args.relative)?;
-    print(&if args.json {
-        format!("{:#}\n", comparison.json())
+    if args.json {
+        print_json(comparison.json())?;
     } else if args.markdown {
-        comparison.markdown(args.all)
+        print(&comparison.markdown(args.all))?;
     } else {
-        comparison.text(args.all)
-    })?;
+        print(&comparison.text(args.all))?;
+    }
     match comparison.significant() {
         0 => Ok(()),
         1 => Err(Failure::gate("1 significant change")),

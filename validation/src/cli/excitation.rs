@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use rocking::excitation::{NormalisedRecord, Pulse, PulseKind};
-use rocking::record::{Accelerogram, ReadOptions, read_file};
-use rocking::units::AccelerationUnit;
+use rocking::record::{Accelerogram, read_file};
 
 use super::Failure;
 use super::processing::{ProcessingArgs, words};
+use super::reading::ReadArgs;
+use crate::remarks::Remarks;
 
 /// The excitation: a record, a pulse, or none.
 #[derive(clap::Args, Clone, Debug)]
@@ -21,17 +22,8 @@ pub struct ExcitationArgs {
         conflicts_with_all = ["pulse", "free"]
     )]
     record: Option<PathBuf>,
-    /// Sampling interval in s, for a record file that states none.
-    #[arg(
-        long,
-        value_name = "S",
-        requires = "record",
-        allow_negative_numbers = true
-    )]
-    dt: Option<f64>,
-    /// Unit of a record file that states none: g, m/s2 or cm/s2.
-    #[arg(long, value_name = "UNIT", value_parser = unit, requires = "record")]
-    units: Option<AccelerationUnit>,
+    #[command(flatten)]
+    reading: ReadArgs,
     #[command(flatten)]
     processing: ProcessingArgs,
     /// An analytic pulse from t = 0.
@@ -105,11 +97,6 @@ pub struct ExcitationArgs {
     im_kind: Option<ImKind>,
 }
 
-fn unit(text: &str) -> Result<AccelerationUnit, String> {
-    AccelerationUnit::parse(text)
-        .ok_or_else(|| "expected g, m/s2 or cm/s2".to_owned())
-}
-
 /// Which intensity measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ImKind {
@@ -134,10 +121,10 @@ enum PulseName {
 /// The excitation, owned.
 #[derive(Clone, Debug)]
 pub enum Ground {
-    /// A record as given, and a factor on it.
-    Factor(Accelerogram, f64),
-    /// A record scaled to a peak (g).
-    Peak(NormalisedRecord, f64),
+    /// A record as given, a factor on it, and remarks on it.
+    Factor(Accelerogram, f64, Remarks),
+    /// A record scaled to a peak (g), and remarks on it.
+    Peak(NormalisedRecord, f64, Remarks),
     /// A pulse.
     Pulse(Pulse),
     /// Free motion from an initial ratio.
@@ -184,22 +171,26 @@ impl ExcitationArgs {
             return Ok(Ground::Free(ratio));
         }
         if let Some(path) = &self.record {
-            let options =
-                ReadOptions { dt_s: self.dt, unit: self.units, gravity_m_s2 };
+            let options = self.reading.options(gravity_m_s2);
             let record = read_file(path, &options)?.accelerogram;
             let record = self.processing.processing()?.apply(&record)?;
+            let remarks = Remarks::of(&[(&record, None)]);
+            self.reading.judge(&remarks)?;
             let unit = NormalisedRecord::new(&record);
             let target =
                 self.target_pga_g(threshold, p, unit.velocity_ratio_s());
             return match target {
-                None => Ok(Ground::Factor(record, self.scale.unwrap_or(1.0))),
+                None => {
+                    let factor = self.scale.unwrap_or(1.0);
+                    Ok(Ground::Factor(record, factor, remarks))
+                }
                 Some(_) if !(unit.pga_g() > 0.0) => {
                     Err(Failure::input(format!(
                         "{}: all samples are zero and cannot be scaled",
                         path.display()
                     )))
                 }
-                Some(pga_g) => Ok(Ground::Peak(unit, pga_g)),
+                Some(pga_g) => Ok(Ground::Peak(unit, pga_g, remarks)),
             };
         }
         let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
@@ -254,18 +245,8 @@ impl ExcitationArgs {
         let unused = |flag: &str| {
             Err(Failure::input(format!("{flag} is not used with {chosen}")))
         };
-        // The parser lets a flag stand that requires one which the chosen
-        // excitation excludes.
-        let of_record = self.record.is_some();
-        if self.dt.is_some() && !of_record {
-            return unused("--dt");
-        }
-        if self.units.is_some() && !of_record {
-            return unused("--units");
-        }
-        if let Some(flag) = self.processing.given()
-            && !of_record
-        {
+        let of_record = self.reading.given().or(self.processing.given());
+        if let Some(flag) = of_record.filter(|_| self.record.is_none()) {
             return unused(flag);
         }
         if self.initial_ratio.is_some() && !self.free {
@@ -343,7 +324,26 @@ impl ExcitationArgs {
     }
 }
 
+impl Ground {
+    /// Remarks on the record, if it is one.
+    #[must_use]
+    pub fn remarks(&self) -> Option<&Remarks> {
+        match self {
+            Self::Factor(_, _, remarks) | Self::Peak(_, _, remarks) => {
+                Some(remarks)
+            }
+            Self::Pulse(_) | Self::Free(_) => None,
+        }
+    }
+}
+
 impl ExcitationArgs {
+    /// The files that are read.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.record.iter().cloned().collect()
+    }
+
     /// What was done to the record, in words.
     ///
     /// # Errors

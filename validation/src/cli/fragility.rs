@@ -6,10 +6,10 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 
 use super::samples::Shift;
-use super::{Failure, print};
+use super::{Failure, print, print_json};
 use crate::json;
 
 /// Lognormal fragilities of a sample, or Eqs. 5 to 7 alone.
@@ -194,7 +194,7 @@ fn transform(args: &Args) -> Result<(), Failure> {
 
 fn show(args: &Args, out: Map<String, Value>) -> Result<(), Failure> {
     if args.json {
-        return print(&format!("{:#}\n", json!(out)));
+        return print_json(Value::Object(out));
     }
     print(&rows(&out))
 }
@@ -235,7 +235,7 @@ fn table(out: &Map<String, Value>) -> String {
 
 fn cell(value: &Value) -> String {
     match value {
-        Value::Null => "undefined".into(),
+        Value::Null => "none".into(),
         Value::String(text) => text.clone(),
         Value::Number(number) => number
             .as_f64()

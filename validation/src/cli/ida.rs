@@ -1,6 +1,7 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
 mod refine;
+mod summary;
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -9,25 +10,28 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Certification, Grid, HIGHEST_IM, IdaCurve, IdaPoint,
-    REFINEMENT, Resurrections,
+    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, IdaPoint, REFINEMENT,
+    Resurrections,
 };
 use rocking::integrator::WorkLimit;
-use rocking::record::{ReadOptions, Suite};
-use serde_json::json;
+use rocking::record::{Suite, SuiteMember};
 
 use refine::Refine;
 
 use super::limit::{LimitArgs, curve_refused};
 use super::order::OrderName;
 use super::processing::{ProcessingArgs, words};
+use super::reading::ReadArgs;
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
+use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
-use super::{Failure, csv_text, print, progress, with_threads};
-use crate::files::write_atomically;
-use crate::inputs::read_suite;
-use crate::json::{number, optional};
+use super::{
+    Failure, SOFTWARE, csv_text, print, print_json, progress, with_threads,
+};
+use crate::files::Output;
+use crate::inputs::{files, read_suite};
+use crate::remarks::Remarks;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
@@ -36,9 +40,11 @@ pub struct Args {
     block: BlockArgs,
     #[command(flatten)]
     model: ModelArgs,
-    /// Folder of records, or index CSV.
+    /// Folder of records, index CSV, or one record file.
     #[arg(long, value_name = "PATH")]
     suite: PathBuf,
+    #[command(flatten)]
+    reading: ReadArgs,
     #[command(flatten)]
     processing: ProcessingArgs,
     /// Step of the levels in PGA, g [default: 0.01].
@@ -88,7 +94,8 @@ pub struct Args {
     way: WayArgs,
     #[command(flatten)]
     limit: LimitArgs,
-    /// Where the table goes.
+    /// Where the table goes; `-` is standard output, and the summary then
+    /// goes to standard error.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
     /// JSON summary for machines.
@@ -102,6 +109,16 @@ enum By {
     RecordScaling,
     /// Keep the record and adjust alpha.
     SlendernessAdjustment,
+}
+
+impl By {
+    /// The name on the command line.
+    fn name(self) -> &'static str {
+        match self {
+            Self::RecordScaling => "record-scaling",
+            Self::SlendernessAdjustment => "slenderness-adjustment",
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -125,10 +142,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
     let way = args.way.way()?;
-    let read = ReadOptions { gravity_m_s2, ..ReadOptions::default() };
+    let read = args.reading.options(gravity_m_s2);
     let processing = args.processing.processing()?;
     let suite = read_suite(&args.suite, read)?.processed(&processing)?;
-    let records = args.records(&suite)?;
+    let out = Output::open(&args.out, &files(&args.suite, &suite))?;
+    let chosen = args.chosen(&suite)?;
+    let remarks = remarks_on(&chosen);
+    args.reading.judge(&remarks)?;
+    let records: Vec<NormalisedRecord> = chosen
+        .iter()
+        .map(|member| NormalisedRecord::new(&member.accelerogram))
+        .collect();
     let bar = progress(records.len() as u64);
     let curves = with_threads(args.threads, || {
         let only = std::slice::from_ref(&analysis);
@@ -137,13 +161,39 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     .map_err(curve_refused)?;
     let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
     bar.finish_and_clear();
-    write_atomically(&args.out, csv(&table, &analysis, gravity_m_s2))?;
-    let text = if args.json {
-        summary_json(args, &table, &suite, words(&processing))
-    } else {
-        summary(args, &table, &suite, words(&processing))
+    let job = Job {
+        args,
+        table: &table,
+        suite: &suite,
+        processing: words(&processing),
+        remarks,
     };
-    print(&text)
+    let is_standard = out.is_standard();
+    out.write(job.csv(&analysis, gravity_m_s2))?;
+    if is_standard {
+        eprint!("{}", job.summary());
+        return Ok(());
+    }
+    if args.json {
+        print_json(job.summary_json())
+    } else {
+        print(&job.summary())
+    }
+}
+
+fn remarks_on(chosen: &[&SuiteMember]) -> Remarks {
+    let chosen = chosen.iter();
+    let named = chosen.map(|m| (&m.accelerogram, m.pair.as_deref()));
+    Remarks::of(&named.collect::<Vec<_>>())
+}
+
+/// A table and what it was made of.
+struct Job<'a> {
+    args: &'a Args,
+    table: &'a [IdaCurve],
+    suite: &'a Suite,
+    processing: Option<String>,
+    remarks: Remarks,
 }
 
 impl Args {
@@ -176,11 +226,11 @@ impl Args {
         })
     }
 
-    fn records(
+    fn chosen<'s>(
         &self,
-        suite: &Suite,
-    ) -> Result<Vec<NormalisedRecord>, Failure> {
-        let mut chosen: Vec<_> = match self.component {
+        suite: &'s Suite,
+    ) -> Result<Vec<&'s SuiteMember>, Failure> {
+        let chosen: Vec<_> = match self.component {
             Component::Study => suite.study_components().collect(),
             Component::Both => suite.members().iter().collect(),
             Component::First | Component::Second => suite
@@ -199,166 +249,55 @@ impl Args {
                 self.suite.display()
             )));
         }
-        chosen.dedup_by(|a, b| a.file == b.file);
-        Ok(chosen
-            .iter()
-            .map(|member| NormalisedRecord::new(&member.accelerogram))
-            .collect())
+        Ok(chosen)
     }
 }
 
-/// The table: one row an analysis, by record, then level.
-fn csv(table: &[IdaCurve], analysis: &Analysis, gravity_m_s2: f64) -> String {
-    let mut text = String::from(
-        "record,alpha_rad,p_rad_s,pga_g,pgv_m_s,im_pga,im_pgv,edp,outcome,\
-         margin\n",
-    );
-    let p = analysis.block.frequency_rad_s();
-    for curve in table {
-        let mut row = |point: &IdaPoint, outcome: &str| {
-            let pgv_m_s = point.pga_g * curve.velocity_ratio_s * gravity_m_s2;
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "{},{},{},{},{},{},{},{},{},{}",
-                csv_text(&curve.record),
-                point.slenderness_rad,
-                p,
-                point.pga_g,
-                pgv_m_s,
-                point.im,
-                point.im * curve.velocity_factor(p),
-                point.edp(),
-                outcome,
-                point.fate_margin
-            );
+impl Job<'_> {
+    /// The table: one row an analysis, by record, then level.
+    fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
+        let mut text = COLUMNS.join(",") + "\n";
+        let p = analysis.block.frequency_rad_s();
+        let setting = Setting {
+            eta: analysis.restitution.velocity_ratio().to_string(),
+            model: self.args.model.model_name().to_owned(),
+            overturn: self.args.model.overturning_name().to_owned(),
+            by: self.args.by.name().to_owned(),
+            gravity_m_s2: gravity_m_s2.to_string(),
+            processing: self.processing.clone().unwrap_or("none".into()),
+            software: SOFTWARE.to_owned(),
         };
-        row(&curve.onset, "no-uplift");
-        for point in curve.points.iter().chain(&curve.above) {
-            row(point, outcome_name(&point.outcome, point.told.resolved));
+        let setting = setting.cells().map(csv_text).join(",");
+        for curve in self.table {
+            let remarks = self.remarks.codes(&curve.record);
+            let mut row = |point: &IdaPoint, outcome: &str| {
+                let pgv_m_s =
+                    point.pga_g * curve.velocity_ratio_s * gravity_m_s2;
+                // Writing to a string cannot fail.
+                let _ = writeln!(
+                    text,
+                    "{},{},{},{},{},{},{},{},{},{},{remarks},{setting}",
+                    csv_text(&curve.record),
+                    point.slenderness_rad,
+                    p,
+                    point.pga_g,
+                    pgv_m_s,
+                    point.im,
+                    point.im * curve.velocity_factor(p),
+                    point.edp(),
+                    outcome,
+                    point.fate_margin
+                );
+            };
+            row(&curve.onset, "no-uplift");
+            for point in curve.points.iter().chain(&curve.above) {
+                row(point, outcome_name(&point.outcome, point.told.resolved));
+            }
+            let refined = curve.overturning.and_then(|first| first.refined);
+            if let Some(point) = refined {
+                row(&point, "overturned-refined");
+            }
         }
-        let refined = curve.overturning.and_then(|first| first.refined);
-        if let Some(point) = refined {
-            row(&point, "overturned-refined");
-        }
+        text
     }
-    text
-}
-
-/// Median first overturning intensity, counting the curves that stand as
-/// infinite.
-fn median_overturning(table: &[IdaCurve]) -> Option<f64> {
-    let mut all: Vec<f64> = table
-        .iter()
-        .map(|c| c.overturning.map_or(f64::INFINITY, |first| first.im()))
-        .collect();
-    all.sort_by(f64::total_cmp);
-    let n = all.len();
-    match n {
-        0 => None,
-        n if n % 2 == 1 => Some(all[n / 2]),
-        _ => Some(0.5 * (all[n / 2 - 1] + all[n / 2])),
-    }
-}
-
-struct Counts {
-    analyses: u64,
-    overturned: usize,
-    certification: Certification,
-    resurrections: usize,
-}
-
-fn counts(table: &[IdaCurve]) -> Counts {
-    let mut certification = Certification::default();
-    for curve in table {
-        certification.add(&curve.certification);
-    }
-    Counts {
-        analyses: table.iter().map(|c| c.analyses).sum(),
-        overturned: table.iter().filter(|c| c.overturning.is_some()).count(),
-        certification,
-        resurrections: table.iter().map(IdaCurve::resurrections).sum(),
-    }
-}
-
-fn summary_json(
-    args: &Args,
-    table: &[IdaCurve],
-    suite: &Suite,
-    processing: Option<String>,
-) -> String {
-    let counts = counts(table);
-    let told = counts.certification;
-    let sought = args.resurrections_to.is_some();
-    let all = json!({
-        "suite": suite.name(),
-        "processing": processing,
-        "records": table.len(),
-        "study_components": suite.study_rule().to_string(),
-        "order": args.order.map(OrderName::name),
-        "analyses": counts.analyses,
-        "overturned_curves": counts.overturned,
-        "median_overturning_im": optional(median_overturning(table)),
-        "unresolved": told.unresolved,
-        "certified": args.certify.then(|| json!({
-            "assessed": told.assessed,
-            "by_double": told.double,
-            "by_double_double": told.double_double,
-            "by_octuple": told.octuple,
-            "unresolved": told.unresolved,
-            "fates_moved": told.moved,
-            "for_these_doubles_only": told.only_these_doubles,
-        })),
-        "resurrections": sought.then_some(counts.resurrections),
-        "curves": table.iter().map(|c| json!({
-            "record": c.record,
-            "levels": c.points.len(),
-            "overturning_im":
-                c.overturning.map(|first| number(first.im())),
-        })).collect::<Vec<_>>(),
-    });
-    format!("{all}\n")
-}
-
-fn summary(
-    args: &Args,
-    table: &[IdaCurve],
-    suite: &Suite,
-    processing: Option<String>,
-) -> String {
-    let counts = counts(table);
-    let mut text = String::new();
-    let mut row = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:<24}{value}");
-    };
-    row("suite", suite.name().to_owned());
-    if let Some(words) = processing {
-        row("processing", words);
-    }
-    row("records", table.len().to_string());
-    row("study components", suite.study_rule().to_string());
-    if let Some(order) = args.order {
-        row("order", format!("{}, whatever it leaves", order.name()));
-    }
-    row("analyses", counts.analyses.to_string());
-    row("overturned", format!("{} of {}", counts.overturned, table.len()));
-    if let Some(median) = median_overturning(table) {
-        row("median overturning IM", format!("{median:.4}"));
-    }
-    let told = counts.certification;
-    if args.certify {
-        row("assessed", format!("{} of {}", told.assessed, told.analyses));
-        row("told by double", told.double.to_string());
-        row("told by double-double", told.double_double.to_string());
-        row("told by octuple", told.octuple.to_string());
-        row("fates moved", told.moved.to_string());
-        row("for these doubles only", told.only_these_doubles.to_string());
-    }
-    let unresolved = told.unresolved;
-    row("unresolved", format!("{unresolved} of {}", told.analyses));
-    if args.resurrections_to.is_some() {
-        row("resurrections", counts.resurrections.to_string());
-    }
-    row("table", args.out.display().to_string());
-    text
 }

@@ -17,9 +17,11 @@ use rocking::statistics::{ExtendedSample, Sample};
 use serde_json::{Value, json};
 
 use super::samples::{SampleFile, Shift};
-use super::{Failure, print, with_threads};
+use super::{Failure, print, print_json, with_threads};
 use crate::json;
 
+/// Values of a simulated sample, at most: each thread holds one.
+const MOST_VALUES: i64 = 10_000_000;
 /// Replicates where none are asked for.
 const REPLICATES: u64 = 1_000_000;
 /// The same for sizes beyond the table.
@@ -57,8 +59,12 @@ pub struct Args {
     #[arg(long, requires = "n")]
     critical_values: bool,
     /// Size of the samples.
-    #[arg(long, conflicts_with_all = ["sample", "write_table"])]
-    n: Option<usize>,
+    #[arg(
+        long,
+        conflicts_with_all = ["sample", "write_table"],
+        value_parser = clap::value_parser!(u32).range(1..=MOST_VALUES),
+    )]
+    n: Option<u32>,
     /// Level of the test.
     #[arg(
         long,
@@ -112,7 +118,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         } else if let Some(path) = &args.sample {
             test(args, &SampleFile::read(path)?)
         } else {
-            critical_value(args, args.n.unwrap_or(0))
+            critical_value(args, args.n.unwrap_or(0) as usize)
         }
     })?
 }
@@ -133,7 +139,7 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
             "replicates": replicates,
             "seed": seed,
         });
-        return print(&format!("{out:#}\n"));
+        return print_json(out);
     }
     print(&format!(
         "size                {n}\n\
@@ -174,7 +180,7 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     let others = others(args, &assessment)?;
     if args.json {
         let out = to_json(&assessment, method, simulated.as_ref(), &others);
-        return print(&format!("{out:#}\n"));
+        return print_json(out);
     }
     print(&to_text(&assessment, &others))
 }

@@ -8,7 +8,7 @@ use rocking::statistics::QuantileType;
 use serde_json::json;
 
 use super::samples::SampleFile;
-use super::{Failure, print};
+use super::{Failure, print, print_json};
 use crate::json;
 
 /// Quantiles of a sample by named type (Hyndman and Fan 1996).
@@ -52,7 +52,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "at": json::numbers(&args.at),
             "values": json::numbers(&values),
         });
-        return print(&format!("{out:#}\n"));
+        return print_json(out);
     }
     let mut text = format!(
         "{} values, {} infinite; type {quantile_type}\n{:>10}  {:>12}\n",

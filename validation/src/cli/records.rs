@@ -4,16 +4,18 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Fault, Format, ReadOptions, RecordError, Remark, Suite, SuiteMember,
+    self, Format, ReadOptions, RecordError, Remark, Suite, SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
 
 use super::processing::{ProcessingArgs, words};
-use super::{Failure, print};
-use crate::files::write_atomically;
+use super::reading::ReadArgs;
+use super::{Failure, print, print_json};
+use crate::files::Output;
 use crate::inputs;
 use crate::json::number;
+use crate::remarks::Remarks;
 use measures::{Found, MeasureArgs};
 
 mod drift;
@@ -28,12 +30,8 @@ pub struct Args {
     /// column `file`, or PEER's search results).
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// Sampling interval in s, for files that state none.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
-    dt: Option<f64>,
-    /// Unit of files that state none: g, m/s2 or cm/s2.
-    #[arg(long, value_name = "UNIT", value_parser = unit)]
-    units: Option<AccelerationUnit>,
+    #[command(flatten)]
+    reading: ReadArgs,
     /// Gravity in m/s2, for records in SI units and for PGV.
     #[arg(
         long,
@@ -55,17 +53,11 @@ pub struct Args {
     json: bool,
 }
 
-fn unit(text: &str) -> Result<AccelerationUnit, String> {
-    AccelerationUnit::parse(text)
-        .ok_or_else(|| "expected g, m/s2 or cm/s2".to_owned())
-}
-
 /// One record in the list.
 struct Listed {
     file: String,
     format: Format,
     unit: AccelerationUnit,
-    unit_stated: bool,
     motion: record::Accelerogram,
     /// Pair and whether the study uses this component, in a suite.
     place: Option<(Option<String>, bool)>,
@@ -73,18 +65,48 @@ struct Listed {
 }
 
 impl Listed {
+    fn pair(&self) -> Option<&str> {
+        self.place.as_ref().and_then(|(pair, _)| pair.as_deref())
+    }
+
     fn member(member: &SuiteMember, in_suite: bool) -> Self {
         Self {
             file: member.file.clone(),
             format: member.format,
             unit: member.unit,
-            unit_stated: member.unit_stated,
             motion: member.accelerogram.clone(),
             place: in_suite
                 .then(|| (member.pair.clone(), member.study_component)),
             remarks: Vec::new(),
         }
     }
+}
+
+/// Why files were refused: one line a cause, with the number of its files.
+fn causes(refused: &[Refused]) -> String {
+    let cause = |r: &Refused| {
+        let place = format!("{}: ", r.file);
+        r.reason.strip_prefix(&place).map(str::to_owned)
+    };
+    let mut causes: Vec<(Option<String>, &Refused, usize)> = Vec::new();
+    for refused in refused {
+        let cause = cause(refused);
+        let known =
+            causes.iter_mut().find(|(c, ..)| c.is_some() && *c == cause);
+        match known {
+            Some((.., count)) => *count += 1,
+            None => causes.push((cause, refused, 1)),
+        }
+    }
+    let line = |(_, refused, count): (Option<String>, &Refused, usize)| {
+        let others = match count {
+            1 => String::new(),
+            2 => " (and 1 more file)".to_owned(),
+            n => format!(" (and {} more files)", n - 1),
+        };
+        format!("{}{others}", refused.reason)
+    };
+    causes.into_iter().map(line).collect::<Vec<_>>().join("\nrocking: ")
 }
 
 /// One file that was refused.
@@ -101,6 +123,8 @@ struct Listing {
     refused: Vec<Refused>,
     ignored: Vec<Refused>,
     suites: Vec<String>,
+    /// The files that were read.
+    inputs: Vec<PathBuf>,
     /// What was done to the records.
     processing: Option<String>,
 }
@@ -111,11 +135,7 @@ struct Listing {
 /// [`Failure`] with status 2 when any file was refused, after all are
 /// listed.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let options = ReadOptions {
-        dt_s: args.dt,
-        unit: args.units,
-        gravity_m_s2: args.gravity,
-    };
+    let options = args.reading.options(args.gravity);
     let mut listing = Listing::default();
     for path in &args.paths {
         listing.add(path, options);
@@ -126,12 +146,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     listing.processing = words(&processing);
     listing.remark();
-    if let Some(path) = &args.plot
+    let inputs: Vec<PathBuf> = listing.inputs.clone();
+    let plot = Output::open_some(args.plot.as_ref(), &inputs)?;
+    if let Some(out) = plot
         && listing.refused.is_empty()
     {
         let done = listing.processing.as_deref();
-        let svg = plot::svg(&listing.records, done, args.gravity)?;
-        write_atomically(path, svg)?;
+        out.write(plot::svg(&listing.records, done, args.gravity)?)?;
     }
     let baseline = (!args.processing.passes_high()).then(|| {
         let done = listing.processing.as_deref();
@@ -139,17 +160,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     });
     let found = args.measures.run(&listing.records, args.gravity, baseline)?;
     if args.json {
-        print(&listing.json(args.gravity, &found))?;
+        print_json(listing.json(args.gravity, &found))?;
     } else {
         print(&listing.table(args.gravity))?;
         print(&found.table(&listing.records))?;
     }
-    if listing.refused.is_empty() {
-        return Ok(());
+    if !listing.refused.is_empty() {
+        return Err(Failure::input(causes(&listing.refused)));
     }
-    let reasons: Vec<&str> =
-        listing.refused.iter().map(|r| r.reason.as_str()).collect();
-    Err(Failure::input(reasons.join("\nrocking: ")))
+    let all = listing.records.iter();
+    let all = all.map(|listed| (&listed.motion, listed.pair()));
+    args.reading.judge(&Remarks::of(&all.collect::<Vec<_>>()))
 }
 
 impl From<&RecordError> for Refused {
@@ -165,20 +186,14 @@ impl From<&RecordError> for Refused {
 
 impl Listing {
     fn add(&mut self, path: &Path, options: ReadOptions) {
+        self.inputs.push(path.to_owned());
         if path.is_dir() || inputs::is_zip(path) {
             return self.add_survey(path, options);
         }
         let file = path.display().to_string();
-        let bytes = match std::fs::read(path) {
+        let bytes = match record::file_bytes(path) {
             Ok(bytes) => bytes,
-            Err(error) => {
-                let fault = Fault::Unreadable(error.to_string());
-                let reason = format!("{file}: {fault}");
-                let code = fault.code();
-                let refused = Refused { file, code, line: None, reason };
-                self.refused.push(refused);
-                return;
-            }
+            Err(error) => return self.refused.push(Refused::from(&error)),
         };
         if record::is_index(&bytes) {
             return self.add_survey(path, options);
@@ -186,14 +201,14 @@ impl Listing {
         match record::read_all(&file, &bytes, &options) {
             Err(error) => self.refused.push(Refused::from(&error)),
             Ok(records) => {
+                let several = records.len() > 1;
                 self.records.extend(records.into_iter().map(|record| Listed {
-                    file: match record.channel {
+                    file: match record.channel.filter(|_| several) {
                         Some(channel) => format!("{file}:{channel}"),
                         None => file.clone(),
                     },
                     format: record.format,
                     unit: record.unit,
-                    unit_stated: record.unit_stated,
                     motion: record.accelerogram,
                     place: None,
                     remarks: Vec::new(),
@@ -218,7 +233,7 @@ impl Listing {
         }
         if survey.members().iter().all(Result::is_ok) {
             match survey.into_suite() {
-                Ok(suite) => self.add_suite(&suite),
+                Ok(suite) => self.add_suite(path, &suite),
                 Err(error) => self.refused.push(refused(&error)),
             }
             return;
@@ -233,7 +248,8 @@ impl Listing {
         }
     }
 
-    fn add_suite(&mut self, suite: &Suite) {
+    fn add_suite(&mut self, path: &Path, suite: &Suite) {
+        self.inputs.extend(inputs::files(path, suite));
         self.suites.push(format!(
             "suite {}: {} records, {} pairs, {} study components by {}",
             suite.name(),
@@ -250,10 +266,7 @@ impl Listing {
         let records: Vec<_> = self
             .records
             .iter()
-            .map(|listed| {
-                let pair = listed.place.as_ref().and_then(|p| p.0.as_deref());
-                (&listed.motion, pair)
-            })
+            .map(|listed| (&listed.motion, listed.pair()))
             .collect();
         let found = record::remarks_together(&records);
         for (listed, remarks) in self.records.iter_mut().zip(found) {
@@ -261,7 +274,7 @@ impl Listing {
         }
     }
 
-    fn json(&self, gravity_m_s2: f64, found: &Found) -> String {
+    fn json(&self, gravity_m_s2: f64, found: &Found) -> Value {
         let record = |(position, listed): (usize, &Listed)| {
             let motion = &listed.motion;
             let (pair, study) = match &listed.place {
@@ -279,7 +292,6 @@ impl Listing {
                 "file": listed.file,
                 "format": listed.format.to_string(),
                 "units": listed.unit.to_string(),
-                "units_stated": listed.unit_stated,
                 "dt_s": number(motion.dt_s()),
                 "npts": motion.samples_g().len(),
                 "duration_s": number(motion.duration_s()),
@@ -316,7 +328,7 @@ impl Listing {
         {
             map.insert("pairs".into(), pairs);
         }
-        format!("{all:#}\n")
+        all
     }
 
     fn table(&self, gravity_m_s2: f64) -> String {
@@ -341,15 +353,13 @@ impl Listing {
         }
         for listed in &self.records {
             let motion = &listed.motion;
-            let mark = if listed.unit_stated { "" } else { "?" };
-            let unit = format!("{}{mark}", listed.unit);
             line(
                 &mut text,
                 format_args!(
                     "{:width$}  {:8} {:>6} {:>10} {:>7} {:>11.3} {:>9.5} {:>10.5}",
                     listed.file,
                     listed.format.to_string(),
-                    unit,
+                    listed.unit.to_string(),
                     motion.dt_s(),
                     motion.samples_g().len(),
                     motion.duration_s(),

@@ -18,13 +18,14 @@ use history::history_csv;
 use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
-use super::{Failure, print};
+use super::{Failure, print, print_json};
 use crate::figures::Figure as _;
 use crate::figures::data::{
     Heading, Histories, History, HistoryPanel, Intensity,
 };
-use crate::files::write_atomically;
+use crate::files::Output;
 use crate::json::{number, optional};
+use crate::remarks::Remarks;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]
@@ -69,12 +70,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let threshold = uplift_threshold(&block, args.model.model());
     let p = block.frequency_rad_s();
     let ground = args.excitation.ground(gravity_m_s2, threshold, p)?;
+    let inputs = args.excitation.inputs();
+    let history = Output::open_some(args.history.as_ref(), &inputs)?;
+    let plot = Output::open_some(args.plot.as_ref(), &inputs)?;
     let (excitation, initial_ratio) = match &ground {
-        Ground::Factor(record, factor) => {
+        Ground::Factor(record, factor, _) => {
             let scaled = ScaledRecord::by_factor(record, *factor);
             (Excitation::Record(scaled), 0.0)
         }
-        Ground::Peak(unit, pga_g) => {
+        Ground::Peak(unit, pga_g, _) => {
             let scaled = ScaledRecord::to_pga(unit, *pga_g);
             (Excitation::Record(scaled), 0.0)
         }
@@ -90,41 +94,48 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         initial_ratio,
     };
     let interval_s = match &ground {
-        Ground::Factor(record, _) => record.dt_s(),
-        Ground::Peak(unit, _) => unit.dt_s(),
+        Ground::Factor(record, ..) => record.dt_s(),
+        Ground::Peak(unit, ..) => unit.dt_s(),
         Ground::Pulse(_) | Ground::Free(_) => HISTORY_INTERVAL_S,
     };
     let work_limit = args.limit.limit(WorkLimit::default());
     let observe = Observe {
         events: true,
         accuracy: true,
-        history_interval_s: (args.history.is_some() || args.plot.is_some())
+        history_interval_s: (history.is_some() || plot.is_some())
             .then_some(interval_s),
         until_s: args.until,
         work_limit,
     };
     let response = respond(&scene, &observe).map_err(refused)?;
-    if let Some(path) = &args.history {
-        write_atomically(path, history_csv(&scene, &response))?;
+    let prints =
+        |out: &Option<Output>| out.as_ref().is_some_and(Output::is_standard);
+    let is_printed = prints(&history) || prints(&plot);
+    if let Some(out) = history {
+        out.write(history_csv(&scene, &response))?;
     }
     let pga_g = match &ground {
-        Ground::Factor(record, factor) => record.pga_g() * factor.abs(),
-        Ground::Peak(_, pga_g) => *pga_g,
+        Ground::Factor(record, factor, _) => record.pga_g() * factor.abs(),
+        Ground::Peak(_, pga_g, _) => *pga_g,
         Ground::Pulse(pulse) => pulse.pga_g(),
         Ground::Free(_) => 0.0,
     };
-    if let Some(path) = &args.plot {
+    if let Some(out) = plot {
         let name = args.excitation.name();
-        write_atomically(path, drawing(&scene, &response, name, pga_g)?)?;
+        out.write(drawing(&scene, &response, name, pga_g)?)?;
     }
     let certify = || certify(&scene, work_limit).map_err(refused);
     let certified = if args.certify { Some(certify()?) } else { None };
     let (scene, done) = (&scene, args.excitation.processing()?);
+    let remarks = ground.remarks();
     let setting =
-        Setting { args, scene, certified, gravity_m_s2, pga_g, done };
+        Setting { args, scene, certified, gravity_m_s2, pga_g, done, remarks };
+    if is_printed {
+        eprint!("{}", setting.table(&response));
+        return Ok(());
+    }
     if args.json {
-        let text = serde_json::to_string_pretty(&setting.json(&response))?;
-        print(&format!("{text}\n"))
+        print_json(setting.json(&response))
     } else {
         print(&setting.table(&response))
     }
@@ -193,6 +204,8 @@ struct Setting<'a> {
     pga_g: f64,
     /// What was done to the record.
     done: Option<String>,
+    /// What is suspicious about it.
+    remarks: Option<&'a Remarks>,
 }
 
 /// The certified outcome, `unresolved` where no engine can tell.
@@ -305,6 +318,7 @@ impl Setting<'_> {
                 "overturn": self.args.model.overturning_name(),
                 "gravity_m_s2": number(self.gravity_m_s2),
                 "processing": self.done,
+                "remarks": self.remarks.map(Remarks::json),
                 "pga_g": number(self.pga_g),
                 "im_pga": number(self.im_pga()),
             },
@@ -343,6 +357,7 @@ impl Setting<'_> {
             because("uplift_time_s", "the block was released, not lifted");
         }
         if overturned {
+            because("peak_ratio", "the block overturned");
             because("peak_time_s", "the block overturned");
             because("rest_time_s", "the block overturned");
             because("rest_error_s", "the block overturned");
@@ -399,6 +414,9 @@ impl Setting<'_> {
         );
         if let Some(words) = &self.done {
             row("record", words.clone());
+        }
+        if let Some(words) = self.remarks.and_then(Remarks::words) {
+            row("remarks", words);
         }
         row(
             "PGA",

@@ -1,7 +1,9 @@
 //! Sample files: one value a line, `inf` for a censored one, `#` comments.
+//! The comment behind a value is the name of its record.
 
-use std::fs;
-use std::io;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::{self, Read, Stdin};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
@@ -44,6 +46,28 @@ pub enum SampleFileError {
         /// The value.
         found: f64,
     },
+    /// A record that cannot be paired.
+    #[error("{}:{line}: record {name} is {what}: expected each record once in both", path.display())]
+    Name {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: usize,
+        /// The record.
+        name: String,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// Two samples of different things.
+    #[error("{}: a sample of {found}: expected one of {expected}, as the other file", path.display())]
+    Different {
+        /// The file.
+        path: PathBuf,
+        /// What it says of itself.
+        found: String,
+        /// What the other file says.
+        expected: String,
+    },
     /// The values make no sample of the kind needed.
     #[error("{}{}: {source}", path.display(), line.map_or(String::new(), |l| format!(":{l}")))]
     Sample {
@@ -57,12 +81,56 @@ pub enum SampleFileError {
     },
 }
 
+/// How the line begins that says what the values are.
+pub const SAMPLE_OF: &str = "# Sample of ";
+
+/// A file to read from, or standard input where `-` is given.
+pub enum Opened {
+    /// A file.
+    File(File),
+    /// Standard input.
+    Standard(Stdin),
+}
+
+impl Opened {
+    /// Opens `path`.
+    ///
+    /// # Errors
+    /// What the system says; a device that may never end.
+    pub fn open(path: &Path) -> io::Result<Self> {
+        if path == Path::new("-") {
+            return Ok(Self::Standard(io::stdin()));
+        }
+        let found = fs::metadata(path)?;
+        let given = path.starts_with("/dev/fd") || path.starts_with("/proc");
+        if !(found.is_file() || given) {
+            return Err(io::Error::other(
+                "it is no file: expected one, or - for standard input",
+            ));
+        }
+        Ok(Self::File(File::open(path)?))
+    }
+}
+
+impl Read for Opened {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        match self {
+            Self::File(file) => file.read(buffer),
+            Self::Standard(input) => input.read(buffer),
+        }
+    }
+}
+
 /// The values of a sample file in the order of its lines, with their line
 /// numbers.
 pub struct SampleFile {
     path: PathBuf,
     values: Vec<f64>,
     lines: Vec<usize>,
+    /// Names behind the values.
+    names: Vec<Option<String>>,
+    /// What the values are, where the file says it.
+    of: Option<String>,
 }
 
 impl SampleFile {
@@ -71,12 +139,22 @@ impl SampleFile {
     /// # Errors
     /// [`SampleFileError`] with file and line.
     pub fn read(path: &Path) -> Result<Self, SampleFileError> {
-        let text = fs::read_to_string(path).map_err(|source| {
-            SampleFileError::Read { path: path.to_owned(), source }
-        })?;
+        let mut text = String::new();
+        Opened::open(path)
+            .and_then(|mut file| file.read_to_string(&mut text))
+            .map_err(|source| {
+                let path = path.to_owned();
+                SampleFileError::Read { path, source }
+            })?;
         let (mut values, mut lines) = (Vec::new(), Vec::new());
+        let (mut names, mut of) = (Vec::new(), None);
         for (i, line) in text.lines().enumerate() {
-            let content = line.split('#').next().unwrap_or("").trim();
+            if let Some(words) = line.strip_prefix(SAMPLE_OF) {
+                of = Some(words.trim().to_owned());
+            }
+            let (content, comment) =
+                line.split_once('#').unwrap_or((line, ""));
+            let content = content.trim();
             if content.is_empty() {
                 continue;
             }
@@ -87,8 +165,82 @@ impl SampleFile {
                 found: content.chars().take(40).collect(),
             })?);
             lines.push(i + 1);
+            let name = comment.trim();
+            names.push((!name.is_empty()).then(|| name.to_owned()));
         }
-        Ok(Self { path: path.to_owned(), values, lines })
+        Ok(Self { path: path.to_owned(), values, lines, names, of })
+    }
+
+    /// The values of two files as pairs: by the names of their records where
+    /// both files name them all, otherwise by their lines. Tells whether it
+    /// was by name.
+    ///
+    /// # Errors
+    /// [`SampleFileError`] for a negative value, a name on one side only or
+    /// twice, and for files that say of themselves that they are samples of
+    /// different things.
+    pub fn pairs(
+        &self,
+        other: &Self,
+    ) -> Result<(Vec<f64>, Vec<f64>, bool), SampleFileError> {
+        let (a, b) =
+            (self.values_not_negative()?, other.values_not_negative()?);
+        if let (Some(first), Some(second)) = (&self.of, &other.of)
+            && first != second
+        {
+            return Err(SampleFileError::Different {
+                path: other.path.clone(),
+                found: second.clone(),
+                expected: first.clone(),
+            });
+        }
+        let (Some(named), Some(others)) = (self.by_name()?, other.by_name()?)
+        else {
+            return Ok((a.to_vec(), b.to_vec(), false));
+        };
+        self.refuse_lone(&named, &others)?;
+        other.refuse_lone(&others, &named)?;
+        let names = self.names.iter().flatten();
+        let second = names.map(|name| b[others[name.as_str()]]).collect();
+        Ok((a.to_vec(), second, true))
+    }
+
+    /// Places of the values by the names behind them; `None` where a value
+    /// has no name.
+    fn by_name(
+        &self,
+    ) -> Result<Option<BTreeMap<&str, usize>>, SampleFileError> {
+        let mut places = BTreeMap::new();
+        for (place, name) in self.names.iter().enumerate() {
+            let Some(name) = name else { return Ok(None) };
+            if places.insert(name.as_str(), place).is_some() {
+                return Err(self.name_error(place, "twice in the file"));
+            }
+        }
+        Ok(Some(places))
+    }
+
+    /// Refuses a record that the other file has not.
+    fn refuse_lone(
+        &self,
+        own: &BTreeMap<&str, usize>,
+        others: &BTreeMap<&str, usize>,
+    ) -> Result<(), SampleFileError> {
+        match own.iter().find(|(name, _)| !others.contains_key(*name)) {
+            None => Ok(()),
+            Some((_, place)) => {
+                Err(self.name_error(*place, "not in the other file"))
+            }
+        }
+    }
+
+    fn name_error(&self, place: usize, what: &'static str) -> SampleFileError {
+        SampleFileError::Name {
+            path: self.path.clone(),
+            line: self.lines[place],
+            name: self.names[place].clone().unwrap_or_default(),
+            what,
+        }
     }
 
     /// The values in the order of the lines.

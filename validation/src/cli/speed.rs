@@ -9,9 +9,9 @@ use rocking::number::dispatch::Isa;
 use rocking::record::ReadOptions;
 use serde_json::{Value, json};
 
-use super::{Failure, print, progress};
+use super::{Failure, print, print_json, progress};
 use crate::curves::Execution;
-use crate::files::write_atomically;
+use crate::files::Output;
 use crate::inputs::read_suite;
 use crate::json::{number, optional};
 use crate::speed::answers::Answer;
@@ -86,6 +86,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         return Ok(());
     }
+    let out = Output::open_some(args.out.as_ref(), &args.answers)?;
+    let table = Output::open_some(args.throughput.as_ref(), &args.answers)?;
     let cases = with_references(cases)?;
     let bar = progress(((ORDERS.len() + 1) * cases.len()) as u64);
     let (_, rows) = on_threads(1, || singles::measure(&cases, || bar.inc(1)))?;
@@ -94,8 +96,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for path in &args.answers {
         rows.extend(read_answers(path, &cases)?);
     }
-    if let Some(path) = &args.out {
-        write_atomically(path, text(&rows)?)?;
+    if let Some(out) = out {
+        out.write(text(&rows)?)?;
     }
     let singles = totals(&rows, BASE);
     let many = if args.singles {
@@ -107,12 +109,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         bar.finish_and_clear();
         all
     };
-    if let Some(path) = &args.throughput {
-        write_atomically(path, throughput::text(&many)?)?;
+    if let Some(out) = table {
+        out.write(throughput::text(&many)?)?;
     }
     let memory = peak_memory_mib();
     if args.json {
-        print(&format!("{}\n", machine(&singles, &many, memory)))
+        print_json(machine(&singles, &many, memory))
     } else {
         print(&people(&singles, &many, memory))
     }

@@ -1,18 +1,20 @@
 //! `rocking study`: the whole paper, from records to findings.
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
+use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::processing::ProcessingArgs;
+use super::reading::ReadArgs;
 use super::way::WayArgs;
-use super::{Failure, print};
+use super::{Failure, print, with_threads};
 use crate::evidence::{NOT_RUN, Proof};
 use crate::figures::data::Arm;
+use crate::files::{Folder, is_interrupted};
 use crate::study::analyses::Plan;
 use crate::study::runs::{RESTITUTION, Setup};
 use crate::study::suites::StudySuite;
@@ -33,6 +35,8 @@ pub struct Args {
     /// Pulse-type suite: a folder of records, or an index (CSV).
     #[arg(long, value_name = "PATH", requires = "ordinary")]
     pulse: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadArgs,
     #[command(flatten)]
     processing: ProcessingArgs,
     /// Coefficient of restitution, ratio of angular velocities.
@@ -60,10 +64,10 @@ pub struct Args {
     /// Number of threads; all processors by default. Results do not depend
     /// on it.
     #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
+    threads: Option<usize>,
     #[command(flatten)]
     way: WayArgs,
-    /// Folder into which `rocking validate` wrote validation.json and
+    /// Folder into which `rocking validate --out` wrote validation.json and
     /// precision.csv, the results of the declared cases, which the page
     /// then shows; the folder data of the report if it holds them.
     #[arg(long, value_name = "DIR")]
@@ -106,17 +110,22 @@ enum ArmName {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let plan = plan(args)?;
     let processing = args.processing.processing()?;
+    let options = args.reading.options(STANDARD_GRAVITY_M_S2);
+    let read = |kind, path: &Path| -> Result<StudySuite, Failure> {
+        let suite = StudySuite::read(kind, path, options, &processing)?;
+        args.reading.judge(&suite.remarks)?;
+        Ok(suite)
+    };
     let suites = match (&args.ordinary, &args.pulse) {
-        (Some(ordinary), Some(pulse)) => [
-            StudySuite::read("ordinary", ordinary, &processing)?,
-            StudySuite::read("pulse-type", pulse, &processing)?,
-        ],
-        _ => match args.processing.given() {
+        (Some(ordinary), Some(pulse)) => {
+            [read("ordinary", ordinary)?, read("pulse-type", pulse)?]
+        }
+        _ => match args.reading.given().or(args.processing.given()) {
             None => StudySuite::embedded()?,
             Some(flag) => {
                 return Err(Failure::input(format!(
-                    "{flag} is not used without --ordinary and --pulse: the \
-                     embedded suites need no correction"
+                    "{flag} is not used without --ordinary and --pulse, but \
+                     for the records of a suite"
                 )));
             }
         },
@@ -129,9 +138,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                 args.out.display()
             ))
         })?;
-    } else {
-        output::check(&args.out)?;
     }
+    let folder = match args.check {
+        true => None,
+        false => Some(Folder::open(&args.out)?),
+    };
     let proof = match &args.proof {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
@@ -143,18 +154,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     {
         progress.set_style(style);
     }
-    let study = in_pool(args.threads, || {
+    let study = with_threads(args.threads, || {
         Study::run(plan, &suites, args.full, &progress)
     })??;
     progress.finish_and_clear();
     let files = study.files(proof.as_ref())?;
-    if args.check {
-        return check(&args.out, &files);
-    }
-    output::write(&args.out, &files)?;
+    let Some(folder) = folder else { return check(&args.out, &files) };
+    folder.write(&files, output::PAGE)?;
     if args.json {
         print(&study.findings_text())
     } else {
+        for suite in &suites {
+            if let Some(words) = suite.remarks.words() {
+                eprintln!("rocking: {} suite: remarks on {words}", suite.kind);
+            }
+        }
         print(&format!(
             "{}\n{}\nReport: {}\n",
             study.table(),
@@ -167,6 +181,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 /// Fails where the report in `out` is not these files.
 fn check(out: &Path, files: &output::Files) -> Result<(), Failure> {
     let name = out.display();
+    if is_interrupted(out) {
+        return Err(Failure::input(format!(
+            "{name}: files of two runs: expected a folder that `rocking \
+             study` wrote to its end"
+        )));
+    }
     match stale::stale(out, files)? {
         None => print(&format!(
             "{name}: all {} files of the report are up to date\n",
@@ -217,15 +237,4 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
         way: args.way.way()?,
     };
     Ok(Plan { setup, arms })
-}
-
-/// Runs `work` on a pool of that many threads.
-fn in_pool<T: Send>(
-    threads: Option<NonZeroUsize>,
-    work: impl FnOnce() -> T + Send,
-) -> Result<T, Failure> {
-    let Some(threads) = threads else { return Ok(work()) };
-    let pool =
-        rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build();
-    Ok(pool?.install(work))
 }

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use rocking::record::ReadOptions;
+use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::processing::{ProcessingArgs, words};
+use super::reading::ReadArgs;
 use super::{Failure, print};
-use crate::files::write_new_folder;
+use crate::files::Folder;
 use crate::inputs::read_suite;
 use crate::{export, synthesis};
 
@@ -27,11 +28,13 @@ enum Action {
 #[derive(clap::Args)]
 struct ExportArgs {
     /// A new folder, or an empty one.
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
     /// A suite of yours: folder, index or zip.
     #[arg(long, value_name = "PATH")]
     suite: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadArgs,
     #[command(flatten)]
     processing: ProcessingArgs,
 }
@@ -45,25 +48,30 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut files = Vec::new();
     let mut table = String::new();
     let mut add = |name: &str, rows: Vec<export::Row<'_>>| {
-        let index = args.folder.join(format!("{name}.csv"));
+        let index = args.out.join(format!("{name}.csv"));
         table.push_str(&format!(
             "{name}: {} records, index {}\n",
             rows.len(),
             index.display()
         ));
-        files.extend(export::files(name, &rows)?);
+        let named = |(path, content): (PathBuf, Vec<u8>)| {
+            (path.display().to_string(), content)
+        };
+        files.extend(export::files(name, &rows)?.into_iter().map(named));
         Ok::<(), Failure>(())
     };
     match &args.suite {
         Some(path) => {
             let processing = args.processing.processing()?;
-            let suite = read_suite(path, ReadOptions::default())?;
+            let options = args.reading.options(STANDARD_GRAVITY_M_S2);
+            let suite = read_suite(path, options)?;
             let suite = suite.processed(&processing)?;
             let done = words(&processing);
             add(suite.name(), export::members(&suite, done.as_deref()))?;
         }
         None => {
-            if let Some(flag) = args.processing.given() {
+            let given = args.reading.given().or(args.processing.given());
+            if let Some(flag) = given {
                 return Err(Failure::input(format!(
                     "{flag} is not used without --suite: the embedded \
                      suites need no correction"
@@ -73,6 +81,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             add("pulse", export::pairs(&synthesis::pulse()?))?;
         }
     }
-    write_new_folder(&args.folder, files)?;
+    let folder = Folder::open_new(&args.out)?;
+    let last = files.last().map_or(String::new(), |(name, _)| name.clone());
+    folder.write(&files.into_iter().collect(), &last)?;
     print(&table)
 }

@@ -6,32 +6,32 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{Failure, print};
+use super::{Failure, print, print_json};
 use crate::cases::{Case, Cost, FAMILIES, load_all};
 use crate::diff::{self, Results};
-use crate::files::write_atomically;
+use crate::files::Output;
 use crate::json;
 use crate::methods::{digits, digits_csv};
 use crate::verdict::{Outcome, Verdict, run_all, snapshot};
 
-/// Runs the declared cases. Without `--family` and `--check` it writes the
-/// results to OUT/data/validation.json, and to OUT/data/precision.csv what
-/// single, double and double-double precision reach.
+/// Runs the declared cases. With `--out` it writes the results to
+/// OUT/data/validation.json, and to OUT/data/precision.csv what single,
+/// double and double-double precision reach.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Run this family alone; nothing is written.
-    #[arg(long)]
+    /// Run this family alone.
+    #[arg(long, conflicts_with = "out")]
     family: Option<String>,
-    /// Run the long cases as well; nothing is written.
-    #[arg(long)]
+    /// Run the long cases as well.
+    #[arg(long, conflicts_with = "out")]
     full: bool,
     /// Compare with the results in OUT, write nothing, fail where they
     /// differ.
-    #[arg(long, conflicts_with_all = ["family", "full"])]
+    #[arg(long, requires = "out")]
     check: bool,
-    /// Folder of the reports.
-    #[arg(long, value_name = "DIR", default_value = "reports")]
-    out: PathBuf,
+    /// Folder of the reports; without it nothing is written.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -44,13 +44,28 @@ pub struct Args {
 /// case that is not accepted and for results that differ (status 1).
 pub fn run(args: &Args) -> Result<(), Failure> {
     let cases = selected(args)?;
-    let outcomes = run_all(&cases);
-    let text = if args.json {
-        format!("{:#}\n", machine(&outcomes))
-    } else {
-        people(&outcomes)
+    let outputs = match &args.out {
+        Some(out) if !args.check => {
+            let folder = out.join("data");
+            std::fs::create_dir_all(&folder).map_err(|e| {
+                Failure::input(format!(
+                    "cannot make {}: {e}",
+                    folder.display()
+                ))
+            })?;
+            Some([
+                Output::open(&folder.join("validation.json"), &[])?,
+                Output::open(&folder.join("precision.csv"), &[])?,
+            ])
+        }
+        _ => None,
     };
-    print(&text)?;
+    let outcomes = run_all(&cases);
+    if args.json {
+        print_json(machine(&outcomes))?;
+    } else {
+        print(&people(&outcomes))?;
+    }
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
         return Err(Failure::gate(format!(
@@ -58,30 +73,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             outcomes.len()
         )));
     }
-    if args.family.is_some() || args.full {
-        return Ok(());
-    }
-    let folder = args.out.join("data");
+    let Some(out) = &args.out else { return Ok(()) };
+    let folder = out.join("data");
     let path = folder.join("validation.json");
     let text = snapshot::text(&cases, &outcomes);
     let digits_path = folder.join("precision.csv");
     let digits = digits_csv(&digits()?);
-    if args.check {
-        compare(&path, &text)?;
-        if digits == read(&digits_path)? {
-            return Ok(());
-        }
-        return Err(Failure::gate(format!(
-            "{} is stale: `rocking validate` accepts what is there now",
-            digits_path.display()
-        )));
+    if let Some([results, precision]) = outputs {
+        results.write(text)?;
+        return Ok(precision.write(digits)?);
     }
-    std::fs::create_dir_all(&folder).map_err(|e| {
-        Failure::input(format!("cannot make {}: {e}", folder.display()))
-    })?;
-    write_atomically(&path, text)?;
-    write_atomically(&digits_path, digits)?;
-    Ok(())
+    compare(&path, &text)?;
+    if digits == read(&digits_path)? {
+        return Ok(());
+    }
+    Err(stale(&digits_path))
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
@@ -116,10 +122,14 @@ fn compare(path: &Path, text: &str) -> Result<(), Failure> {
     let new = Results::from_text(path, text)?;
     // A declared tolerance is stated for every number.
     print(&diff::compare(&old, &new, 0.0)?.text(true))?;
-    Err(Failure::gate(format!(
-        "{} is stale: `rocking validate` accepts what is there now",
+    Err(stale(path))
+}
+
+fn stale(path: &Path) -> Failure {
+    Failure::gate(format!(
+        "{} is stale: `rocking validate --out DIR` accepts what is there now",
         path.display()
-    )))
+    ))
 }
 
 fn machine(outcomes: &[Outcome]) -> serde_json::Value {

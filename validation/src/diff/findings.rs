@@ -14,7 +14,7 @@ use crate::report::Verdict;
 const MEASURED: [&str; 3] = ["value", "median_ratio", "median"];
 
 /// Texts of the section of suites that make it another suite.
-const SUITE: [&str; 3] = ["sha256", "source", "component_rule"];
+const SUITE: [&str; 4] = ["sha256", "source", "component_rule", "remarks"];
 
 type Object = Map<String, Value>;
 

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value};
 use thiserror::Error;
 
+use crate::files::is_interrupted;
+
 use super::strict::Strict;
 use super::{Item, cases, findings};
 
@@ -28,6 +30,15 @@ pub enum DiffError {
         /// What the system said.
         #[source]
         source: io::Error,
+    },
+    /// A run was killed while it put its files into place.
+    #[error(
+        "{}: files of two runs: expected a folder that was written to its end",
+        path.display()
+    )]
+    Interrupted {
+        /// The folder.
+        path: PathBuf,
     },
     /// A folder has no results.
     #[error(
@@ -120,6 +131,9 @@ impl Results {
         if !std::fs::metadata(path).map_err(failed)?.is_dir() {
             results.add(path)?;
             return Ok(results);
+        }
+        if is_interrupted(path) {
+            return Err(DiffError::Interrupted { path: path.to_owned() });
         }
         for name in NAMES {
             let places = [path.join(name), path.join("data").join(name)];

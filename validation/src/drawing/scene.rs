@@ -19,8 +19,9 @@ use super::geometry::{Point, Rect, simplify};
 use super::markup;
 use super::svg::{PER_PX, Svg, TEXT_PX};
 
-/// Largest SVG, in bytes.
-pub const LIMIT_BYTES: usize = 150_000;
+/// Bytes of an SVG above which its lines are drawn more coarsely. With many
+/// records it may be larger even so.
+pub const WANTED_BYTES: usize = 150_000;
 /// How far a simplified line may be from the full one, in px: the first, and
 /// the next ones, with points on multiples of them, only where the SVG would
 /// be too large.
@@ -38,16 +39,6 @@ pub enum DrawError {
         /// What plotters said.
         #[source]
         source: DrawingAreaErrorKind<Infallible>,
-    },
-    /// The SVG is larger than a report can hold.
-    #[error("{name} has {bytes} bytes, the limit is {limit}")]
-    TooLarge {
-        /// Name of the figure.
-        name: String,
-        /// Its size.
-        bytes: usize,
-        /// The limit.
-        limit: usize,
     },
 }
 
@@ -250,22 +241,16 @@ impl Scene {
     /// The SVG.
     ///
     /// # Errors
-    /// [`DrawError`] when plotters refuses, or the SVG is larger than
-    /// [`LIMIT_BYTES`].
+    /// [`DrawError`] when plotters refuses.
     pub fn svg(&self) -> Result<String, DrawError> {
-        let mut bytes = 0;
+        let mut out = String::new();
         for tolerance_px in TOLERANCES_PX {
-            let out = self.with_tolerance(tolerance_px)?;
-            bytes = out.len();
-            if bytes <= LIMIT_BYTES {
-                return Ok(out);
+            out = self.with_tolerance(tolerance_px)?;
+            if out.len() <= WANTED_BYTES {
+                break;
             }
         }
-        Err(DrawError::TooLarge {
-            name: self.caption.name.clone(),
-            bytes,
-            limit: LIMIT_BYTES,
-        })
+        Ok(out)
     }
 
     fn with_tolerance(&self, tolerance_px: f64) -> Result<String, DrawError> {

@@ -32,7 +32,7 @@ pub enum ProofError {
     /// A file that cannot be read.
     #[error(
         "cannot read {}: {source}; expected {RESULTS} and {DIGITS} as \
-         `rocking validate` writes them",
+         `rocking validate --out` writes them",
         path.display()
     )]
     Read {

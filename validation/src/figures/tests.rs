@@ -6,7 +6,7 @@ mod xml;
 
 use super::Figure;
 use crate::drawing::geometry::Rect;
-use crate::drawing::scene::LIMIT_BYTES;
+use crate::drawing::scene::WANTED_BYTES;
 
 /// Every figure once, from made-up numbers.
 pub(crate) fn demonstration() -> Vec<Box<dyn Figure>> {
@@ -32,7 +32,7 @@ fn same_bytes_twice_below_the_limit() {
     for (a, b) in first.iter().zip(&second) {
         let svg = a.svg().unwrap();
         assert_eq!(svg, b.svg().unwrap());
-        assert!(svg.len() < LIMIT_BYTES, "{}", a.heading().name);
+        assert!(svg.len() < WANTED_BYTES, "{}", a.heading().name);
     }
 }
 

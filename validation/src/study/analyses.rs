@@ -118,6 +118,8 @@ pub struct SuiteResults {
     pub source: Source,
     /// Who chose the study component, in words.
     pub component_rule: String,
+    /// What is suspicious about the records.
+    pub remarks: Option<String>,
     /// Hash of the input.
     pub sha256: String,
     /// What the chains took.
@@ -219,6 +221,7 @@ impl Plan {
             kind: suite.kind,
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),
+            remarks: suite.remarks.words(),
             sha256: suite.sha256(),
             work,
             records: facts,

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::figures::data::Arm;
-use crate::json::number;
+use crate::json::extended;
 pub use crate::report::Verdict;
 
 /// A measured value, with an interval where there is one.
@@ -128,7 +128,7 @@ impl Claim {
 /// no more than a reader compares.
 #[must_use]
 pub fn rounded(x: f64) -> Value {
-    number(format!("{x:.8e}").parse().unwrap_or(x))
+    extended(format!("{x:.8e}").parse().unwrap_or(x))
 }
 
 /// The two ends of an interval, or null.

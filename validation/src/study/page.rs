@@ -329,6 +329,10 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
                 suite.sha256
             ),
         ));
+        if let Some(remarks) = &suite.remarks {
+            let name = format!("Remarks on records, {}", suite.kind);
+            out.push((name, remarks.clone()));
+        }
     }
     out
 }

@@ -8,6 +8,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::StudyError;
 use crate::inputs::read_suite;
+use crate::remarks::Remarks;
 use crate::synthesis::{self, Pair};
 
 /// Where the records of a suite come from.
@@ -69,6 +70,8 @@ pub struct StudySuite {
     pub source: Source,
     /// Who chose the study component, in words.
     pub component_rule: String,
+    /// What is suspicious about the records; nothing for an embedded suite.
+    pub remarks: Remarks,
     /// The motions, in the suite's order.
     pub motions: Vec<Motion>,
 }
@@ -83,6 +86,7 @@ impl StudySuite {
             kind,
             source: Source::Embedded { streams },
             component_rule: "the first component of each pair".into(),
+            remarks: Remarks::default(),
             motions: pairs
                 .into_iter()
                 .map(|Pair { components: [study, other], .. }| Motion {
@@ -104,10 +108,14 @@ impl StudySuite {
     pub fn read(
         kind: &'static str,
         path: &Path,
+        options: ReadOptions,
         processing: &Processing,
     ) -> Result<Self, StudyError> {
-        let suite = read_suite(path, ReadOptions::default())?;
+        let suite = read_suite(path, options)?;
         let suite = suite.processed(processing)?;
+        let all = suite.members().iter();
+        let all = all.map(|m| (&m.accelerogram, m.pair.as_deref()));
+        let remarks = Remarks::of(&all.collect::<Vec<_>>());
         let motions = suite
             .study_components()
             .map(|study| Motion {
@@ -127,6 +135,7 @@ impl StudySuite {
                 processing: *processing,
             },
             component_rule: suite.study_rule().to_string(),
+            remarks,
             motions,
         })
     }

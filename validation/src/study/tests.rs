@@ -36,6 +36,7 @@ fn empty(source: &Source) -> Results {
         kind,
         source: source.clone(),
         component_rule: String::new(),
+        remarks: None,
         sha256: String::new(),
         work: Work { analyses: 0, certainty: Certainty::default() },
         records: Vec::new(),

@@ -243,7 +243,7 @@ fn suite(suite: &SuiteResults) -> Value {
         .map(|record| suite.records[*record].name.as_str())
         .collect();
     let certainty = &suite.work.certainty;
-    json!({
+    let mut value = json!({
         "kind": suite.kind,
         "source": suite.source.to_string(),
         "component_rule": suite.component_rule,
@@ -261,7 +261,11 @@ fn suite(suite: &SuiteResults) -> Value {
         },
         "largest_shift_if_flipped": rounded(certainty.largest_shift),
         "shown_alone": chosen,
-    })
+    });
+    if let Some(remarks) = &suite.remarks {
+        value["remarks"] = remarks.clone().into();
+    }
+    value
 }
 
 /// How many records uplift each block without being scaled.

@@ -34,7 +34,7 @@ fn entry(case: &Case, outcome: &Outcome) -> Value {
     let mut rejected = Map::new();
     for rejection in &outcome.rejections {
         let by = json!({
-            "margin": json::number(rounded(rejection.margin, 1)),
+            "margin": json::extended(rounded(rejection.margin, 1)),
             "quantity": rejection.quantity,
         });
         rejected.insert(rejection.model.to_owned(), by);
@@ -55,9 +55,9 @@ fn quantity(check: &Check) -> Value {
     let values: Vec<f64> = shown.map(|x| rounded(*x, digits)).collect();
     let bound = match &check.bound {
         Bound::Absolute(x) | Bound::Relative(x) | Bound::Order(x) => {
-            json::number(*x)
+            json::extended(*x)
         }
-        Bound::Interval(low, high) => json::numbers(&[*low, *high]),
+        Bound::Interval(low, high) => json::all_extended(&[*low, *high]),
         Bound::Coverage(trials) => json!(trials),
         Bound::Waived(_) => Value::Null,
         Bound::Exact => json!(0),
@@ -66,10 +66,10 @@ fn quantity(check: &Check) -> Value {
         "kind": check.bound.kind(),
         "bound": bound,
         "values": check.observed.len(),
-        "first": json::numbers(&values),
+        "first": json::all_extended(&values),
         // An error at the rounding level moves with every change of the
         // code: its size is told, not its digits.
-        "margin": json::number(rounded(check.margin, 1)),
+        "margin": json::extended(rounded(check.margin, 1)),
     })
 }
 

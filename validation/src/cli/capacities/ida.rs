@@ -6,20 +6,8 @@ use rocking::capacity::{CapacityError, ResponseCurve};
 use thiserror::Error;
 
 use super::Measure;
-
-/// The columns, in order.
-pub const HEADER: [&str; 10] = [
-    "record",
-    "alpha_rad",
-    "p_rad_s",
-    "pga_g",
-    "pgv_m_s",
-    "im_pga",
-    "im_pgv",
-    "edp",
-    "outcome",
-    "margin",
-];
+use crate::cli::samples::Opened;
+use crate::cli::table::{COLUMNS, SETTING, Setting};
 
 /// Why an IDA file was refused.
 #[derive(Debug, Error)]
@@ -37,7 +25,7 @@ pub enum IdaFileError {
     /// Not the columns of an IDA file.
     #[error(
         "{}:1: found columns `{found}`: expected `{}`",
-        path.display(), HEADER.join(",")
+        path.display(), COLUMNS.join(",")
     )]
     Header {
         /// The file.
@@ -75,6 +63,23 @@ pub enum IdaFileError {
         /// The record.
         record: String,
     },
+    /// A row of another analysis than the first.
+    #[error(
+        "{}:{line}: {column} is {found}: expected {expected}, as on the first row: a table of one analysis",
+        path.display()
+    )]
+    Mixed {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: u64,
+        /// The column's name.
+        column: &'static str,
+        /// The field's text.
+        found: String,
+        /// The first row's.
+        expected: String,
+    },
     /// The rows of a record make no curve.
     #[error("{}: record {record}: {source}", path.display())]
     Curve {
@@ -103,6 +108,11 @@ pub struct Suite {
     pub im_r: f64,
     /// Rows past their record's first overturning, not used.
     pub after_overturning: usize,
+    /// Slenderness angle (rad) and frequency parameter (rad/s) as written;
+    /// the angle of an adjusted slenderness is none.
+    pub block: (Option<String>, String),
+    /// What all rows share.
+    pub setting: Setting,
 }
 
 /// One row.
@@ -119,9 +129,17 @@ struct Row {
 /// # Errors
 /// [`IdaFileError`] with file and line.
 pub fn read(path: &Path, measure: Measure) -> Result<Suite, IdaFileError> {
-    let rows = rows(path, measure)?;
-    let mut suite =
-        Suite { curves: Vec::new(), im_r: 1.0, after_overturning: 0 };
+    let (rows, common) = rows(path, measure)?;
+    let Some(Common { alpha_rad, p_rad_s, setting }) = common else {
+        return Err(IdaFileError::Empty { path: path.to_owned() });
+    };
+    let mut suite = Suite {
+        curves: Vec::new(),
+        im_r: 1.0,
+        after_overturning: 0,
+        block: (alpha_rad, p_rad_s),
+        setting,
+    };
     for group in rows.chunk_by(|a, b| a.record == b.record) {
         let record = &group[0].record;
         if suite.curves.iter().any(|(known, _)| known == record) {
@@ -140,9 +158,6 @@ pub fn read(path: &Path, measure: Measure) -> Result<Suite, IdaFileError> {
     }
     let onsets = suite.curves.iter().map(|(_, curve)| curve.onset_im());
     let least = onsets.fold(f64::INFINITY, f64::min);
-    if least == f64::INFINITY {
-        return Err(IdaFileError::Empty { path: path.to_owned() });
-    }
     if measure == Measure::Pgv {
         suite.im_r = least;
     }
@@ -167,12 +182,42 @@ fn curve(rows: &[Row]) -> Result<(ResponseCurve, usize), CapacityError> {
     Ok((ResponseCurve::try_new(&vertices, overturning)?, unused))
 }
 
-fn rows(path: &Path, measure: Measure) -> Result<Vec<Row>, IdaFileError> {
+/// What the rows of one analysis have in common, as it is written.
+struct Common {
+    alpha_rad: Option<String>,
+    p_rad_s: String,
+    setting: Setting,
+}
+
+impl Common {
+    fn of(fields: &csv::StringRecord) -> Self {
+        let cell = |column: usize| fields[column].to_owned();
+        let setting = Setting::of(cell);
+        let scaled = setting.by == "record-scaling";
+        let alpha_rad = scaled.then(|| cell(1));
+        Self { alpha_rad, p_rad_s: cell(2), setting }
+    }
+
+    /// The first column of `fields` that has something else.
+    fn differs(&self, fields: &csv::StringRecord) -> Option<(usize, &str)> {
+        let alpha = self.alpha_rad.iter().map(|a| (1, a.as_str()));
+        let p = std::iter::once((2, self.p_rad_s.as_str()));
+        let setting = self.setting.cells().into_iter().enumerate();
+        let setting = setting.map(|(i, cell)| (SETTING + i, cell));
+        let mut all = alpha.chain(p).chain(setting);
+        all.find(|(column, cell)| fields[*column] != **cell)
+    }
+}
+
+type Rows = (Vec<Row>, Option<Common>);
+
+fn rows(path: &Path, measure: Measure) -> Result<Rows, IdaFileError> {
     let csv_error =
         |source| IdaFileError::Csv { path: path.to_owned(), source };
-    let mut reader = csv::Reader::from_path(path).map_err(csv_error)?;
+    let opened = Opened::open(path).map_err(|e| csv_error(e.into()))?;
+    let mut reader = csv::Reader::from_reader(opened);
     let header = reader.headers().map_err(csv_error)?;
-    if header.iter().ne(HEADER) {
+    if header.iter().ne(COLUMNS) {
         return Err(IdaFileError::Header {
             path: path.to_owned(),
             found: header.iter().collect::<Vec<_>>().join(","),
@@ -183,16 +228,27 @@ fn rows(path: &Path, measure: Measure) -> Result<Vec<Row>, IdaFileError> {
         Measure::Pgv => 6,
     };
     let mut rows = Vec::new();
+    let mut common: Option<Common> = None;
     for record in reader.records() {
         let fields = record.map_err(csv_error)?;
         let line = fields.position().map_or(0, csv::Position::line);
         let refuse = |column: usize, expected| IdaFileError::Field {
             path: path.to_owned(),
             line,
-            column: HEADER[column],
+            column: COLUMNS[column],
             found: fields[column].to_owned(),
             expected,
         };
+        let first = common.get_or_insert_with(|| Common::of(&fields));
+        if let Some((column, expected)) = first.differs(&fields) {
+            return Err(IdaFileError::Mixed {
+                path: path.to_owned(),
+                line,
+                column: COLUMNS[column],
+                found: fields[column].to_owned(),
+                expected: expected.to_owned(),
+            });
+        }
         let number = |column: usize, expected: &'static str| {
             let value = fields[column].parse::<f64>().ok();
             value.filter(|x| *x >= 0.0).ok_or_else(|| refuse(column, expected))
@@ -224,5 +280,5 @@ fn rows(path: &Path, measure: Measure) -> Result<Vec<Row>, IdaFileError> {
             refined: outcome == "overturned-refined",
         });
     }
-    Ok(rows)
+    Ok((rows, common))
 }

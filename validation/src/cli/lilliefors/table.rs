@@ -6,7 +6,7 @@ use std::path::Path;
 use rocking::statistics::lilliefors::{NullDistribution, Table};
 
 use crate::cli::{Failure, progress};
-use crate::files::write_atomically;
+use crate::files::Output;
 
 /// Simulates every size of the table and writes it: 3.4e8 samples, some
 /// minutes of one core.
@@ -14,6 +14,7 @@ use crate::files::write_atomically;
 /// # Errors
 /// [`Failure`] if the file cannot be written.
 pub(super) fn write(path: &Path) -> Result<(), Failure> {
+    let out = Output::open(path, &[])?;
     let sizes = Table::sizes();
     let progress = progress(sizes.len() as u64);
     let mut csv =
@@ -31,6 +32,5 @@ pub(super) fn write(path: &Path) -> Result<(), Failure> {
         progress.inc(1);
     }
     progress.finish_and_clear();
-    write_atomically(path, csv)?;
-    Ok(())
+    Ok(out.write(csv)?)
 }

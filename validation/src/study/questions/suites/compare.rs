@@ -80,6 +80,7 @@ fn capacities(
         kind: suite.kind,
         source: suite.source.clone(),
         component_rule: suite.component_rule.clone(),
+        remarks: suite.remarks.words(),
         sha256: suite.sha256(),
         work: Work { analyses: chains.analyses, certainty },
         records: suite.motions.iter().map(facts).collect::<Result<_, _>>()?,

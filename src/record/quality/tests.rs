@@ -1,0 +1,73 @@
+//! Each blemish, and records that are one recording.
+
+use super::*;
+
+fn codes(dt_s: f64, samples: Vec<f64>) -> Vec<&'static str> {
+    let record = Accelerogram::try_new("x", dt_s, samples).unwrap();
+    remarks(&record).iter().map(Remark::code).collect()
+}
+
+/// A motion without a blemish: whole periods, ended at rest.
+fn clean() -> Vec<f64> {
+    (0..401)
+        .map(|i| 0.3 * libm::sin(0.1 * std::f64::consts::PI * f64::from(i)))
+        .map(|a| if a.abs() < 1e-12 { 0.0 } else { a })
+        .collect()
+}
+
+#[test]
+fn each_blemish_has_its_code() {
+    assert_eq!(codes(0.01, clean()), [""; 0]);
+    let scaled = |f: f64| clean().iter().map(|a| a * f).collect();
+    assert_eq!(codes(0.01, scaled(980.665)), ["units"]);
+    assert_eq!(codes(0.01, scaled(1e-4)), ["units"]);
+    let clipped = clean().iter().map(|a| a.clamp(-0.2, 0.2)).collect();
+    assert_eq!(codes(0.01, clipped), ["clipped"]);
+    let mut flat = clean();
+    flat.splice(100..100, (0..120).map(|i| 0.01 * (i / 60) as f64));
+    assert_eq!(codes(0.01, flat)[..1], ["flat"]);
+    let offset = clean().iter().map(|a| a + 0.004).collect();
+    assert_eq!(codes(0.01, offset), ["end-velocity", "offset"]);
+    assert_eq!(codes(0.0024, clean()), ["interval-rounded"]);
+    for dt_s in [0.001, 0.0025, 0.005, 0.01, 0.02, 1.0 / 410.0] {
+        assert_eq!(codes(dt_s, clean()), [""; 0], "{dt_s}");
+    }
+    let mut padded = clean();
+    padded.extend([0.0; 100]);
+    assert_eq!(codes(0.01, padded), ["padding"]);
+    assert_eq!(codes(0.01, vec![0.0; 10]), ["units"]);
+}
+
+#[test]
+fn components_of_a_pair_are_compared() {
+    let record = |name: &str, n: usize| {
+        let mut samples = clean();
+        samples.truncate(n);
+        Accelerogram::try_new(name, 0.01, samples).unwrap()
+    };
+    let (a, b) = (record("a", 401), record("b", 381));
+    let codes = |pair| {
+        let found = remarks_together(&[(&a, Some("p")), (&b, Some(pair))]);
+        let unequal = Remark::UnequalComponents("b".to_owned());
+        (found[0].contains(&unequal), found[1].len())
+    };
+    assert_eq!(codes("p"), (true, 2));
+    assert_eq!(codes("q"), (false, 1));
+}
+
+#[test]
+fn a_recording_is_known_again_by_its_shape() {
+    let motion = |shift: usize, scale: f64, power: f64| {
+        let wave = (0..600).map(|i| {
+            let t = 0.01 * f64::from(i) - 3.0;
+            scale * libm::exp(-t * t) * libm::cos(power * t)
+        });
+        let samples = std::iter::repeat_n(0.0, shift).chain(wave);
+        Accelerogram::try_new("x", 0.01, samples.collect()).unwrap()
+    };
+    let records =
+        [motion(0, 0.3, 9.0), motion(77, -0.2, 9.0), motion(0, 0.3, 7.0)];
+    let found = duplicates(&records.each_ref());
+    let pairs: Vec<_> = found.iter().map(|(i, j, _)| (*i, *j)).collect();
+    assert_eq!(pairs, [(0, 1)]);
+}

@@ -1,0 +1,206 @@
+//! What becomes of remarks, of places to write to, and of tables that are
+//! read again.
+
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use super::{AT2, folder};
+
+/// Exit status, standard output and standard error of the program, with
+/// `input` as its standard input.
+fn rocking(
+    folder: &Path,
+    arguments: &str,
+    input: &str,
+) -> (i32, String, String) {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
+        .current_dir(folder)
+        .args(arguments.split_whitespace())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A program that refuses its arguments closes its input.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    let done = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (done.status.code().unwrap(), text(done.stdout), text(done.stderr))
+}
+
+/// A wave of `cycles` with an offset (both in g), as two columns.
+fn wave(cycles: f64, offset_g: f64) -> String {
+    let row = |i: u32| {
+        let t = 0.01 * f64::from(i);
+        let a = 0.3 * libm::sin(cycles * std::f64::consts::PI * t);
+        format!("{t:.2},{:.6}\n", a + offset_g)
+    };
+    format!("t_s,a_g\n{}", (0..801).map(row).collect::<String>())
+}
+
+const IDA: &str = "ida --alpha 0.1 --p 3";
+
+#[test]
+fn remarks_travel_to_every_result() {
+    let (clean, offset) = (wave(2.0, 0.0), wave(3.0, 0.1));
+    let files: [(&str, &[u8]); 2] =
+        [("a.csv", clean.as_bytes()), ("b.csv", offset.as_bytes())];
+    let folder = folder("remarks", &files);
+    let ida = format!("{IDA} --suite . --out ida.out");
+    let (status, out, error) = rocking(&folder, &ida, "");
+    assert_eq!((status, error.as_str()), (0, ""));
+    let told = "offset: mean is 25.0 % of PGA: instrument offset? PGA is \
+                4.000e-1 g, and 3.000e-1 g without the mean (--demean)";
+    assert!(out.contains("remarks                 1 of 2 records"), "{out}");
+    assert!(out.contains(told), "{out}");
+    let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
+    let of_b = table.lines().find(|line| line.starts_with("b,")).unwrap();
+    assert!(of_b.contains(",end-velocity offset,0.92,"), "{of_b}");
+    let (_, out, _) = rocking(&folder, &format!("{ida} --json"), "");
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(json["remarks"]["codes"][0]["code"], "offset");
+    assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
+    let respond = "respond --alpha 0.1 --p 3 --record b.csv";
+    let (status, out, _) = rocking(&folder, respond, "");
+    assert!(status == 0 && out.contains(told), "{out}");
+    for command in [&*ida, respond, "records b.csv"] {
+        let strict = format!("{command} --strict");
+        let (status, _, error) = rocking(&folder, &strict, "");
+        assert_eq!(status, 2, "{command}");
+        assert!(error.contains("--strict: remarks on 1 of "), "{error}");
+    }
+    let strict = format!("{ida} --strict --demean --high-pass 0.1");
+    assert_eq!(rocking(&folder, &strict, "").0, 0);
+}
+
+/// Two horizontal channels and a vertical one in one file.
+#[test]
+fn both_components_of_one_file_are_kept() {
+    let channel = |number: usize, name: &str| {
+        format!(
+            "Corrected accelerogram     Nowhere\n\
+             Chan  {number}: {name}\n\
+             \x20   8 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.3)\n\
+             \x20     .000     1.000  -200.000   300.000  -400.000   500.000  -980.665     7.000\n\
+             /&  ----------  End of data for channel  {number}  ----------\n"
+        )
+    };
+    let text = ["90 Deg", "Up", "360 Deg"];
+    let text: String =
+        text.iter().enumerate().map(|(i, d)| channel(i + 1, d)).collect();
+    let folder = folder("channels", &[("x.v2", text.as_bytes())]);
+    let both = format!("{IDA} --suite . --component both --out ida.out");
+    let (status, out, error) = rocking(&folder, &both, "");
+    assert_eq!((status, error.as_str()), (0, ""));
+    assert!(out.contains("records                 2\n"), "{out}");
+}
+
+#[test]
+fn an_input_is_never_an_output() {
+    let index = "file,units,dt_s\nx.AT2,,\n";
+    let files: [(&str, &[u8]); 2] =
+        [("x.AT2", AT2.as_bytes()), ("index.csv", index.as_bytes())];
+    let folder = folder("input", &files);
+    let commands = [
+        format!("{IDA} --suite index.csv --out index.csv"),
+        format!("{IDA} --suite index.csv --out ./x.AT2"),
+        format!("{IDA} --suite . --out x.AT2"),
+        "records x.AT2 --plot x.AT2".to_owned(),
+        "respond --alpha 0.1 --p 3 --record x.AT2 --history x.AT2".to_owned(),
+    ];
+    for command in commands {
+        let (status, out, error) = rocking(&folder, &command, "");
+        assert_eq!((status, out.as_str()), (2, ""), "{command}");
+        assert!(error.contains("is read: expected another"), "{error}");
+    }
+    for (file, bytes) in files {
+        assert_eq!(std::fs::read(folder.join(file)).unwrap(), bytes);
+    }
+    // Told before the work, which would take an hour.
+    let command = format!("{IDA} --suite x.AT2 --step-im 1e-5 --out no/x");
+    let (status, _, error) = rocking(&folder, &command, "");
+    assert_eq!(status, 2);
+    assert!(error.contains("cannot write no/x"), "{error}");
+    let command = format!("{IDA} --suite x.AT2 --step-im 1e-9 --out x");
+    let (status, _, error) = rocking(&folder, &command, "");
+    assert_eq!(status, 2);
+    assert!(error.contains("1.0e11 levels up to the highest IM"), "{error}");
+}
+
+/// From one record to a fragility, through pipes.
+#[test]
+fn tables_and_samples_know_what_they_are() {
+    let waves = [wave(2.0, 0.0), wave(3.0, 0.0), wave(5.0, 0.0)];
+    let files: Vec<(&str, &[u8])> = ["a.csv", "b.csv", "c.csv"]
+        .into_iter()
+        .zip(&waves)
+        .map(|(name, text)| (name, text.as_bytes()))
+        .collect();
+    let folder = folder("tables", &files);
+    let ida = format!("{IDA} --suite . --out -");
+    let (status, table, error) = rocking(&folder, &ida, "");
+    assert_eq!(status, 0, "{error}");
+    assert!(error.contains("median overturning IM"), "{error}");
+    let capacities = "capacities --ida - --at 1 --out -";
+    let (status, sample, error) = rocking(&folder, capacities, &table);
+    assert_eq!((status, error.as_str()), (0, ""));
+    assert!(sample.starts_with("# Sample of PGA/(g tan alpha) at EDP 1, "));
+    assert!(sample.contains("# alpha 0.1 rad, p 3 rad/s, eta 0.92, "));
+    let fit = "fragility --sample - --shift 1";
+    assert_eq!(rocking(&folder, fit, &sample).0, 0);
+    // Tables of two analyses are not one.
+    let other = ida.replace("--p 3", "--p 3 --eta 0.85");
+    let (_, other, _) = rocking(&folder, &other, "");
+    let rows = other.lines().skip(1).map(|row| row.replacen(',', "2,", 1));
+    let mixed = table.clone() + &rows.collect::<Vec<_>>().join("\n");
+    let (status, _, error) = rocking(&folder, capacities, &mixed);
+    assert_eq!(status, 2);
+    assert!(error.contains(": eta is 0.85: expected 0.92, as on"), "{error}");
+    // Pairs are made by the records' names, whatever the order.
+    let mut lines: Vec<&str> = sample.lines().collect();
+    let last = lines.len() - 1;
+    lines.swap(2, last);
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.join(name), text).unwrap();
+    };
+    write("one.txt", &sample);
+    write("two.txt", &(lines.join("\n") + "\n"));
+    let compare = "compare --a one.txt --b two.txt";
+    let (status, out, _) = rocking(&folder, compare, "");
+    assert_eq!(status, 0);
+    assert!(out.starts_with("paired by               record\n"), "{out}");
+    assert!(out.contains("0 above 1, 0 below"), "{out}");
+    write("two.txt", &sample.replace("# a\n", "# z\n"));
+    let (status, _, error) = rocking(&folder, compare, "");
+    assert_eq!(status, 2);
+    assert!(error.contains("record a is not in the other file"), "{error}");
+    write("two.txt", &sample.replace("EDP 1,", "EDP 0.5,"));
+    let (status, _, error) = rocking(&folder, compare, "");
+    assert_eq!(status, 2);
+    assert!(error.contains("as the other file"), "{error}");
+}
+
+/// A cause is told once, with the number of its files.
+#[test]
+fn one_line_a_cause() {
+    let names: Vec<String> = (0..12).map(|i| format!("{i:02}.txt")).collect();
+    let files: Vec<(&str, &[u8])> =
+        names.iter().map(|n| (n.as_str(), &b"0.1\n0.2\n"[..])).collect();
+    let folder = folder("causes", &files);
+    let (status, _, error) = rocking(&folder, "records .", "");
+    assert_eq!(status, 2);
+    assert_eq!(error.lines().count(), 1, "{error}");
+    assert!(error.contains("--dt") && error.contains("and 11 more files"));
+    let (status, ..) = rocking(&folder, "records . --dt 0.01 --units g", "");
+    assert_eq!(status, 0);
+    for device in ["/dev/zero", "."] {
+        let (status, _, error) =
+            rocking(&folder, &format!("capacities --ida {device}"), "");
+        assert_eq!(status, 2);
+        assert!(error.contains("expected one, or - for"), "{error}");
+    }
+    let (status, _, error) = rocking(&folder, "records /dev/zero", "");
+    assert_eq!(status, 2);
+    assert!(error.contains("a device or pipe: expected a file"), "{error}");
+}

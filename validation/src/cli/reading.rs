@@ -1,0 +1,61 @@
+//! Flags that say what the caller knows of record files, and what becomes of
+//! remarks on them.
+
+use rocking::record::ReadOptions;
+use rocking::units::AccelerationUnit;
+
+use super::Failure;
+use crate::remarks::Remarks;
+
+/// What record files do not state.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct ReadArgs {
+    /// Sampling interval in s of record files that state none.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    dt: Option<f64>,
+    /// Unit of record files that state none: g, m/s2 or cm/s2.
+    #[arg(long, value_name = "UNIT", value_parser = unit)]
+    units: Option<AccelerationUnit>,
+    /// Fail where anything about a record is suspicious: `rocking records`
+    /// lists what.
+    #[arg(long)]
+    strict: bool,
+}
+
+fn unit(text: &str) -> Result<AccelerationUnit, String> {
+    AccelerationUnit::parse(text)
+        .ok_or_else(|| "expected g, m/s2 or cm/s2".to_owned())
+}
+
+impl ReadArgs {
+    /// How records are read under gravity `gravity_m_s2`.
+    #[must_use]
+    pub fn options(self, gravity_m_s2: f64) -> ReadOptions {
+        ReadOptions { dt_s: self.dt, unit: self.units, gravity_m_s2 }
+    }
+
+    /// The first flag given, to be refused where no record is read.
+    #[must_use]
+    pub fn given(self) -> Option<&'static str> {
+        if self.dt.is_some() {
+            Some("--dt")
+        } else if self.units.is_some() {
+            Some("--units")
+        } else {
+            self.strict.then_some("--strict")
+        }
+    }
+
+    /// Refuses records with remarks, where that was asked for.
+    ///
+    /// # Errors
+    /// [`Failure`] with the remarks in short.
+    pub fn judge(self, remarks: &Remarks) -> Result<(), Failure> {
+        match remarks.words().filter(|_| self.strict) {
+            None => Ok(()),
+            Some(words) => {
+                Err(Failure::input(format!("--strict: remarks on {words}")))
+            }
+        }
+    }
+}

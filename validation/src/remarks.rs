@@ -1,0 +1,128 @@
+//! What is suspicious about the records of a command, told wherever its
+//! results are.
+
+use rocking::record::{Accelerogram, Remark, remarks_together};
+use serde_json::{Value, json};
+
+/// Codes of remarks, the gravest first.
+const GRAVEST: [&str; 11] = [
+    "units",
+    "interval",
+    "flat",
+    "clipped",
+    "offset",
+    "one-sided",
+    "duplicate",
+    "unequal-components",
+    "interval-rounded",
+    "end-velocity",
+    "padding",
+];
+
+/// Remarks on the records of a command.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remarks {
+    records: usize,
+    /// Name of a record and what is remarked, in the records' order.
+    found: Vec<(String, Vec<Remark>)>,
+}
+
+impl Remarks {
+    /// Remarks on records, given with the names of their pairs.
+    #[must_use]
+    pub fn of(records: &[(&Accelerogram, Option<&str>)]) -> Self {
+        let remarks = remarks_together(records);
+        let named = records.iter().map(|(record, _)| record.name().to_owned());
+        let found = named.zip(remarks).filter(|(_, all)| !all.is_empty());
+        Self { records: records.len(), found: found.collect() }
+    }
+
+    /// Codes of the remarks on the record `name`, separated by blanks.
+    #[must_use]
+    pub fn codes(&self, name: &str) -> String {
+        let found = self.found.iter().find(|(record, _)| record == name);
+        let codes = found.map_or(&[][..], |(_, all)| all);
+        codes.iter().map(Remark::code).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Each code with the number of its records, and the first record's
+    /// remark; the gravest first.
+    fn by_code(&self) -> Vec<(&'static str, usize, &str, &Remark)> {
+        let mut all: Vec<(&'static str, usize, &str, &Remark)> = Vec::new();
+        for (name, remarks) in &self.found {
+            for remark in remarks {
+                match all.iter_mut().find(|row| row.0 == remark.code()) {
+                    Some(row) => row.1 += 1,
+                    None => all.push((remark.code(), 1, name, remark)),
+                }
+            }
+        }
+        let rank = |code: &str| GRAVEST.iter().position(|c| *c == code);
+        all.sort_by_key(|row| rank(row.0).unwrap_or(GRAVEST.len()));
+        all
+    }
+
+    /// The count of records with remarks, the count of each code, and the
+    /// gravest remark; `None` without any.
+    #[must_use]
+    pub fn words(&self) -> Option<String> {
+        let all = self.by_code();
+        let (code, _, record, remark) = all.first()?;
+        let counts: Vec<String> =
+            all.iter().map(|(code, n, ..)| format!("{code} {n}")).collect();
+        Some(format!(
+            "{} of {} records ({}); {record}: {code}: {remark}",
+            self.found.len(),
+            self.records,
+            counts.join(", ")
+        ))
+    }
+
+    /// The same for machines.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let code = |(code, count, record, remark): (_, _, _, &Remark)| {
+            json!({
+                "code": code,
+                "records": count,
+                "first": record,
+                "message": remark.to_string(),
+            })
+        };
+        let all: Vec<Value> = self.by_code().into_iter().map(code).collect();
+        json!({ "records": self.found.len(), "of": self.records, "codes": all })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gravest_comes_first_with_counts() {
+        let motion = |name: &str, scale: f64, mean: f64| {
+            let wave = (0..401)
+                .map(|i| libm::sin(0.05 * std::f64::consts::PI * f64::from(i)))
+                .map(|a| scale * (a + mean));
+            Accelerogram::try_new(name, 0.01, wave.collect()).unwrap()
+        };
+        let clean = [motion("a", 0.3, 0.0)];
+        let of = |records: &[Accelerogram]| {
+            let all: Vec<_> = records.iter().map(|r| (r, None)).collect();
+            Remarks::of(&all)
+        };
+        assert_eq!(of(&clean).words(), None);
+        let mixed = [
+            motion("x", 0.3, 0.02),
+            motion("y", 300.0, 0.0),
+            motion("z", 0.2, 0.03),
+        ];
+        let found = of(&mixed);
+        let words = found.words().unwrap();
+        assert!(words.starts_with("3 of 3 records (units 1, offset 2, "));
+        assert!(words.contains("; y: units: PGA 3.000e2 g"), "{words}");
+        assert!(found.codes("x").starts_with("end-velocity offset"));
+        assert_eq!(found.codes("nobody"), "");
+        assert_eq!(found.json()["codes"][1]["first"], "x");
+    }
+}

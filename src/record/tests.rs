@@ -316,6 +316,7 @@ fn no_bytes_make_a_reader_panic() {
         networks::KNET.to_owned(),
         networks::ESM.to_owned(),
         networks::smc(),
+        cosmos::old(),
         "t (s),a (g)\n0.00,0.1\n0.01,0.2\n0.02,1e-3\n".to_owned(),
     ];
     let alphabet = b"0123456789+-.eEdD,;:=\t\n\r #\"()NaPTSx\xff\x00\xc3\xa9";
@@ -327,7 +328,10 @@ fn no_bytes_make_a_reader_panic() {
         state ^= state << 17;
         (state % below.max(1) as u64) as usize
     };
-    for round in 0..40_000 {
+    // A long run of the same: ROCKING_ROUNDS=100000000.
+    let rounds = std::env::var("ROCKING_ROUNDS").ok();
+    let rounds = rounds.map_or(40_000, |n| n.parse().unwrap());
+    for round in 0..rounds {
         let mut bytes = seeds[round % seeds.len()].clone().into_bytes();
         for _ in 0..=draw(4) {
             let at = draw(bytes.len());

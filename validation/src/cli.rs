@@ -5,6 +5,8 @@ mod validate;
 use std::io::{self, Write as _};
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
+use std::sync::mpsc;
+use std::time::Duration;
 
 use clap::{Parser, Subcommand};
 
@@ -177,6 +179,32 @@ pub fn progress(length: u64) -> indicatif::ProgressBar {
     } else {
         indicatif::ProgressBar::hidden()
     }
+}
+
+/// Interval of progress in a log.
+const LOG_INTERVAL: Duration = Duration::from_secs(30);
+
+/// Does `work`, and where there is no terminal to draw `bar` on, says on
+/// standard error every half a minute how far it is.
+pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
+    use std::io::IsTerminal as _;
+    if io::stderr().is_terminal() {
+        return work();
+    }
+    std::thread::scope(|scope| {
+        let (done, waits) = mpsc::channel::<()>();
+        scope.spawn(move || {
+            while let Err(mpsc::RecvTimeoutError::Timeout) =
+                waits.recv_timeout(LOG_INTERVAL)
+            {
+                let length = bar.length().unwrap_or(0);
+                eprintln!("rocking: {} of {length} done", bar.position());
+            }
+        });
+        let result = work();
+        drop(done);
+        result
+    })
 }
 
 /// Parses the arguments, runs the command and gives the exit status.

@@ -23,7 +23,8 @@ const GRAVEST: [&str; 11] = [
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remarks {
     records: usize,
-    /// Name of a record and what is remarked, in the records' order.
+    /// Name of a record and what is remarked, each code once, in the
+    /// records' order.
     found: Vec<(String, Vec<Remark>)>,
 }
 
@@ -31,7 +32,15 @@ impl Remarks {
     /// Remarks on records, given with the names of their pairs.
     #[must_use]
     pub fn of(records: &[(&Accelerogram, Option<&str>)]) -> Self {
-        let remarks = remarks_together(records);
+        let mut remarks = remarks_together(records);
+        for of_one in &mut remarks {
+            let mut seen = Vec::new();
+            of_one.retain(|remark| {
+                let is_new = !seen.contains(&remark.code());
+                seen.push(remark.code());
+                is_new
+            });
+        }
         let named = records.iter().map(|(record, _)| record.name().to_owned());
         let found = named.zip(remarks).filter(|(_, all)| !all.is_empty());
         Self { records: records.len(), found: found.collect() }
@@ -116,12 +125,15 @@ mod tests {
             motion("x", 0.3, 0.02),
             motion("y", 300.0, 0.0),
             motion("z", 0.2, 0.03),
+            motion("x2", 0.3, 0.02),
+            motion("x3", 0.3, 0.02),
         ];
         let found = of(&mixed);
         let words = found.words().unwrap();
-        assert!(words.starts_with("3 of 3 records (units 1, offset 2, "));
+        let start = "5 of 5 records (units 1, offset 4, duplicate 5, ";
+        assert!(words.starts_with(start), "{words}");
         assert!(words.contains("; y: units: PGA 3.000e2 g"), "{words}");
-        assert!(found.codes("x").starts_with("end-velocity offset"));
+        assert_eq!(found.codes("x"), "end-velocity offset duplicate");
         assert_eq!(found.codes("nobody"), "");
         assert_eq!(found.json()["codes"][1]["first"], "x");
     }

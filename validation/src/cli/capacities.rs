@@ -25,6 +25,9 @@ use crate::json;
 /// as above); overturning crosses every level, and a record that never
 /// reached one is censored (inf). The count of crossings is odd.
 #[derive(ClapArgs)]
+#[command(after_help = "Examples:\n  \
+    rocking capacities --ida ida.csv --levels 0.3,0.5,1\n  \
+    rocking capacities --ida ida.csv --at 1 --out capacities.txt")]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["curve", "ida"]))]
 pub struct Args {
@@ -103,7 +106,7 @@ impl FromStr for Vertices {
 
 /// EDP levels.
 #[derive(Clone, Debug)]
-struct Levels(Vec<f64>);
+pub(super) struct Levels(pub(super) Vec<f64>);
 
 impl FromStr for Levels {
     type Err = String;
@@ -155,7 +158,7 @@ pub enum Measure {
 
 /// Which single capacity is made of several crossings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Point {
+pub(super) enum Point {
     /// The median crossing.
     Median,
     /// The first crossing.

@@ -1,5 +1,6 @@
 //! `rocking fragility`: lognormal fits of a sample and Eqs. 5 to 7.
 
+mod levels;
 mod sample;
 
 use std::path::PathBuf;
@@ -8,6 +9,7 @@ use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use serde_json::{Map, Value};
 
+use super::capacities::{Levels, Measure, Point};
 use super::samples::Shift;
 use super::{Failure, print, print_json};
 use crate::json;
@@ -21,11 +23,32 @@ use crate::json;
 /// the unit of the sample.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("mode").required(true)
-    .args(["sample", "transform"]))]
+    .args(["sample", "ida", "transform"]))]
+#[command(after_help = "Examples:\n  \
+    rocking fragility --ida ida.csv --at 0.3,0.5,1 --shift 1\n  \
+    rocking fragility --sample capacities.txt --shift 1 --bootstrap 1000\n  \
+    rocking fragility --transform --shift 1 --im50 2.5 --beta 0.4")]
 pub struct Args {
     /// Sample file: one value a line, `inf` for a censored one, `#` comments.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
+    /// Table of `rocking ida`: fits of the capacities at the levels --at.
+    #[arg(long, value_name = "FILE", requires = "at")]
+    ida: Option<PathBuf>,
+    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        requires = "ida",
+        allow_hyphen_values = true
+    )]
+    at: Option<Levels>,
+    /// Intensity measure of --ida [default: pga].
+    #[arg(long, requires = "ida")]
+    im: Option<Measure>,
+    /// Which single capacity is made of several crossings [default: median].
+    #[arg(long, requires = "ida")]
+    point: Option<Point>,
     /// Eqs. 5 to 7 from given numbers.
     #[arg(long)]
     transform: bool,
@@ -43,7 +66,11 @@ pub struct Args {
     #[arg(long, allow_negative_numbers = true)]
     c: Option<f64>,
     /// Bootstrap this many samples for intervals.
-    #[arg(long, value_name = "N", conflicts_with = "transform")]
+    #[arg(
+        long,
+        value_name = "N",
+        conflicts_with_all = ["transform", "ida"]
+    )]
     bootstrap: Option<usize>,
     /// Repetition of the bootstrap.
     #[arg(
@@ -65,7 +92,7 @@ pub struct Args {
     #[arg(
         long,
         value_name = "X",
-        conflicts_with = "sample",
+        conflicts_with_all = ["sample", "ida"],
         allow_negative_numbers = true
     )]
     im50: Option<f64>,
@@ -73,7 +100,7 @@ pub struct Args {
     #[arg(
         long,
         value_name = "B",
-        conflicts_with = "sample",
+        conflicts_with_all = ["sample", "ida"],
         allow_negative_numbers = true
     )]
     beta: Option<f64>,
@@ -82,7 +109,7 @@ pub struct Args {
         long,
         value_name = "X",
         requires = "im84",
-        conflicts_with = "sample",
+        conflicts_with_all = ["sample", "ida"],
         allow_negative_numbers = true
     )]
     im16: Option<f64>,
@@ -91,7 +118,7 @@ pub struct Args {
         long,
         value_name = "X",
         requires = "im16",
-        conflicts_with = "sample",
+        conflicts_with_all = ["sample", "ida"],
         allow_negative_numbers = true
     )]
     im84: Option<f64>,
@@ -121,9 +148,10 @@ enum Method {
 /// # Errors
 /// [`Failure`] for input that is refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    match &args.sample {
-        Some(path) => sample::run(args, path),
-        None => transform(args),
+    match (&args.sample, &args.ida) {
+        (Some(path), _) => sample::run(args, path),
+        (None, Some(path)) => levels::run(args, path),
+        (None, None) => transform(args),
     }
 }
 

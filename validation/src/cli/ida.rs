@@ -27,7 +27,8 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
 use super::{
-    Failure, SOFTWARE, csv_text, print, print_json, progress, with_threads,
+    Failure, SOFTWARE, csv_text, logged, print, print_json, progress,
+    with_threads,
 };
 use crate::files::Output;
 use crate::inputs::{files, read_suite};
@@ -35,6 +36,10 @@ use crate::remarks::Remarks;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    rocking ida --alpha 0.1 --p 3 --suite records/ --out ida.csv\n  \
+    rocking ida --width-m 0.5 --height-m 1.8 --eta housner \
+    --suite index.csv --out ida.csv")]
 pub struct Args {
     #[command(flatten)]
     block: BlockArgs,
@@ -154,9 +159,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         .map(|member| NormalisedRecord::new(&member.accelerogram))
         .collect();
     let bar = progress(records.len() as u64);
-    let curves = with_threads(args.threads, || {
-        let only = std::slice::from_ref(&analysis);
-        way.curves(&records, only, &|| bar.inc(1))
+    let curves = logged(&bar, || {
+        with_threads(args.threads, || {
+            let only = std::slice::from_ref(&analysis);
+            way.curves(&records, only, &|| bar.inc(1))
+        })
     })?
     .map_err(curve_refused)?;
     let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();

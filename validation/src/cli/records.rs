@@ -25,6 +25,9 @@ mod plot;
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    rocking records records/ suite.csv peer.zip\n  \
+    rocking records wave.txt --dt 0.01 --units m/s2 --plot wave.svg")]
 pub struct Args {
     /// Record files, folders or zips of them, or index files (CSV with a
     /// column `file`, or PEER's search results).

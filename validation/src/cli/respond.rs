@@ -29,6 +29,11 @@ use crate::remarks::Remarks;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    rocking respond --alpha 0.1 --p 3 --pulse one-sine \
+    --amplitude-m-s2 1.5 --omega-rad-s 12\n  \
+    rocking respond --width-m 0.3 --height-m 1.5 --record FILE.AT2 \
+    --im 1.5 --plot theta.svg")]
 pub struct Args {
     #[command(flatten)]
     block: BlockArgs,

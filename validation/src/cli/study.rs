@@ -11,7 +11,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
-use super::{Failure, print, with_threads};
+use super::{Failure, logged, print, with_threads};
 use crate::evidence::{NOT_RUN, Proof};
 use crate::figures::data::Arm;
 use crate::files::{Folder, is_interrupted};
@@ -28,6 +28,9 @@ pub const REPORT: &str = "rocking-report";
 ///
 /// Without suites of your own it runs on the embedded synthetic ones.
 #[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    rocking study\n  \
+    rocking study --ordinary far.csv --pulse near.csv --out report")]
 pub struct Args {
     /// Ordinary suite: a folder of records, or an index (CSV).
     #[arg(long, value_name = "PATH", requires = "pulse")]
@@ -154,8 +157,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     {
         progress.set_style(style);
     }
-    let study = with_threads(args.threads, || {
-        Study::run(plan, &suites, args.full, &progress)
+    let study = logged(&progress, || {
+        with_threads(args.threads, || {
+            Study::run(plan, &suites, args.full, &progress)
+        })
     })??;
     progress.finish_and_clear();
     let files = study.files(proof.as_ref())?;

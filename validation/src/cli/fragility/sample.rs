@@ -14,10 +14,10 @@ use crate::cli::{Failure, with_threads};
 use crate::json;
 
 /// The fit asked for, and what the unshifted statistics give instead.
-struct Fits {
-    fit: LognormalFit,
+pub(super) struct Fits {
+    pub(super) fit: LognormalFit,
     /// By the same method, without a shift.
-    unshifted: Option<Lognormal>,
+    pub(super) unshifted: Option<Lognormal>,
     eq5: Result<f64, FragilityError>,
     eq6: Result<f64, FragilityError>,
     eq7: Result<f64, FragilityError>,
@@ -25,15 +25,15 @@ struct Fits {
 
 /// How a sample is fitted.
 #[derive(Clone, Copy)]
-struct Plan {
+pub(super) struct Plan {
     method: FitMethod,
-    quantile_type: QuantileType,
+    pub(super) quantile_type: QuantileType,
     shift: Shift,
     c: f64,
 }
 
 impl Plan {
-    fn new(args: &Args) -> Result<Self, Failure> {
+    pub(super) fn new(args: &Args) -> Result<Self, Failure> {
         let quantile_type =
             QuantileType::try_new(args.quantile_type.unwrap_or(5))?;
         let method = match args.method.unwrap_or(Method::Mle) {
@@ -47,7 +47,7 @@ impl Plan {
         Ok(Self { method, quantile_type, shift, c: args.c.unwrap_or(1.0) })
     }
 
-    fn fits(&self, values: &[f64]) -> Result<Fits, FitError> {
+    pub(super) fn fits(&self, values: &[f64]) -> Result<Fits, FitError> {
         let (shift, above) = self.shift.split(values);
         let whole = sample(values)?;
         let fit = fit(&sample(&above)?, shift, self.method)?;

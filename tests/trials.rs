@@ -77,6 +77,20 @@ fn what_was_wrong_and_clear_once_is_not_again() {
     assert_eq!(judgement, Judgement::Unresolved(true));
 }
 
+/// A block that is released near its saddle and loses nothing at impact: the
+/// top of its second hop is the first one's but for rounding, which the slope
+/// of the potential there magnifies.
+#[test]
+fn a_second_top_near_the_saddle_has_its_error() {
+    let found = findings(Stratum::Extreme, &[11_776, 13_679, 15_535]).unwrap();
+    for finding in &found {
+        let judgement = Judgement::of(finding, Reading::Whole);
+        assert!(!judgement.is_bad(), "{judgement:?}: {finding}");
+    }
+    // Every one was outside its estimate by a factor of 200 or more.
+    assert_eq!(found.len(), 3);
+}
+
 #[test]
 fn a_scene_follows_from_its_address() {
     for stratum in Stratum::ALL {

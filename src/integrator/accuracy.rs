@@ -279,15 +279,17 @@ impl Accuracy {
 
     /// Notes the error at a peak `u` reached in free motion from (u0, w0):
     /// energy carries the errors there. `slope` is dE/du at the state and
-    /// `at_peak` at the peak.
+    /// `at_peak` at the peak; `differed` is the energy from which that of the
+    /// peak's hop was taken as a difference.
     pub fn peak_by_energy(
         &mut self,
         (slope, w): (f64, f64),
         at_peak: f64,
         u: f64,
+        differed: f64,
     ) {
         let along = [slope, w];
-        let own = self.unit * (w * w + (slope * u).abs());
+        let own = self.unit * (w * w + (slope * u).abs() + differed);
         let error = (self.bound(along) + own) / at_peak;
         self.take_peak(u, error, self.moved(along) / (at_peak * u));
     }

@@ -106,7 +106,7 @@ pub(crate) fn coast<N: Real>(
     } else {
         let top = turning(d, level);
         let rise = transit(d, here, Place { u: top, speed: zero }, level);
-        raise(ask, record, top, ask.start_s + rise / d.p, (u, w));
+        raise(ask, record, top, ask.start_s + rise / d.p, (u, w), 0.0);
         rise + hop(d, level)
     };
     let impact_s = ask.start_s + time / d.p;
@@ -297,12 +297,15 @@ fn fly_out<N: Real>(
 }
 
 /// Raises the peak if the top of a hop does and is reached in time.
+///
+/// `differed` is the energy from which the hop's was taken as a difference.
 fn raise<N: Real>(
     ask: &Coast<'_, N>,
     record: &mut Tracked<N>,
     top: N,
     time_s: N,
     (u, w): (N, N),
+    differed: f64,
 ) {
     if ask.past(time_s) || !(top > record.peak) {
         return;
@@ -314,7 +317,7 @@ fn raise<N: Real>(
     for tracker in record.trackers() {
         let here = (slope(d, u).to_f64(), w.to_f64());
         let at_top = slope(d, top).to_f64();
-        tracker.peak_by_energy(here, at_top, top.to_f64());
+        tracker.peak_by_energy(here, at_top, top.to_f64(), differed);
     }
 }
 
@@ -374,7 +377,9 @@ fn hops<N: Real>(
         // Only the first hop after the excitation can raise the peak.
         if count == 0 {
             let top = turning(d, level);
-            raise(ask, record, top, time_s + half / d.p, state);
+            // An impact takes the depth below the saddle as a difference.
+            let saddle = d.saddle_energy().to_f64();
+            raise(ask, record, top, time_s + half / d.p, state, saddle);
         }
         let endless = !(d.eta < N::one())
             && ask.until_s.is_none()

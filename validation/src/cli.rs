@@ -133,7 +133,7 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// Prints `value` as JSON, with the version of the program.
 ///
 /// # Errors
-/// As [`print`].
+/// As [`print()`].
 pub fn print_json(mut value: serde_json::Value) -> Result<(), Failure> {
     if let Some(object) = value.as_object_mut() {
         object.insert("version".into(), env!("CARGO_PKG_VERSION").into());

@@ -1,6 +1,6 @@
 //! What each fuzz target does with its bytes: read them, and hold what was
 //! read to what every reader promises. Also replayed over the corpus, by
-//! `cargo test --test readers`.
+//! `cargo test --test gate readers`.
 
 use std::io::Cursor;
 

@@ -1,6 +1,6 @@
 //! A thousand short analyses have the same bits at every instruction-set
 //! level, on one thread and two, one at a time and in lanes, in dev and in
-//! release builds (`cargo test --release --test reproducibility`).
+//! release builds (`cargo test --release --test gate bits`).
 
 use rand::RngExt as _;
 use rayon::prelude::*;

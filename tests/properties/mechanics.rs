@@ -7,9 +7,9 @@ use rocking::integrator::{
     Model, Outcome, Overturning, Response, Scene, respond,
 };
 
-use crate::CASES;
-use crate::drawn::{body, config, record, samples};
-use crate::running::{
+use super::CASES;
+use super::drawn::{body, config, record, samples};
+use super::running::{
     UNTIL_S, close, interval_s, is_clear, observe, run, scene, under,
 };
 

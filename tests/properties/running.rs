@@ -7,7 +7,7 @@ use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{Assessment, Observe, Response, Scene, respond};
 use rocking::record::Accelerogram;
 
-use crate::drawn::Body;
+use super::drawn::Body;
 
 pub fn interval_s() -> impl Strategy<Value = f64> {
     prop_oneof![Just(0.005), Just(0.01), Just(0.02), 0.002..0.05_f64]

@@ -1,0 +1,25 @@
+//! The gate in one program, so that it is linked once: `cargo test --test
+//! gate house::` runs the house rules alone. Each file stands on its own.
+//! `tests/cases.rs` has a test for each declared case, and `tests/memory.rs`
+//! counts the memory of its whole program.
+
+#[path = "cli.rs"]
+mod cli;
+#[path = "house.rs"]
+mod house;
+#[path = "page.rs"]
+mod page;
+#[path = "properties.rs"]
+mod properties;
+#[path = "readers.rs"]
+mod readers;
+#[path = "records.rs"]
+mod records;
+#[path = "reproducibility.rs"]
+mod reproducibility;
+#[path = "samples.rs"]
+mod samples;
+#[path = "study.rs"]
+mod study;
+#[path = "trials.rs"]
+mod trials;

@@ -30,7 +30,7 @@ const EDGES: &[(&str, &[&str])] = &[
     ("intensity", &["record", "units"]),
     ("number", &[]),
     ("record", &["units"]),
-    ("statistics", &["streams"]),
+    ("statistics", &["number", "streams"]),
     ("streams", &[]),
     ("units", &[]),
 ];

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::Sample;
 use super::bootstrap::{Estimate, estimate};
-use super::lilliefors::fast::Scratch;
+use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
 use crate::streams::{Streams, standard_normal};
@@ -139,11 +139,19 @@ impl NullBand {
                 let drawn = weights * &scores;
                 let mut scratch = Scratch::new(n);
                 let (mut accepted, mut ratios) = (0.0, 0.0);
-                for level in drawn.column_iter() {
-                    scratch.values.copy_from_slice(level.as_slice());
-                    let d = scratch.statistic();
-                    accepted += f64::from(u8::from(d <= critical_value));
-                    ratios += d / critical_value;
+                for first in (0..count).step_by(LANES) {
+                    let used = LANES.min(count - first);
+                    for lane in 0..LANES {
+                        // Lanes beyond the last level repeat it.
+                        let level = first + lane.min(used - 1);
+                        let level = drawn.column(level);
+                        scratch.values.copy_from_slice(level.as_slice());
+                        scratch.put(lane);
+                    }
+                    for d in &scratch.statistics()[..used] {
+                        accepted += f64::from(u8::from(*d <= critical_value));
+                        ratios += d / critical_value;
+                    }
                 }
                 (accepted / count as f64, ratios / count as f64)
             })

@@ -1,67 +1,165 @@
-//! D without sorting, for simulations.
+//! D of several samples at once, for simulations.
 //!
-//! The values F_i fall into n bins of width 1/n; D+ is attained at the last
-//! value of a bin, D- at the first (Gonzalez, Sahni and Franta, ACM TOMS 3
-//! (1977) 60). Phi comes from a table of cubics.
+//! Eight samples lie in lanes and are sorted together by a network of
+//! comparisons (Batcher's odd-even merge; Knuth, TAOCP 3, 5.2.2, algorithm
+//! M), which branches nowhere. Phi comes from a table of cubics. A lane has
+//! the bits that its sample has in any other lane, at every level of
+//! instructions.
 
 use std::sync::LazyLock;
 
+use crate::number::dispatch::{Isa, Kernel};
 use crate::statistics::normal;
 
-/// Working space of one replicate.
+/// Samples at once.
+pub(crate) const LANES: usize = 8;
+
+type Lanes = [f64; LANES];
+
+/// Values of a sample, at most, that a network sorts: a longer sample has
+/// more comparisons in it than a sort of its own.
+const LARGEST_NETWORK: usize = 2048;
+
+/// Working space of [`LANES`] replicates.
 pub(crate) struct Scratch {
     /// The values of a sample, to be filled in.
     pub values: Vec<f64>,
-    bins: Vec<Bin>,
+    /// Row i has the values i of all samples.
+    rows: Vec<Lanes>,
+    /// Comparisons of rows, in order; none for long samples.
+    network: Vec<(u32, u32)>,
 }
-
-#[derive(Clone, Copy)]
-struct Bin {
-    count: f64,
-    first: f64,
-    last: f64,
-}
-
-const EMPTY: Bin = Bin { count: 0.0, first: 2.0, last: -1.0 };
 
 impl Scratch {
     /// Space for samples of n values.
     pub fn new(n: usize) -> Self {
-        Self { values: vec![0.0; n], bins: vec![EMPTY; n] }
+        let network =
+            if n <= LARGEST_NETWORK { network(n) } else { Vec::new() };
+        Self { values: vec![0.0; n], rows: vec![[0.0; LANES]; n], network }
     }
 
-    /// D of the values, in any order.
-    pub fn statistic(&mut self) -> f64 {
-        let count = self.values.len() as f64;
-        let mean = self.values.iter().fold(0.0, |s, x| s + x) / count;
-        let squares =
-            self.values.iter().fold(0.0, |s, x| s + (x - mean) * (x - mean));
-        let scale = 1.0 / (squares / (count - 1.0)).sqrt();
-        self.bins.fill(EMPTY);
-        let last_bin = self.bins.len() - 1;
-        let table = &*PHI;
-        for x in &self.values {
-            let f = table.at((x - mean) * scale);
-            let bin = &mut self.bins[((f * count) as usize).min(last_bin)];
-            bin.count += 1.0;
-            bin.first = if f < bin.first { f } else { bin.first };
-            bin.last = larger(bin.last, f);
+    /// Puts the values into a lane.
+    pub fn put(&mut self, lane: usize) {
+        for (row, value) in self.rows.iter_mut().zip(&self.values) {
+            row[lane] = *value;
         }
-        let step = 1.0 / count;
-        let (mut d, mut below) = (0.0_f64, 0.0);
-        for bin in &self.bins {
-            if bin.count > 0.0 {
-                let before = bin.first - below * step;
-                below += bin.count;
-                let after = below * step - bin.last;
-                d = larger(d, larger(before, after));
+    }
+
+    /// D of the samples in all lanes, whose values may be in any order. What
+    /// was put is lost.
+    pub fn statistics(&mut self) -> Lanes {
+        let [means, scales] = Isa::best().run(Moments(&self.rows));
+        if self.network.is_empty() {
+            for lane in 0..LANES {
+                for (value, row) in self.values.iter_mut().zip(&self.rows) {
+                    *value = row[lane];
+                }
+                self.values.sort_unstable_by(f64::total_cmp);
+                self.put(lane);
             }
         }
-        d
+        let Self { rows, network, .. } = self;
+        Isa::best().run(Distances { rows, network, means, scales })
+    }
+}
+
+/// Comparisons that sort n values, each of a lower and a higher place.
+fn network(n: usize) -> Vec<(u32, u32)> {
+    let mut found = Vec::new();
+    let top = n.next_power_of_two() / 2;
+    let mut p = top;
+    while p > 0 {
+        let (mut q, mut r, mut d) = (top, 0, p);
+        loop {
+            for i in 0..n.saturating_sub(d) {
+                if i & p == r {
+                    found.push((i as u32, (i + d) as u32));
+                }
+            }
+            if q == p {
+                break;
+            }
+            (d, q, r) = (q - p, q / 2, p);
+        }
+        p /= 2;
+    }
+    found
+}
+
+/// Means and one over standard deviations of the samples.
+struct Moments<'a>(&'a [Lanes]);
+
+impl Kernel for Moments<'_> {
+    type Output = [Lanes; 2];
+
+    #[inline(always)]
+    fn run(self) -> [Lanes; 2] {
+        let count = self.0.len() as f64;
+        let (mut means, mut squares) = ([0.0; LANES], [0.0; LANES]);
+        for row in self.0 {
+            for lane in 0..LANES {
+                means[lane] += row[lane];
+            }
+        }
+        for mean in &mut means {
+            *mean /= count;
+        }
+        for row in self.0 {
+            for lane in 0..LANES {
+                let off = row[lane] - means[lane];
+                squares[lane] += off * off;
+            }
+        }
+        let scales = squares.map(|sum| 1.0 / (sum / (count - 1.0)).sqrt());
+        [means, scales]
+    }
+}
+
+/// D of samples with these moments.
+struct Distances<'a> {
+    rows: &'a mut [Lanes],
+    network: &'a [(u32, u32)],
+    means: Lanes,
+    scales: Lanes,
+}
+
+impl Kernel for Distances<'_> {
+    type Output = Lanes;
+
+    #[inline(always)]
+    fn run(self) -> Lanes {
+        let Self { rows, network, means, scales } = self;
+        for &(low, high) in network {
+            let (a, b) = (rows[low as usize], rows[high as usize]);
+            for lane in 0..LANES {
+                let (a, b) = (a[lane], b[lane]);
+                rows[low as usize][lane] = if a < b { a } else { b };
+                rows[high as usize][lane] = if a < b { b } else { a };
+            }
+        }
+        let table = &*PHI;
+        let step = 1.0 / rows.len() as f64;
+        let mut distances = [0.0; LANES];
+        let mut below = 0.0;
+        for row in rows.iter() {
+            let mut z = [0.0; LANES];
+            for lane in 0..LANES {
+                z[lane] = (row[lane] - means[lane]) * scales[lane];
+            }
+            let f = table.at(z);
+            let (before, after) = (below * step, (below + 1.0) * step);
+            below += 1.0;
+            for lane in 0..LANES {
+                let further = larger(f[lane] - before, after - f[lane]);
+                distances[lane] = larger(distances[lane], further);
+            }
+        }
+        distances
     }
 }
 
 /// The larger of two numbers that are not NaN: one instruction.
+#[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
@@ -75,6 +173,10 @@ struct PhiTable {
 const STEPS_PER_UNIT: f64 = 128.0;
 /// Beyond, Phi is 0 or 1 to 6e-16.
 const END: f64 = 8.0;
+/// 2^52.
+const WHOLE: f64 = 4_503_599_627_370_496.0;
+/// Bits of the number of a cell: the last is 2 END `STEPS_PER_UNIT` = 2048.
+const LAST_CELL: usize = 0xfff;
 
 static PHI: LazyLock<PhiTable> = LazyLock::new(|| {
     let steps = (2.0 * END * STEPS_PER_UNIT) as u32;
@@ -86,15 +188,29 @@ static PHI: LazyLock<PhiTable> = LazyLock::new(|| {
 });
 
 impl PhiTable {
-    fn at(&self, z: f64) -> f64 {
-        let position = (z.clamp(-END, END) + END) * STEPS_PER_UNIT;
-        let cell = position as usize;
-        let t = position - cell as f64;
-        let [f0, d0] = self.knots[cell];
-        let [f1, d1] = self.knots[cell + 1];
-        let rise = f1 - f0;
-        let (a, b) = (d0 - rise, rise - d1);
-        f0 + t * (rise + (1.0 - t) * (a * (1.0 - t) + b * t))
+    #[inline(always)]
+    fn at(&self, z: Lanes) -> Lanes {
+        let (mut t, mut cells) = ([0.0; LANES], [0; LANES]);
+        for lane in 0..LANES {
+            let position = (z[lane].clamp(-END, END) + END) * STEPS_PER_UNIT;
+            let cell = position.floor();
+            t[lane] = position - cell;
+            // Whole numbers below 2^52 are the last bits of this sum.
+            cells[lane] = (cell + WHOLE).to_bits() as usize & LAST_CELL;
+        }
+        let (mut from, mut to) = ([[0.0; 2]; LANES], [[0.0; 2]; LANES]);
+        for lane in 0..LANES {
+            from[lane] = self.knots[cells[lane]];
+            to[lane] = self.knots[cells[lane] + 1];
+        }
+        let mut f = [0.0; LANES];
+        for lane in 0..LANES {
+            let ([f0, d0], [f1, d1]) = (from[lane], to[lane]);
+            let (t, rise) = (t[lane], f1 - f0);
+            let (a, b) = (d0 - rise, rise - d1);
+            f[lane] = f0 + t * (rise + (1.0 - t) * (a * (1.0 - t) + b * t));
+        }
+        f
     }
 }
 
@@ -108,26 +224,76 @@ mod tests {
     fn cubics_are_close_to_phi() {
         for k in -90_000..=90_000 {
             let z = f64::from(k) * 1e-4;
-            let error = (PHI.at(z) - normal::cdf(z)).abs();
+            let error = (PHI.at([z; LANES])[3] - normal::cdf(z)).abs();
             assert!(error < 2e-11, "{z}: {error:e}");
         }
     }
 
+    /// By the 0-1 principle: a network that sorts all zeros and ones sorts.
     #[test]
-    fn statistic_without_sorting_is_the_sorted_one() {
-        let streams = Streams::new("test of the bins", 0);
-        for n in [4, 5, 7, 44, 86, 400] {
-            let mut scratch = Scratch::new(n);
-            for index in 0..200 {
-                let mut stream = streams.stream(index);
-                for value in &mut scratch.values {
-                    *value = standard_normal(&mut stream);
+    fn the_network_sorts() {
+        let sorts = |n: usize, ones: u32| {
+            let mut values: Vec<u32> =
+                (0..n).map(|i| (ones >> i) & 1).collect();
+            for (low, high) in network(n) {
+                if values[low as usize] > values[high as usize] {
+                    values.swap(low as usize, high as usize);
                 }
-                let fast = scratch.statistic();
-                let sample = Sample::try_new(&scratch.values).unwrap();
-                let exact = Statistic::try_new(&sample).unwrap().d;
-                assert!((fast - exact).abs() < 4e-11, "n = {n}, {index}");
+            }
+            values.is_sorted()
+        };
+        for n in 1..=13 {
+            assert!((0..1 << n).all(|ones| sorts(n, ones)), "{n}");
+        }
+        // One comparison less, and it does not.
+        assert_eq!(network(4).len(), 5);
+    }
+
+    #[test]
+    fn statistic_in_lanes_is_that_of_the_sample() {
+        let streams = Streams::new("test of the lanes", 0);
+        for n in [4, 5, 7, 44, 86, 400, LARGEST_NETWORK + 1] {
+            let mut scratch = Scratch::new(n);
+            let rounds = if n > 400 { 1 } else { 25 };
+            for round in 0..rounds {
+                let mut exact = Vec::new();
+                for lane in 0..LANES {
+                    let index = (round * LANES + lane) as u64;
+                    let mut stream = streams.stream(index);
+                    for value in &mut scratch.values {
+                        *value = standard_normal(&mut stream);
+                    }
+                    scratch.put(lane);
+                    let sample = Sample::try_new(&scratch.values).unwrap();
+                    exact.push(Statistic::try_new(&sample).unwrap().d);
+                }
+                for (fast, exact) in scratch.statistics().iter().zip(exact) {
+                    assert!((fast - exact).abs() < 4e-11, "{n}, {round}");
+                }
             }
         }
+    }
+
+    /// A sample has the same bits in every lane, beside any others.
+    #[test]
+    fn lanes_do_not_matter() {
+        let streams = Streams::new("test of the lanes", 1);
+        let sample = |index: u64| -> Vec<f64> {
+            let mut stream = streams.stream(index);
+            (0..86).map(|_| standard_normal(&mut stream)).collect()
+        };
+        let of = |first: u64, turn: usize| {
+            let mut scratch = Scratch::new(86);
+            for lane in 0..LANES {
+                scratch.values = sample(first + lane as u64);
+                scratch.put((lane + turn) % LANES);
+            }
+            scratch.statistics()
+        };
+        let (a, b) = (of(0, 0), of(0, 3));
+        for lane in 0..LANES {
+            assert_eq!(a[lane].to_bits(), b[(lane + 3) % LANES].to_bits());
+        }
+        assert_eq!(of(5, 0)[..3], a[5..]);
     }
 }

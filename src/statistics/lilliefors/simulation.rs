@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use statrs::distribution::{Beta, ContinuousCDF as _};
 
-use super::fast::Scratch;
+use super::fast::{LANES, Scratch};
 use super::{LillieforsError, PValue};
 use crate::statistics::normal;
 use crate::streams::{Stream, Streams, standard_normal};
@@ -80,15 +80,23 @@ impl NullDistribution {
             .map(|chunk| {
                 let mut scratch = Scratch::new(n);
                 let first = chunk * CHUNK;
+                let end = (first + CHUNK).min(replicates);
                 let mut counted = 0;
-                let statistics = (first..(first + CHUNK).min(replicates))
-                    .map(|index| {
-                        let mut stream = streams.stream(index);
-                        let count = draw(&mut stream, &mut scratch.values);
-                        counted = u64::saturating_add(counted, count);
-                        scratch.statistic()
-                    })
-                    .collect();
+                let mut statistics = Vec::with_capacity(CHUNK as usize);
+                for group in (first..end).step_by(LANES) {
+                    // Lanes beyond the last replicate repeat another.
+                    let count = LANES.min((end - group) as usize);
+                    for lane in 0..count {
+                        let mut stream = streams.stream(group + lane as u64);
+                        let drawn = draw(&mut stream, &mut scratch.values);
+                        counted = u64::saturating_add(counted, drawn);
+                        scratch.put(lane);
+                    }
+                    for lane in count..LANES {
+                        scratch.put(lane);
+                    }
+                    statistics.extend(&scratch.statistics()[..count]);
+                }
                 (statistics, counted)
             })
             .collect();

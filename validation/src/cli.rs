@@ -193,7 +193,8 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     }
     std::thread::scope(|scope| {
         let (done, waits) = mpsc::channel::<()>();
-        scope.spawn(move || {
+        // Where no thread can be started, nothing is said.
+        let log = std::thread::Builder::new().spawn_scoped(scope, move || {
             while let Err(mpsc::RecvTimeoutError::Timeout) =
                 waits.recv_timeout(LOG_INTERVAL)
             {
@@ -202,7 +203,7 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
             }
         });
         let result = work();
-        drop(done);
+        drop((done, log));
         result
     })
 }

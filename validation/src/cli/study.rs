@@ -111,6 +111,11 @@ enum ArmName {
 /// [`Failure`] for a suite that is refused, an option out of range, or a
 /// folder that cannot be written.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    // All of it: whatever runs in parallel finds these threads.
+    with_threads(args.threads, || in_threads(args))?
+}
+
+fn in_threads(args: &Args) -> Result<(), Failure> {
     let plan = plan(args)?;
     let processing = args.processing.processing()?;
     let options = args.reading.options(STANDARD_GRAVITY_M_S2);
@@ -157,11 +162,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     {
         progress.set_style(style);
     }
-    let study = logged(&progress, || {
-        with_threads(args.threads, || {
-            Study::run(plan, &suites, args.full, &progress)
-        })
-    })??;
+    let study =
+        logged(&progress, || Study::run(plan, &suites, args.full, &progress))?;
     progress.finish_and_clear();
     let files = study.files(proof.as_ref())?;
     let Some(folder) = folder else { return check(&args.out, &files) };

@@ -13,6 +13,7 @@ mod levels;
 
 use std::fmt;
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 
 use thiserror::Error;
 
@@ -277,7 +278,61 @@ pub fn curves(
     analyses: &[Analysis],
     batch: &Batch<'_>,
 ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
-    batch::curves(records, analyses, batch)
+    let cells = || (0..records.len()).map(|_| OnceLock::new()).collect();
+    let all: Vec<Vec<OnceLock<IdaCurve>>> =
+        analyses.iter().map(|_| cells()).collect();
+    for_each_curve(records, analyses, batch, &|a, r, curve| {
+        // Each cell is filled once.
+        let _ = all[a][r].set(curve);
+    })?;
+    let row = |cells: Vec<OnceLock<IdaCurve>>| {
+        cells.into_iter().filter_map(OnceLock::into_inner).collect()
+    };
+    Ok(all.into_iter().map(row).collect())
+}
+
+/// [`curves`], each handed to `sink(a, r, curve)` as soon as it is finished:
+/// memory does not grow with finished curves.
+///
+/// `sink` is called once for each analysis `a` and record `r`, from any
+/// thread and in any order; the curves are the same for any number of
+/// threads.
+///
+/// # Errors
+/// As [`curves`]. `sink` has then had some of the curves.
+///
+/// ```
+/// use std::sync::atomic::{AtomicUsize, Ordering};
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, for_each_curve};
+/// use rocking::record::Accelerogram;
+/// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
+/// let restitution = Restitution::constant(0.92)?;
+/// let analyses = [0.1, 0.12].map(|alpha| {
+///     Analysis::paper(Block::try_new(alpha, 3.0).unwrap(), restitution)
+/// });
+/// let overturned = AtomicUsize::new(0);
+/// for_each_curve(
+///     &[NormalisedRecord::new(&record)],
+///     &analyses,
+///     &Batch::default(),
+///     &|_, _, curve| {
+///         let one = usize::from(curve.overturning.is_some());
+///         overturned.fetch_add(one, Ordering::Relaxed);
+///     },
+/// )?;
+/// assert_eq!(overturned.into_inner(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn for_each_curve(
+    records: &[NormalisedRecord],
+    analyses: &[Analysis],
+    batch: &Batch<'_>,
+    sink: &(dyn Fn(usize, usize, IdaCurve) + Sync),
+) -> Result<(), IdaError> {
+    batch::for_each_curve(records, analyses, batch, sink)
 }
 
 /// Engineering demand parameter at one intensity, whatever happens below it:

@@ -38,7 +38,8 @@ struct Book<'a> {
     /// In the order of their start, the next one last.
     jobs: Vec<Job<'a>>,
     climbs: BTreeMap<usize, Active<'a>>,
-    results: Vec<(usize, Result<IdaCurve, IdaError>)>,
+    /// Finished curves, until the thread that finished them hands them over.
+    finished: Vec<(usize, Result<IdaCurve, IdaError>)>,
 }
 
 /// A curve in the making, and how many of its analyses are being made.
@@ -55,15 +56,33 @@ struct Task<'a> {
     level: Level<'a>,
 }
 
-/// Whoever watches the work, and whether the work was stopped.
+/// Takes finished curves: its analysis, its record, and the curve.
+type Sink<'a> = &'a (dyn Fn(usize, usize, IdaCurve) + Sync);
+
+/// Whoever takes finished curves, and whether the work was stopped.
 struct Watch<'a> {
     batch: &'a Batch<'a>,
+    records: usize,
+    sink: Sink<'a>,
+    /// The first error in the order of the curves.
+    error: Mutex<Option<(usize, IdaError)>>,
     stopped: AtomicBool,
 }
 
 impl Watch<'_> {
-    /// Reports a curve.
-    fn done(&self) {
+    /// Hands a curve over, and reports it.
+    fn done(&self, (index, result): (usize, Result<IdaCurve, IdaError>)) {
+        match result {
+            Ok(curve) => {
+                (self.sink)(index / self.records, index % self.records, curve);
+            }
+            Err(error) => {
+                let mut first = open(&self.error);
+                if first.as_ref().is_none_or(|(before, _)| index < *before) {
+                    *first = Some((index, error));
+                }
+            }
+        }
         if (self.batch.progress)().is_break() {
             self.stopped.store(true, Ordering::Relaxed);
         }
@@ -74,14 +93,21 @@ impl Watch<'_> {
     }
 }
 
-/// See [`crate::ida::curves`]. The lanes are compiled here, once.
-pub(super) fn curves(
+/// See [`crate::ida::for_each_curve`]. The lanes are compiled here, once.
+pub(super) fn for_each_curve(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
     batch: &Batch<'_>,
-) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
+    sink: Sink<'_>,
+) -> Result<(), IdaError> {
     let isa = batch.isa;
-    let watch = Watch { batch, stopped: AtomicBool::new(false) };
+    let watch = Watch {
+        batch,
+        records: records.len(),
+        sink,
+        error: Mutex::new(None),
+        stopped: AtomicBool::new(false),
+    };
     let queues = queues(records, analyses, isa);
     rayon::scope(|scope| {
         for _ in 0..rayon::current_num_threads() {
@@ -95,15 +121,15 @@ pub(super) fn curves(
     if watch.is_stopped() {
         return Err(IdaError::Stopped);
     }
-    let mut flat: Vec<_> = queues
-        .into_iter()
-        .flat_map(|queue| queue.open().results.split_off(0))
-        .collect();
-    flat.sort_by_key(|(index, _)| *index);
-    let mut flat = flat.into_iter().map(|(_, result)| result);
-    (0..analyses.len())
-        .map(|_| flat.by_ref().take(records.len()).collect())
-        .collect()
+    match watch.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some((_, error)) => Err(error),
+        None => Ok(()),
+    }
+}
+
+/// Locks; what a thread that panicked left is whole.
+fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<'a> Queue<'a> {
@@ -116,16 +142,11 @@ impl<'a> Queue<'a> {
         }
         while !watch.is_stopped() {
             // Not within the loop's condition: it would hold the book.
-            let job = self.open().jobs.pop();
+            let job = open(&self.book).jobs.pop();
             let Some(job) = job else { return };
             let result = curve_at(job.record, job.analysis, isa);
-            self.open().results.push((job.index, result));
-            watch.done();
+            watch.done((job.index, result));
         }
-    }
-
-    fn open(&self) -> MutexGuard<'_, Book<'a>> {
-        self.book.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -156,18 +177,10 @@ impl<'a> Book<'a> {
 
     /// The next analysis of whatever curve: of this one, of a new one, or
     /// ahead of those being made.
-    fn take(
-        &mut self,
-        last: Option<usize>,
-        ended: &mut u64,
-    ) -> Option<Task<'a>> {
-        let before = self.results.len();
-        let found = last
-            .and_then(|index| self.next(index, false))
+    fn take(&mut self, last: Option<usize>) -> Option<Task<'a>> {
+        last.and_then(|index| self.next(index, false))
             .or_else(|| self.start())
-            .or_else(|| self.ahead());
-        *ended = (self.results.len() - before) as u64;
-        found
+            .or_else(|| self.ahead())
     }
 
     fn start(&mut self) -> Option<Task<'a>> {
@@ -175,12 +188,12 @@ impl<'a> Book<'a> {
             let climb = match Climb::start(record, analysis) {
                 Ok(climb) => climb,
                 Err(error) => {
-                    self.results.push((index, Err(error)));
+                    self.finished.push((index, Err(error)));
                     continue;
                 }
             };
             if climb.is_done() {
-                self.results.push((index, Ok(climb.finish())));
+                self.finished.push((index, Ok(climb.finish())));
                 continue;
             }
             self.climbs.insert(index, Active { climb, out: 0 });
@@ -208,29 +221,38 @@ impl<'a> Book<'a> {
         &mut self,
         Task { index, aim, .. }: &Task<'_>,
         point: Result<IdaPoint, IdaError>,
-    ) -> bool {
+    ) {
         // Ahead of an overturning that has ended the curve.
-        let Some(active) = self.climbs.get_mut(index) else { return false };
+        let Some(active) = self.climbs.get_mut(index) else { return };
         active.out -= 1;
         match point {
             Ok(point) => active.climb.accept(*aim, point),
-            Err(error) => {
-                self.end(*index, Err(error));
-                return true;
-            }
+            Err(error) => return self.end(*index, Err(error)),
         }
-        if !active.climb.is_done() {
-            return false;
+        if active.climb.is_done()
+            && let Some(active) = self.climbs.remove(index)
+        {
+            self.finished.push((*index, Ok(active.climb.finish())));
         }
-        if let Some(active) = self.climbs.remove(index) {
-            self.results.push((*index, Ok(active.climb.finish())));
-        }
-        true
     }
 
     fn end(&mut self, index: usize, result: Result<IdaCurve, IdaError>) {
         self.climbs.remove(&index);
-        self.results.push((index, result));
+        self.finished.push((index, result));
+    }
+}
+
+impl<'a> Desk<'_, 'a> {
+    /// Works on the book, then hands over the curves that are finished.
+    fn with_book<T>(&self, work: impl FnOnce(&mut Book<'a>) -> T) -> T {
+        let mut book = open(&self.queue.book);
+        let found = work(&mut book);
+        let finished = std::mem::take(&mut book.finished);
+        drop(book);
+        for curve in finished {
+            self.watch.done(curve);
+        }
+        found
     }
 }
 
@@ -241,11 +263,8 @@ impl<'a> pool::Source<'a> for Desk<'_, 'a> {
         if self.watch.is_stopped() {
             return None;
         }
-        let mut ended = 0;
-        let task = self.queue.open().take(self.last, &mut ended);
-        for _ in 0..ended {
-            self.watch.done();
-        }
+        let last = self.last;
+        let task = self.with_book(|book| book.take(last));
         task.map(|task| {
             let (scene, limit) = (task.level.scene, task.level.work_limit);
             (task, scene, limit)
@@ -259,9 +278,7 @@ impl<'a> pool::Source<'a> for Desk<'_, 'a> {
             // Alone, it says where it passes its limit.
             None => task.level.run(Isa::best()),
         };
-        if self.queue.open().settle(&task, point) {
-            self.watch.done();
-        }
+        self.with_book(|book| book.settle(&task, point));
     }
 }
 
@@ -289,8 +306,8 @@ fn queues<'a>(
         .into_iter()
         .map(|(class, mut jobs)| {
             jobs.sort_by(|a, b| a.work.total_cmp(&b.work));
-            let (climbs, results) = (BTreeMap::new(), Vec::new());
-            let book = Mutex::new(Book { jobs, climbs, results });
+            let (climbs, finished) = (BTreeMap::new(), Vec::new());
+            let book = Mutex::new(Book { jobs, climbs, finished });
             Queue { class, book }
         })
         .collect()

@@ -11,6 +11,7 @@ pub mod export;
 pub mod many;
 pub mod measured;
 pub mod rest;
+pub mod scale;
 pub mod singles;
 pub mod throughput;
 
@@ -41,6 +42,9 @@ pub enum SpeedError {
     /// A simulation that cannot be done.
     #[error(transparent)]
     Lilliefors(#[from] LillieforsError),
+    /// A measurement in a process of its own that failed.
+    #[error("measuring in a process of its own: {0}")]
+    Child(String),
     /// Threads that cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadPoolBuildError),

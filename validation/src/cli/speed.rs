@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use rocking::excitation::NormalisedRecord;
 use rocking::integrator::Model;
 use rocking::number::dispatch::Isa;
-use rocking::record::ReadOptions;
+use rocking::record::{Accelerogram, ReadOptions};
 use serde_json::{Value, json};
 
 use super::{Failure, print, print_json, progress};
@@ -19,6 +19,7 @@ use crate::speed::cases::{self, Case};
 use crate::speed::clock::peak_memory_mib;
 use crate::speed::many;
 use crate::speed::measured::{Total, read_answers, text, totals};
+use crate::speed::scale::{self, Axis, growth};
 use crate::speed::singles::{BASE, ORDERS};
 use crate::speed::throughput::{self, Job, Throughput, analyses, on_threads};
 use crate::speed::{export, singles};
@@ -40,6 +41,9 @@ pub struct Args {
     /// The single analyses alone.
     #[arg(long, conflicts_with = "suite")]
     singles: bool,
+    /// How time and memory grow with records, samples and blocks, alone.
+    #[arg(long, conflicts_with_all = ["suite", "singles"])]
+    scale: bool,
     /// Write one row for each method and case.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -57,6 +61,12 @@ pub struct Args {
     /// Judge the answers of other tools beside our own.
     #[arg(long, value_name = "FILE.csv", hide = true)]
     answers: Vec<PathBuf>,
+    /// One size of one axis of `--scale`, as JSON.
+    #[arg(long, value_name = "AXIS", hide = true, requires = "size")]
+    scale_point: Option<Axis>,
+    /// The size of it.
+    #[arg(long, value_name = "N", hide = true)]
+    size: Option<usize>,
     /// JSON for machines.
     #[arg(long)]
     json: bool,
@@ -68,6 +78,13 @@ pub struct Args {
 /// [`Failure`] for a suite or an answer that is refused, or a file that
 /// cannot be written.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    if let (Some(axis), Some(size)) = (args.scale_point, args.size) {
+        let point = scale::point(axis, size, &motions()?)?;
+        return print(&format!("{}\n", serde_json::to_value(point)?));
+    }
+    if args.scale {
+        return scaled(args.json);
+    }
     let cases = cases::all()?;
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
@@ -143,11 +160,78 @@ fn records(args: &Args) -> Result<Vec<NormalisedRecord>, Failure> {
         }
         return Ok(records);
     }
-    Ok(StudySuite::embedded()?
-        .iter()
-        .flat_map(|suite| &suite.motions)
-        .map(|motion| NormalisedRecord::new(&motion.study))
-        .collect())
+    Ok(motions()?.iter().map(NormalisedRecord::new).collect())
+}
+
+/// The embedded motions that the study uses.
+fn motions() -> Result<Vec<Accelerogram>, Failure> {
+    let suites = StudySuite::embedded()?;
+    let motions = suites.into_iter().flat_map(|suite| suite.motions);
+    Ok(motions.map(|motion| motion.study).collect())
+}
+
+/// Measures, and prints, how time and memory grow.
+fn scaled(json: bool) -> Result<(), Failure> {
+    let sizes = Axis::ALL.map(|axis| axis.sizes().len());
+    let bar = progress(sizes.iter().sum::<usize>() as u64);
+    let points = scale::measure(&|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let mut rows = Vec::new();
+    for own in points.chunk_by(|a, b| a.axis == b.axis) {
+        for (k, point) in own.iter().enumerate() {
+            let grown = (k > 1).then(|| growth(&own[0], &own[k - 1], point));
+            rows.push((point, grown));
+        }
+    }
+    if json {
+        return print_json(json!({
+            "isa": Isa::best().name(),
+            "threads": rayon::current_num_threads(),
+            "scale": rows.iter().map(|(point, grown)| json!({
+                "axis": point.axis,
+                "size": point.size,
+                "analyses": point.analyses,
+                "cpu_s": number(point.cpu_s),
+                "peak_memory_mib": optional(point.peak_memory_mib),
+                "time_exponent": optional(grown.map(|g| g.time)),
+                "memory_exponent": optional(grown.and_then(|g| g.memory)),
+            })).collect::<Vec<_>>(),
+        }));
+    }
+    let mut out = format!(
+        "Growth with records (p = 3, alpha = 0.15), samples (15 blocks, whole runs) and \
+         blocks (8 records), {}, {} threads\n\n{:<8} {:>9} {:>9} {:>9} \
+         {:>9} {:>9} {:>9}\n",
+        Isa::best().name(),
+        rayon::current_num_threads(),
+        "axis",
+        "size",
+        "analyses",
+        "CPU s",
+        "peak MiB",
+        "time ~",
+        "memory ~"
+    );
+    let two = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.2}"));
+    for (point, grown) in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "{:<8} {:>9} {:>9} {:>9.3} {:>9} {:>9} {:>9}",
+            point.axis.to_string(),
+            point.size,
+            point.analyses,
+            point.cpu_s,
+            point.peak_memory_mib.map_or(String::new(), |m| format!("{m:.0}")),
+            two(grown.map(|g| g.time)),
+            two(grown.and_then(|g| g.memory)),
+        );
+    }
+    out.push_str(
+        "\n~: exponent between this size and the one before; of memory, \
+         beyond that of size 0\n",
+    );
+    print(&out)
 }
 
 fn machine(

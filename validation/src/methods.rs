@@ -24,6 +24,7 @@ mod velocity_pulse;
 mod wrong;
 
 pub use digits::{DIGITS_HEADER, DigitsError, Reach, Row, digits, digits_csv};
+pub(crate) use references::attainable_float64;
 pub use wrong::{RIGHT_NAIVE, WRONG_MODELS, WrongModel, wrong_model};
 
 use std::collections::BTreeMap;

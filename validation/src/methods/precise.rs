@@ -99,9 +99,9 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let case = references::trajectory(&entry)?;
     let mut errors = Errors::default();
     for criterion in [Criterion::HalfPi, Criterion::Alpha] {
-        let scene = references::scene(&case, criterion)?;
+        let scene = references::scene(case, criterion)?;
         let trace = run(context, &scene)?;
-        put_trajectory(&mut errors, &case, &scene, &trace)?;
+        put_trajectory(&mut errors, case, &scene, &trace)?;
     }
     Ok(errors.answer())
 }

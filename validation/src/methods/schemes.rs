@@ -61,8 +61,8 @@ fn error(
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(&case, Criterion::HalfPi)?;
-        let expected = file.get(&case, "expected")?;
+        let scene = references::scene(case, Criterion::HalfPi)?;
+        let expected = file.get(case, "expected")?;
         let due = file.column(file.list(expected, "impacts")?, "t")?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {
             return Err(MethodError::Input(format!("`{entry}`: no record")));

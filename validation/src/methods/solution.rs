@@ -130,7 +130,7 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(&case, Criterion::Alpha)?;
+        let scene = references::scene(case, Criterion::Alpha)?;
         let scene = context.altered(&scene);
         let work = engine::respond(&scene, &Observe::default())?.work;
         for (name, count) in [

@@ -46,8 +46,10 @@ mod defaults;
 mod load;
 #[cfg(test)]
 mod tests;
+mod wrong;
 
 pub use load::{CaseError, load_all, load_family};
+pub use wrong::WrongModel;
 
 use std::collections::BTreeMap;
 
@@ -286,7 +288,7 @@ pub struct Tolerance {
     pub bounds: BTreeMap<String, Bound>,
     /// Wrong models that must fail the case.
     #[serde(default)]
-    pub reject: Vec<String>,
+    pub reject: Vec<WrongModel>,
     /// Bound, of the same kind, at which the naive integrator with right
     /// rules passes; required where a wrong algorithm is rejected.
     #[serde(default)]
@@ -333,40 +335,38 @@ pub struct Case {
     pub status: Status,
 }
 
+/// Each family with the text of its file.
+macro_rules! families {
+    ($($family:literal),+ $(,)?) => {
+        &[$((
+            $family,
+            include_str!(concat!("../cases/", $family, ".toml")),
+        )),+]
+    };
+}
+
 /// The case files, by family, embedded.
-pub const FAMILIES: &[(&str, &str)] = &[
-    ("block-geometry", include_str!("../cases/block-geometry.toml")),
-    ("calibration", include_str!("../cases/calibration.toml")),
-    ("certificate", include_str!("../cases/certificate.toml")),
-    ("double-double", include_str!("../cases/double-double.toml")),
-    ("estimators", include_str!("../cases/estimators.toml")),
-    ("fates", include_str!("../cases/fates.toml")),
-    (
-        "fragility-transforms",
-        include_str!("../cases/fragility-transforms.toml"),
-    ),
-    ("free-rocking", include_str!("../cases/free-rocking.toml")),
-    ("hard-cases", include_str!("../cases/hard-cases.toml")),
-    ("intensity", include_str!("../cases/intensity.toml")),
-    ("inversion", include_str!("../cases/inversion.toml")),
-    ("invariants", include_str!("../cases/invariants.toml")),
-    ("lilliefors", include_str!("../cases/lilliefors.toml")),
-    ("nist-univariate", include_str!("../cases/nist-univariate.toml")),
-    (
-        "overturning-spectrum",
-        include_str!("../cases/overturning-spectrum.toml"),
-    ),
-    ("pulse-trajectories", include_str!("../cases/pulse-trajectories.toml")),
-    ("rectangular-pulse", include_str!("../cases/rectangular-pulse.toml")),
-    ("sampled-records", include_str!("../cases/sampled-records.toml")),
-    ("similarity-defect", include_str!("../cases/similarity-defect.toml")),
-    (
-        "sine-pulse-similarity",
-        include_str!("../cases/sine-pulse-similarity.toml"),
-    ),
-    (
-        "solution-verification",
-        include_str!("../cases/solution-verification.toml"),
-    ),
-    ("work-counters", include_str!("../cases/work-counters.toml")),
+pub const FAMILIES: &[(&str, &str)] = families![
+    "block-geometry",
+    "calibration",
+    "certificate",
+    "double-double",
+    "estimators",
+    "fates",
+    "fragility-transforms",
+    "free-rocking",
+    "hard-cases",
+    "intensity",
+    "inversion",
+    "invariants",
+    "lilliefors",
+    "nist-univariate",
+    "overturning-spectrum",
+    "pulse-trajectories",
+    "rectangular-pulse",
+    "sampled-records",
+    "similarity-defect",
+    "sine-pulse-similarity",
+    "solution-verification",
+    "work-counters",
 ];

@@ -36,6 +36,7 @@ fn validates_a_good_file_and_refuses_each_flaw() {
         ("relative = 1e-9", "relative = nan"),
         ("relative = 1e-9", "relativ = 1e-9"),
         ("name = \"a\"", "name = \"A b\""),
+        ("because = \"b\"", "because = \"b\"\nreject = [\"no-such\"]"),
         ("name = \"a\"", ""),
         // What every case inherits is not said again.
         ("claim = \"c\"", "claim = \"c\"\ncost = \"quick\""),

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::references::{self, TRAJECTORIES};
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{Criterion, Engine as _, Forcing};
 
@@ -27,7 +28,7 @@ struct Input {
 /// set the impacts anywhere in a step.
 pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
-    let late = context.wrong == Some("order-too-low");
+    let late = context.wrong == Some(WrongModel::OrderTooLow);
     let mut answer = Answer::default();
     for (name, events) in [
         ("step-ends-rotation-kept", Events::StepEndsRotationKept),

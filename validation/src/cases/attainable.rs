@@ -2,7 +2,7 @@
 //! reference trajectory, `attainable_float64` in its file.
 
 use serde::Deserialize;
-use toml::Value;
+use toml::{Table, Value};
 
 use crate::methods::attainable_float64;
 use crate::verdict::snapshot::rounded;
@@ -48,22 +48,28 @@ struct Rule {
     least: f64,
 }
 
-/// The errors of one reference trajectory.
+/// The errors of the reference trajectory that a case names.
 pub(super) struct Attainable {
-    entry: Option<String>,
+    entry: Result<String, String>,
 }
 
 impl Attainable {
-    /// Of the entry that a case names as its input.
-    pub fn of(entry: Option<&str>) -> Self {
-        Self { entry: entry.map(str::to_owned) }
+    /// Of the entry that a case has as its input.
+    pub fn of(case: &Table) -> Self {
+        let entry = case.get("input").and_then(|input| input.get("entry"));
+        let entry = entry.and_then(Value::as_str).map(str::to_owned);
+        let name = case.get("name").and_then(Value::as_str);
+        let lacks = || {
+            let name = name.unwrap_or_default();
+            format!("the input of `{name}` names no `entry` of a reference")
+        };
+        Self { entry: entry.ok_or_else(lacks) }
     }
 
     /// The largest error of some quantities. One that the reference does not
     /// list, because the motion lacks the quantity, counts as 0.
     fn largest(&self, of: &[Quantity]) -> Result<f64, String> {
-        let entry = self.entry.as_deref();
-        let entry = entry.ok_or("the input names no `entry`")?;
+        let entry = self.entry.as_ref().map_err(String::clone)?;
         let errors =
             attainable_float64(entry).map_err(|error| error.to_string())?;
         let found = of.iter().filter_map(|q| errors.get(q.key()));
@@ -85,11 +91,11 @@ impl Attainable {
     ) -> Result<(), String> {
         let path: Vec<&str> = path.iter().map(String::as_str).collect();
         match (&path[..], value) {
-            (["tolerance", "because"], Value::String(text)) => {
-                if text.contains(WORDS) {
-                    let error = self.largest(&Quantity::ALL)?;
-                    *text = text.replace(WORDS, &format!("{error:.0e}"));
-                }
+            (["tolerance", "because"], Value::String(text))
+                if text.contains(WORDS) =>
+            {
+                let error = self.largest(&Quantity::ALL)?;
+                *text = text.replace(WORDS, &format!("{error:.0e}"));
             }
             (["tolerance", "bounds", _], Value::Table(bound)) => {
                 for kind in ["absolute", "relative"] {

@@ -57,9 +57,11 @@ fn of_method(method: &str) -> String {
 impl Defaults {
     /// The defaults of a family.
     pub fn new(id: &str, family: Family) -> Self {
+        let pair = |key: &str, value: Value| (key.to_owned(), value);
+        let status = Table::from_iter([pair("expect", "pass".into())]);
         let all = Table::from_iter([
-            ("cost".to_owned(), Value::from("quick")),
-            ("status".to_owned(), Table::from_iter([pass()]).into()),
+            pair("cost", "quick".into()),
+            pair("status", status.into()),
         ]);
         let method = family.default.get("method").and_then(Value::as_str);
         let method = method.map(str::to_owned);
@@ -84,8 +86,7 @@ impl Defaults {
         let name = format!("case `{}`", named.unwrap_or_default());
         let stated = case.get("method").and_then(Value::as_str);
         let method = stated.or(self.method.as_deref()).map(of_method);
-        let entry = case.get("input").and_then(|input| input.get("entry"));
-        let attainable = Attainable::of(entry.and_then(Value::as_str));
+        let attainable = Attainable::of(&case);
         let mut found = Found::default();
         for (index, layer) in self.layers.iter().enumerate() {
             if index < 2 || Some(&layer.name) == method.as_ref() {
@@ -178,10 +179,6 @@ impl Defaults {
 
 /// Values with the number of the layer that gave each.
 type Found = BTreeMap<Path, (usize, Value)>;
-
-fn pass() -> (String, Value) {
-    ("expect".to_owned(), Value::from("pass"))
-}
 
 fn path(keys: &[&str]) -> Path {
     keys.iter().map(|key| (*key).to_owned()).collect()

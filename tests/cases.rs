@@ -6,8 +6,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use rocking_validation::cases::{Case, Cost, FAMILIES, load_all};
-use rocking_validation::methods::{METHODS, WRONG_MODELS, digits, digits_csv};
+use rocking_validation::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
+use rocking_validation::methods::{METHODS, digits, digits_csv};
 use rocking_validation::verdict::{run_all, run_case, snapshot};
 
 fn main() -> ExitCode {
@@ -55,23 +55,24 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
             }
         }));
     };
-    let used = |get: fn(&Case) -> Vec<String>| -> BTreeSet<String> {
-        cases.iter().flat_map(get).collect()
-    };
-    let methods = used(|case| vec![case.method.clone()]);
+    let methods: BTreeSet<&str> =
+        cases.iter().map(|case| case.method.as_str()).collect();
     add("every-method-has-a-case", {
         let unused =
-            METHODS.iter().filter(|(name, _)| !methods.contains(*name));
+            METHODS.iter().filter(|(name, _)| !methods.contains(name));
         unused.map(|(name, _)| format!("no case uses `{name}`")).collect()
     });
     add("every-case-has-a-method", {
-        let known = |name: &&String| METHODS.iter().all(|(m, _)| m != name);
+        let known = |name: &&&str| METHODS.iter().all(|(m, _)| m != *name);
         methods.iter().filter(known).map(|m| format!("no `{m}`")).collect()
     });
-    let rejected = used(|case| case.tolerance.reject.clone());
+    let rejected: BTreeSet<WrongModel> = cases
+        .iter()
+        .flat_map(|case| case.tolerance.reject.iter().copied())
+        .collect();
     add("every-wrong-model-is-rejected", {
-        let idle = WRONG_MODELS.iter().filter(|m| !rejected.contains(m.name));
-        idle.map(|m| format!("no case rejects `{}`", m.name)).collect()
+        let idle = WrongModel::ALL.iter().filter(|m| !rejected.contains(m));
+        idle.map(|m| format!("no case rejects `{}`", m.name())).collect()
     });
     add("cases-are-found", {
         let families = FAMILIES.iter().map(|(family, _)| family);

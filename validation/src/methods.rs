@@ -1,4 +1,5 @@
-//! Registry of what a case can ask to be computed, and of wrong models.
+//! Registry of what a case can ask to be computed, and how wrong models go
+//! wrong.
 
 mod closed_forms;
 mod convergence;
@@ -24,15 +25,16 @@ mod velocity_pulse;
 mod wrong;
 
 pub use digits::{DIGITS_HEADER, DigitsError, Reach, Row, digits, digits_csv};
-pub use wrong::{RIGHT_NAIVE, WRONG_MODELS, WrongModel, wrong_model};
+pub(crate) use references::attainable_float64;
 
 use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
-use crate::cases::Case;
+use crate::cases::{Case, WrongModel};
 use crate::engine::Core;
+use crate::naive::{Naive, Rules};
 use crate::scene::{Engine, EngineError, Scene};
 
 /// Numbers by name.
@@ -88,10 +90,8 @@ pub struct Context<'a> {
     pub case: &'a Case,
     /// What answers scenes: the core, or a wrong model.
     pub engine: &'a dyn Engine,
-    /// A wrong model that the method itself carries out.
-    pub wrong: Option<&'static str>,
-    /// The wrong model, of whatever kind.
-    pub model: Option<&'static WrongModel>,
+    /// The wrong model; the engine makes the mistake, or the method.
+    pub wrong: Option<WrongModel>,
 }
 
 impl Context<'_> {
@@ -108,8 +108,8 @@ impl Context<'_> {
     #[must_use]
     pub fn altered(&self, scene: &Scene) -> Scene {
         let mut scene = scene.clone();
-        if let Some(model) = self.model {
-            model.alter(&mut scene);
+        if let Some(wrong) = self.wrong {
+            wrong.alter(&mut scene);
         }
         scene
     }
@@ -189,17 +189,28 @@ pub const METHODS: &[(&str, Run)] = &[
 /// [`MethodError`] when no answer can be given.
 pub fn run(
     case: &Case,
-    wrong: Option<&'static WrongModel>,
+    wrong: Option<WrongModel>,
+) -> Result<Answer, MethodError> {
+    let changed = wrong.map(|wrong| wrong.engine(&Core));
+    run_on(case, changed.as_deref().unwrap_or(&Core), wrong)
+}
+
+/// Runs a case's method on the naive integrator with its rules right.
+///
+/// # Errors
+/// [`MethodError`] when no answer can be given.
+pub fn run_naive(case: &Case) -> Result<Answer, MethodError> {
+    run_on(case, &Naive(Rules::default()), None)
+}
+
+fn run_on(
+    case: &Case,
+    engine: &dyn Engine,
+    wrong: Option<WrongModel>,
 ) -> Result<Answer, MethodError> {
     let (_, method) = METHODS
         .iter()
         .find(|(name, _)| *name == case.method)
         .ok_or_else(|| MethodError::Unknown(case.method.clone()))?;
-    let changed = wrong.map(|model| model.engine(&Core));
-    method(&Context {
-        case,
-        engine: changed.as_deref().unwrap_or(&Core),
-        wrong: wrong.filter(|m| m.by_method()).map(|m| m.name),
-        model: wrong,
-    })
+    method(&Context { case, engine, wrong })
 }

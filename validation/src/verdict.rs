@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
 use crate::cases::{Basis, Bound, Case, Kind, Status};
-use crate::methods::{self, MethodError, Quantities, WrongModel};
+use crate::methods::{self, Answer, MethodError, Quantities};
 
 /// Result of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -271,7 +271,7 @@ pub fn run_case(case: &Case) -> Outcome {
         verdict: Verdict::Error,
         messages: Vec::new(),
     };
-    match checks(case, None, None) {
+    match checks(case, methods::run(case, None), None) {
         Err(error) => {
             outcome.messages.push(error);
             return outcome;
@@ -285,11 +285,8 @@ pub fn run_case(case: &Case) -> Outcome {
         outcome.messages.push("rejects no wrong model".to_owned());
     }
     let mut naive_checked = false;
-    for name in &case.tolerance.reject {
-        let Some(wrong) = methods::wrong_model(name) else {
-            outcome.messages.push(format!("unknown wrong model `{name}`"));
-            return outcome;
-        };
+    for wrong in case.tolerance.reject.iter().copied() {
+        let name = wrong.name();
         if wrong.is_naive() && !naive_checked {
             naive_checked = true;
             if let Err(message) = naive_passes(case) {
@@ -297,13 +294,13 @@ pub fn run_case(case: &Case) -> Outcome {
             }
         }
         let floor = case.tolerance.naive.filter(|_| wrong.is_naive());
-        match checks(case, Some(wrong), floor) {
+        match checks(case, methods::run(case, Some(wrong)), floor) {
             Err(error) => {
                 outcome.messages.push(format!("{name}: {error}"));
                 return outcome;
             }
             Ok(checks) => {
-                let rejection = strongest(wrong.name, &checks);
+                let rejection = strongest(name, &checks);
                 if rejection.margin <= 1.0 {
                     outcome
                         .messages
@@ -338,7 +335,7 @@ fn naive_passes(case: &Case) -> Result<(), String> {
                     tolerance of the right one"
             .to_owned());
     };
-    let checks = checks(case, Some(&methods::RIGHT_NAIVE), Some(floor))?;
+    let checks = checks(case, methods::run_naive(case), Some(floor))?;
     let broken = checks.iter().find(|c| !c.holds());
     broken.map_or(Ok(()), |c| {
         Err(format!("naive integrator with right rules: {}", describe(c)))
@@ -347,11 +344,10 @@ fn naive_passes(case: &Case) -> Result<(), String> {
 
 fn checks(
     case: &Case,
-    wrong: Option<&'static WrongModel>,
+    answer: Result<Answer, MethodError>,
     floor: Option<f64>,
 ) -> Result<Vec<Check>, String> {
-    let text = |e: MethodError| e.to_string();
-    let answer = methods::run(case, wrong).map_err(text)?;
+    let answer = answer.map_err(|error| error.to_string())?;
     let mut expected = answer.expected;
     for (name, values) in &case.expect.values {
         if expected.insert(name.clone(), values.to_vec()).is_some() {

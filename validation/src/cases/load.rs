@@ -4,9 +4,12 @@ use std::collections::BTreeSet;
 
 use serde::Deserialize;
 use thiserror::Error;
+use toml::{Table, Value};
 
+use super::defaults::{Defaults, expand};
 use super::{
-    Bound, Case, Cost, Expect, FAMILIES, Family, Source, Status, Tolerance,
+    Bound, Case, Cost, Expect, FAMILIES, Family, Kind, Source, Status,
+    Tolerance,
 };
 
 /// Bytes of a case file, at most.
@@ -21,8 +24,44 @@ pub enum CaseError {
     Form {
         /// The family.
         family: String,
-        /// What the parser says, with line and column.
+        /// What is wrong, with its line or its case.
         message: String,
+    },
+    /// A value equals the one that its case would inherit.
+    #[error(
+        "cases/{family}.toml: {place}: `{key}` repeats the inherited value: \
+         leave it out"
+    )]
+    Repeated {
+        /// The family.
+        family: String,
+        /// The case, or the table of defaults.
+        place: String,
+        /// The key.
+        key: String,
+    },
+    /// No case inherits a default.
+    #[error("cases/{family}.toml: {place}: no case inherits `{key}`")]
+    Idle {
+        /// The family.
+        family: String,
+        /// The table of defaults.
+        place: String,
+        /// The key.
+        key: String,
+    },
+    /// A case does without a bound that it does not inherit.
+    #[error(
+        "cases/{family}.toml: {place}: `tolerance.without` names `{name}`, \
+         of which no bound is inherited"
+    )]
+    Absent {
+        /// The family.
+        family: String,
+        /// The case, or the table of defaults.
+        place: String,
+        /// The quantity.
+        name: String,
     },
     /// No hand writes so many cases, and parsing takes a hundred times the
     /// text's memory.
@@ -80,7 +119,7 @@ pub enum CaseError {
 struct File {
     family: Family,
     #[serde(default)]
-    case: Vec<Entry>,
+    case: Vec<Table>,
 }
 
 #[derive(Deserialize)]
@@ -92,7 +131,7 @@ struct Entry {
     method: String,
     cost: Cost,
     #[serde(default)]
-    input: toml::Table,
+    input: Table,
     expect: Expect,
     tolerance: Tolerance,
     status: Status,
@@ -114,7 +153,9 @@ pub fn load_all() -> Result<Vec<Case>, CaseError> {
 ///
 /// # Errors
 /// [`CaseError`] for unknown keys, missing fields, duplicate or malformed
-/// names, bounds that are negative or not numbers, and files without cases.
+/// names, bounds that are negative or not numbers, files without cases,
+/// values that repeat what they would inherit, and defaults that no case
+/// inherits.
 ///
 /// ```
 /// use rocking_validation::cases::load_family;
@@ -127,37 +168,51 @@ pub fn load_family(family: &str, text: &str) -> Result<Vec<Case>, CaseError> {
         let (family, bytes) = (family.to_owned(), text.len());
         return Err(CaseError::Long { family, bytes });
     }
-    let file: File = toml::from_str(text).map_err(|e| CaseError::Form {
+    let form = |message: String| CaseError::Form {
         family: family.to_owned(),
-        message: e.to_string(),
-    })?;
+        message,
+    };
+    let file: File =
+        toml::from_str(text).map_err(|error| form(error.to_string()))?;
     if file.case.is_empty() {
         return Err(CaseError::Empty { family: family.to_owned() });
     }
+    let kind = file.family.kind;
+    let mut defaults = Defaults::new(family, file.family);
     let mut names = BTreeSet::new();
     let mut cases = Vec::with_capacity(file.case.len());
-    for entry in file.case {
-        let known = |c: char| {
-            c.is_ascii_lowercase() || c.is_ascii_digit() || "-.".contains(c)
-        };
-        if entry.name.is_empty() || !entry.name.chars().all(known) {
-            let (family, name) = (family.to_owned(), entry.name);
-            return Err(CaseError::Name { family, name });
+    for declared in file.case {
+        for case in expand(declared).map_err(form)? {
+            let case = defaults.complete(case)?;
+            let entry = read(case).map_err(form)?;
+            if !names.insert(entry.name.clone()) {
+                let (family, name) = (family.to_owned(), entry.name);
+                return Err(CaseError::Duplicate { family, name });
+            }
+            cases.push(check(family, kind, entry)?);
         }
-        if !names.insert(entry.name.clone()) {
-            let (family, name) = (family.to_owned(), entry.name);
-            return Err(CaseError::Duplicate { family, name });
-        }
-        cases.push(check(family, &file.family, entry)?);
     }
+    defaults.all_used()?;
     Ok(cases)
 }
 
-fn check(
-    family: &str,
-    header: &Family,
-    entry: Entry,
-) -> Result<Case, CaseError> {
+/// A case that has all it inherits.
+fn read(case: Table) -> Result<Entry, String> {
+    let name = case.get("name").and_then(Value::as_str);
+    let place = format!("case `{}`", name.unwrap_or_default());
+    Value::Table(case)
+        .try_into()
+        .map_err(|error: toml::de::Error| format!("{place}: {error}"))
+}
+
+fn check(family: &str, kind: Kind, entry: Entry) -> Result<Case, CaseError> {
+    let known = |c: char| {
+        c.is_ascii_lowercase() || c.is_ascii_digit() || "-.".contains(c)
+    };
+    if entry.name.is_empty() || !entry.name.chars().all(known) {
+        let (family, name) = (family.to_owned(), entry.name);
+        return Err(CaseError::Name { family, name });
+    }
     let id = format!("{family}/{}", entry.name);
     let texts = [
         ("claim", &entry.claim),
@@ -188,7 +243,7 @@ fn check(
     Ok(Case {
         id,
         family: family.to_owned(),
-        kind: header.kind,
+        kind,
         claim: entry.claim,
         source: entry.source,
         method: entry.method,
@@ -198,55 +253,4 @@ fn check(
         tolerance: entry.tolerance,
         status: entry.status,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const GOOD: &str = r#"
-[family]
-title = "t"
-kind = "code-verification"
-[[case]]
-name = "a"
-claim = "c"
-source = { cite = "s", where = "w" }
-method = "m"
-cost = "quick"
-expect = { oracle = "closed-form", origin = "o" }
-status = { expect = "pass" }
-[case.tolerance]
-basis = "identity"
-because = "b"
-bounds = { x = "exact", y = { relative = 1e-9 } }
-"#;
-
-    #[test]
-    fn validates_a_good_file_and_refuses_each_flaw() {
-        assert_eq!(load_family("f", GOOD).unwrap()[0].id, "f/a");
-        let twice =
-            format!("{GOOD}{}", &GOOD[GOOD.find("[[case]]").unwrap()..]);
-        let duplicate = load_family("f", &twice).unwrap_err();
-        assert!(matches!(duplicate, CaseError::Duplicate { .. }));
-        let flaws = [
-            ("cost = \"quick\"", "cost = \"slow\""),
-            ("claim = \"c\"", "claim = \" \""),
-            ("claim = \"c\"", "claim = \"c\"\nextra = 1"),
-            ("relative = 1e-9", "relative = -1.0"),
-            ("relative = 1e-9", "relative = nan"),
-            ("relative = 1e-9", "relativ = 1e-9"),
-            ("name = \"a\"", "name = \"A b\""),
-            ("expect = \"pass\"", "expect = \"known-failure\""),
-        ];
-        for (from, to) in flaws {
-            let text = GOOD.replace(from, to);
-            assert!(load_family("f", &text).is_err(), "{to}");
-        }
-        let none = GOOD.split("[[case]]").next().unwrap();
-        assert!(matches!(
-            load_family("f", none).unwrap_err(),
-            CaseError::Empty { .. }
-        ));
-    }
 }

@@ -104,10 +104,11 @@ fn rejects(case: &Case, result: &Value) -> String {
         .tolerance
         .reject
         .iter()
+        .map(|wrong| wrong.name())
         .map(|name| match result["rejected"][name]["margin"].as_f64() {
             Some(margin) => format!("{name} ({margin:.0e})"),
             // Infinite: a fate, a count or a side.
-            None => name.clone(),
+            None => name.to_owned(),
         })
         .collect();
     texts.join(", ")

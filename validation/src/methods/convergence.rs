@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::closed_forms::extend;
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::engine;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{
@@ -32,9 +33,9 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
     let order = match (input.order, context.wrong) {
         // A series that stops two terms early.
-        (6, Some("order-too-low")) => Order::Four,
-        (8, Some("order-too-low")) => Order::Six,
-        (10, Some("order-too-low")) => Order::Eight,
+        (6, Some(WrongModel::OrderTooLow)) => Order::Four,
+        (8, Some(WrongModel::OrderTooLow)) => Order::Six,
+        (10, Some(WrongModel::OrderTooLow)) => Order::Eight,
         (4, _) => Order::Four,
         (6, _) => Order::Six,
         (8, _) => Order::Eight,
@@ -43,7 +44,8 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
             return Err(MethodError::Input(format!("order {other}")));
         }
     };
-    let crude = input.order == 4 && context.wrong.is_some();
+    let crude =
+        input.order == 4 && context.wrong == Some(WrongModel::OrderTooLow);
     let run = |division: usize, order: Order| {
         let scene = divided(&input, division);
         if crude && division < FINEST {

@@ -141,8 +141,8 @@ fn reference(case: &Case) -> Result<(Scene, WideTrace), MethodError> {
         (Criterion::HalfPi, "t_abs_theta_eq_pi_over_2")
     };
     let file = &TRAJECTORIES;
-    let scene = references::scene(&entry, criterion)?;
-    let expected = file.get(&entry, "expected")?;
+    let scene = references::scene(entry, criterion)?;
+    let expected = file.get(entry, "expected")?;
     let over = !file.get(expected, key)?.is_null();
     let mut impacts = Vec::new();
     for impact in file.list(expected, "impacts")? {

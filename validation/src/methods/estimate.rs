@@ -10,6 +10,7 @@ use serde::Deserialize;
 use super::references::{self, TRAJECTORIES};
 use super::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
+use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};
 use crate::scene::{Criterion, Equation, Forcing, Scene};
 
@@ -50,7 +51,7 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
         }
     };
     let factor = match context.wrong {
-        Some("estimate-hundredth") => 0.01,
+        Some(WrongModel::EstimateHundredth) => 0.01,
         _ => 1.0,
     };
     let all = if input.scenes == 0 {

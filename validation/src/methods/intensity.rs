@@ -8,6 +8,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 
 const EXPECTED: &str = "fixtures/oracles/intensity.csv";
 const EXPECTED_CSV: &str =
@@ -114,11 +115,11 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         }
     }
     let stretch = match context.wrong {
-        Some("period-one-percent-long") => 1.01,
+        Some(WrongModel::PeriodOnePercentLong) => 1.01,
         _ => 1.0,
     };
     let damping = match context.wrong {
-        Some("no-damping") => 0.0,
+        Some(WrongModel::NoDamping) => 0.0,
         _ => 0.05,
     };
     let settings = Settings::try_new(
@@ -132,7 +133,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         Some(motion) => Some(motion.record(Some(&first))?),
         None => None,
     };
-    if context.wrong == Some("velocity-for-acceleration") {
+    if context.wrong == Some(WrongModel::VelocityForAcceleration) {
         first = velocity(&first).unwrap_or(first);
         second = second.as_ref().and_then(velocity);
     }
@@ -142,13 +143,13 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
             let pair = PairMeasures::of(&first, second, &settings)
                 .map_err(refused)?;
             let rotd50 = match context.wrong {
-                Some("geometric-mean-for-rotd50") => {
+                Some(WrongModel::GeometricMeanForRotd50) => {
                     pair.geometric_mean.clone()
                 }
                 _ => pair.rotd50,
             };
             let mean = match context.wrong {
-                Some("rotd50-for-geometric-mean") => rotd50.clone(),
+                Some(WrongModel::Rotd50ForGeometricMean) => rotd50.clone(),
                 _ => pair.geometric_mean,
             };
             let [one, two] = pair.components;
@@ -195,7 +196,7 @@ fn value(
     m: &Measures,
     name: &str,
     period: Option<usize>,
-    wrong: Option<&str>,
+    wrong: Option<WrongModel>,
 ) -> Option<f64> {
     Some(match name {
         "pga_g" => m.pga_g,
@@ -203,7 +204,7 @@ fn value(
         "pgd_m" => m.pgd_m,
         "arias_intensity_m_s" => match wrong {
             // The integral of a^2 over g.
-            Some("arias-without-its-factor") => {
+            Some(WrongModel::AriasWithoutItsFactor) => {
                 m.arias_intensity_m_s * std::f64::consts::FRAC_2_PI
             }
             _ => m.arias_intensity_m_s,

@@ -44,9 +44,9 @@ pub(super) fn trajectories(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(&case, Criterion::HalfPi)?;
+        let scene = references::scene(case, Criterion::HalfPi)?;
         let (alpha, p) = (scene.slenderness_rad, scene.frequency_rad_s);
-        let expected = file.get(&case, "expected")?;
+        let expected = file.get(case, "expected")?;
         for point in file.list(expected, "checkpoints")? {
             let seen = state(context, &scene, file.f64(point, "t")?)?;
             extend(

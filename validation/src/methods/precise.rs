@@ -12,6 +12,7 @@ use super::closed_forms::equation;
 use super::references::{self, LINEAR_PULSES, RECT_PULSE, TRAJECTORIES};
 use super::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
+use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};
 use crate::scene::{Criterion, Forcing, Scene};
 
@@ -80,8 +81,8 @@ impl Errors {
 
 fn run(context: &Context, scene: &Scene) -> Result<WideTrace, MethodError> {
     let arithmetic = match context.wrong {
-        Some("f64-constants") => Arithmetic::RoundedConstants,
-        Some("f64-inputs") => Arithmetic::DoubleDoubleOfRounded,
+        Some(WrongModel::F64Constants) => Arithmetic::RoundedConstants,
+        Some(WrongModel::F64Inputs) => Arithmetic::DoubleDoubleOfRounded,
         _ => Arithmetic::DoubleDouble,
     };
     Ok(WideTrace::run(&context.altered(scene), arithmetic)?)
@@ -99,9 +100,9 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let case = references::trajectory(&entry)?;
     let mut errors = Errors::default();
     for criterion in [Criterion::HalfPi, Criterion::Alpha] {
-        let scene = references::scene(&case, criterion)?;
+        let scene = references::scene(case, criterion)?;
         let trace = run(context, &scene)?;
-        put_trajectory(&mut errors, &case, &scene, &trace)?;
+        put_trajectory(&mut errors, case, &scene, &trace)?;
     }
     Ok(errors.answer())
 }

@@ -1,6 +1,8 @@
 //! High-precision references, embedded; every number is a decimal string
 //! with 36 or 40 digits and is read to the nearest double.
 
+use std::sync::LazyLock;
+
 use rocking::number::double::DoubleDouble;
 use serde_json::Value;
 
@@ -206,16 +208,27 @@ pub(super) fn rectangular_scene(
     })
 }
 
+/// The file of trajectories, read once.
+static READ: LazyLock<Result<Value, MethodError>> =
+    LazyLock::new(|| TRAJECTORIES.read());
+
 /// The trajectory of this name.
-pub(super) fn trajectory(name: &str) -> Result<Value, MethodError> {
-    let file = TRAJECTORIES.read()?;
+pub(super) fn trajectory(name: &str) -> Result<&'static Value, MethodError> {
+    let file = READ.as_ref().map_err(Clone::clone)?;
     let named = |case: &&Value| case["name"] == name;
     TRAJECTORIES
-        .list(&file, "cases")?
+        .list(file, "cases")?
         .iter()
         .find(named)
-        .cloned()
         .ok_or_else(|| TRAJECTORIES.lacks(format!("no case `{name}`")))
+}
+
+/// What a careful double-precision code was off by on the trajectory of this
+/// name.
+pub(crate) fn attainable_float64(
+    name: &str,
+) -> Result<&'static Value, MethodError> {
+    TRAJECTORIES.get(trajectory(name)?, "attainable_float64")
 }
 
 /// The scene of a trajectory.

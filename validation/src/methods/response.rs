@@ -45,8 +45,8 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let Entry { entry } = context.input()?;
     let file = &TRAJECTORIES;
     let case = references::trajectory(&entry)?;
-    let expected = file.get(&case, "expected")?;
-    let scene = references::scene(&case, Criterion::HalfPi)?;
+    let expected = file.get(case, "expected")?;
+    let scene = references::scene(case, Criterion::HalfPi)?;
     let p = scene.frequency_rad_s;
     let trace = context.engine.respond(&scene)?;
     let first = Scene { criterion: Criterion::Alpha, ..scene };

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::references::{self, TRAJECTORIES};
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{Criterion, Engine as _, Forcing};
 
@@ -27,7 +28,7 @@ struct Input {
 /// set the impacts anywhere in a step.
 pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
-    let late = context.wrong == Some("order-too-low");
+    let late = context.wrong == Some(WrongModel::OrderTooLow);
     let mut answer = Answer::default();
     for (name, events) in [
         ("step-ends-rotation-kept", Events::StepEndsRotationKept),
@@ -61,8 +62,8 @@ fn error(
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(&case, Criterion::HalfPi)?;
-        let expected = file.get(&case, "expected")?;
+        let scene = references::scene(case, Criterion::HalfPi)?;
+        let expected = file.get(case, "expected")?;
         let due = file.column(file.list(expected, "impacts")?, "t")?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {
             return Err(MethodError::Input(format!("`{entry}`: no record")));

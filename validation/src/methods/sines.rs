@@ -9,6 +9,7 @@ use super::closed_forms::{
     extend, flip, flip_within, linear_scene, overturns_at_once,
 };
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::oracles::linear::Pulse;
 use crate::oracles::overturning::sine_without_impact;
 use crate::scene::{Criterion, Forcing};
@@ -35,7 +36,7 @@ pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
     for &omega in &input.omega_over_p {
         let classic = semi_infinite(omega);
         let condition = match context.wrong {
-            Some("semi-infinite-sine") => classic,
+            Some(WrongModel::SemiInfiniteSine) => classic,
             _ => sine_without_impact(1, omega),
         };
         let found = flip(condition, |a| {
@@ -74,7 +75,7 @@ pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
         for &omega in &input.omega_over_p {
             let exact = sine_without_impact(half_cycles, omega);
             let due = match context.wrong {
-                Some("semi-infinite-sine") => semi_infinite(omega),
+                Some(WrongModel::SemiInfiniteSine) => semi_infinite(omega),
                 _ => exact,
             };
             let critical = |intervals: u32| {

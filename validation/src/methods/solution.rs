@@ -7,6 +7,7 @@ use serde::Deserialize;
 use super::closed_forms::{equation, extend};
 use super::references;
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::engine;
 use crate::scene::{Criterion, Equation, Forcing, Scene};
 
@@ -29,7 +30,7 @@ struct EnergyInput {
 pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
     let input: EnergyInput = context.input()?;
     let law = match context.wrong {
-        Some("energy-of-the-other-equation") => {
+        Some(WrongModel::EnergyOfTheOtherEquation) => {
             match equation(&input.equation)? {
                 Equation::Nonlinear => Equation::Linearized,
                 Equation::Linearized => Equation::Nonlinear,
@@ -68,7 +69,7 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
             let run = engine::respond(&scene, &observe)?;
             let quiet_s = (on + 1) as f64 * dt_s;
             let eta2 = input.restitution * input.restitution;
-            let eta2 = if context.wrong == Some("eta-once-in-energy") {
+            let eta2 = if context.wrong == Some(WrongModel::EtaOnceInEnergy) {
                 input.restitution
             } else {
                 eta2
@@ -130,7 +131,7 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(&case, Criterion::Alpha)?;
+        let scene = references::scene(case, Criterion::Alpha)?;
         let scene = context.altered(&scene);
         let work = engine::respond(&scene, &Observe::default())?.work;
         for (name, count) in [

@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::references::SPECTRUM;
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::scene::{Criterion, Equation, Forcing, Scene};
 
 #[derive(Deserialize)]
@@ -54,7 +55,7 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
     let edges = table(row, input.eta)?;
     for edge in &edges {
         let mut criterion = edge.criterion;
-        if context.wrong == Some("other-criterion") {
+        if context.wrong == Some(WrongModel::OtherCriterion) {
             criterion = match criterion {
                 Criterion::Alpha => Criterion::HalfPi,
                 Criterion::HalfPi => Criterion::Alpha,
@@ -86,7 +87,8 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
                 Flip::Stands => !over,
             })
         };
-        let (low, high) = if context.wrong == Some("plain-bisection") {
+        let (low, high) = if context.wrong == Some(WrongModel::PlainBisection)
+        {
             (1.0, 3.0 * edges[0].amplitude)
         } else {
             (edge.amplitude * (1.0 - 1e-6), edge.amplitude * (1.0 + 1e-6))

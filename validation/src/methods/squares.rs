@@ -6,6 +6,7 @@ use serde::Deserialize;
 use super::closed_forms::extend;
 use super::points::state;
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 use crate::oracles::square::{SquareWave, State};
 use crate::scene::{Criterion, Equation, Forcing, Scene};
 
@@ -145,10 +146,10 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
         let side = trace.first_side * (1.0 - 2.0 * odd);
         let over = trace.overturned_s.is_some();
         let fate = match context.wrong {
-            Some("energy-whichever-way") if due.passes => end.side,
-            Some("energy-whichever-way") => 0.0,
-            Some("angle-alone") if end.y > alpha => end.side,
-            Some("angle-alone") => 0.0,
+            Some(WrongModel::EnergyWhicheverWay) if due.passes => end.side,
+            Some(WrongModel::EnergyWhicheverWay) => 0.0,
+            Some(WrongModel::AngleAlone) if end.y > alpha => end.side,
+            Some(WrongModel::AngleAlone) => 0.0,
             _ if over => side,
             _ => 0.0,
         };

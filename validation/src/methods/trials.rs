@@ -53,7 +53,7 @@ pub(super) fn certificate(context: &Context) -> Result<Answer, MethodError> {
         MethodError::Input(format!("kind `{found}`: expected one of {names}"))
     })?;
     let found = all(stratum, input.scenes.indices()?)?;
-    let summary = Summary::of(&found, Reading::named(context.wrong));
+    let summary = Summary::of(&found, Reading::of(context.wrong));
     let mut answer = Answer::default();
     for (name, count) in [
         ("wrong-and-clear", summary.wrong_and_clear),

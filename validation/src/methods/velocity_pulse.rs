@@ -8,6 +8,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
 use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
 
 const EXPECTED: &str = "fixtures/oracles/velocity_pulse.csv";
 const EXPECTED_CSV: &str =
@@ -86,7 +87,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
     let (sin, cos) = libm::sincos(input.angle_deg.to_radians());
     let first = input.component(cos, 1.0)?;
     let second = match context.wrong {
-        Some("one-component") => {
+        Some(WrongModel::OneComponent) => {
             Accelerogram::try_new("case", SAMPLES.0, vec![0.0; SAMPLES.1])
                 .map_err(|e| MethodError::Input(e.to_string()))?
         }
@@ -94,7 +95,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
     };
     // PGV enters in cm/s.
     let gravity_m_s2 = match context.wrong {
-        Some("velocity-in-m-s") => 0.01 * STANDARD_GRAVITY_M_S2,
+        Some(WrongModel::VelocityInMS) => 0.01 * STANDARD_GRAVITY_M_S2,
         _ => STANDARD_GRAVITY_M_S2,
     };
     let found = candidates(&first, &second, gravity_m_s2)
@@ -126,7 +127,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
             expected.collect(),
         );
     }
-    let late = context.wrong == Some("late-pulses-kept");
+    let late = context.wrong == Some(WrongModel::LatePulsesKept);
     let chosen = if late {
         found.iter().find(|c| c.indicator > 0.0)
     } else {

@@ -9,6 +9,7 @@ use rocking::number::octuple::Octuple;
 
 use super::Trial;
 use crate::arithmetic::Wide;
+use crate::cases::WrongModel;
 use crate::engine::{Quotient, respond, respond_in};
 use crate::scene::EngineError;
 
@@ -54,14 +55,14 @@ pub enum Reading {
 }
 
 impl Reading {
-    /// The reading of a wrong model's name.
+    /// The reading of a wrong model.
     #[must_use]
-    pub fn named(name: Option<&str>) -> Self {
-        match name {
-            Some("without-branches") => Self::WithoutBranches,
-            Some("margin-infinity") => Self::MarginInfinity,
-            Some("tenth-of-the-error") => Self::TenthOfTheError,
-            Some("hundredth-of-the-error") => Self::HundredthOfTheError,
+    pub fn of(wrong: Option<WrongModel>) -> Self {
+        match wrong {
+            Some(WrongModel::WithoutBranches) => Self::WithoutBranches,
+            Some(WrongModel::MarginInfinity) => Self::MarginInfinity,
+            Some(WrongModel::TenthOfTheError) => Self::TenthOfTheError,
+            Some(WrongModel::HundredthOfTheError) => Self::HundredthOfTheError,
             _ => Self::Whole,
         }
     }

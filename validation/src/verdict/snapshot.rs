@@ -102,7 +102,7 @@ pub fn supported_digits(relative: f64) -> usize {
 }
 
 /// The number with so many significant digits.
-fn rounded(x: f64, digits: usize) -> f64 {
+pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
     if !x.is_finite() {
         return x;
     }

@@ -21,6 +21,7 @@ use serde::Deserialize;
 
 use super::refused;
 use super::truths::Truth;
+use crate::cases::WrongModel;
 use crate::methods::closed_forms::extend;
 use crate::methods::{Answer, Context, MethodError};
 
@@ -65,7 +66,7 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
     let (n, level) = (input.n, input.level);
     let critical = match context.wrong {
         // Of the fully specified distribution, asymptotically.
-        Some("plain-kolmogorov") => {
+        Some(WrongModel::PlainKolmogorov) => {
             (-0.5 * log(0.5 * level) / n as f64).sqrt()
         }
         _ => Table::embedded().critical_value(n, level).map_err(refused)?.0,
@@ -112,11 +113,11 @@ struct CoverageInput {
 pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
     let input: CoverageInput = context.input()?;
     let procedure = match (context.wrong, input.procedure.as_str()) {
-        (Some("notch-for-interval"), "exact-interval") => "notch",
-        (Some("other-interval"), "bootstrap-beta") => "normal-beta",
-        (Some("other-interval"), "accelerated-beta") => "normal-beta",
-        (Some("other-interval"), "notch") => "exact-interval",
-        (Some("other-interval"), _) => "notch",
+        (Some(WrongModel::NotchForInterval), "exact-interval") => "notch",
+        (Some(WrongModel::OtherInterval), "bootstrap-beta") => "normal-beta",
+        (Some(WrongModel::OtherInterval), "accelerated-beta") => "normal-beta",
+        (Some(WrongModel::OtherInterval), "notch") => "exact-interval",
+        (Some(WrongModel::OtherInterval), _) => "notch",
         (_, own) => own,
     };
     let critical = shifted_critical(context, &input)?;
@@ -243,7 +244,7 @@ fn shifted_critical(
     let Truth::Lognormal { dispersion } = input.truth else {
         return Ok(f64::NAN);
     };
-    if context.wrong == Some("known-shift") {
+    if context.wrong == Some(WrongModel::KnownShift) {
         let table = Table::embedded().critical_value(input.n - 1, 0.05);
         return Ok(table.map_err(refused)?.0);
     }
@@ -278,10 +279,10 @@ pub(crate) fn bias(context: &Context) -> Result<Answer, MethodError> {
     let input: BiasInput = context.input()?;
     let quantile_type = QuantileType::default();
     let named = match (context.wrong, input.estimator.as_str()) {
-        (Some("other-divisor"), "mle") => "moment",
-        (Some("other-divisor"), "moment") => "mle",
-        (Some("other-divisor"), "censored") => "trimmed",
-        (Some("other-divisor"), _) => "moment",
+        (Some(WrongModel::OtherDivisor), "mle") => "moment",
+        (Some(WrongModel::OtherDivisor), "moment") => "mle",
+        (Some(WrongModel::OtherDivisor), "censored") => "trimmed",
+        (Some(WrongModel::OtherDivisor), _) => "moment",
         (_, own) => own,
     };
     let method = match named {

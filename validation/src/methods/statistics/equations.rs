@@ -5,6 +5,7 @@ use rocking::fragility::{c_max, eq5, eq6, eq7};
 use serde::Deserialize;
 
 use super::{number, refused, rows};
+use crate::cases::WrongModel;
 use crate::methods::closed_forms::extend;
 use crate::methods::{Answer, Context, MethodError};
 
@@ -31,12 +32,12 @@ pub(crate) fn transforms(context: &Context) -> Result<Answer, MethodError> {
             return Err(MethodError::Reference { file: FILE, what });
         };
         let value = match context.wrong {
-            Some("equation-7-as-printed") => {
+            Some(WrongModel::Equation7AsPrinted) => {
                 let up = median * exp(c * beta) - shift;
                 let down = median * exp(-c * beta) - shift;
                 log(up / down) / (2.0 * c)
             }
-            Some("delta-method") => beta * median / (median - shift),
+            Some(WrongModel::DeltaMethod) => beta * median / (median - shift),
             _ => eq7(median, beta, shift, c).map_err(refused)?,
         };
         extend(&mut answer, "eq7", [value], [expected]);
@@ -52,7 +53,7 @@ pub(crate) fn transforms(context: &Context) -> Result<Answer, MethodError> {
         // Just below its end Eq. 7 is large, at it there is none.
         if end.is_finite() {
             let beyond = match context.wrong {
-                Some("clamped") => Ok(0.0),
+                Some(WrongModel::Clamped) => Ok(0.0),
                 _ => eq7(median, beta, shift, end),
             };
             let refused = f64::from(u8::from(beyond.is_err()));

@@ -13,6 +13,7 @@ use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 use serde::Deserialize;
 
 use super::{number, refused, rows};
+use crate::cases::WrongModel;
 use crate::methods::closed_forms::extend;
 use crate::methods::{Answer, Context, MethodError};
 
@@ -45,7 +46,7 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
     let input: FitInput = context.input()?;
     let sample = ExtendedSample::try_new(&input.sample).map_err(refused)?;
     let quantile_type = match context.wrong {
-        Some("other-quantile-type") => QuantileType::try_new(7),
+        Some(WrongModel::OtherQuantileType) => QuantileType::try_new(7),
         _ => QuantileType::try_new(5),
     }
     .map_err(refused)?;
@@ -59,7 +60,9 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
     if let Some((name, family)) = family {
         for row in rows(RIVALS_CSV, RIVALS, name)? {
             let shift = match context.wrong {
-                Some("half-the-shift") => 0.5 * number(RIVALS, row[1])?,
+                Some(WrongModel::HalfTheShift) => {
+                    0.5 * number(RIVALS, row[1])?
+                }
                 _ => number(RIVALS, row[1])?,
             };
             let fit = rivals::fit(&sample, shift, *family).map_err(refused)?;
@@ -82,14 +85,14 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
         other => Err(MethodError::Input(format!("method {other}"))),
     };
     let swapped = match (context.wrong, input.method.as_str()) {
-        (Some("other-divisor"), "mle") => "moment",
-        (Some("other-divisor"), "moment") => "mle",
-        (Some("other-divisor"), "censored") => "trimmed",
+        (Some(WrongModel::OtherDivisor), "mle") => "moment",
+        (Some(WrongModel::OtherDivisor), "moment") => "mle",
+        (Some(WrongModel::OtherDivisor), "censored") => "trimmed",
         (_, own) => own,
     };
     for row in rows(LOGNORMAL_CSV, LOGNORMAL, &input.method)? {
         let shift = match context.wrong {
-            Some("half-the-shift") => 0.5 * number(LOGNORMAL, row[1])?,
+            Some(WrongModel::HalfTheShift) => 0.5 * number(LOGNORMAL, row[1])?,
             _ => number(LOGNORMAL, row[1])?,
         };
         let fit = fit(&sample, shift, method(swapped)?).map_err(refused)?;
@@ -122,8 +125,8 @@ struct QuantileInput {
 pub(crate) fn quantiles(context: &Context) -> Result<Answer, MethodError> {
     let input: QuantileInput = context.input()?;
     let used = match (context.wrong, input.number) {
-        (Some("other-quantile-type"), 7) => 5,
-        (Some("other-quantile-type"), _) => 7,
+        (Some(WrongModel::OtherQuantileType), 7) => 5,
+        (Some(WrongModel::OtherQuantileType), _) => 7,
         (_, own) => own,
     };
     let quantile_type = QuantileType::try_new(used).map_err(refused)?;
@@ -157,14 +160,14 @@ struct TestInput {
 pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
     let input: TestInput = context.input()?;
     let logs: Vec<f64> = match context.wrong {
-        Some("no-logarithm") => input.sample.clone(),
+        Some(WrongModel::NoLogarithm) => input.sample.clone(),
         _ => input.sample.iter().map(|x| libm::log(*x)).collect(),
     };
     let sample = Sample::try_new(&logs).map_err(refused)?;
     let rows = rows(NORMALITY_CSV, NORMALITY, &input.letter)?;
     let d = Statistic::try_new(&sample).map_err(refused)?;
     let d = match context.wrong {
-        Some("upper-side-only") => d.d_plus.min(d.d_minus),
+        Some(WrongModel::UpperSideOnly) => d.d_plus.min(d.d_minus),
         _ => d.d,
     };
     let a = anderson_darling(&sample).map_err(refused)?;
@@ -197,7 +200,7 @@ pub(crate) fn paired(context: &Context) -> Result<Answer, MethodError> {
     let input: PairedInput = context.input()?;
     let margin = match context.wrong {
         // 1 -+ m instead of 1/(1 + m) to 1 + m.
-        Some("other-margin") => 0.06,
+        Some(WrongModel::OtherMargin) => 0.06,
         _ => 0.05,
     };
     let mean = equivalence(&input.ratios, margin).map_err(refused)?;

@@ -4,6 +4,7 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 use serde::Deserialize;
 
 use super::refused;
+use crate::cases::WrongModel;
 use crate::methods::{Answer, Context, MethodError};
 
 #[derive(Deserialize)]
@@ -20,7 +21,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
     let mut vertices = input.curve.clone();
     let mut overturning = input.overturning;
-    if context.wrong == Some("overturning-as-an-angle")
+    if context.wrong == Some(WrongModel::OverturningAsAnAngle)
         && let Some(im) = overturning.take()
     {
         // pi/2 at alpha = 0.05, interpolated to.
@@ -35,7 +36,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
     for level in input.levels {
         // Strictly above instead of at or above.
         let level = match context.wrong {
-            Some("open-crossings") => level * (1.0 + f64::EPSILON),
+            Some(WrongModel::OpenCrossings) => level * (1.0 + f64::EPSILON),
             _ => level,
         };
         let crossings = curve.crossings(level).map_err(refused)?;
@@ -47,7 +48,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
             ("monotone", InversionRule::Monotone),
         ] {
             let rule = match (context.wrong, rule) {
-                (Some("first-for-median"), InversionRule::Median) => {
+                (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
                     InversionRule::First
                 }
                 _ => rule,

@@ -9,6 +9,7 @@ use rocking::streams::{Streams, standard_normal};
 use serde::Deserialize;
 
 use super::{number, refused, rows};
+use crate::cases::WrongModel;
 use crate::methods::closed_forms::extend;
 use crate::methods::{Answer, Context, MethodError};
 
@@ -40,9 +41,9 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
             let sample = Sample::try_new(&z).map_err(refused)?;
             let s = Statistic::try_new(&sample).map_err(refused)?;
             Ok(match context.wrong {
-                Some("upper-side-only") => s.d_plus,
+                Some(WrongModel::UpperSideOnly) => s.d_plus,
                 // D of scores that are too long by sqrt(n/(n - 1)).
-                Some("other-divisor") => with_divisor_n(&sample),
+                Some(WrongModel::OtherDivisor) => with_divisor_n(&sample),
                 _ => s.d,
             })
         })
@@ -97,7 +98,7 @@ pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
             let s = Sample::try_new(&values).ok();
             let s = s.and_then(|s| Statistic::try_new(&s).ok());
             let d = s.map_or(f64::NAN, |s| match context.wrong {
-                Some("upper-side-only") => s.d_minus.min(s.d_plus),
+                Some(WrongModel::UpperSideOnly) => s.d_minus.min(s.d_plus),
                 _ => s.d,
             });
             best.max(d)
@@ -136,10 +137,10 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
         {
             let (mut ours, own) =
                 table.critical_value(*n, *level).map_err(refused)?;
-            if context.wrong == Some("plain-kolmogorov") {
+            if context.wrong == Some(WrongModel::PlainKolmogorov) {
                 // Asymptotic points of the fully specified distribution.
                 ours = (-0.5 * libm::log(0.5 * level) / *n as f64).sqrt();
-            } else if context.wrong == Some("interpolated-in-n") {
+            } else if context.wrong == Some(WrongModel::InterpolatedInN) {
                 ours = linear_in_n(*n, *level)?;
             }
             let both = (own * own + error * error).sqrt() + input.rounding;
@@ -186,7 +187,7 @@ pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
     for (n, value) in input.n.iter().zip(&input.values) {
         let p = Table::embedded().p_value(*n, *value).map_err(refused)?;
         levels.push(match context.wrong {
-            Some("plain-kolmogorov") => {
+            Some(WrongModel::PlainKolmogorov) => {
                 2.0 * libm::exp(-2.0 * *n as f64 * value * value)
             }
             _ => p.value,
@@ -194,7 +195,7 @@ pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
     }
     for level in [0.1, 0.05, 0.01, 0.001] {
         by_interpolation.push(match context.wrong {
-            Some("plain-kolmogorov") => 0.0,
+            Some(WrongModel::PlainKolmogorov) => 0.0,
             _ => linear_in_n(86, level)?,
         });
     }
@@ -221,7 +222,7 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
         .filter(|n| *n >= input.least_n)
         .collect();
     let terms = match context.wrong {
-        Some("two-terms") => 2,
+        Some(WrongModel::TwoTerms) => 2,
         _ => 3,
     };
     let mut constants = Vec::new();
@@ -272,7 +273,7 @@ struct DrawInput {
 pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
     let input: DrawInput = context.input()?;
     let streams = Streams::new("two ziggurats", 0);
-    let other = u64::from(context.wrong == Some("next-stream"));
+    let other = u64::from(context.wrong == Some(WrongModel::NextStream));
     let (mut ours, mut theirs) = (streams.stream(other), streams.stream(0));
     let mut worst: f64 = 0.0;
     for _ in 0..input.draws {

@@ -4,6 +4,7 @@ use rocking::statistics::Sample;
 use serde::Deserialize;
 
 use super::{number, refused, rows};
+use crate::cases::WrongModel;
 use crate::methods::{Answer, Context, MethodError};
 
 const FILE: &str = "fixtures/nist/univariate.csv";
@@ -31,7 +32,7 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
     let n = values.len() as f64;
     let squares = match context.wrong {
         // One pass, sum x^2 - (sum x)^2/n.
-        Some("sum-of-squares") => {
+        Some(WrongModel::SumOfSquares) => {
             let (sum, square) =
                 values.iter().fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
             square - sum * sum / n
@@ -39,7 +40,7 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
         _ => sample.sum_of_squares(),
     };
     let divisor = match context.wrong {
-        Some("other-divisor") => n,
+        Some(WrongModel::OtherDivisor) => n,
         _ => n - 1.0,
     };
     let mut answer = Answer::default();

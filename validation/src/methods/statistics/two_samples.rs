@@ -5,6 +5,7 @@ use rocking::statistics::two_sample::kolmogorov_smirnov;
 use serde::Deserialize;
 
 use super::refused;
+use crate::cases::WrongModel;
 use crate::methods::{Answer, Context, MethodError};
 
 #[derive(Deserialize)]
@@ -27,7 +28,7 @@ pub(crate) fn two_samples(context: &Context) -> Result<Answer, MethodError> {
         for b in &samples[i + 1..] {
             let found = kolmogorov_smirnov(a, b);
             let p = match context.wrong {
-                Some("one-side-doubled") => {
+                Some(WrongModel::OneSideDoubled) => {
                     // The asymptotic tail of one side, doubled.
                     let (n, m) = (a.len() as f64, b.len() as f64);
                     let d = found.statistic;

@@ -16,10 +16,10 @@ use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use rocking_validation::curves::Execution;
+use rocking_validation::paper::blocks;
 use rocking_validation::speed::cases::{self, Case};
 use rocking_validation::speed::throughput::{analyses, samples_of};
-use rocking_validation::study::grid::blocks;
-use rocking_validation::study::suites::StudySuite;
+use rocking_validation::suites::StudySuite;
 
 static RECORDS: LazyLock<Vec<NormalisedRecord>> = LazyLock::new(|| {
     let suites = StudySuite::embedded().expect("suites");

@@ -325,7 +325,7 @@ fn the_harness_stands_on_the_public_core() {
             problems.push(format!("{path}: reads sources of the core"));
         }
         // Oracles share nothing with the core; their tests may meet it.
-        if path.starts_with("validation/src/oracles")
+        if path.starts_with("validation/src/proof/oracles")
             && !path.ends_with("tests.rs")
             && holds(&tokens, &["rocking", "::"])
         {

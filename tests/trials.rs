@@ -10,11 +10,11 @@ use std::path::Path;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::record::{Processing, ReadOptions};
-use rocking_validation::study::grid::blocks;
-use rocking_validation::study::suites::StudySuite;
-use rocking_validation::trials::{
+use rocking_validation::paper::blocks;
+use rocking_validation::proof::trials::{
     Judgement, Reading, Stratum, Summary, Survey, findings, trial,
 };
+use rocking_validation::suites::StudySuite;
 
 /// Scenes that are looked at where the environment chooses none.
 const DEFAULT: &str = "ordinary:0:8";

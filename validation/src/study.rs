@@ -1,34 +1,22 @@
 //! The whole study: 15 blocks, two suites, three arms of the intensity grid;
 //! figures, their data, and what was found about the paper's claims.
 
-mod adjustment;
+pub mod adjustment;
 pub mod analyses;
-mod answers;
 pub mod capacities;
 pub mod certainty;
 pub mod choice;
 pub mod claims;
-pub mod credibility;
 pub mod distributions;
 pub mod figures;
 pub mod findings;
-pub mod grid;
 pub mod histories;
 pub mod normality;
-pub mod output;
 pub mod overturning;
-pub mod page;
-mod plain;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
-pub mod speed;
-pub mod stale;
 pub mod stripes;
-pub mod suites;
-pub mod whole;
-
-pub use whole::Study;
 
 use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
@@ -42,9 +30,9 @@ use rocking::statistics::paired::PairedError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
-use crate::drawing::DrawError;
-use crate::evidence::EvidenceError;
-use crate::ledger::LedgerError;
+use crate::draw::DrawError;
+use crate::report::evidence::EvidenceError;
+use crate::report::ledger::LedgerError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -102,6 +90,3 @@ pub enum StudyError {
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,
 }
-
-#[cfg(test)]
-mod tests;

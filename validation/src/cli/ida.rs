@@ -31,8 +31,8 @@ use super::{
     with_threads,
 };
 use crate::files::Output;
-use crate::inputs::{files, read_suite};
-use crate::remarks::Remarks;
+use crate::suites::inputs::{files, read_suite};
+use crate::suites::remarks::Remarks;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]

@@ -19,13 +19,13 @@ use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print, print_json};
-use crate::figures::Figure as _;
-use crate::figures::data::{
+use crate::draw::figures::Figure as _;
+use crate::draw::figures::data::{
     Heading, Histories, History, HistoryPanel, Intensity,
 };
 use crate::files::Output;
 use crate::json::{number, optional};
-use crate::remarks::Remarks;
+use crate::suites::remarks::Remarks;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]

@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 use super::{Failure, print, print_json, progress};
 use crate::curves::Execution;
 use crate::files::Output;
-use crate::inputs::read_suite;
 use crate::json::{number, optional};
+use crate::paper::blocks;
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
 use crate::speed::clock::peak_memory_mib;
@@ -22,8 +22,8 @@ use crate::speed::measured::{Total, read_answers, text, totals};
 use crate::speed::singles::{BASE, ORDERS};
 use crate::speed::throughput::{self, Job, Throughput, analyses, on_threads};
 use crate::speed::{export, singles};
-use crate::study::grid::blocks;
-use crate::study::suites::StudySuite;
+use crate::suites::StudySuite;
+use crate::suites::inputs::read_suite;
 
 /// Measures speed and error on this machine: thirty single analyses against
 /// double-double, and the paper's whole analysis of a suite, in lanes and

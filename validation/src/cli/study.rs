@@ -12,13 +12,13 @@ use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
 use super::{Failure, logged, print, with_threads};
-use crate::evidence::{NOT_RUN, Proof};
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
 use crate::files::{Folder, is_interrupted};
+use crate::report::evidence::{NOT_RUN, Proof};
+use crate::report::{Study, output, stale};
 use crate::study::analyses::Plan;
 use crate::study::runs::{RESTITUTION, Setup};
-use crate::study::suites::StudySuite;
-use crate::study::{Study, output, stale};
+use crate::suites::StudySuite;
 
 /// Folder that a study writes to unless told otherwise.
 pub const REPORT: &str = "rocking-report";

@@ -7,9 +7,9 @@ use rocking::ida::{Analysis, curve};
 use rocking::integrator::{Model, Overturning, Scene};
 use rocking::record::Accelerogram;
 
+use crate::paper::blocks;
 use crate::study::StudyError;
-use crate::study::grid::blocks;
-use crate::study::suites::StudySuite;
+use crate::suites::StudySuite;
 
 /// Coefficient of restitution of all of them.
 pub const ETA: f64 = 0.92;

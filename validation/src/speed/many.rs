@@ -11,7 +11,7 @@ use super::throughput::{
     Job, Throughput, analyses, kernel, lilliefors, moved, samples_of,
 };
 use crate::curves::Execution;
-use crate::study::grid::blocks;
+use crate::paper::blocks;
 
 /// Names of both ways of making curves.
 const WAYS: [&str; 2] = ["in lanes", "one by one"];

@@ -6,12 +6,15 @@ use super::StudyError;
 use super::claims;
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
 use super::findings::{ends, rounded, wilson};
-use crate::figures::data::Stripe;
+use crate::draw::figures::data::Stripe;
 
 /// Figure 9, a row a box: usable count with Wilson's 95 % interval, and
 /// median; the same apart by whether the adjusted slenderness is within the
 /// paper's.
-pub(super) fn json(results: &Results) -> Result<Value, StudyError> {
+///
+/// # Errors
+/// [`StudyError`] where a ratio cannot be computed.
+pub fn json(results: &Results) -> Result<Value, StudyError> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {

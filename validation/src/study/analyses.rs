@@ -13,14 +13,14 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::certainty::Certainty;
 use super::choice::{by_rank, common_level};
-use super::grid::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, position,
-};
 use super::histories::{distance, mean_log_ratio};
 use super::runs::Setup;
-use super::suites::{Motion, Source, StudySuite};
 use super::{StudyError, capacities};
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
+use crate::paper::{
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, position,
+};
+use crate::suites::{Motion, Source, StudySuite};
 
 /// Interval at which histories are compared and drawn, in s.
 pub const HISTORY_INTERVAL_S: f64 = 0.01;

@@ -17,9 +17,9 @@ use super::analyses::{Apart, SuiteResults};
 use super::capacities::at;
 use super::figures::{Results, median_of};
 use super::findings::{Claim, Measured, Verdict};
-use super::grid::{FREQUENCIES_RAD_S, position};
 use super::sensitivities::Varied;
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
+use crate::paper::{FREQUENCIES_RAD_S, position};
 
 /// Gravity of the paper's Table 1, in m/s2.
 pub const PAPER_GRAVITY_M_S2: f64 = 9.81;
@@ -144,7 +144,7 @@ struct Cells {
 fn all_one(cells: &[Vec<f64>], margin: f64) -> Cells {
     let medians: Vec<Measured> = cells
         .iter()
-        .filter(|c| c.len() >= super::grid::LEAST_USABLE)
+        .filter(|c| c.len() >= crate::paper::LEAST_USABLE)
         .map(|c| median(c))
         .collect();
     let verdicts: Vec<Verdict> =

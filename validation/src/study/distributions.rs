@@ -3,9 +3,9 @@
 use super::StudyError;
 use super::analyses::SuiteResults;
 use super::capacities::{samples, scaled};
-use super::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
 use super::normality::{accepted_share, along, null_band};
-use crate::figures::data::{Arm, Intensity};
+use crate::draw::figures::data::{Arm, Intensity};
+use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
 use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::lilliefors::Assessment;
 

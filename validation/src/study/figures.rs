@@ -18,7 +18,7 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
 
 /// Everything that the figures are made of.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub struct Results {
 /// A figure and the sentence that says what one sees.
 pub struct Figure {
     /// The drawing and its numbers.
-    pub drawing: Box<dyn crate::figures::Figure + Send + Sync>,
+    pub drawing: Box<dyn crate::draw::figures::Figure + Send + Sync>,
     /// What one sees, in one sentence made from the numbers.
     pub reading: String,
 }

@@ -2,9 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
 use crate::json::extended;
-pub use crate::report::Verdict;
+pub use crate::report::page::Verdict;
 
 /// A measured value, with an interval where there is one.
 #[derive(Clone, Copy, Debug, PartialEq)]

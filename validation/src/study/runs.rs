@@ -13,7 +13,7 @@ use rocking::integrator::{
 use super::StudyError;
 use super::certainty::{Certainty, certainty};
 use crate::curves::Execution;
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
 
 /// The paper's coefficient of restitution, for every block.
 pub const RESTITUTION: f64 = 0.92;

@@ -5,11 +5,11 @@ use rocking::record::Accelerogram;
 
 use super::Listed;
 use crate::cli::Failure;
-use crate::drawing::markup;
-use crate::figures::Figure as _;
-use crate::figures::data::{
+use crate::draw::figures::Figure as _;
+use crate::draw::figures::data::{
     Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
 };
+use crate::draw::markup;
 
 /// Periods of the spectrum: 40 a decade from 0.05 to 10 s.
 const PERIODS: i32 = 92;

@@ -7,10 +7,10 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
 use super::{ArmCurves, Plan, StripeDemands, SuiteResults};
-use crate::study::StudyError;
-use crate::study::grid::{
+use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };
+use crate::study::StudyError;
 use crate::study::stripes::on_stripe;
 
 impl Plan {

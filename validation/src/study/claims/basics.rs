@@ -4,7 +4,7 @@ use rocking::block::Restitution;
 
 use super::{Claim, Context, Measured, PAPER_GRAVITY_M_S2, Results, SAME};
 use super::{StudyError, all_one, varied_ratios};
-use crate::study::grid::blocks;
+use crate::paper::blocks;
 use crate::study::runs::RESTITUTION;
 use crate::study::sensitivities::Choice;
 
@@ -61,7 +61,7 @@ fn table_1() -> Result<Claim, StudyError> {
     {
         for slenderness in 0..widths.len() {
             let block =
-                &blocks[crate::study::grid::position(frequency, slenderness)];
+                &blocks[crate::paper::position(frequency, slenderness)];
             let size = block.dimensions(PAPER_GRAVITY_M_S2)?;
             for off in [
                 size.half_diagonal_m - radius,

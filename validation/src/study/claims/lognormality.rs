@@ -4,12 +4,12 @@ use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Claim, Context, Measured, Results, SAME, StudyError};
 use super::{median, middle};
-use crate::figures::data::{Arm, Intensity};
+use crate::draw::figures::data::{Arm, Intensity};
+use crate::paper::{FREQUENCIES_RAD_S, position};
 use crate::study::analyses::SuiteResults;
 use crate::study::capacities::scaled;
 use crate::study::distributions::{Distributions, factors, least};
 use crate::study::figures::range;
-use crate::study::grid::{FREQUENCIES_RAD_S, position};
 use crate::study::normality::{accepted_share, along};
 
 pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {

@@ -6,13 +6,13 @@ use rocking::statistics::paired::Pairs;
 use super::varied_ratios;
 use super::{Claim, Context, Measured, Results, SAME, StudyError};
 use super::{all_one, away, difference, median, middle, stripes};
-use crate::figures::data::Arm;
+use crate::draw::figures::data::Arm;
+use crate::paper::{
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+};
 use crate::study::analyses::{Apart, SuiteResults};
 use crate::study::capacities::by_rule;
 use crate::study::figures::of_arm;
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
-};
 use crate::study::sensitivities::Choice;
 
 /// Demands at which intensities are compared.

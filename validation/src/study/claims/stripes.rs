@@ -4,11 +4,11 @@ use rocking::statistics::paired::Pairs;
 
 use super::{Cells, Claim, Context, Measured, Results, SAME, StudyError};
 use super::{all_one, away, median};
-use crate::figures::data::Arm;
-use crate::study::figures::{adjusted_split, demand_boxes, of_arm, pairs};
-use crate::study::grid::{
+use crate::draw::figures::data::Arm;
+use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
 };
+use crate::study::figures::{adjusted_split, demand_boxes, of_arm, pairs};
 
 /// Ratios of the stripes with enough of them, from the lowest on.
 fn usable(

@@ -4,15 +4,15 @@ use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
 use super::{Figure, Results, name, percent, range};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     AcceptedShares, Arm, BlockShare, Capacities, CapacityCurve, CapacityPanel,
     Heading, Histogram, Intensity, SharePanel, TestedBlock, TestsAlongDemand,
 };
-use crate::study::StudyError;
-use crate::study::distributions::{BlockSamples, Distributions};
-use crate::study::grid::{
+use crate::paper::{
     FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index, demands, position,
 };
+use crate::study::StudyError;
+use crate::study::distributions::{BlockSamples, Distributions};
 use crate::study::normality::{LEVEL, accepted_share, ends, over_critical};
 
 impl Results {

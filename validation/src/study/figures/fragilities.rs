@@ -5,13 +5,13 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{self, ExtendedSample, QuantileType};
 
 use super::{Figure, Results, name};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
     Fragilities, FragilityPanel, Heading, Intensity, Lognormal, Threshold,
 };
+use crate::paper::demand_index;
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
-use crate::study::grid::demand_index;
 
 /// Demand thresholds of Figures 15 to 17.
 pub(crate) const THRESHOLDS: [f64; 3] = [0.15, 0.35, 1.0];

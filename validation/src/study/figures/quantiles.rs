@@ -5,14 +5,14 @@ use rocking::capacity::ResponseCurve;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Figure, name};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, Heading, Intensity, QuantileGroup, QuantilePanel, Quantiles,
+};
+use crate::paper::{
+    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
-};
 
 /// Most points of a line.
 const MOST_POINTS: usize = 160;

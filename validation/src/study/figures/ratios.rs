@@ -4,16 +4,16 @@ use rocking::statistics::paired::Pairs;
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::{Figure, name, percent, range};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, BoxPanel, Boxplots, Heading, Intensity, NotchedBox, Stripe,
     StripeKind,
 };
-use crate::study::StudyError;
-use crate::study::analyses::{StripeDemands, SuiteResults};
-use crate::study::grid::{
+use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
     position,
 };
+use crate::study::StudyError;
+use crate::study::analyses::{StripeDemands, SuiteResults};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
 pub(super) fn slendernesses(

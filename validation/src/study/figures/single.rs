@@ -1,15 +1,15 @@
 //! Figures 1 to 5: the block, and single records.
 
 use super::{Figure, name};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
     IdaCurves, IdaPanel, Intensity,
 };
+use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::StudyError;
 use crate::study::analyses::{
     Apart, HISTORY_INTERVAL_S, SingleRecords, SuiteResults,
 };
-use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 
 pub(super) fn sketch() -> Figure {
     Figure {

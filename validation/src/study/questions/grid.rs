@@ -11,14 +11,14 @@ use rocking::statistics::{ExtendedSample, Lognormal};
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows, both, capital, percent};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark,
     Scale as AxisScale, Series,
 };
+use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
 use crate::study::figures::{Figure, Results};
-use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::normality::LEVEL;
 
 /// Samples drawn for the grid's own share.

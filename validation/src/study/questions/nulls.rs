@@ -3,15 +3,15 @@
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
 use super::{Answer, Cell, Rows, both, capital};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
 };
+use crate::paper::{demand_index, demands};
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
 use crate::study::claims::median;
 use crate::study::distributions::{BlockSamples, factors};
 use crate::study::figures::{Figure, Results, range};
-use crate::study::grid::{demand_index, demands};
 use crate::study::normality::{LEVEL, over_critical};
 
 /// Demands at which the null is simulated; between them the ratio of the

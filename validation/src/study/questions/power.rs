@@ -10,7 +10,7 @@ use rocking::statistics::normality::{
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
 };
 use crate::study::StudyError;

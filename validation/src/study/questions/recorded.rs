@@ -10,9 +10,9 @@ use rocking::intensity::{Measures, Settings};
 use rocking::record::{Processing, ReadOptions, Suite};
 
 use super::{Answer, Cell, Rows};
-use crate::inputs;
 use crate::study::StudyError;
 use crate::study::figures::Results;
+use crate::suites::inputs;
 
 /// Original files, as the PyPI package `gmprocess` 2.8.0 has them, zipped.
 const RIDGECREST: &[u8] =

@@ -9,8 +9,8 @@ mod row;
 use row::{Group, Row};
 
 use super::{Answer, capital};
-use crate::figures::data::Intensity;
-use crate::report::PlainTable;
+use crate::draw::figures::data::Intensity;
+use crate::report::page::PlainTable;
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::figures::{Results, range};
@@ -318,7 +318,7 @@ fn accepted(rows: &[Row]) -> PlainTable {
 mod tests {
     use super::*;
     use crate::study::analyses::facts;
-    use crate::study::suites::StudySuite;
+    use crate::suites::StudySuite;
     use rocking::statistics::ExtendedSample;
     use rocking::statistics::QuantileType;
 

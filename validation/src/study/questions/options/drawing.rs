@@ -5,7 +5,7 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
 use super::{MLE, Summary, trimmed};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
 };
 use crate::study::figures::Figure;

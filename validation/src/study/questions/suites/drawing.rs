@@ -2,12 +2,12 @@
 
 use super::row::{Group, Row};
 use super::{MOTIONS, of_motion};
-use crate::figures::data::{
+use crate::draw::figures::data::{
     Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
 };
+use crate::paper::FREQUENCIES_RAD_S;
 use crate::study::analyses::SPECTRUM_PERIODS_S;
 use crate::study::figures::Figure;
-use crate::study::grid::FREQUENCIES_RAD_S;
 
 /// Demands at which capacities are drawn.
 const SHOWN: [f64; 2] = [0.15, 1.0];

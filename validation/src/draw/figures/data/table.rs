@@ -1,0 +1,79 @@
+//! CSV text: one header line, long format, stable bytes.
+
+/// Rows under one header line, as CSV.
+///
+/// ```
+/// use rocking_validation::draw::figures::data::{Table, number};
+/// let mut table = Table::new(&["record", "im"]);
+/// table.row([String::from("A, B"), number(1.0 / 3.0)]);
+/// assert_eq!(table.finish(), "record,im\n\"A, B\",0.333333333\n");
+/// ```
+#[derive(Debug, Clone)]
+pub struct Table {
+    text: String,
+}
+
+impl Table {
+    /// A table with its header line.
+    #[must_use]
+    pub fn new(header: &[&str]) -> Self {
+        Self { text: header.join(",") + "\n" }
+    }
+
+    /// Adds a row; a cell with a comma, a quote or a line break is quoted.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        for (i, cell) in cells.into_iter().enumerate() {
+            if i > 0 {
+                self.text.push(',');
+            }
+            if cell.contains([',', '"', '\n', '\r']) {
+                self.text.push('"');
+                self.text.push_str(&cell.replace('"', "\"\""));
+                self.text.push('"');
+            } else {
+                self.text.push_str(&cell);
+            }
+        }
+        self.text.push('\n');
+    }
+
+    /// The CSV text.
+    #[must_use]
+    pub fn finish(self) -> String {
+        self.text
+    }
+}
+
+/// A number as a cell: nine significant digits at most, `inf` or `-inf`,
+/// empty where there is none (NaN).
+#[must_use]
+pub fn number(x: f64) -> String {
+    to_digits(x, 9)
+}
+
+/// The same with five digits: a point of a curve, to less than a hundredth
+/// of a pixel.
+pub(super) fn point(x: f64) -> String {
+    to_digits(x, 5)
+}
+
+fn to_digits(x: f64, digits: usize) -> String {
+    if x.is_nan() {
+        return String::new();
+    }
+    if x.is_infinite() {
+        return String::from(if x > 0.0 { "inf" } else { "-inf" });
+    }
+    let rounded = format!("{x:.0$e}", digits.saturating_sub(1));
+    match rounded.parse::<f64>() {
+        Ok(0.0) => String::from("0"),
+        Ok(y) if (1e-5..1e15).contains(&y.abs()) => y.to_string(),
+        Ok(y) => format!("{y:e}"),
+        Err(_) => rounded,
+    }
+}
+
+/// A number that may be missing, as a cell.
+pub(super) fn optional(x: Option<f64>) -> String {
+    x.map_or_else(String::new, number)
+}

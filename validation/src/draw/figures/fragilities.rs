@@ -1,0 +1,234 @@
+//! Figures 15 to 18: empirical and fitted fragilities.
+
+use super::Figure;
+use super::common;
+use super::data::{
+    ByConstant, Estimator, Fragilities, FragilityPanel, Heading, Intensity,
+    Lognormal,
+};
+use crate::draw::{
+    Axis, Dash, Entry, Grid, Horizontal, Ink, Marker, Panel, Pen, Sample,
+    Scene,
+};
+
+impl Figure for Fragilities {
+    fn heading(&self) -> &Heading {
+        &self.heading
+    }
+
+    fn scene(&self) -> Scene {
+        scene(self)
+    }
+
+    fn csv(&self) -> String {
+        self.csv()
+    }
+}
+
+impl Figure for ByConstant {
+    fn heading(&self) -> &Heading {
+        &self.heading
+    }
+
+    fn scene(&self) -> Scene {
+        by_constant(self)
+    }
+
+    fn csv(&self) -> String {
+        self.csv()
+    }
+}
+
+const SIZE: (f64, f64) = (440.0, 290.0);
+
+fn dash(estimator: Estimator) -> Dash {
+    match estimator {
+        Estimator::Usfl => Dash::Solid,
+        Estimator::Ssfl => Dash::Dashed,
+        Estimator::Usfl7 => Dash::Short,
+    }
+}
+
+pub(super) fn scene(figure: &Fragilities) -> Scene {
+    let thresholds = || figure.panels.iter().flat_map(|p| &p.thresholds);
+    let mut levels: Vec<f64> = thresholds().map(|t| t.edp).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    let mut estimators: Vec<Estimator> =
+        thresholds().flat_map(|t| &t.curves).map(|c| c.estimator).collect();
+    estimators.sort();
+    estimators.dedup();
+    let mut legend: Vec<Entry> = levels
+        .iter()
+        .enumerate()
+        .map(|(k, edp)| {
+            let sample = Sample::Mark(marker(k), ink(k));
+            Entry::new(sample, format!("ECDF, *θ̃* = {edp:.2}"))
+        })
+        .collect();
+    for estimator in &estimators {
+        let pen = Pen::new(Ink::Text, 1.2).dash(dash(*estimator));
+        legend.push(Entry::new(Sample::Line(pen), estimator.name()));
+    }
+    let grid = Grid::new(figure.panels.len(), 2).plot(SIZE.0, SIZE.1);
+    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    for (i, shown) in figure.panels.iter().enumerate() {
+        let samples = shown.thresholds.iter().map(|t| t.sample.as_slice());
+        let mut panel =
+            axes(&mut scene, &grid, i, shown.intensity, end(samples));
+        let missing = draw_panel(&mut panel, shown, &levels);
+        for (k, words) in missing.iter().enumerate() {
+            let down = 0.95 - 0.05 * k as f64;
+            panel.note(words.as_str(), (0.985, down), Horizontal::Right);
+        }
+        let name = match shown.intensity {
+            Intensity::Pga => "dimensionless PGA",
+            Intensity::Pgv => "dimensionless PGV",
+        };
+        panel.finish(&common::panel_title(i, name), "");
+    }
+    scene
+}
+
+fn ink(threshold: usize) -> Ink {
+    Ink::Series([0, 2, 3][threshold % 3])
+}
+
+fn marker(threshold: usize) -> Marker {
+    [Marker::Dot, Marker::Square, Marker::Triangle][threshold % 3]
+}
+
+fn axes<'s>(
+    scene: &'s mut Scene,
+    grid: &Grid,
+    panel: usize,
+    intensity: Intensity,
+    end: f64,
+) -> Panel<'s> {
+    let x = Axis::around(0.0, end, 7).label(intensity.label());
+    let y = Axis::linear(0.0, 1.0, 5).label("probability of exceedance");
+    Panel::new(scene, grid.frame(panel), x, y)
+}
+
+/// End of the intensity axis: where the last of the samples has 97 % of its
+/// data, or its last finite datum.
+fn end<'a>(samples: impl Iterator<Item = &'a [f64]>) -> f64 {
+    let mut end = 1.0_f64;
+    for sample in samples {
+        let mut sorted = sample.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let most = (0.97 * sorted.len() as f64) as usize;
+        let upper = &sorted[..sorted.len().min(most + 1)];
+        let last = upper.iter().rev().find(|x| x.is_finite());
+        end = end.max(last.copied().unwrap_or(1.0));
+    }
+    1.02 * end
+}
+
+/// Draws the curves; gives words for those that do not exist.
+fn draw_panel(
+    panel: &mut Panel<'_>,
+    shown: &FragilityPanel,
+    levels: &[f64],
+) -> Vec<String> {
+    let mut missing = Vec::new();
+    for threshold in &shown.thresholds {
+        let k = levels.iter().position(|l| *l == threshold.edp).unwrap_or(0);
+        draw_sample(panel, &threshold.sample, marker(k), ink(k));
+        for fit in &threshold.curves {
+            match &fit.curve {
+                Some(curve) => {
+                    let pen = Pen::new(ink(k), 1.2).dash(dash(fit.estimator));
+                    draw_curve(panel, curve, pen);
+                }
+                None => missing.push(format!(
+                    "{} is not defined at *θ̃* = {:.2}",
+                    fit.estimator.name(),
+                    threshold.edp
+                )),
+            }
+        }
+    }
+    missing
+}
+
+/// Dots of the ECDF.
+fn draw_sample(
+    panel: &mut Panel<'_>,
+    sample: &[f64],
+    marker: Marker,
+    ink: Ink,
+) {
+    let mut sorted = sample.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let n = sorted.len() as f64;
+    let dots =
+        sorted.iter().enumerate().map(|(i, x)| (*x, (i + 1) as f64 / n));
+    panel.marks(dots, marker, 1.7, ink);
+}
+
+fn draw_curve(panel: &mut Panel<'_>, curve: &Lognormal, pen: Pen) {
+    let (low, high) = panel.horizontal_range();
+    let step = (high - low) / 300.0;
+    let at = |i| step.mul_add(f64::from(i), low);
+    let points = (0..=300).map(|i| (at(i), curve.probability(at(i))));
+    panel.line(points, pen);
+}
+
+pub(super) fn by_constant(figure: &ByConstant) -> Scene {
+    let mut constants: Vec<f64> =
+        figure.panels.iter().flat_map(|p| &p.curves).map(|c| c.c).collect();
+    constants.sort_by(f64::total_cmp);
+    constants.dedup();
+    let pen = |k: usize| {
+        let dashes = [Dash::Dotted, Dash::Dashed, Dash::DashDot, Dash::Long];
+        Pen::new(Ink::Series(k), 1.3).dash(dashes[k % 4])
+    };
+    let benchmark = Pen::new(Ink::Text, 1.3);
+    let mut legend = Vec::new();
+    if figure.panels.iter().any(|p| !p.sample.is_empty()) {
+        let dots = Sample::Mark(Marker::Dot, Ink::Muted);
+        legend.push(Entry::new(dots, "ECDF"));
+    }
+    legend.push(Entry::new(Sample::Line(benchmark), "SSFL"));
+    for (k, c) in constants.iter().enumerate() {
+        let words = format!("USFL7, *c* = {c}");
+        legend.push(Entry::new(Sample::Line(pen(k)), words));
+    }
+    let grid = Grid::new(figure.panels.len(), 2).plot(SIZE.0, SIZE.1);
+    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    let reach =
+        figure.panels.iter().flat_map(|p| p.benchmark.as_ref()).map(|f| {
+            f.shift + libm::exp(2.0_f64.mul_add(f.dispersion, f.ln_median))
+        });
+    let samples = figure.panels.iter().map(|p| p.sample.as_slice());
+    let high = common::span(reach, true).map_or(1.0, |(_, high)| high);
+    let end = end(samples).max(high);
+    for (i, shown) in figure.panels.iter().enumerate() {
+        let mut panel = axes(&mut scene, &grid, i, figure.intensity, end);
+        draw_sample(&mut panel, &shown.sample, Marker::Dot, Ink::Muted);
+        if let Some(curve) = &shown.benchmark {
+            draw_curve(&mut panel, curve, benchmark);
+        }
+        let mut missing = Vec::new();
+        for fit in &shown.curves {
+            let k = constants.iter().position(|c| *c == fit.c).unwrap_or(0);
+            match &fit.curve {
+                Some(curve) => draw_curve(&mut panel, curve, pen(k)),
+                None => missing.push(fit.c.to_string()),
+            }
+        }
+        if !missing.is_empty() {
+            let words =
+                format!("not defined for *c* = {}", missing.join(", "));
+            panel.note(words, (0.985, 0.95), Horizontal::Right);
+        }
+        let title = format!(
+            "{}, *θ̃* = {:.2}",
+            common::words(&shown.title),
+            figure.edp
+        );
+        panel.finish(&common::panel_title(i, &title), "");
+    }
+    scene
+}

@@ -1,0 +1,86 @@
+//! What the report shows of the proof: the declared cases with their
+//! results, the digits that each precision reaches, and figures of closed
+//! forms.
+
+mod defect;
+mod families;
+mod proof;
+mod spectrum;
+
+pub use families::families;
+pub use proof::{NOT_RUN, Proof, ProofError};
+
+use super::page::Family;
+use crate::draw::figures::data::Chart;
+use crate::proof::cases::{CaseError, load_all};
+use crate::proof::scene::EngineError;
+
+/// Why there is nothing to show.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvidenceError {
+    /// The cases cannot be read.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A scene of a figure cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}
+
+/// A chart and the sentence that says what one sees.
+pub struct ShownChart {
+    /// Its number in the report.
+    pub number: String,
+    /// The drawing and its numbers.
+    pub chart: Chart,
+    /// What one sees, made from the numbers.
+    pub reading: String,
+}
+
+/// Declared cases with their results, family by family.
+///
+/// # Errors
+/// [`EvidenceError`] where the cases cannot be read.
+pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
+    Ok(families(&load_all()?, proof.results()))
+}
+
+/// The figures of the proof.
+///
+/// # Errors
+/// [`EvidenceError::Engine`] where a scene is refused.
+pub fn charts() -> Result<Vec<ShownChart>, EvidenceError> {
+    Ok(vec![defect::chart()?, spectrum::chart()?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::figures::Figure as _;
+    use crate::proof::cases::Cost;
+
+    #[test]
+    fn charts_have_something_in_every_series() {
+        for shown in charts().unwrap() {
+            assert!(shown.chart.svg().unwrap().starts_with("<svg"));
+            assert!(!shown.reading.contains("NaN"), "{}", shown.reading);
+            for series in shown.chart.panels.iter().flat_map(|p| &p.series) {
+                let drawn = series.y.iter().filter(|y| y.is_finite()).count();
+                assert!(drawn >= 2, "{}: {drawn}", series.label);
+            }
+        }
+    }
+
+    #[test]
+    fn every_quick_case_is_shown_with_its_result() {
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        let proof = Proof::read(data.as_ref()).unwrap();
+        let families = shown(&proof).unwrap();
+        let cases: usize = families.iter().map(|f| f.cases.len()).sum();
+        let all = load_all().unwrap();
+        let quick = all.iter().filter(|c| c.cost == Cost::Quick).count();
+        assert_eq!(cases, quick);
+        let shown = families.iter().flat_map(|f| &f.cases);
+        assert!(shown.into_iter().all(|c| c.error != "no result"));
+    }
+}

@@ -15,9 +15,12 @@ mod source;
 
 use source::{holds, named_modules, tokens};
 
-/// Which top-level module of the core may name which: the data flow. Tests
-/// inside a module count as the module.
-const EDGES: &[(&str, &[&str])] = &[
+/// Which top-level module may name which: the data flow. Tests inside a module
+/// count as the module.
+type Edges = &'static [(&'static str, &'static [&'static str])];
+
+/// The modules of the core.
+const CORE: Edges = &[
     ("block", &[]),
     ("capacity", &["statistics"]),
     ("excitation", &["number", "record"]),
@@ -34,6 +37,39 @@ const EDGES: &[(&str, &[&str])] = &[
     ("streams", &[]),
     ("units", &[]),
 ];
+
+/// The stages of the harness, the last one first.
+const HARNESS: Edges = &[
+    (
+        "cli",
+        &[
+            "curves", "diff", "draw", "files", "json", "paper", "proof",
+            "report", "speed", "study", "suites",
+        ],
+    ),
+    (
+        "report",
+        &[
+            "curves", "diff", "draw", "paper", "proof", "speed", "study",
+            "suites", "table", "words",
+        ],
+    ),
+    ("diff", &["files", "json", "paper", "proof", "speed"]),
+    ("speed", &["curves", "files", "paper", "suites"]),
+    ("study", &["curves", "draw", "json", "paper", "suites", "table"]),
+    ("draw", &["paper", "table"]),
+    ("proof", &["json", "suites"]),
+    ("suites", &[]),
+    ("paper", &[]),
+    ("curves", &[]),
+    ("table", &[]),
+    ("words", &[]),
+    ("files", &[]),
+    ("json", &[]),
+];
+
+/// Each source folder with its table.
+const TREES: [(&str, Edges); 2] = [("src", CORE), ("validation/src", HARNESS)];
 
 /// Dependencies of the core. Whoever uses the core gets all of them.
 const CORE_DEPENDENCIES: &[&str] =
@@ -101,20 +137,22 @@ fn pass(problems: &[String]) {
     assert!(problems.is_empty(), "\n{}\n", problems.join("\n"));
 }
 
-/// Modules that a file of the core lies in, without `lib`.
-fn modules_of(path: &str) -> Vec<&str> {
-    let inner = path.trim_start_matches("src/").trim_end_matches(".rs");
-    inner.split('/').filter(|name| *name != "lib").collect()
+/// Modules that a file below `folder` lies in, without `lib` and `main`.
+fn modules_of<'a>(path: &'a str, folder: &str) -> Vec<&'a str> {
+    let inner = path.strip_prefix(folder).unwrap_or(path);
+    let inner = inner.trim_start_matches('/').trim_end_matches(".rs");
+    let root = |name: &&str| ["lib", "main"].contains(name);
+    inner.split('/').filter(|name| !root(name)).collect()
 }
 
-#[test]
-fn modules_of_the_core_name_only_those_before_them() {
-    let allowed: BTreeMap<&str, &[&str]> = EDGES.iter().copied().collect();
+/// Where the sources below `folder` and their table disagree.
+fn departures(folder: &str, edges: Edges) -> Vec<String> {
+    let allowed: BTreeMap<&str, &[&str]> = edges.iter().copied().collect();
     let mut problems = Vec::new();
     let mut found: BTreeSet<(String, String)> = BTreeSet::new();
     let mut modules: BTreeSet<String> = BTreeSet::new();
-    for path in sources(&["src"]) {
-        let place = modules_of(&path);
+    for path in sources(&[folder]) {
+        let place = modules_of(&path, folder);
         let Some(&module) = place.first() else { continue };
         modules.insert(module.to_owned());
         for name in named_modules(&tokens(&read(&path)), place.len()) {
@@ -131,29 +169,45 @@ fn modules_of_the_core_name_only_those_before_them() {
         }
     }
     let listed: BTreeSet<String> =
-        EDGES.iter().map(|(module, _)| (*module).to_owned()).collect();
+        edges.iter().map(|(module, _)| (*module).to_owned()).collect();
     for module in modules.symmetric_difference(&listed) {
-        problems.push(format!("module {module}: in the core or the table"));
+        problems.push(format!("{folder}, {module}: a module, or a row alone"));
     }
-    for (module, names) in EDGES {
+    for (module, names) in edges {
         for name in *names {
             if !found.contains(&((*module).to_owned(), (*name).to_owned())) {
                 problems.push(format!("{module} -> {name} is not used"));
             }
         }
     }
-    pass(&problems);
+    problems
+}
+
+/// Modules that lead to each other in a circle; none where there is none.
+fn circle(edges: Edges) -> Vec<&'static str> {
+    let mut left: Vec<_> = edges.to_vec();
+    loop {
+        let names: Vec<&str> = left.iter().map(|(name, _)| *name).collect();
+        left.retain(|(_, uses)| uses.iter().any(|u| names.contains(u)));
+        if left.len() == names.len() {
+            return names;
+        }
+    }
 }
 
 #[test]
-fn allowed_edges_have_no_cycle() {
-    let mut left: Vec<_> = EDGES.to_vec();
-    while !left.is_empty() {
-        let before = left.len();
-        let names: Vec<&str> = left.iter().map(|(name, _)| *name).collect();
-        left.retain(|(_, uses)| uses.iter().any(|u| names.contains(u)));
-        assert!(left.len() < before, "a cycle among {names:?}");
+fn modules_name_only_those_that_their_table_allows() {
+    let found = TREES.iter().map(|(folder, edges)| departures(folder, edges));
+    pass(&found.flatten().collect::<Vec<_>>());
+}
+
+#[test]
+fn modules_lead_to_each_other_in_no_circle() {
+    for (folder, edges) in TREES {
+        assert!(circle(edges).is_empty(), "{folder}: {:?}", circle(edges));
     }
+    let turning: Edges = &[("a", &["b"]), ("b", &["c"]), ("c", &["b"])];
+    assert_eq!(circle(turning), ["a", "b", "c"]);
 }
 
 #[derive(Deserialize)]

@@ -17,3 +17,5 @@ pub mod report;
 pub mod speed;
 pub mod study;
 pub mod suites;
+pub mod table;
+pub mod words;

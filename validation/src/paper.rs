@@ -1,12 +1,20 @@
-//! What the study looks at: blocks, stripes, demand levels.
+//! What the paper fixes: blocks, gravity, restitution, stripes, demand
+//! levels, arms of the grid, intensity measures, and the verdicts on its
+//! claims.
 
-use rocking::block::{Block, BlockError};
+use rocking::block::Block;
 
 /// Frequency parameters of the paper's blocks, in rad/s.
 pub const FREQUENCIES_RAD_S: [f64; 3] = [1.0, 3.0, 4.0];
 
 /// Slenderness angles of the paper's blocks, in rad.
 pub const SLENDERNESSES_RAD: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
+
+/// The paper's coefficient of restitution, for every block.
+pub const RESTITUTION: f64 = 0.92;
+
+/// Gravity of the paper's Table 1, in m/s2.
+pub const GRAVITY_M_S2: f64 = 9.81;
 
 /// Position of the reference slenderness, 0.10 rad.
 pub const REFERENCE: usize = 1;
@@ -22,14 +30,24 @@ pub const STRIPES: [f64; 16] = [
 pub const LEAST_USABLE: usize = 10;
 
 /// The 15 blocks, by frequency parameter, then by slenderness.
-///
-/// # Errors
-/// None in practice: all angles and frequencies are in range.
-pub fn blocks() -> Result<Vec<Block>, BlockError> {
-    FREQUENCIES_RAD_S
-        .iter()
-        .flat_map(|p| SLENDERNESSES_RAD.iter().map(|a| Block::try_new(*a, *p)))
-        .collect()
+pub const BLOCKS: [Block; 15] = {
+    let mut blocks = [block(0, 0); 15];
+    let mut at = 0;
+    while at < blocks.len() {
+        let slendernesses = SLENDERNESSES_RAD.len();
+        blocks[at] = block(at / slendernesses, at % slendernesses);
+        at += 1;
+    }
+    blocks
+};
+
+/// A block by the positions of its frequency parameter and slenderness.
+const fn block(frequency: usize, slenderness: usize) -> Block {
+    let alpha_rad = SLENDERNESSES_RAD[slenderness];
+    match Block::try_new(alpha_rad, FREQUENCIES_RAD_S[frequency]) {
+        Ok(block) => block,
+        Err(_) => panic!("a block of the paper out of range"),
+    }
 }
 
 /// Position of a block among the 15.
@@ -51,6 +69,86 @@ pub fn demand_index(demand: f64) -> usize {
     ((demand * 200.0).round() as usize).saturating_sub(1)
 }
 
+/// Arm of the intensity grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Arm {
+    /// The paper's 0.01 g steps, not refined.
+    A,
+    /// The paper's steps, first overturning bracket bisected.
+    B,
+    /// The same dimensionless steps for every slenderness, bisected.
+    C,
+}
+
+impl Arm {
+    /// The letter.
+    #[must_use]
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+        }
+    }
+
+    /// The letter and what it stands for.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::A => "A: steps of 0.01 g",
+            Self::B => "B: steps of 0.01 g, first overturning bisected",
+            Self::C => "C: steps of 0.02 in intensity, bisected",
+        }
+    }
+}
+
+/// Dimensionless intensity measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Intensity {
+    /// PGA/(g tan alpha).
+    Pga,
+    /// p PGV/(g tan alpha).
+    Pgv,
+}
+
+impl Intensity {
+    /// Plain name for tables: `pga` or `pgv`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pga => "pga",
+            Self::Pgv => "pgv",
+        }
+    }
+}
+
+/// What a measure says about a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The whole interval lies where the claim says.
+    Confirmed,
+    /// The whole interval lies where the claim does not.
+    NotConfirmed,
+    /// The interval lies on both sides, or there are no data.
+    Inconclusive,
+}
+
+impl Verdict {
+    /// All of them, in the order of a count.
+    pub const ALL: [Self; 3] =
+        [Self::Confirmed, Self::NotConfirmed, Self::Inconclusive];
+
+    /// The words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Confirmed => "confirmed",
+            Self::NotConfirmed => "not confirmed",
+            Self::Inconclusive => "inconclusive",
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,9 +164,7 @@ mod tests {
 
     #[test]
     fn blocks_are_ordered_by_frequency_then_slenderness() {
-        let blocks = blocks().expect("blocks");
-        assert_eq!(blocks.len(), 15);
-        let at = &blocks[position(2, REFERENCE)];
+        let at = &BLOCKS[position(2, REFERENCE)];
         assert_eq!(at.frequency_rad_s(), 4.0);
         assert_eq!(at.slenderness_rad(), 0.10);
     }

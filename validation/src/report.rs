@@ -10,9 +10,34 @@ pub mod page;
 mod plain;
 pub mod stale;
 pub mod timings;
-pub mod whole;
 
-pub use whole::Study;
+use rocking::block::BlockError;
+use thiserror::Error;
+
+use crate::draw::DrawError;
+use evidence::EvidenceError;
+use ledger::LedgerError;
+
+/// Why a report could not be made.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// A block outside the model's range.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// Evidence that cannot be shown.
+    #[error(transparent)]
+    Evidence(#[from] EvidenceError),
+    /// Requirements that cannot be read.
+    #[error(transparent)]
+    Ledger(#[from] LedgerError),
+    /// A drawing that grew too large.
+    #[error(transparent)]
+    Draw(#[from] DrawError),
+    /// A table of timings that cannot be read.
+    #[error("timings: {0}")]
+    Timings(#[from] csv::Error),
+}
 
 #[cfg(test)]
 mod tests;

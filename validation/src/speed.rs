@@ -22,6 +22,8 @@ use rocking::record::AccelerogramError;
 use rocking::statistics::lilliefors::LillieforsError;
 use thiserror::Error;
 
+use crate::suites::StudySuiteError;
+
 /// Why something could not be measured.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -41,6 +43,9 @@ pub enum SpeedError {
     /// A simulation that cannot be done.
     #[error(transparent)]
     Lilliefors(#[from] LillieforsError),
+    /// A suite that cannot be made.
+    #[error(transparent)]
+    Suite(#[from] StudySuiteError),
     /// Threads that cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadPoolBuildError),

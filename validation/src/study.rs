@@ -1,7 +1,6 @@
 //! The whole study: 15 blocks, two suites, three arms of the intensity grid;
 //! figures, their data, and what was found about the paper's claims.
 
-pub mod adjustment;
 pub mod analyses;
 pub mod capacities;
 pub mod certainty;
@@ -12,27 +11,30 @@ pub mod figures;
 pub mod findings;
 pub mod histories;
 pub mod normality;
-pub mod overturning;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
 pub mod stripes;
 
+use indicatif::ProgressBar;
 use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
 use rocking::ida::IdaError;
 use rocking::integrator::SceneError;
 use rocking::intensity::IntensityError;
-use rocking::record::{AccelerogramError, ProcessingError, SuiteError};
 use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
 use rocking::statistics::paired::PairedError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
-use crate::draw::DrawError;
-use crate::report::evidence::EvidenceError;
-use crate::report::ledger::LedgerError;
+use crate::suites::{StudySuite, StudySuiteError};
+use analyses::Plan;
+use claims::Claim;
+use distributions::of_suite;
+use figures::{Figure, Results};
+use findings::Findings;
+use questions::Answer;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -40,13 +42,7 @@ use crate::report::ledger::LedgerError;
 pub enum StudyError {
     /// A suite that was refused.
     #[error(transparent)]
-    Suite(#[from] SuiteError),
-    /// A record that cannot be processed as asked.
-    #[error(transparent)]
-    Processing(#[from] ProcessingError),
-    /// A synthetic record that is none.
-    #[error(transparent)]
-    Accelerogram(#[from] AccelerogramError),
+    Suite(#[from] StudySuiteError),
     /// A block outside the model's range.
     #[error(transparent)]
     Block(#[from] BlockError),
@@ -74,19 +70,58 @@ pub enum StudyError {
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),
-    /// Evidence that cannot be shown.
-    #[error(transparent)]
-    Evidence(#[from] EvidenceError),
-    /// Requirements that cannot be read.
-    #[error(transparent)]
-    Ledger(#[from] LedgerError),
-    /// A drawing that grew too large.
-    #[error(transparent)]
-    Draw(#[from] DrawError),
-    /// A table of timings that cannot be read.
-    #[error("timings: {0}")]
-    Timings(#[from] csv::Error),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,
+}
+
+/// A finished study.
+pub struct Study {
+    /// What the analyses gave.
+    pub results: Results,
+    /// The figures, those of the answers at the end.
+    pub figures: Vec<Figure>,
+    /// The claims and what was found about them.
+    pub claims: Vec<Claim>,
+    /// Answers to the questions beyond the paper; their figures are among
+    /// the others.
+    pub answers: Vec<Answer>,
+    findings: Findings,
+}
+
+impl Study {
+    /// Runs everything: `suites` are the ordinary and the pulse-type one;
+    /// `full` runs other choices on all blocks.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub fn run(
+        plan: Plan,
+        suites: &[StudySuite; 2],
+        full: bool,
+        progress: &ProgressBar,
+    ) -> Result<Self, StudyError> {
+        let [first, second] = suites;
+        let ordinary = plan.run(first, true, progress)?;
+        let pulse = plan.run(second, false, progress)?;
+        let common = plan.common();
+        let mut distributions = of_suite(&ordinary, common)?;
+        distributions.extend(of_suite(&pulse, common)?);
+        let varied = plan.sensitivities(first, full)?;
+        let results = Results { plan, ordinary, pulse, distributions, varied };
+        let mut figures = results.figures()?;
+        let mut answers = questions::all(&results, full)?;
+        for answer in &mut answers {
+            figures.append(&mut answer.figures);
+        }
+        let claims = claims::all(&results)?;
+        let findings = findings::all(&results, &claims, &answers)?;
+        Ok(Self { results, figures, claims, findings, answers })
+    }
+
+    /// Text of `findings.json`.
+    #[must_use]
+    pub fn findings_text(&self) -> String {
+        findings::text(&self.findings)
+    }
 }

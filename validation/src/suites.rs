@@ -8,14 +8,31 @@ pub mod synthesis;
 use std::fmt;
 use std::path::Path;
 
-use rocking::record::{Accelerogram, Processing, ReadOptions};
+use rocking::record::{
+    Accelerogram, AccelerogramError, Processing, ProcessingError, ReadOptions,
+    SuiteError,
+};
 use sha2::{Digest as _, Sha256};
-
-use crate::study::StudyError;
+use thiserror::Error;
 
 use inputs::read_suite;
 use remarks::Remarks;
 use synthesis::Pair;
+
+/// Why a suite of the study could not be had.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudySuiteError {
+    /// A suite that was refused.
+    #[error(transparent)]
+    Suite(#[from] SuiteError),
+    /// A record that cannot be processed as asked.
+    #[error(transparent)]
+    Processing(#[from] ProcessingError),
+    /// A synthetic record that is none.
+    #[error(transparent)]
+    Accelerogram(#[from] AccelerogramError),
+}
 
 /// Where the records of a suite come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +104,7 @@ impl StudySuite {
     ///
     /// # Errors
     /// None in practice: the samples are finite by construction.
-    pub fn embedded() -> Result<[Self; 2], StudyError> {
+    pub fn embedded() -> Result<[Self; 2], StudySuiteError> {
         let of = |kind, streams, pairs: Vec<Pair>| Self {
             kind,
             source: Source::Embedded { streams },
@@ -110,13 +127,13 @@ impl StudySuite {
     /// The suite in a folder or an index.
     ///
     /// # Errors
-    /// [`StudyError`] naming the file that was refused, and why.
+    /// [`StudySuiteError`] naming the file that was refused, and why.
     pub fn read(
         kind: &'static str,
         path: &Path,
         options: ReadOptions,
         processing: &Processing,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self, StudySuiteError> {
         let suite = read_suite(path, options)?;
         let suite = suite.processed(processing)?;
         let all = suite.members().iter();

@@ -20,11 +20,10 @@ use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print, print_json};
 use crate::draw::figures::Figure as _;
-use crate::draw::figures::data::{
-    Heading, Histories, History, HistoryPanel, Intensity,
-};
+use crate::draw::figures::data::{Heading, Histories, History, HistoryPanel};
 use crate::files::Output;
 use crate::json::{number, optional};
+use crate::paper::Intensity;
 use crate::suites::remarks::Remarks;
 
 /// Integrate one block under one excitation.

@@ -13,7 +13,7 @@ use super::{Failure, print, print_json, progress};
 use crate::curves::Execution;
 use crate::files::Output;
 use crate::json::{number, optional};
-use crate::paper::blocks;
+use crate::paper::BLOCKS;
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
 use crate::speed::clock::peak_memory_mib;
@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
         let records = records(args)?;
-        let analyses = analyses(&blocks()?, Model::Nonlinear, None)?;
+        let analyses = analyses(&BLOCKS, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
         let way = Execution::default();
         let job = Job { analyses: &analyses, records: &records, way, threads };

@@ -12,12 +12,14 @@ use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
 use super::{Failure, logged, print, with_threads};
-use crate::draw::figures::data::Arm;
 use crate::files::{Folder, is_interrupted};
+use crate::paper::Arm;
+use crate::paper::RESTITUTION;
 use crate::report::evidence::{NOT_RUN, Proof};
-use crate::report::{Study, output, stale};
+use crate::report::{output, stale};
+use crate::study::Study;
 use crate::study::analyses::Plan;
-use crate::study::runs::{RESTITUTION, Setup};
+use crate::study::runs::Setup;
 use crate::suites::StudySuite;
 
 /// Folder that a study writes to unless told otherwise.
@@ -165,7 +167,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let study =
         logged(&progress, || Study::run(plan, &suites, args.full, &progress))?;
     progress.finish_and_clear();
-    let files = study.files(proof.as_ref())?;
+    let files = output::files(&study, proof.as_ref())?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
     if args.json {
@@ -178,7 +180,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         }
         print(&format!(
             "{}\n{}\nReport: {}\n",
-            study.table(),
+            output::claims_table(&study.claims),
             proof.map_or(NOT_RUN.into(), |proof| proof.to_string()),
             args.out.join("index.html").display()
         ))

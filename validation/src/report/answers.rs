@@ -1,6 +1,7 @@
 //! The study's questions, answered by the verdicts on the claims.
 
-use crate::study::findings::{Claim, Verdict};
+use crate::paper::Verdict;
+use crate::study::claims::Claim;
 
 /// What a reader asks first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,7 +127,7 @@ fn names(claims: &[&Claim]) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Claim, Question, Verdict, answers};
-    use crate::study::findings::Measured;
+    use crate::study::claims::Measured;
 
     fn claim(section: &str, verdict: Verdict) -> Claim {
         Claim {

@@ -2,10 +2,10 @@
 //! the paper prints a number, and a credibility assessment with its gaps.
 
 use super::evidence::{NOT_RUN, Proof};
-use super::page::PlainTable;
-use super::whole::rounded_text;
+use crate::study::claims::Claim;
 use crate::study::figures::Results;
-use crate::study::findings::Claim;
+use crate::table::PlainTable;
+use crate::words::rounded_text;
 
 /// Half width of a 95 % interval in standard uncertainties.
 const COVERAGE: f64 = 1.959_963_985;
@@ -290,7 +290,8 @@ fn assessment(results: &Results, proof: Option<&Proof>) -> PlainTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::findings::{Measured, Verdict};
+    use crate::paper::Verdict;
+    use crate::study::claims::Measured;
 
     fn claim(id: &str, value: f64, interval: Option<(f64, f64)>) -> Claim {
         Claim {

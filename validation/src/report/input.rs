@@ -1,31 +1,32 @@
 //! The page of a study: its words, for [`super::page`].
 
-use rocking::block::Restitution;
+use rocking::block::{BlockError, Restitution};
 use rocking::integrator::Overturning;
 
+use super::ReportError;
 use super::answers::answers;
 use super::credibility;
 use super::evidence;
 use super::evidence::{NOT_RUN, Proof, ShownChart};
 use super::ledger;
-use super::page::{Finding, PlainTable, ReportInput, ShownFigure, Summary};
+use super::page::{Finding, ReportInput, ShownFigure, Summary};
 use super::plain;
 use super::timings::Timings;
-use super::whole::{arm_words, rounded_text};
 use crate::draw::figures::Figure as _;
-use crate::paper::blocks;
-use crate::study::StudyError;
+use crate::paper::BLOCKS;
+use crate::paper::GRAVITY_M_S2;
 use crate::study::analyses::SuiteResults;
-use crate::study::claims::PAPER_GRAVITY_M_S2;
+use crate::study::claims::Claim;
 use crate::study::figures::{Figure, Results};
-use crate::study::findings::Claim;
 use crate::study::questions::Answer;
+use crate::table::PlainTable;
+use crate::words::rounded_text;
 
 /// What the page shows; `proof` are the results of the declared cases, if
 /// they were handed in.
 ///
 /// # Errors
-/// [`StudyError`] where a figure cannot be drawn.
+/// [`ReportError`] where a figure cannot be drawn.
 pub fn input(
     results: &Results,
     figures: &[Figure],
@@ -33,10 +34,10 @@ pub fn input(
     claims: &[Claim],
     answers: &[Answer],
     proof: Option<&Proof>,
-) -> Result<ReportInput, StudyError> {
+) -> Result<ReportInput, ReportError> {
     let timings = Timings::kept()?;
     let mut drawn: Vec<ShownFigure> =
-        figures.iter().map(shown).collect::<Result<_, StudyError>>()?;
+        figures.iter().map(shown).collect::<Result<_, ReportError>>()?;
     for chart in charts {
         drawn.push(shown_chart(chart)?);
     }
@@ -68,7 +69,7 @@ fn credibility(
     claims: &[Claim],
     timings: &Timings,
     proof: Option<&Proof>,
-) -> Result<Vec<PlainTable>, StudyError> {
+) -> Result<Vec<PlainTable>, ReportError> {
     let cases = proof.map(Proof::results);
     let mut tables = vec![ledger::table(cases, claims)?];
     tables.extend(credibility::tables(results, claims, proof));
@@ -79,7 +80,7 @@ fn credibility(
 fn tables(
     answers: &[Answer],
     proof: Option<&Proof>,
-) -> Result<Vec<PlainTable>, StudyError> {
+) -> Result<Vec<PlainTable>, ReportError> {
     let mut tables = vec![table_1()?];
     tables.extend(proof.map(Proof::digits_table));
     for answer in answers {
@@ -222,11 +223,11 @@ fn finding(claim: &Claim, names: &[&str]) -> Finding {
 ///
 /// # Errors
 /// None in practice: all blocks are in range.
-pub fn table_1() -> Result<PlainTable, StudyError> {
-    let rows = blocks()?
+pub fn table_1() -> Result<PlainTable, BlockError> {
+    let rows = BLOCKS
         .iter()
         .map(|block| {
-            let size = block.dimensions(PAPER_GRAVITY_M_S2)?;
+            let size = block.dimensions(GRAVITY_M_S2)?;
             let eta = Restitution::housner(block)?.velocity_ratio();
             Ok(vec![
                 format!("{}", block.frequency_rad_s()),
@@ -237,7 +238,7 @@ pub fn table_1() -> Result<PlainTable, StudyError> {
                 format!("{eta:.4}"),
             ])
         })
-        .collect::<Result<Vec<Vec<String>>, StudyError>>()?;
+        .collect::<Result<Vec<Vec<String>>, BlockError>>()?;
     let header =
         ["p (rad/s)", "alpha (rad)", "2b (m)", "2h (m)", "R (m)", "eta"];
     Ok(PlainTable {
@@ -257,7 +258,7 @@ fn millimetres(length_m: f64) -> String {
     format!("{:.3}", (1e3 * length_m).round() / 1e3)
 }
 
-fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
+fn shown(figure: &Figure) -> Result<ShownFigure, ReportError> {
     let heading = figure.drawing.heading();
     let digits: String =
         heading.name.chars().filter(char::is_ascii_digit).collect();
@@ -283,7 +284,7 @@ fn shown(figure: &Figure) -> Result<ShownFigure, StudyError> {
     })
 }
 
-fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, StudyError> {
+fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, ReportError> {
     let heading = &shown.chart.heading;
     Ok(ShownFigure {
         name: heading.name.clone(),
@@ -317,7 +318,7 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
         ),
     ];
     for arm in &results.plan.arms {
-        out.push(("Arm of the grid".into(), arm_words(*arm).into()));
+        out.push(("Arm of the grid".into(), arm.words().into()));
     }
     for suite in [&results.ordinary, &results.pulse] {
         out.push((

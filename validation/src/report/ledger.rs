@@ -6,8 +6,8 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
-use super::page::PlainTable;
-use crate::study::findings::Claim;
+use crate::study::claims::Claim;
+use crate::table::PlainTable;
 
 /// The requirements, embedded.
 const REQUIREMENTS: &str = include_str!("../../requirements.toml");

@@ -11,9 +11,10 @@ mod table;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::draw::colour;
+use crate::paper::Verdict;
+use crate::table::PlainTable;
 
 pub use figures::ShownFigure;
-pub use table::{PlainTable, cells};
 
 const STYLE: &str = include_str!("page/page.css");
 
@@ -83,50 +84,6 @@ pub struct Finding {
     pub figures: Vec<String>,
     /// A remark, or nothing.
     pub remark: String,
-}
-
-/// What a measure says about a claim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verdict {
-    /// The whole interval lies where the claim says.
-    Confirmed,
-    /// The whole interval lies where the claim does not.
-    NotConfirmed,
-    /// The interval lies on both sides, or there are no data.
-    Inconclusive,
-}
-
-impl Verdict {
-    /// All of them, in the order of a count.
-    pub const ALL: [Self; 3] =
-        [Self::Confirmed, Self::NotConfirmed, Self::Inconclusive];
-
-    /// The words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Confirmed => "confirmed",
-            Self::NotConfirmed => "not confirmed",
-            Self::Inconclusive => "inconclusive",
-        }
-    }
-
-    /// A sign that stands without colour.
-    fn sign(self) -> &'static str {
-        match self {
-            Self::Confirmed => "✓",
-            Self::NotConfirmed => "✗",
-            Self::Inconclusive => "?",
-        }
-    }
-
-    fn class(self) -> &'static str {
-        match self {
-            Self::Confirmed => "verdict yes",
-            Self::NotConfirmed => "verdict no",
-            Self::Inconclusive => "verdict open",
-        }
-    }
 }
 
 /// Declared cases of one kind.

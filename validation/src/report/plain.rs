@@ -3,9 +3,9 @@
 
 use super::evidence::{NOT_RUN, Proof};
 use super::timings::Timings;
-use crate::draw::figures::data::{Arm, Intensity};
+use crate::paper::{Arm, Intensity};
+use crate::study::claims::Claim;
 use crate::study::figures::Results;
-use crate::study::findings::Claim;
 
 /// Slenderness, distribution, accuracy, speed, and what was not checked.
 pub(super) fn answers(

@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::output::{FINDINGS, Files};
-use super::page::cells;
 use crate::diff::{DiffError, Results, compare};
+use crate::table::cells;
 
 /// Results of the declared cases, which `rocking validate` puts beside a
 /// study's.

@@ -6,14 +6,14 @@ use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 use rocking::record::Processing;
 
-use super::Study;
 use super::evidence::{NOT_RUN, Proof};
 use super::ledger::requirements;
-use super::output::{FINDINGS, Files};
+use super::output::{self, FINDINGS, Files};
 use super::{credibility, input, plain};
 use crate::curves::Execution;
-use crate::draw::figures::data::Arm;
+use crate::paper::Arm;
 use crate::proof::cases::load_all;
+use crate::study::Study;
 use crate::study::analyses::{Plan, SuiteResults, Work};
 use crate::study::certainty::Certainty;
 use crate::study::figures::Results;
@@ -64,9 +64,8 @@ fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("pool").install(|| {
         let progress = ProgressBar::hidden();
-        Study::run(plan, &[ordinary, pulse], false, &progress)
-            .and_then(|study| study.files(proof))
-            .expect("study")
+        let study = Study::run(plan, &[ordinary, pulse], false, &progress);
+        output::files(&study.expect("study"), proof).expect("report")
     })
 }
 

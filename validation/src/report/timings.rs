@@ -9,7 +9,6 @@ use crate::draw::figures::data::{
 use crate::speed::measured::{self, Total, totals};
 use crate::speed::singles::BASE;
 use crate::speed::throughput::{self, Throughput};
-use crate::study::StudyError;
 use crate::study::figures::{Figure, range};
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
@@ -58,8 +57,8 @@ impl Timings {
     /// The timings that come with the program.
     ///
     /// # Errors
-    /// [`StudyError`] where a table has been damaged.
-    pub fn kept() -> Result<Self, StudyError> {
+    /// [`csv::Error`] where a table has been damaged.
+    pub fn kept() -> Result<Self, csv::Error> {
         let pairs = csv::Reader::from_reader(CONDITIONS.as_bytes())
             .deserialize()
             .collect::<Result<_, _>>();

@@ -16,9 +16,9 @@ use super::choice::{by_rank, common_level};
 use super::histories::{distance, mean_log_ratio};
 use super::runs::Setup;
 use super::{StudyError, capacities};
-use crate::draw::figures::data::Arm;
+use crate::paper::Arm;
 use crate::paper::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, position,
+    BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::suites::{Motion, Source, StudySuite};
 
@@ -196,7 +196,6 @@ impl Plan {
         stages_3_and_4: bool,
         progress: &ProgressBar,
     ) -> Result<SuiteResults, StudyError> {
-        let blocks = blocks()?;
         let records: Vec<NormalisedRecord> = suite
             .motions
             .iter()
@@ -205,13 +204,13 @@ impl Plan {
         let facts: Vec<Facts> =
             suite.motions.par_iter().map(facts).collect::<Result<_, _>>()?;
         let scans = Setup::scans(&self.arms).len();
-        let chains = scans * blocks.len() * records.len();
+        let chains = scans * BLOCKS.len() * records.len();
         progress.inc_length(chains as u64);
-        let (arms, work) = self.curves(&blocks, &records, progress)?;
+        let (arms, work) = self.curves(&BLOCKS, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
         let chosen = by_rank(&ratios);
-        let reference = blocks[position(1, REFERENCE)];
+        let reference = BLOCKS[position(1, REFERENCE)];
         let violations: Vec<bool> = records
             .par_iter()
             .map(|record| self.setup.violates_onset(reference, record))
@@ -233,12 +232,12 @@ impl Plan {
         };
         for frequency in 0..FREQUENCIES_RAD_S.len() {
             let single =
-                self.single(frequency, &blocks, &records, &results)?;
+                self.single(frequency, &BLOCKS, &records, &results)?;
             results.single.push(single);
         }
         if stages_3_and_4 {
-            results.adjusted = self.adjusted(&blocks, &records, progress)?;
-            results.stripes = self.stripes(&blocks, &records, &results)?;
+            results.adjusted = self.adjusted(&BLOCKS, &records, progress)?;
+            results.stripes = self.stripes(&BLOCKS, &records, &results)?;
         }
         Ok(results)
     }

@@ -4,7 +4,7 @@ use super::StudyError;
 use super::analyses::SuiteResults;
 use super::capacities::{samples, scaled};
 use super::normality::{accepted_share, along, null_band};
-use crate::draw::figures::data::{Arm, Intensity};
+use crate::paper::{Arm, Intensity};
 use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
 use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::lilliefors::Assessment;

@@ -18,7 +18,7 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
-use crate::draw::figures::data::Arm;
+use crate::paper::Arm;
 
 /// Everything that the figures are made of.
 #[derive(Clone, Debug)]

@@ -18,8 +18,8 @@ use serde_json::{Value, json};
 use super::StudyError;
 use super::analyses::SuiteResults;
 use super::figures::{Figure, Results};
-use crate::draw::figures::data::Table;
-use crate::report::page::PlainTable;
+use crate::table::PlainTable;
+use crate::table::Table;
 
 /// A question with its answer and the numbers behind it.
 pub struct Answer {
@@ -152,7 +152,7 @@ impl Cell {
         match self {
             Self::Word(text) => text.clone(),
             Self::Count(count) => count.to_string(),
-            Self::Number(x, _) => crate::draw::figures::data::number(*x),
+            Self::Number(x, _) => crate::table::number(*x),
         }
     }
 

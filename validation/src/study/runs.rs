@@ -13,10 +13,7 @@ use rocking::integrator::{
 use super::StudyError;
 use super::certainty::{Certainty, certainty};
 use crate::curves::Execution;
-use crate::draw::figures::data::Arm;
-
-/// The paper's coefficient of restitution, for every block.
-pub const RESTITUTION: f64 = 0.92;
+use crate::paper::Arm;
 
 /// What holds for every analysis of a study.
 #[derive(Clone, Copy, Debug)]

@@ -4,12 +4,13 @@
 use super::Figure;
 use super::common;
 use super::common::Slendernesses;
-use super::data::{AcceptedShares, Arm, Heading, SharePanel};
+use super::data::{AcceptedShares, Heading, SharePanel};
 use crate::draw::axis::Tick;
 use crate::draw::{
     Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
     Sample, Scene,
 };
+use crate::paper::Arm;
 
 impl Figure for AcceptedShares {
     fn heading(&self) -> &Heading {

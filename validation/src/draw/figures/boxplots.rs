@@ -67,7 +67,7 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
     }
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     let level = match figure.stripes {
-        StripeKind::Intensity(kind) => kind.label(),
+        StripeKind::Intensity(kind) => common::intensity(kind),
         StripeKind::Demand => common::DEMAND,
     };
     for (i, shown) in figure.panels.iter().enumerate() {

@@ -2,8 +2,9 @@
 
 use super::Figure;
 use super::common;
-use super::data::{Capacities, CapacityPanel, Heading, Intensity};
+use super::data::{Capacities, CapacityPanel, Heading};
 use crate::draw::{Axis, Dash, Entry, Grid, Ink, Panel, Pen, Sample, Scene};
+use crate::paper::Intensity;
 
 impl Figure for Capacities {
     fn heading(&self) -> &Heading {

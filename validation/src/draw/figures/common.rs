@@ -1,8 +1,9 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
-use super::data::{Arm, Heading};
+use super::data::Heading;
 use crate::draw::{Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene};
 use crate::draw::{legend, markup};
+use crate::paper::{Arm, Intensity};
 
 /// A scene with the grid's size, the legend drawn and room made for it.
 pub fn scene(
@@ -44,6 +45,14 @@ pub fn slenderness(alpha_rad: f64) -> String {
 
 /// Peak rotation over slenderness, as an axis label.
 pub const DEMAND: &str = "*θ̃* = max |*θ*(*t*)| / *α*";
+
+/// An intensity measure, as an axis label.
+pub fn intensity(measure: Intensity) -> &'static str {
+    match measure {
+        Intensity::Pga => "PGA / (*g* tan *α*)",
+        Intensity::Pgv => "*p* PGV / (*g* tan *α*)",
+    }
+}
 
 /// Slendernesses and the series ink of each: the study's five (multiples of
 /// 0.05) have the same ink in every figure, others go by rank.

@@ -16,11 +16,8 @@ mod histories;
 mod ida;
 mod quantiles;
 mod sketch;
-mod table;
 mod tests_along;
 mod thin;
-
-use serde::Serialize;
 
 pub use accepted::{AcceptedShares, BlockShare, SharePanel};
 pub use boxplots::{BoxPanel, Boxplots, NotchedBox, Stripe, StripeKind};
@@ -35,11 +32,12 @@ pub use histories::{Histories, History, HistoryPanel};
 pub use ida::{IdaCurve, IdaCurves, IdaPanel};
 pub use quantiles::{QuantileGroup, QuantilePanel, Quantiles};
 pub use sketch::BlockSketch;
-pub use table::{Table, number};
 pub use tests_along::{Histogram, TestedBlock, TestsAlongDemand};
 
+use crate::paper::Arm;
+
 /// The words that go with a figure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     /// File stem, unique in a report: `figure-06-c`.
     pub name: String,
@@ -51,62 +49,6 @@ pub struct Heading {
     pub description: String,
     /// Arm of the grid that the numbers come from, where there is one.
     pub arm: Option<Arm>,
-}
-
-/// Arm of the intensity grid.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize,
-)]
-pub enum Arm {
-    /// The paper's 0.01 g steps, not refined.
-    A,
-    /// The paper's steps, first overturning bracket bisected.
-    B,
-    /// The same dimensionless steps for every slenderness, bisected.
-    C,
-}
-
-impl Arm {
-    /// The letter.
-    #[must_use]
-    pub fn letter(self) -> &'static str {
-        match self {
-            Self::A => "A",
-            Self::B => "B",
-            Self::C => "C",
-        }
-    }
-}
-
-/// Dimensionless intensity measure.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize,
-)]
-pub enum Intensity {
-    /// PGA/(g tan alpha).
-    Pga,
-    /// p PGV/(g tan alpha).
-    Pgv,
-}
-
-impl Intensity {
-    /// Plain name for tables: `pga` or `pgv`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pga => "pga",
-            Self::Pgv => "pgv",
-        }
-    }
-
-    /// Axis label in the markup of [`crate::draw`].
-    #[must_use]
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Pga => "PGA / (*g* tan *α*)",
-            Self::Pgv => "*p* PGV / (*g* tan *α*)",
-        }
-    }
 }
 
 /// The letter of a panel: a, b, c and so on.

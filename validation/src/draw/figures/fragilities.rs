@@ -3,13 +3,13 @@
 use super::Figure;
 use super::common;
 use super::data::{
-    ByConstant, Estimator, Fragilities, FragilityPanel, Heading, Intensity,
-    Lognormal,
+    ByConstant, Estimator, Fragilities, FragilityPanel, Heading, Lognormal,
 };
 use crate::draw::{
     Axis, Dash, Entry, Grid, Horizontal, Ink, Marker, Panel, Pen, Sample,
     Scene,
 };
+use crate::paper::Intensity;
 
 impl Figure for Fragilities {
     fn heading(&self) -> &Heading {
@@ -105,7 +105,7 @@ fn axes<'s>(
     intensity: Intensity,
     end: f64,
 ) -> Panel<'s> {
-    let x = Axis::around(0.0, end, 7).label(intensity.label());
+    let x = Axis::around(0.0, end, 7).label(common::intensity(intensity));
     let y = Axis::linear(0.0, 1.0, 5).label("probability of exceedance");
     Panel::new(scene, grid.frame(panel), x, y)
 }

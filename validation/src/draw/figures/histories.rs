@@ -56,7 +56,7 @@ pub(super) fn scene(figure: &Histories) -> Scene {
         let title = format!(
             "{}, {} = {}",
             common::frequency(shown.p_rad_s),
-            shown.intensity.label(),
+            common::intensity(shown.intensity),
             format_args!("{:.2}", shown.im)
         );
         panel.finish(

@@ -40,7 +40,8 @@ pub(super) fn scene(figure: &IdaCurves) -> Scene {
         let top = 1.12_f64.mul_add(high - low, low).max(1.2);
         let x = Axis::linear(0.0, END, 5).label(common::DEMAND);
         let bottom = if low < 0.99 { 0.0 } else { 1.0 };
-        let y = Axis::linear(bottom, top, 5).label(figure.intensity.label());
+        let y = Axis::linear(bottom, top, 5)
+            .label(common::intensity(figure.intensity));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for curve in &shown.curves {
             let pen = Pen::of_series(inks.series(curve.alpha_rad));

@@ -45,7 +45,8 @@ pub(super) fn scene(figure: &Quantiles) -> Scene {
     for (i, shown) in figure.panels.iter().enumerate() {
         let x = Axis::linear(0.0, END, 5).label(common::DEMAND);
         let (low, high) = levels(shown);
-        let y = Axis::linear(low, high, 6).label(figure.intensity.label());
+        let y = Axis::linear(low, high, 6)
+            .label(common::intensity(figure.intensity));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for group in &shown.groups {
             let series =

@@ -4,11 +4,12 @@ use rocking::statistics::normal;
 
 use super::Figure;
 use super::common;
-use super::data::{Heading, Histogram, Intensity, TestsAlongDemand};
+use super::data::{Heading, Histogram, TestsAlongDemand};
 use crate::draw::geometry::Rect;
 use crate::draw::{
     Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
 };
+use crate::paper::Intensity;
 
 impl Figure for TestsAlongDemand {
     fn heading(&self) -> &Heading {

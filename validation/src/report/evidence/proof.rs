@@ -13,7 +13,7 @@ use thiserror::Error;
 use crate::diff::{self, DiffError};
 use crate::proof::cases::{Case, CaseError, Cost, load_all};
 use crate::proof::methods::DIGITS_HEADER;
-use crate::report::page::{PlainTable, cells};
+use crate::table::{PlainTable, cells};
 
 /// File of the results of the declared cases.
 const RESULTS: &str = "validation.json";

@@ -6,7 +6,8 @@ use super::figures;
 use super::figures::ShownFigure;
 use super::table;
 use super::table::scrolled;
-use super::{Family, Finding, Part, ReportInput, Summary, Verdict};
+use super::{Family, Finding, Part, ReportInput, Summary};
+use crate::paper::Verdict;
 
 /// Those that have something to show.
 pub fn all(input: &ReportInput) -> Vec<Part> {
@@ -96,10 +97,27 @@ fn counts(findings: &[Finding]) -> Markup {
 
 fn mark(verdict: Verdict) -> Markup {
     html! {
-        span class=(verdict.class()) {
-            span aria-hidden="true" { (verdict.sign()) " " }
+        span class=(class(verdict)) {
+            span aria-hidden="true" { (sign(verdict)) " " }
             (verdict.name())
         }
+    }
+}
+
+/// A sign that stands without colour.
+fn sign(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Confirmed => "✓",
+        Verdict::NotConfirmed => "✗",
+        Verdict::Inconclusive => "?",
+    }
+}
+
+fn class(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Confirmed => "verdict yes",
+        Verdict::NotConfirmed => "verdict no",
+        Verdict::Inconclusive => "verdict open",
     }
 }
 

@@ -2,40 +2,7 @@
 
 use maud::{Markup, html};
 
-/// A table with its title.
-#[derive(Debug, Clone, Default)]
-pub struct PlainTable {
-    /// Unique name, also the anchor.
-    pub name: String,
-    /// Title: `Table 1. The 15 blocks`.
-    pub title: String,
-    /// What it says, in a sentence.
-    pub reading: String,
-    /// Column heads with units.
-    pub header: Vec<String>,
-    /// Rows; the first cell names the row.
-    pub rows: Vec<Vec<String>>,
-}
-
-impl PlainTable {
-    /// A table from CSV text.
-    #[must_use]
-    pub fn from_csv(
-        name: &str,
-        title: &str,
-        reading: &str,
-        csv: &str,
-    ) -> Self {
-        let mut lines = csv.lines().map(cells);
-        Self {
-            name: name.into(),
-            title: title.into(),
-            reading: reading.into(),
-            header: lines.next().unwrap_or_default(),
-            rows: lines.collect(),
-        }
-    }
-}
+use crate::table::{PlainTable, cells};
 
 /// The table under its title.
 pub fn plain(table: &PlainTable) -> Markup {
@@ -95,30 +62,5 @@ fn line(cells: &[String]) -> Markup {
                 }
             }
         }
-    }
-}
-
-/// Cells of a line of CSV; a quoted cell has no line break in it.
-pub fn cells(line: &str) -> Vec<String> {
-    let mut cells = vec![String::new()];
-    let mut quoted = false;
-    let mut characters = line.chars().peekable();
-    while let Some(c) = characters.next() {
-        match c {
-            '"' if quoted && characters.peek() == Some(&'"') => {
-                characters.next();
-                push(&mut cells, '"');
-            }
-            '"' => quoted = !quoted,
-            ',' if !quoted => cells.push(String::new()),
-            _ => push(&mut cells, c),
-        }
-    }
-    cells
-}
-
-fn push(cells: &mut [String], c: char) {
-    if let Some(cell) = cells.last_mut() {
-        cell.push(c);
     }
 }

@@ -1,10 +1,10 @@
 //! The timings as tables.
 
 use super::{PAPER, Timings, digits};
-use crate::report::page::PlainTable;
 use crate::speed::measured::Total;
 use crate::speed::singles::BASE;
 use crate::speed::throughput::Throughput;
+use crate::table::PlainTable;
 
 /// What our own settings are for.
 const USES: [(&str, &str); 6] = [

@@ -4,7 +4,7 @@ use rocking::fragility::eq6;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Claim, Context, Measured, Results, StudyError};
-use crate::draw::figures::data::Intensity;
+use crate::paper::Intensity;
 use crate::paper::demand_index;
 use crate::study::figures::{
     BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, range, usfl7,

@@ -4,7 +4,7 @@ use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Claim, Context, Measured, Results, SAME, StudyError};
 use super::{median, middle};
-use crate::draw::figures::data::{Arm, Intensity};
+use crate::paper::{Arm, Intensity};
 use crate::paper::{FREQUENCIES_RAD_S, position};
 use crate::study::analyses::SuiteResults;
 use crate::study::capacities::scaled;

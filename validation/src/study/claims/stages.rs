@@ -6,7 +6,7 @@ use rocking::statistics::paired::Pairs;
 use super::varied_ratios;
 use super::{Claim, Context, Measured, Results, SAME, StudyError};
 use super::{all_one, away, difference, median, middle, stripes};
-use crate::draw::figures::data::Arm;
+use crate::paper::Arm;
 use crate::paper::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };

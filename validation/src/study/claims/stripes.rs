@@ -4,7 +4,7 @@ use rocking::statistics::paired::Pairs;
 
 use super::{Cells, Claim, Context, Measured, Results, SAME, StudyError};
 use super::{all_one, away, median};
-use crate::draw::figures::data::Arm;
+use crate::paper::Arm;
 use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
 };

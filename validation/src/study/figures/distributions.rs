@@ -5,9 +5,10 @@ use rocking::statistics::{QuantileType, Sample};
 
 use super::{Figure, Results, name, percent, range};
 use crate::draw::figures::data::{
-    AcceptedShares, Arm, BlockShare, Capacities, CapacityCurve, CapacityPanel,
-    Heading, Histogram, Intensity, SharePanel, TestedBlock, TestsAlongDemand,
+    AcceptedShares, BlockShare, Capacities, CapacityCurve, CapacityPanel,
+    Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
 };
+use crate::paper::{Arm, Intensity};
 use crate::paper::{
     FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index, demands, position,
 };

@@ -6,10 +6,11 @@ use rocking::statistics::{self, ExtendedSample, QuantileType};
 
 use super::{Figure, Results, name};
 use crate::draw::figures::data::{
-    Arm, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Heading, Intensity, Lognormal, Threshold,
+    ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
+    Fragilities, FragilityPanel, Heading, Lognormal, Threshold,
 };
 use crate::paper::demand_index;
+use crate::paper::{Arm, Intensity};
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
 

@@ -6,8 +6,9 @@ use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Figure, name};
 use crate::draw::figures::data::{
-    Arm, Heading, Intensity, QuantileGroup, QuantilePanel, Quantiles,
+    Heading, QuantileGroup, QuantilePanel, Quantiles,
 };
+use crate::paper::{Arm, Intensity};
 use crate::paper::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };

@@ -5,9 +5,9 @@ use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::{Figure, name, percent, range};
 use crate::draw::figures::data::{
-    Arm, BoxPanel, Boxplots, Heading, Intensity, NotchedBox, Stripe,
-    StripeKind,
+    BoxPanel, Boxplots, Heading, NotchedBox, Stripe, StripeKind,
 };
+use crate::paper::{Arm, Intensity};
 use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
     position,

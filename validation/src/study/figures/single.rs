@@ -2,9 +2,10 @@
 
 use super::{Figure, name};
 use crate::draw::figures::data::{
-    Arm, BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
-    IdaCurves, IdaPanel, Intensity,
+    BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
+    IdaCurves, IdaPanel,
 };
+use crate::paper::{Arm, Intensity};
 use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::StudyError;
 use crate::study::analyses::{

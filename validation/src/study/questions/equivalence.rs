@@ -8,7 +8,7 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::{Answer, Cell, Rows};
-use crate::draw::figures::data::Arm;
+use crate::paper::Arm;
 use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, position,
 };

@@ -12,9 +12,9 @@ use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows, both, capital, percent};
 use crate::draw::figures::data::{
-    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark,
-    Scale as AxisScale, Series,
+    Axis, Chart, ChartPanel, Heading, Mark, Scale as AxisScale, Series,
 };
+use crate::paper::{Arm, Intensity};
 use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;

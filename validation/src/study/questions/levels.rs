@@ -7,7 +7,7 @@ use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
 use super::{Answer, Cell, Rows, both, capital, mean};
-use crate::draw::figures::data::Intensity;
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::figures::Results;
 use crate::study::normality::{

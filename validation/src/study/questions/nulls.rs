@@ -4,8 +4,9 @@ use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
 use super::{Answer, Cell, Rows, both, capital};
 use crate::draw::figures::data::{
-    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
 };
+use crate::paper::{Arm, Intensity};
 use crate::paper::{demand_index, demands};
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;

@@ -11,12 +11,13 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::{Answer, Cell, Rows};
-use crate::draw::figures::data::{Intensity, Table, number};
+use crate::paper::Intensity;
 use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index};
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::distributions::BlockSamples;
 use crate::study::figures::{BLOCK, Results, THRESHOLDS, range};
+use crate::table::{Table, number};
 
 /// Draws of the bootstrap, by default and with all blocks and choices.
 const REPLICATES: [usize; 2] = [100, 1000];

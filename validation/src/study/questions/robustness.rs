@@ -7,7 +7,7 @@ use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
 use super::{Answer, Cell, Rows, both, capital, mean};
-use crate::draw::figures::data::Intensity;
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::distributions::BlockSamples;

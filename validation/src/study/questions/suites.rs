@@ -9,11 +9,11 @@ mod row;
 use row::{Group, Row};
 
 use super::{Answer, capital};
-use crate::draw::figures::data::Intensity;
-use crate::report::page::PlainTable;
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::figures::{Results, range};
+use crate::table::PlainTable;
 
 /// The comparison with 86 ordinary and 44 pulse-type recorded motions:
 /// medians, dispersions and intervals alone.

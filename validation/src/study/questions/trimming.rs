@@ -7,7 +7,7 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows, both, capital, mean, percent};
-use crate::draw::figures::data::Intensity;
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::figures::Results;
 use crate::study::normality::every;

@@ -1,12 +1,12 @@
 //! Figures 12 and 14.
 
-use serde::Serialize;
-
-use super::table::optional;
-use super::{Arm, Heading, Intensity, Table, number};
+use super::Heading;
+use crate::paper::{Arm, Intensity};
+use crate::table::optional;
+use crate::table::{Table, number};
 
 /// Share of the demand levels at which lognormality is accepted, by block.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct AcceptedShares {
     /// The words.
     pub heading: Heading,
@@ -21,7 +21,7 @@ pub struct AcceptedShares {
 }
 
 /// One suite, original or shifted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SharePanel {
     /// Suite as named in the panel's title: `ordinary`, `pulse-type`.
     pub suite: String,
@@ -34,7 +34,7 @@ pub struct SharePanel {
 }
 
 /// One block.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BlockShare {
     /// Frequency parameter p.
     pub p_rad_s: f64,

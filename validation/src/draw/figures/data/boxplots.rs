@@ -1,12 +1,12 @@
 //! Figures 6, 7 and 9.
 
-use serde::Serialize;
-
-use super::table::optional;
-use super::{Heading, Intensity, Table, number};
+use super::Heading;
+use crate::paper::Intensity;
+use crate::table::optional;
+use crate::table::{Table, number};
 
 /// Notched boxplots of paired ratios, stripe by stripe.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Boxplots {
     /// The words.
     pub heading: Heading,
@@ -21,7 +21,7 @@ pub struct Boxplots {
 }
 
 /// What a stripe is a level of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StripeKind {
     /// A dimensionless intensity.
     Intensity(Intensity),
@@ -30,7 +30,7 @@ pub enum StripeKind {
 }
 
 /// One pair of blocks.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BoxPanel {
     /// Frequency parameter p.
     pub p_rad_s: f64,
@@ -44,7 +44,7 @@ pub struct BoxPanel {
 }
 
 /// One level.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Stripe {
     /// The level.
     pub level: f64,
@@ -68,7 +68,7 @@ impl Stripe {
 }
 
 /// The numbers of one notched box.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NotchedBox {
     /// Lower quartile.
     pub q1: f64,

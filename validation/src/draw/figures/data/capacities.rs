@@ -1,16 +1,16 @@
 //! Figure 11.
 
-use serde::Serialize;
-
-use super::table::point;
+use super::Heading;
 use super::thin::{largest, thin};
-use super::{Heading, Intensity, Table, number};
+use crate::paper::Intensity;
+use crate::table::point;
+use crate::table::{Table, number};
 
 /// Size of a panel for [`Capacities::thinned`].
 const PX: f64 = 440.0;
 
 /// Capacity curves, intensity given demand, as inverted and shifted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Capacities {
     /// The words.
     pub heading: Heading,
@@ -23,7 +23,7 @@ pub struct Capacities {
 }
 
 /// One intensity measure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CapacityPanel {
     /// Kind of the intensity.
     pub intensity: Intensity,
@@ -34,7 +34,7 @@ pub struct CapacityPanel {
 }
 
 /// One record's capacities; the shifted curve is drawn from `im - shift`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct CapacityCurve {
     /// Record.
     pub record: String,

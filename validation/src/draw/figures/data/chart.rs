@@ -1,10 +1,9 @@
 //! Lines and marks over two axes: speed against error, convergence,
 //! overturning spectra, power of tests, arms and options compared.
 
-use serde::Serialize;
-
+use super::Heading;
 use super::thin::{largest, thin};
-use super::{Heading, Table, number};
+use crate::table::{Table, number};
 
 /// Size of a panel for [`Chart::thinned`], in px.
 const WIDTH_PX: f64 = 560.0;
@@ -13,7 +12,7 @@ const HEIGHT_PX: f64 = 320.0;
 const COLUMNS: usize = 1120;
 
 /// A figure of one or more panels with a shared legend.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
     /// The words.
     pub heading: Heading,
@@ -24,7 +23,7 @@ pub struct Chart {
 }
 
 /// One pair of axes.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ChartPanel {
     /// Title in markup, or nothing.
     pub title: String,
@@ -37,7 +36,7 @@ pub struct ChartPanel {
 }
 
 /// One axis.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Label with unit, in markup.
     pub label: String,
@@ -50,7 +49,7 @@ pub struct Axis {
 }
 
 /// Scale of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Linear.
     Linear,
@@ -59,7 +58,7 @@ pub enum Scale {
 }
 
 /// One legend entry's data.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     /// Legend in markup; the same label has the same colour in every panel,
     /// an empty one is drawn in grey and has no legend.
@@ -76,7 +75,7 @@ pub struct Series {
 }
 
 /// How a series is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// A line.
     Line,

@@ -1,11 +1,10 @@
 //! The map of fates over two parameters.
 
-use serde::Serialize;
-
-use super::{Axis, Heading, Table, number};
+use super::{Axis, Heading};
+use crate::table::{Table, number};
 
 /// Fates over a grid of two parameters.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FateMap {
     /// The words.
     pub heading: Heading,
@@ -16,7 +15,7 @@ pub struct FateMap {
 }
 
 /// One map.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FatePanel {
     /// Title in markup.
     pub title: String,
@@ -33,7 +32,7 @@ pub struct FatePanel {
 }
 
 /// Fate of one run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Fate {
     /// Never left its base.
     NoUplift,

@@ -1,12 +1,12 @@
 //! Figures 15 to 18.
 
+use super::Heading;
+use crate::paper::Intensity;
+use crate::table::{Table, number};
 use rocking::statistics::normal;
-use serde::Serialize;
-
-use super::{Heading, Intensity, Table, number};
 
 /// Empirical and fitted fragilities.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Fragilities {
     /// The words.
     pub heading: Heading,
@@ -15,7 +15,7 @@ pub struct Fragilities {
 }
 
 /// One intensity measure.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FragilityPanel {
     /// Kind of the intensity.
     pub intensity: Intensity,
@@ -24,7 +24,7 @@ pub struct FragilityPanel {
 }
 
 /// One demand threshold.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Threshold {
     /// Demand, peak |theta|/alpha.
     pub edp: f64,
@@ -36,9 +36,7 @@ pub struct Threshold {
 }
 
 /// How a fitted fragility was obtained.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize,
-)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Estimator {
     /// Lognormal fitted to the unshifted sample.
     Usfl,
@@ -61,7 +59,7 @@ impl Estimator {
 }
 
 /// A fitted fragility, or why there is none.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
     /// How it was obtained.
     pub estimator: Estimator,
@@ -70,7 +68,7 @@ pub struct Fitted {
 }
 
 /// A lognormal distribution of IM - shift.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lognormal {
     /// ln of the median of IM - shift.
     pub ln_median: f64,
@@ -101,7 +99,7 @@ impl Lognormal {
 }
 
 /// The constant c of Eq. 7 compared, against a benchmark.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ByConstant {
     /// The words.
     pub heading: Heading,
@@ -114,7 +112,7 @@ pub struct ByConstant {
 }
 
 /// One way of fitting.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ByConstantPanel {
     /// Panel title: `untrimmed MLE`.
     pub title: String,
@@ -127,7 +125,7 @@ pub struct ByConstantPanel {
 }
 
 /// One constant.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ConstantCurve {
     /// The constant.
     pub c: f64,

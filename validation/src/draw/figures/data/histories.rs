@@ -1,17 +1,17 @@
 //! Figures 2 and 3.
 
-use serde::Serialize;
-
-use super::table::point;
+use super::Heading;
 use super::thin::{largest, thin};
-use super::{Heading, Intensity, Table, number};
+use crate::paper::Intensity;
+use crate::table::point;
+use crate::table::{Table, number};
 
 /// Size of a panel for [`Histories::thinned`].
 const WIDTH_PX: f64 = 288.0;
 const HALF_PX: f64 = 111.0;
 
 /// Response histories at equal dimensionless intensity.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Histories {
     /// The words.
     pub heading: Heading,
@@ -22,7 +22,7 @@ pub struct Histories {
 }
 
 /// One record at one frequency parameter.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct HistoryPanel {
     /// Frequency parameter p.
     pub p_rad_s: f64,
@@ -39,7 +39,7 @@ pub struct HistoryPanel {
 }
 
 /// One block's history; times after overturning are left out.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct History {
     /// Slenderness.
     pub alpha_rad: f64,

@@ -1,13 +1,13 @@
 //! Figures 4 and 5.
 
-use serde::Serialize;
-
-use super::table::point;
+use super::Heading;
 use super::thin::{largest, thin};
-use super::{Heading, Intensity, Table, number};
+use crate::paper::Intensity;
+use crate::table::point;
+use crate::table::{Table, number};
 
 /// Single-record IDA curves.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct IdaCurves {
     /// The words.
     pub heading: Heading,
@@ -20,7 +20,7 @@ pub struct IdaCurves {
 }
 
 /// One record at one frequency parameter.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct IdaPanel {
     /// Frequency parameter p.
     pub p_rad_s: f64,
@@ -31,7 +31,7 @@ pub struct IdaPanel {
 }
 
 /// One block's IDA curve up to its first overturning.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct IdaCurve {
     /// Slenderness.
     pub alpha_rad: f64,

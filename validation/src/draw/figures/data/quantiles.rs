@@ -1,11 +1,11 @@
 //! Figures 8 and 10.
 
-use serde::Serialize;
-
-use super::{Heading, Intensity, Table, number};
+use super::Heading;
+use crate::paper::Intensity;
+use crate::table::{Table, number};
 
 /// 16/50/84 % curves of the demand given the intensity.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Quantiles {
     /// The words.
     pub heading: Heading,
@@ -18,7 +18,7 @@ pub struct Quantiles {
 }
 
 /// One frequency parameter.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct QuantilePanel {
     /// Frequency parameter p.
     pub p_rad_s: f64,
@@ -29,7 +29,7 @@ pub struct QuantilePanel {
 }
 
 /// Three curves of one colour.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct QuantileGroup {
     /// Legend in markup: `*α* = 0.05 rad`, `scaled records`.
     pub label: String,

@@ -1,11 +1,10 @@
 //! Figure 1.
 
-use serde::Serialize;
-
-use super::{Heading, Table, number};
+use super::Heading;
+use crate::table::{Table, number};
 
 /// The block with its symbols, rotated about its right-hand pivot.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BlockSketch {
     /// The words.
     pub heading: Heading,

@@ -1,11 +1,11 @@
 //! Figure 13.
 
-use serde::Serialize;
-
-use super::{Heading, Intensity, Table, number};
+use super::Heading;
+use crate::paper::Intensity;
+use crate::table::{Table, number};
 
 /// The test along the demand, with histograms at one level: a row a block.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TestsAlongDemand {
     /// The words.
     pub heading: Heading,
@@ -18,7 +18,7 @@ pub struct TestsAlongDemand {
 }
 
 /// One block: three panels.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TestedBlock {
     /// Frequency parameter p.
     pub p_rad_s: f64,
@@ -38,7 +38,7 @@ pub struct TestedBlock {
 }
 
 /// A histogram with the normal fitted to the same sample.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Histogram {
     /// Bin edges, rising; one more than the counts.
     pub edges: Vec<f64>,

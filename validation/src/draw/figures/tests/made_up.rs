@@ -5,6 +5,7 @@ mod statistics;
 
 use crate::draw::figures::Figure;
 use crate::draw::figures::data::*;
+use crate::paper::{Arm, Intensity};
 pub use statistics::{
     accepted, by_constant, chart, fates, fragilities, spectrum, tests_along,
 };

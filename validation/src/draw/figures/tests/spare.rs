@@ -4,6 +4,7 @@ use super::made_up;
 use super::made_up::heading;
 use crate::draw::figures::Figure;
 use crate::draw::figures::data::*;
+use crate::paper::Arm;
 
 const HOLES: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0];
 

@@ -6,8 +6,9 @@ use rocking::statistics::lognormal::FitMethod;
 
 use super::{MLE, Summary, trimmed};
 use crate::draw::figures::data::{
-    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
 };
+use crate::paper::{Arm, Intensity};
 use crate::study::figures::Figure;
 
 /// Median distance over blocks and demands against the constant of Eq. 7.

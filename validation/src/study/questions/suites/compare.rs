@@ -8,8 +8,8 @@ use rocking::statistics::two_sample::kolmogorov_smirnov;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::row::{Group, Interval, Row, Side};
-use crate::draw::figures::data::{Arm, Intensity};
-use crate::paper::{blocks, demand_index};
+use crate::paper::{Arm, Intensity};
+use crate::paper::{BLOCKS, demand_index};
 use crate::study::StudyError;
 use crate::study::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
@@ -68,7 +68,7 @@ fn capacities(
         .map(|m| NormalisedRecord::new(&m.study))
         .collect();
     let chains = results.plan.setup.chains(
-        &blocks()?,
+        &BLOCKS,
         &records,
         &[arm],
         Adjust::RecordScaling,

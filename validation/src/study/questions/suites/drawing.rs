@@ -3,9 +3,10 @@
 use super::row::{Group, Row};
 use super::{MOTIONS, of_motion};
 use crate::draw::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
 };
 use crate::paper::FREQUENCIES_RAD_S;
+use crate::paper::Intensity;
 use crate::study::analyses::SPECTRUM_PERIODS_S;
 use crate::study::figures::Figure;
 

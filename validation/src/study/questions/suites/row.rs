@@ -1,6 +1,6 @@
 //! One quantity of the embedded and the recorded suite, and its CSV.
 
-use crate::draw::figures::data::Table;
+use crate::table::Table;
 
 /// What kind of quantity a row holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,7 +120,7 @@ fn short(x: f64) -> String {
         return String::new();
     }
     let rounded = format!("{x:.3e}").parse().unwrap_or(x);
-    crate::draw::figures::data::number(rounded)
+    crate::table::number(rounded)
 }
 
 pub(super) fn to_csv(rows: &[Row]) -> String {

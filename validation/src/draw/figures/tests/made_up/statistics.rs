@@ -2,6 +2,7 @@
 
 use super::{ALPHAS, FREQUENCIES, heading, noise, normal};
 use crate::draw::figures::data::*;
+use crate::paper::{Arm, Intensity};
 
 pub fn accepted() -> AcceptedShares {
     let panel = |i: usize| {

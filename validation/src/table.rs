@@ -1,4 +1,5 @@
-//! CSV text: one header line, long format, stable bytes.
+//! Tables: as CSV text (one header line, long format, stable bytes), and
+//! as a page shows them.
 
 /// Rows under one header line, as CSV.
 ///
@@ -53,7 +54,7 @@ pub fn number(x: f64) -> String {
 
 /// The same with five digits: a point of a curve, to less than a hundredth
 /// of a pixel.
-pub(super) fn point(x: f64) -> String {
+pub fn point(x: f64) -> String {
     to_digits(x, 5)
 }
 
@@ -74,6 +75,66 @@ fn to_digits(x: f64, digits: usize) -> String {
 }
 
 /// A number that may be missing, as a cell.
-pub(super) fn optional(x: Option<f64>) -> String {
+pub fn optional(x: Option<f64>) -> String {
     x.map_or_else(String::new, number)
+}
+
+/// A table with its title.
+#[derive(Debug, Clone, Default)]
+pub struct PlainTable {
+    /// Unique name, also the anchor.
+    pub name: String,
+    /// Title: `Table 1. The 15 blocks`.
+    pub title: String,
+    /// What it says, in a sentence.
+    pub reading: String,
+    /// Column heads with units.
+    pub header: Vec<String>,
+    /// Rows; the first cell names the row.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl PlainTable {
+    /// A table from CSV text.
+    #[must_use]
+    pub fn from_csv(
+        name: &str,
+        title: &str,
+        reading: &str,
+        csv: &str,
+    ) -> Self {
+        let mut lines = csv.lines().map(cells);
+        Self {
+            name: name.into(),
+            title: title.into(),
+            reading: reading.into(),
+            header: lines.next().unwrap_or_default(),
+            rows: lines.collect(),
+        }
+    }
+}
+
+/// Cells of a line of CSV; a quoted cell has no line break in it.
+pub fn cells(line: &str) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    let mut characters = line.chars().peekable();
+    while let Some(c) = characters.next() {
+        match c {
+            '"' if quoted && characters.peek() == Some(&'"') => {
+                characters.next();
+                push(&mut cells, '"');
+            }
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            _ => push(&mut cells, c),
+        }
+    }
+    cells
+}
+
+fn push(cells: &mut [String], c: char) {
+    if let Some(cell) = cells.last_mut() {
+        cell.push(c);
+    }
 }

@@ -4,7 +4,6 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-use rocking_validation::draw::figures::Figure as _;
 use rocking_validation::report::evidence::{Proof, charts};
 use rocking_validation::report::{input, output};
 use rocking_validation::suites::StudySuite;
@@ -143,10 +142,10 @@ fn the_committed_report_is_of_this_program_where_that_is_cheap() {
     {
         assert_eq!(line, row.join(","));
     }
-    for shown in charts().expect("charts") {
-        let name = &shown.chart.heading.name;
-        let svg = shown.chart.svg().expect("drawing");
+    for chart in charts().expect("charts") {
+        let name = &chart.heading.name;
+        let svg = chart.svg().expect("drawing");
         assert!(read(&format!("figures/{name}.svg")) == svg, "{name}");
-        assert!(read(&format!("data/{name}.csv")) == shown.chart.csv());
+        assert!(read(&format!("data/{name}.csv")) == chart.csv);
     }
 }

@@ -28,11 +28,12 @@ use rocking::statistics::paired::PairedError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
+use crate::draw::figures::Figure;
 use crate::suites::{StudySuite, StudySuiteError};
 use analyses::Plan;
 use claims::Claim;
 use distributions::of_suite;
-use figures::{Figure, Results};
+use figures::Results;
 use findings::Findings;
 use questions::Answer;
 

@@ -4,7 +4,7 @@
 /// Rows under one header line, as CSV.
 ///
 /// ```
-/// use rocking_validation::draw::figures::data::{Table, number};
+/// use rocking_validation::draw::figures::{Table, number};
 /// let mut table = Table::new(&["record", "im"]);
 /// table.row([String::from("A, B"), number(1.0 / 3.0)]);
 /// assert_eq!(table.finish(), "record,im\n\"A, B\",0.333333333\n");

@@ -19,8 +19,7 @@ use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print, print_json};
-use crate::draw::figures::Figure as _;
-use crate::draw::figures::data::{Heading, Histories, History, HistoryPanel};
+use crate::draw::figures::{Heading, Histories, History, HistoryPanel};
 use crate::files::Output;
 use crate::json::{number, optional};
 use crate::paper::Intensity;
@@ -178,7 +177,7 @@ fn drawing(
         arm: None,
     };
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
-    Ok(figure.thinned().svg()?)
+    Ok(figure.thinned().figure(String::new()).svg()?)
 }
 
 /// Name of an outcome, `unresolved` where it cannot be told.

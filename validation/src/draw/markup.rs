@@ -227,3 +227,9 @@ pub(super) fn write_escaped(out: &mut String, text: &str) {
         }
     }
 }
+
+/// Marked-up text without its marks.
+#[must_use]
+pub fn plain(markup: &str) -> String {
+    markup.replace(['*', '{', '}'], "").replace(['_', '^'], "")
+}

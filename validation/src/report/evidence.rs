@@ -11,7 +11,7 @@ pub use families::families;
 pub use proof::{NOT_RUN, Proof, ProofError};
 
 use super::page::Family;
-use crate::draw::figures::data::Chart;
+use crate::draw::figures::Figure;
 use crate::proof::cases::{CaseError, load_all};
 use crate::proof::scene::EngineError;
 
@@ -27,16 +27,6 @@ pub enum EvidenceError {
     Engine(#[from] EngineError),
 }
 
-/// A chart and the sentence that says what one sees.
-pub struct ShownChart {
-    /// Its number in the report.
-    pub number: String,
-    /// The drawing and its numbers.
-    pub chart: Chart,
-    /// What one sees, made from the numbers.
-    pub reading: String,
-}
-
 /// Declared cases with their results, family by family.
 ///
 /// # Errors
@@ -49,25 +39,32 @@ pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
 ///
 /// # Errors
 /// [`EvidenceError::Engine`] where a scene is refused.
-pub fn charts() -> Result<Vec<ShownChart>, EvidenceError> {
+pub fn charts() -> Result<Vec<Figure>, EvidenceError> {
     Ok(vec![defect::chart()?, spectrum::chart()?])
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use super::*;
-    use crate::draw::figures::Figure as _;
     use crate::proof::cases::Cost;
 
     #[test]
     fn charts_have_something_in_every_series() {
-        for shown in charts().unwrap() {
-            assert!(shown.chart.svg().unwrap().starts_with("<svg"));
-            assert!(!shown.reading.contains("NaN"), "{}", shown.reading);
-            for series in shown.chart.panels.iter().flat_map(|p| &p.series) {
-                let drawn = series.y.iter().filter(|y| y.is_finite()).count();
-                assert!(drawn >= 2, "{}: {drawn}", series.label);
+        for figure in charts().unwrap() {
+            assert!(figure.svg().unwrap().starts_with("<svg"));
+            assert!(!figure.reading.contains("NaN"), "{}", figure.reading);
+            let mut drawn: BTreeMap<[String; 2], usize> = BTreeMap::new();
+            let mut rows = csv::Reader::from_reader(figure.csv.as_bytes());
+            for row in rows.records() {
+                let row = row.unwrap();
+                let series = [row[0].to_owned(), row[1].to_owned()];
+                let y: Result<f64, _> = row[3].parse();
+                let finite = y.is_ok_and(f64::is_finite);
+                *drawn.entry(series).or_default() += usize::from(finite);
             }
+            assert!(drawn.values().all(|n| *n >= 2), "{drawn:?}");
         }
     }
 

@@ -7,17 +7,18 @@ use super::ReportError;
 use super::answers::answers;
 use super::credibility;
 use super::evidence;
-use super::evidence::{NOT_RUN, Proof, ShownChart};
+use super::evidence::{NOT_RUN, Proof};
 use super::ledger;
 use super::page::{Finding, ReportInput, ShownFigure, Summary};
 use super::plain;
 use super::timings::Timings;
-use crate::draw::figures::Figure as _;
+use crate::draw::DrawError;
+use crate::draw::figures::Figure;
 use crate::paper::BLOCKS;
 use crate::paper::GRAVITY_M_S2;
 use crate::study::analyses::SuiteResults;
 use crate::study::claims::Claim;
-use crate::study::figures::{Figure, Results};
+use crate::study::figures::Results;
 use crate::study::questions::Answer;
 use crate::table::PlainTable;
 use crate::words::rounded_text;
@@ -30,23 +31,21 @@ use crate::words::rounded_text;
 pub fn input(
     results: &Results,
     figures: &[Figure],
-    charts: &[ShownChart],
+    charts: &[Figure],
     claims: &[Claim],
     answers: &[Answer],
     proof: Option<&Proof>,
 ) -> Result<ReportInput, ReportError> {
     let timings = Timings::kept()?;
+    let drawn = figures.iter().chain(charts).map(shown);
     let mut drawn: Vec<ShownFigure> =
-        figures.iter().map(shown).collect::<Result<_, ReportError>>()?;
-    for chart in charts {
-        drawn.push(shown_chart(chart)?);
-    }
+        drawn.collect::<Result<_, DrawError>>()?;
     drawn.push(ShownFigure {
         number: "Speed".into(),
         ..shown(&timings.figure())?
     });
     let names: Vec<&str> =
-        figures.iter().map(|f| f.drawing.heading().name.as_str()).collect();
+        figures.iter().map(|f| f.heading.name.as_str()).collect();
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -258,8 +257,8 @@ fn millimetres(length_m: f64) -> String {
     format!("{:.3}", (1e3 * length_m).round() / 1e3)
 }
 
-fn shown(figure: &Figure) -> Result<ShownFigure, ReportError> {
-    let heading = figure.drawing.heading();
+fn shown(figure: &Figure) -> Result<ShownFigure, DrawError> {
+    let heading = &figure.heading;
     let digits: String =
         heading.name.chars().filter(char::is_ascii_digit).collect();
     let number = digits.trim_start_matches('0');
@@ -278,21 +277,8 @@ fn shown(figure: &Figure) -> Result<ShownFigure, ReportError> {
         },
         title: heading.title.clone(),
         reading: figure.reading.clone(),
-        svg: figure.drawing.svg()?,
-        csv: figure.drawing.csv(),
-        csv_path: format!("data/{}.csv", heading.name),
-    })
-}
-
-fn shown_chart(shown: &ShownChart) -> Result<ShownFigure, ReportError> {
-    let heading = &shown.chart.heading;
-    Ok(ShownFigure {
-        name: heading.name.clone(),
-        number: shown.number.clone(),
-        title: heading.title.clone(),
-        reading: shown.reading.clone(),
-        svg: shown.chart.svg()?,
-        csv: shown.chart.csv(),
+        svg: figure.svg()?,
+        csv: figure.csv.clone(),
         csv_path: format!("data/{}.csv", heading.name),
     })
 }

@@ -8,7 +8,6 @@ use rocking::block::BlockError;
 use super::evidence::{self, Proof};
 use super::timings::Timings;
 use super::{ReportError, input, page};
-use crate::draw::figures::Figure as _;
 use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use crate::study::Study;
 use crate::study::claims::Claim;
@@ -49,11 +48,11 @@ pub fn files(
 ) -> Result<Files, ReportError> {
     let mut files = Files::new();
     let timed = Timings::kept()?.figure();
-    for figure in study.figures.iter().chain([&timed]) {
-        let name = &figure.drawing.heading().name;
-        let svg = figure.drawing.svg()?;
-        files.insert(format!("{name}.svg"), svg.into_bytes());
-        let csv = figure.drawing.csv();
+    let charts = evidence::charts()?;
+    for figure in study.figures.iter().chain([&timed]).chain(&charts) {
+        let name = &figure.heading.name;
+        files.insert(format!("{name}.svg"), figure.svg()?.into_bytes());
+        let csv = figure.csv.clone();
         files.insert(format!("{name}.csv"), csv.into_bytes());
     }
     files.insert("table-01.csv".into(), table_1()?.into_bytes());
@@ -61,14 +60,6 @@ pub fn files(
     files.insert("single-records.csv".into(), single.into_bytes());
     let text = study.findings_text();
     files.insert("findings.json".into(), text.into_bytes());
-    let charts = evidence::charts()?;
-    for shown in &charts {
-        let name = &shown.chart.heading.name;
-        let svg = shown.chart.svg()?;
-        files.insert(format!("{name}.svg"), svg.into_bytes());
-        let csv = shown.chart.csv();
-        files.insert(format!("{name}.csv"), csv.into_bytes());
-    }
     files.extend(questions::files(&study.answers));
     let input = input::input(
         &study.results,

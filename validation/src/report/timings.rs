@@ -3,13 +3,14 @@
 
 mod tables;
 
-use crate::draw::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
+use crate::draw::figures::Figure;
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
 use crate::speed::measured::{self, Total, totals};
 use crate::speed::singles::BASE;
 use crate::speed::throughput::{self, Throughput};
-use crate::study::figures::{Figure, range};
+use crate::study::figures::range;
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
 const MANY: &str = include_str!("../../../fixtures/speed/throughput.csv");
@@ -119,11 +120,8 @@ impl Timings {
             LINES.iter().map(line).filter(|s| !s.x.is_empty()).collect()
         };
         let time = "processor time, multiples of ours as shipped";
-        let panel = |title: &str, x: Axis, y: Axis, series| ChartPanel {
-            title: title.into(),
-            x,
-            y,
-            series,
+        let panel = |title: &str, x: ChartAxis, y: ChartAxis, series| {
+            ChartPanel { title: title.into(), x, y, series }
         };
         let error = "median error of peak |*θ*|/*α*";
         let share =
@@ -150,7 +148,7 @@ impl Timings {
             panel(
                 "all impacts, by time",
                 logarithmic(time),
-                Axis {
+                ChartAxis {
                     label: "cases with another number of them (%)".into(),
                     scale: Scale::Linear,
                     range: Some((-4.0, 104.0)),
@@ -175,7 +173,7 @@ impl Timings {
             panels,
             columns: 2,
         };
-        Figure { drawing: Box::new(drawing), reading: self.reading() }
+        drawing.figure(self.reading())
     }
 
     /// Our own run as shipped.
@@ -325,8 +323,8 @@ fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
     Ok((header, rows))
 }
 
-fn logarithmic(label: &str) -> Axis {
-    Axis {
+fn logarithmic(label: &str) -> ChartAxis {
+    ChartAxis {
         label: label.into(),
         scale: Scale::Logarithmic,
         range: None,

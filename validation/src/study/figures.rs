@@ -18,6 +18,7 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
+use crate::draw::figures::Figure;
 use crate::paper::Arm;
 
 /// Everything that the figures are made of.
@@ -33,14 +34,6 @@ pub struct Results {
     pub distributions: Vec<Distributions>,
     /// Curves under other choices, ordinary suite.
     pub varied: Vec<Varied>,
-}
-
-/// A figure and the sentence that says what one sees.
-pub struct Figure {
-    /// The drawing and its numbers.
-    pub drawing: Box<dyn crate::draw::figures::Figure + Send + Sync>,
-    /// What one sees, in one sentence made from the numbers.
-    pub reading: String,
 }
 
 impl Results {

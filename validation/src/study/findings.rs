@@ -10,7 +10,7 @@ use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
 use super::normality;
 use super::questions::{self, Answer};
 use super::sensitivities::Varied;
-use crate::draw::figures::data::Stripe;
+use crate::draw::figures::Stripe;
 use crate::json::{ends, rounded};
 use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
 

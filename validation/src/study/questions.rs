@@ -17,7 +17,8 @@ use serde_json::{Value, json};
 
 use super::StudyError;
 use super::analyses::SuiteResults;
-use super::figures::{Figure, Results};
+use super::figures::Results;
+use crate::draw::figures::Figure;
 use crate::table::PlainTable;
 use crate::table::Table;
 

@@ -1,25 +1,141 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
 
-use super::Figure;
-use super::common;
 use super::common::Slendernesses;
-use super::data::{BoxPanel, Boxplots, Heading, NotchedBox, StripeKind};
+use super::{Figure, Heading, common};
+use rocking::statistics::Boxplot;
+
 use crate::draw::axis::Tick;
 use crate::draw::{
     Axis, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample, Scene,
 };
+use crate::paper::Intensity;
+use crate::table::optional;
+use crate::table::{Table, number};
+use crate::words::letter;
 
-impl Figure for Boxplots {
-    fn heading(&self) -> &Heading {
-        &self.heading
+/// Notched boxplots of paired ratios, stripe by stripe.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boxplots {
+    /// The words.
+    pub heading: Heading,
+    /// What is compared, in markup: `*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}`.
+    pub ratio_label: String,
+    /// What a stripe is a level of.
+    pub stripes: StripeKind,
+    /// Panels row by row.
+    pub panels: Vec<BoxPanel>,
+    /// Panels in a row.
+    pub columns: usize,
+}
+
+/// What a stripe is a level of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StripeKind {
+    /// A dimensionless intensity.
+    Intensity(Intensity),
+    /// The demand, peak |theta|/alpha.
+    Demand,
+}
+
+/// One pair of blocks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoxPanel {
+    /// Frequency parameter p.
+    pub p_rad_s: f64,
+    /// Slenderness of the compared block; the colour of the boxes goes by
+    /// it.
+    pub alpha_rad: f64,
+    /// More words for the panel's title, or nothing.
+    pub note: String,
+    /// Stripes in rising level.
+    pub stripes: Vec<Stripe>,
+}
+
+/// One level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stripe {
+    /// The level.
+    pub level: f64,
+    /// Number of well-defined ratios.
+    pub usable: usize,
+    /// Number of records.
+    pub records: usize,
+    /// The box; none where too few ratios are usable.
+    pub summary: Option<Boxplot>,
+}
+
+impl Stripe {
+    /// Share of the records with a well-defined ratio, 0 to 1.
+    #[must_use]
+    pub fn usable_share(&self) -> f64 {
+        if self.records == 0 {
+            return 0.0;
+        }
+        self.usable as f64 / self.records as f64
+    }
+}
+
+impl Boxplots {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    fn scene(&self) -> Scene {
-        scene(self)
-    }
-
+    /// One row a stripe, then one row an outlier:
+    /// `panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value`.
     fn csv(&self) -> String {
-        self.csv()
+        let mut table = Table::new(&[
+            "panel",
+            "p_rad_s",
+            "alpha_rad",
+            "note",
+            "stripe_kind",
+            "level",
+            "quantity",
+            "value",
+        ]);
+        let kind = match self.stripes {
+            StripeKind::Intensity(i) => i.name(),
+            StripeKind::Demand => "edp",
+        };
+        for (i, panel) in self.panels.iter().enumerate() {
+            for stripe in &panel.stripes {
+                let mut row = |quantity: &str, value: String| {
+                    table.row([
+                        letter(i),
+                        number(panel.p_rad_s),
+                        number(panel.alpha_rad),
+                        panel.note.clone(),
+                        kind.into(),
+                        number(stripe.level),
+                        quantity.into(),
+                        value,
+                    ]);
+                };
+                row("usable", stripe.usable.to_string());
+                row("records", stripe.records.to_string());
+                let Some(b) = &stripe.summary else { continue };
+                for (quantity, value) in [
+                    ("whisker_low", b.whisker_low),
+                    ("q1", b.q1),
+                    ("notch_low", b.notch_low),
+                    ("median", b.median),
+                    ("notch_high", b.notch_high),
+                    ("q3", b.q3),
+                    ("whisker_high", b.whisker_high),
+                ] {
+                    row(quantity, number(value));
+                }
+                let interval = b.median_interval;
+                row("median_low", optional(interval.map(|i| i.low)));
+                row("median_high", optional(interval.map(|i| i.high)));
+                for outlier in &b.outliers {
+                    row("outlier", number(*outlier));
+                }
+            }
+        }
+        table.finish()
     }
 }
 
@@ -33,7 +149,7 @@ const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
 /// Ratios beyond are left out, with an arrow head at the edge.
 const WIDEST: (f64, f64) = (0.1, 10.0);
 
-pub(super) fn scene(figure: &Boxplots) -> Scene {
+fn scene(figure: &Boxplots) -> Scene {
     let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
     let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
@@ -60,7 +176,7 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
         legend.push(Entry::new(Sample::Line(INTERVAL), words));
     }
     let beyond =
-        |b: &NotchedBox| b.outliers.iter().any(|x| *x > high || *x < low);
+        |b: &Boxplot| b.outliers.iter().any(|x| *x > high || *x < low);
     if summaries(figure).any(beyond) {
         let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
@@ -104,7 +220,7 @@ pub(super) fn scene(figure: &Boxplots) -> Scene {
     scene
 }
 
-fn summaries(figure: &Boxplots) -> impl Iterator<Item = &NotchedBox> {
+fn summaries(figure: &Boxplots) -> impl Iterator<Item = &Boxplot> {
     let stripes = figure.panels.iter().flat_map(|p| &p.stripes);
     stripes.filter_map(|s| s.summary.as_ref())
 }
@@ -127,7 +243,7 @@ fn ratio_range(figure: &Boxplots) -> (f64, f64) {
 /// Width about 1 within which the axis is linear: half the median box, in
 /// ln, but 0.01 to 0.2.
 fn box_width(figure: &Boxplots) -> f64 {
-    let half = |b: &NotchedBox| 0.5 * libm::log(b.q3 / b.q1);
+    let half = |b: &Boxplot| 0.5 * libm::log(b.q3 / b.q1);
     let mut widths: Vec<f64> =
         summaries(figure).map(half).filter(|w| w.is_finite()).collect();
     widths.sort_by(f64::total_cmp);
@@ -153,7 +269,7 @@ fn draw_stripes(
 
 fn draw_box(
     panel: &mut Panel<'_>,
-    b: &NotchedBox,
+    b: &Boxplot,
     y: f64,
     ink: Ink,
     (low, high): (f64, f64),
@@ -193,7 +309,8 @@ fn draw_box(
     panel.scene().outline(&corners, pen);
     let waist = [(b.median, y - WAIST), (b.median, y + WAIST)];
     panel.line(waist, Pen::new(ink, 1.6));
-    if let Some((from, to)) = b.median_interval {
+    if let Some(interval) = b.median_interval {
+        let (from, to) = (interval.low, interval.high);
         panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
     }
     let edges = [

@@ -1,22 +1,91 @@
 //! Figure 11: intensity given demand, original and shifted.
 
-use super::Figure;
-use super::common;
-use super::data::{Capacities, CapacityPanel, Heading};
+use super::common::{largest, thin};
+use super::{Figure, Heading, common};
 use crate::draw::{Axis, Dash, Entry, Grid, Ink, Panel, Pen, Sample, Scene};
 use crate::paper::Intensity;
+use crate::table::point;
+use crate::table::{Table, number};
+use crate::words::letter;
 
-impl Figure for Capacities {
-    fn heading(&self) -> &Heading {
-        &self.heading
+/// Size of a panel for [`Capacities::thinned`].
+const PX: f64 = 440.0;
+
+/// Capacity curves, intensity given demand, as inverted and shifted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Capacities {
+    /// The words.
+    pub heading: Heading,
+    /// Slenderness of the block.
+    pub alpha_rad: f64,
+    /// Frequency parameter p.
+    pub p_rad_s: f64,
+    /// One panel an intensity measure: (a) PGA, (b) PGV.
+    pub panels: Vec<CapacityPanel>,
+}
+
+/// One intensity measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CapacityPanel {
+    /// Kind of the intensity.
+    pub intensity: Intensity,
+    /// The shift IM_R.
+    pub shift: f64,
+    /// A curve a record.
+    pub curves: Vec<CapacityCurve>,
+}
+
+/// One record's capacities; the shifted curve is drawn from `im - shift`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CapacityCurve {
+    /// Record.
+    pub record: String,
+    /// Demand levels, rising, 0 to 1.
+    pub edp: Vec<f64>,
+    /// Intensity that reaches each level (unshifted).
+    pub im: Vec<f64>,
+}
+
+impl Capacities {
+    /// The same with only the points that a drawing keeps: none that is
+    /// left out lies farther than a tenth of a pixel from the line. Of
+    /// a curve's levels without a capacity the first one stays.
+    #[must_use]
+    pub fn thinned(mut self) -> Self {
+        for panel in &mut self.panels {
+            let top = largest(panel.curves.iter().flat_map(|c| &c.im));
+            for curve in &mut panel.curves {
+                thin(&mut curve.edp, &mut curve.im, (PX, PX / top));
+            }
+        }
+        self
     }
 
-    fn scene(&self) -> Scene {
-        scene(self)
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
+    /// `panel,im_kind,shift,record,edp,im`.
     fn csv(&self) -> String {
-        self.csv()
+        let mut table =
+            Table::new(&["panel", "im_kind", "shift", "record", "edp", "im"]);
+        for (i, panel) in self.panels.iter().enumerate() {
+            for curve in &panel.curves {
+                for (edp, im) in curve.edp.iter().zip(&curve.im) {
+                    table.row([
+                        letter(i),
+                        panel.intensity.name().into(),
+                        number(panel.shift),
+                        curve.record.clone(),
+                        number(*edp),
+                        point(*im),
+                    ]);
+                }
+            }
+        }
+        table.finish()
     }
 }
 
@@ -24,7 +93,7 @@ const ORIGINAL: Pen = Pen::new(Ink::Series(0), 0.45);
 const SHIFTED: Pen = Pen::new(Ink::Series(2), 0.45);
 const SHIFT: Pen = Pen::new(Ink::Text, 0.9).dash(Dash::Dashed);
 
-pub(super) fn scene(figure: &Capacities) -> Scene {
+fn scene(figure: &Capacities) -> Scene {
     let grid =
         Grid::new(figure.panels.len(), 2).plot(440.0, 300.0).with_subtitles();
     let legend = [
@@ -80,7 +149,7 @@ pub(super) fn scene(figure: &Capacities) -> Scene {
 /// The largest capacity, but at most 1.4 times the level that nine in ten
 /// records stay below: one sturdy record must not flatten the others.
 fn top(shown: &CapacityPanel) -> f64 {
-    let largest = |c: &super::data::CapacityCurve| {
+    let largest = |c: &CapacityCurve| {
         common::span(c.im.iter().copied(), true).map(|(_, high)| high)
     };
     let mut ends: Vec<f64> = shown.curves.iter().filter_map(largest).collect();

@@ -1,9 +1,11 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
-use super::data::Heading;
+use super::Heading;
+use crate::draw::geometry::kept;
 use crate::draw::{Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene};
 use crate::draw::{legend, markup};
 use crate::paper::{Arm, Intensity};
+use crate::words::letter;
 
 /// A scene with the grid's size, the legend drawn and room made for it.
 pub fn scene(
@@ -30,7 +32,7 @@ pub fn scene(
 
 /// `(a) words`.
 pub fn panel_title(panel: usize, words: &str) -> String {
-    format!("({}) {words}", super::data::letter(panel))
+    format!("({}) {words}", letter(panel))
 }
 
 /// `p = 3 s^-1`.
@@ -142,4 +144,32 @@ pub fn arm_words(arm: Arm) -> &'static str {
 /// Legend of the mark at an overturning.
 pub fn overturned_entry() -> Entry {
     Entry::new(Sample::Mark(Marker::Cross, Ink::Text), "overturned")
+}
+
+/// How far the curve left may be from the full one, in px.
+const TOLERANCE_PX: f64 = 0.1;
+
+/// Thins a curve drawn with this many px a unit of x and of y, from its
+/// first point to the last one that is finite; of those after it the first
+/// stays.
+pub fn thin(x: &mut Vec<f64>, y: &mut Vec<f64>, px: (f64, f64)) {
+    let points: Vec<_> = x
+        .iter()
+        .zip(y.iter())
+        .take_while(|(x, y)| x.is_finite() && y.is_finite())
+        .map(|(x, y)| (px.0 * x, px.1 * y))
+        .collect();
+    let mut keep = kept(&points, TOLERANCE_PX);
+    keep.push(true);
+    for values in [x, y] {
+        let mut keep = keep.iter();
+        values.retain(|_| keep.next() == Some(&true));
+    }
+}
+
+/// Largest finite magnitude, or 1.
+pub fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    let finite = values.map(|x| x.abs()).filter(|x| x.is_finite());
+    let most = finite.fold(0.0, f64::max);
+    if most > 0.0 { most } else { 1.0 }
 }

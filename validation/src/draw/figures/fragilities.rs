@@ -1,42 +1,199 @@
 //! Figures 15 to 18: empirical and fitted fragilities.
 
-use super::Figure;
-use super::common;
-use super::data::{
-    ByConstant, Estimator, Fragilities, FragilityPanel, Heading, Lognormal,
-};
+use super::{Figure, Heading, common};
 use crate::draw::{
     Axis, Dash, Entry, Grid, Horizontal, Ink, Marker, Panel, Pen, Sample,
     Scene,
 };
 use crate::paper::Intensity;
+use crate::table::{Table, number};
+use crate::words::letter;
+use rocking::statistics::Lognormal;
 
-impl Figure for Fragilities {
-    fn heading(&self) -> &Heading {
-        &self.heading
-    }
+/// Empirical and fitted fragilities.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fragilities {
+    /// The words.
+    pub heading: Heading,
+    /// One panel an intensity measure: (a) PGA, (b) PGV.
+    pub panels: Vec<FragilityPanel>,
+}
 
-    fn scene(&self) -> Scene {
-        scene(self)
-    }
+/// One intensity measure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FragilityPanel {
+    /// Kind of the intensity.
+    pub intensity: Intensity,
+    /// The thresholds, a colour each.
+    pub thresholds: Vec<Threshold>,
+}
 
-    fn csv(&self) -> String {
-        self.csv()
+/// One demand threshold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Threshold {
+    /// Demand, peak |theta|/alpha.
+    pub edp: f64,
+    /// Capacities of all records, +infinity where the threshold was never
+    /// reached; the ECDF divides by the length.
+    pub sample: Vec<f64>,
+    /// Fitted curves, a dash each.
+    pub curves: Vec<Fitted>,
+}
+
+/// How a fitted fragility was obtained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Estimator {
+    /// Lognormal fitted to the unshifted sample.
+    Usfl,
+    /// Lognormal fitted to the shifted sample.
+    Ssfl,
+    /// The unshifted fit transformed by Eq. 7.
+    Usfl7,
+}
+
+impl Estimator {
+    /// The paper's abbreviation.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Usfl => "USFL",
+            Self::Ssfl => "SSFL",
+            Self::Usfl7 => "USFL7",
+        }
     }
 }
 
-impl Figure for ByConstant {
-    fn heading(&self) -> &Heading {
-        &self.heading
+/// A fitted fragility, or why there is none.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    /// How it was obtained.
+    pub estimator: Estimator,
+    /// The curve; none where the fit or Eq. 7 is not defined.
+    pub curve: Option<Lognormal>,
+}
+
+/// The constant c of Eq. 7 compared, against a benchmark.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ByConstant {
+    /// The words.
+    pub heading: Heading,
+    /// Kind of the intensity.
+    pub intensity: Intensity,
+    /// Demand threshold.
+    pub edp: f64,
+    /// (a) untrimmed, (b) trimmed.
+    pub panels: Vec<ByConstantPanel>,
+}
+
+/// One way of fitting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ByConstantPanel {
+    /// Panel title: `untrimmed MLE`.
+    pub title: String,
+    /// The SSFL fragility.
+    pub benchmark: Option<Lognormal>,
+    /// Capacities for the ECDF, or nothing.
+    pub sample: Vec<f64>,
+    /// USFL7 by c.
+    pub curves: Vec<ConstantCurve>,
+}
+
+/// One constant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConstantCurve {
+    /// The constant.
+    pub c: f64,
+    /// USFL7; none where Eq. 7 is not defined.
+    pub curve: Option<Lognormal>,
+}
+
+impl Fragilities {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    fn scene(&self) -> Scene {
-        by_constant(self)
-    }
-
+    /// `panel,im_kind,edp,curve,quantity,value`: the sample (`ecdf`), and
+    /// the parameters of each fitted curve.
     fn csv(&self) -> String {
-        self.csv()
+        let mut table = Table::new(&[
+            "panel", "im_kind", "edp", "curve", "quantity", "value",
+        ]);
+        for (i, panel) in self.panels.iter().enumerate() {
+            for threshold in &panel.thresholds {
+                let mut row = |curve: &str, quantity: &str, value| {
+                    table.row([
+                        letter(i),
+                        panel.intensity.name().into(),
+                        number(threshold.edp),
+                        curve.into(),
+                        quantity.into(),
+                        number(value),
+                    ]);
+                };
+                for im in &threshold.sample {
+                    row("ECDF", "im", *im);
+                }
+                for fit in &threshold.curves {
+                    parameters(fit.curve.as_ref(), |quantity, value| {
+                        row(fit.estimator.name(), quantity, value);
+                    });
+                }
+            }
+        }
+        table.finish()
     }
+}
+
+impl ByConstant {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, by_constant(self), self.csv(), reading)
+    }
+
+    /// `panel,title,im_kind,edp,curve,c,quantity,value`.
+    fn csv(&self) -> String {
+        let mut table = Table::new(&[
+            "panel", "title", "im_kind", "edp", "curve", "c", "quantity",
+            "value",
+        ]);
+        for (i, panel) in self.panels.iter().enumerate() {
+            let mut row = |curve: &str, c: f64, quantity: &str, value| {
+                table.row([
+                    letter(i),
+                    panel.title.clone(),
+                    self.intensity.name().into(),
+                    number(self.edp),
+                    curve.into(),
+                    number(c),
+                    quantity.into(),
+                    number(value),
+                ]);
+            };
+            for im in &panel.sample {
+                row("ECDF", f64::NAN, "im", *im);
+            }
+            parameters(panel.benchmark.as_ref(), |quantity, value| {
+                row("SSFL", f64::NAN, quantity, value);
+            });
+            for fit in &panel.curves {
+                parameters(fit.curve.as_ref(), |quantity, value| {
+                    row("USFL7", fit.c, quantity, value);
+                });
+            }
+        }
+        table.finish()
+    }
+}
+
+/// Hands on each parameter of a fit; NaN for a fit that is not defined.
+fn parameters(fit: Option<&Lognormal>, mut row: impl FnMut(&str, f64)) {
+    let of = |value: fn(&Lognormal) -> f64| fit.map_or(f64::NAN, value);
+    row("ln_median", of(Lognormal::log_mean));
+    row("dispersion", of(Lognormal::dispersion));
+    row("shift", of(Lognormal::shift));
 }
 
 const SIZE: (f64, f64) = (440.0, 290.0);
@@ -49,7 +206,7 @@ fn dash(estimator: Estimator) -> Dash {
     }
 }
 
-pub(super) fn scene(figure: &Fragilities) -> Scene {
+fn scene(figure: &Fragilities) -> Scene {
     let thresholds = || figure.panels.iter().flat_map(|p| &p.thresholds);
     let mut levels: Vec<f64> = thresholds().map(|t| t.edp).collect();
     levels.sort_by(f64::total_cmp);
@@ -171,11 +328,11 @@ fn draw_curve(panel: &mut Panel<'_>, curve: &Lognormal, pen: Pen) {
     let (low, high) = panel.horizontal_range();
     let step = (high - low) / 300.0;
     let at = |i| step.mul_add(f64::from(i), low);
-    let points = (0..=300).map(|i| (at(i), curve.probability(at(i))));
+    let points = (0..=300).map(|i| (at(i), curve.cdf(at(i))));
     panel.line(points, pen);
 }
 
-pub(super) fn by_constant(figure: &ByConstant) -> Scene {
+fn by_constant(figure: &ByConstant) -> Scene {
     let mut constants: Vec<f64> =
         figure.panels.iter().flat_map(|p| &p.curves).map(|c| c.c).collect();
     constants.sort_by(f64::total_cmp);
@@ -199,7 +356,8 @@ pub(super) fn by_constant(figure: &ByConstant) -> Scene {
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     let reach =
         figure.panels.iter().flat_map(|p| p.benchmark.as_ref()).map(|f| {
-            f.shift + libm::exp(2.0_f64.mul_add(f.dispersion, f.ln_median))
+            f.shift()
+                + libm::exp(2.0_f64.mul_add(f.dispersion(), f.log_mean()))
         });
     let samples = figure.panels.iter().map(|p| p.sample.as_slice());
     let high = common::span(reach, true).map_or(1.0, |(_, high)| high);

@@ -1,23 +1,87 @@
 //! Figures 8 and 10: 16/50/84 % curves of the demand given the intensity.
 
-use super::Figure;
-use super::common;
-use super::data::{Heading, QuantileGroup, QuantilePanel, Quantiles};
+use super::{Figure, Heading, common};
+use crate::draw::markup;
 use crate::draw::{
     Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene,
 };
+use crate::paper::Intensity;
+use crate::table::{Table, number};
+use crate::words::letter;
 
-impl Figure for Quantiles {
-    fn heading(&self) -> &Heading {
-        &self.heading
+/// 16/50/84 % curves of the demand given the intensity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantiles {
+    /// The words.
+    pub heading: Heading,
+    /// Kind of the intensity.
+    pub intensity: Intensity,
+    /// Panels row by row.
+    pub panels: Vec<QuantilePanel>,
+    /// Panels in a row.
+    pub columns: usize,
+}
+
+/// One frequency parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuantilePanel {
+    /// Frequency parameter p.
+    pub p_rad_s: f64,
+    /// More words for the panel's title, or nothing.
+    pub note: String,
+    /// What is compared: five slendernesses, or two procedures.
+    pub groups: Vec<QuantileGroup>,
+}
+
+/// Three curves of one colour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct QuantileGroup {
+    /// Legend in markup: `*α* = 0.05 rad`, `scaled records`.
+    pub label: String,
+    /// Intensities, rising.
+    pub im: Vec<f64>,
+    /// 16 % quantile of peak |theta|/alpha; +infinity once overturned.
+    pub q16: Vec<f64>,
+    /// Median.
+    pub q50: Vec<f64>,
+    /// 84 % quantile.
+    pub q84: Vec<f64>,
+}
+
+impl Quantiles {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    fn scene(&self) -> Scene {
-        scene(self)
-    }
-
+    /// `panel,p_rad_s,note,im_kind,group,im,q16,q50,q84`.
     fn csv(&self) -> String {
-        self.csv()
+        let mut table = Table::new(&[
+            "panel", "p_rad_s", "note", "im_kind", "group", "im", "q16",
+            "q50", "q84",
+        ]);
+        for (i, panel) in self.panels.iter().enumerate() {
+            for group in &panel.groups {
+                for (k, im) in group.im.iter().enumerate() {
+                    let at = |v: &[f64]| {
+                        number(v.get(k).copied().unwrap_or(f64::NAN))
+                    };
+                    table.row([
+                        letter(i),
+                        number(panel.p_rad_s),
+                        panel.note.clone(),
+                        self.intensity.name().into(),
+                        markup::plain(&group.label),
+                        number(*im),
+                        at(&group.q16),
+                        at(&group.q50),
+                        at(&group.q84),
+                    ]);
+                }
+            }
+        }
+        table.finish()
     }
 }
 
@@ -26,7 +90,7 @@ const END: f64 = 1.08;
 /// Smallest distance between words at the edge, in px.
 const APART_PX: f64 = 11.5;
 
-pub(super) fn scene(figure: &Quantiles) -> Scene {
+fn scene(figure: &Quantiles) -> Scene {
     let labels = labels(figure);
     let mut legend: Vec<Entry> = labels
         .iter()

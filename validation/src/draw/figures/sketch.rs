@@ -1,22 +1,38 @@
 //! Figure 1: the block and its symbols.
 
-use super::Figure;
-use super::data::{BlockSketch, Heading};
+use super::{Figure, Heading};
 use crate::draw::{
     Caption, Dash, Fill, Horizontal, Ink, Pen, Point, Scene, TextLine,
 };
+use crate::table::{Table, number};
 
-impl Figure for BlockSketch {
-    fn heading(&self) -> &Heading {
-        &self.heading
+/// The block with its symbols, rotated about its right-hand pivot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockSketch {
+    /// The words.
+    pub heading: Heading,
+    /// Slenderness of the drawn block (0.25 to 0.45 reads well).
+    pub alpha_rad: f64,
+    /// Drawn rotation, positive (0.1 to 0.25 reads well).
+    pub rotation_rad: f64,
+}
+
+impl BlockSketch {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    fn scene(&self) -> Scene {
-        scene(self)
-    }
-
+    /// `quantity,value,unit`.
     fn csv(&self) -> String {
-        self.csv()
+        let mut table = Table::new(&["quantity", "value", "unit"]);
+        let rows =
+            [("slenderness", self.alpha_rad), ("rotation", self.rotation_rad)];
+        for (name, value) in rows {
+            table.row([name.into(), number(value), "rad".into()]);
+        }
+        table.finish()
     }
 }
 
@@ -38,7 +54,7 @@ fn from((x, y): Point, length: f64, angle: f64) -> Point {
     )
 }
 
-pub(super) fn scene(figure: &BlockSketch) -> Scene {
+fn scene(figure: &BlockSketch) -> Scene {
     let caption = Caption {
         name: figure.heading.name.clone(),
         title: figure.heading.title.clone(),

@@ -9,7 +9,7 @@ use crate::draw::geometry::Rect;
 use crate::draw::scene::WANTED_BYTES;
 
 /// Every figure once, from made-up numbers.
-pub(crate) fn demonstration() -> Vec<Box<dyn Figure>> {
+pub(crate) fn demonstration() -> Vec<Figure> {
     made_up::all()
 }
 
@@ -19,7 +19,7 @@ pub(crate) fn demonstration() -> Vec<Box<dyn Figure>> {
 fn writes_them_to_be_looked_at() {
     let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
     for figure in made_up::all().iter().chain(&spare::all()) {
-        let name = &figure.heading().name;
+        let name = &figure.heading.name;
         let svg = figure.svg().unwrap();
         std::fs::write(format!("{folder}/{name}.svg"), svg).unwrap();
     }
@@ -32,7 +32,7 @@ fn same_bytes_twice_below_the_limit() {
     for (a, b) in first.iter().zip(&second) {
         let svg = a.svg().unwrap();
         assert_eq!(svg, b.svg().unwrap());
-        assert!(svg.len() < WANTED_BYTES, "{}", a.heading().name);
+        assert!(svg.len() < WANTED_BYTES, "{}", a.heading.name);
     }
 }
 
@@ -40,7 +40,7 @@ fn same_bytes_twice_below_the_limit() {
 fn svg_is_well_formed_and_has_no_number_that_is_none() {
     for figure in made_up::all().iter().chain(&spare::all()) {
         let svg = figure.svg().unwrap();
-        let name = &figure.heading().name;
+        let name = &figure.heading.name;
         xml::check(&svg).unwrap_or_else(|e| panic!("{name}: {e}"));
         for word in ["NaN", "inf\"", "inf ", "-inf"] {
             assert!(!svg.contains(word), "{name} contains {word}");
@@ -56,7 +56,7 @@ fn says_so_in_words_where_there_is_nothing_to_draw() {
             svg.contains("no data in this range")
                 || svg.contains("too few usable ratios"),
             "{}",
-            figure.heading().name
+            figure.heading.name
         );
     }
 }
@@ -64,7 +64,7 @@ fn says_so_in_words_where_there_is_nothing_to_draw() {
 #[test]
 fn text_lies_inside_the_figure() {
     for figure in made_up::all().iter().chain(&spare::all()) {
-        let scene = figure.scene();
+        let scene = &figure.scene;
         let all = scene.extent();
         for text in scene.texts() {
             let e = text.extent();
@@ -72,7 +72,7 @@ fn text_lies_inside_the_figure() {
                 all.contains((e.left, e.top), 0.0)
                     && all.contains((e.right, e.bottom), 0.0),
                 "{}: {} at {e:?} in {all:?}",
-                figure.heading().name,
+                figure.heading.name,
                 text.markup
             );
         }
@@ -88,14 +88,14 @@ fn text_does_not_lie_on_text() {
             || b.bottom < a.top + 1.5
     };
     for figure in made_up::all().iter().chain(&spare::all()) {
-        let scene = figure.scene();
+        let scene = &figure.scene;
         let texts: Vec<_> = scene.texts().collect();
         for (i, a) in texts.iter().enumerate() {
             for b in &texts[i + 1..] {
                 assert!(
                     apart(a.extent(), b.extent()),
                     "{}: {} on {}",
-                    figure.heading().name,
+                    figure.heading.name,
                     a.markup,
                     b.markup
                 );
@@ -107,12 +107,12 @@ fn text_does_not_lie_on_text() {
 #[test]
 fn csv_has_a_header_and_rows_of_its_length() {
     for figure in made_up::all() {
-        let csv = figure.csv();
+        let csv = &figure.csv;
         let mut reader = csv::Reader::from_reader(csv.as_bytes());
         let width = reader.headers().unwrap().len();
         let rows = reader.records().map(|r| r.unwrap().len());
         let rows: Vec<usize> = rows.collect();
-        assert!(!rows.is_empty(), "{}", figure.heading().name);
+        assert!(!rows.is_empty(), "{}", figure.heading.name);
         assert!(rows.iter().all(|n| *n == width));
         assert!(csv.ends_with('\n') && !csv.contains("NaN"));
     }
@@ -120,7 +120,7 @@ fn csv_has_a_header_and_rows_of_its_length() {
 
 #[test]
 fn histogram_counts_every_finite_datum_once() {
-    use super::data::Histogram;
+    use super::Histogram;
     let sample = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, f64::INFINITY];
     let h = Histogram::freedman_diaconis(&sample, (1.75, 5.25), 3.5, 2.4);
     // 2 * 3.5 / 8^(1/3) = 3.5; (7 - 0) / 3.5 = 2 bins.
@@ -136,7 +136,7 @@ fn histogram_counts_every_finite_datum_once() {
 fn thinned_histories_draw_the_same() {
     let full = made_up::histories();
     let thin = full.clone().thinned();
-    let points = |h: &super::data::Histories| -> usize {
+    let points = |h: &super::Histories| -> usize {
         let curves = h.panels.iter().flat_map(|p| &p.curves);
         curves.map(|c| c.time_s.len()).sum()
     };

@@ -1,6 +1,6 @@
-use super::{EvidenceError, ShownChart};
-use crate::draw::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
+use super::EvidenceError;
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::proof::engine::Core;
 use crate::proof::scene::{
@@ -27,7 +27,7 @@ enum Over {
 }
 
 /// Order of the departure of Eq. 1 from similarity as alpha grows.
-pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
+pub(super) fn chart() -> Result<Figure, EvidenceError> {
     let mut panels = Vec::new();
     let mut slopes = Vec::new();
     for (over, title) in [
@@ -68,35 +68,32 @@ pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
         });
     }
     let (low, high) = crate::study::figures::range(slopes.into_iter());
-    Ok(ShownChart {
-        number: "Figure 19".into(),
-        chart: Chart {
-            heading: Heading {
-                name: "figure-19".into(),
-                title: "Departure of Eq. 1 from similarity as the \
+    Ok(Chart {
+        heading: Heading {
+            name: "figure-19".into(),
+            title: "Departure of Eq. 1 from similarity as the \
                         slenderness grows"
-                    .into(),
-                description: "Relative change of the first impact speed \
+                .into(),
+            description: "Relative change of the first impact speed \
                               over p alpha under four one-sine pulses, \
                               against the slenderness, on logarithmic axes, \
                               for two normalizations of the amplitude; a \
                               dashed line has slope 2."
-                    .into(),
-                arm: None,
-            },
-            panels,
-            columns: 2,
+                .into(),
+            arm: None,
         },
-        reading: format!(
-            "In Eq. 2 the response over alpha does not depend on alpha; in \
+        panels,
+        columns: 2,
+    }
+    .figure(format!(
+        "In Eq. 2 the response over alpha does not depend on alpha; in \
              Eq. 1 it departs from that with the square of alpha: slopes of \
              {low:.3} to {high:.3} between 0.0125 and 0.025 rad."
-        ),
-    })
+    )))
 }
 
-fn axis(label: &str, range: (f64, f64)) -> Axis {
-    Axis {
+fn axis(label: &str, range: (f64, f64)) -> ChartAxis {
+    ChartAxis {
         label: label.into(),
         scale: Scale::Logarithmic,
         range: Some(range),

@@ -1,8 +1,8 @@
 use rayon::prelude::*;
 
-use super::{EvidenceError, ShownChart};
-use crate::draw::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
+use super::EvidenceError;
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::proof::engine::Core;
 use crate::proof::oracles::overturning;
@@ -156,8 +156,8 @@ fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
     }
 }
 
-fn axis(label: &str, scale: Scale, range: (f64, f64)) -> Axis {
-    Axis {
+fn axis(label: &str, scale: Scale, range: (f64, f64)) -> ChartAxis {
+    ChartAxis {
         label: label.into(),
         scale,
         range: Some(range),
@@ -167,7 +167,7 @@ fn axis(label: &str, scale: Scale, range: (f64, f64)) -> Axis {
 
 /// Overturning spectrum of one-sine pulses, every mode, both criteria and
 /// both equations.
-pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
+pub(super) fn chart() -> Result<Figure, EvidenceError> {
     let (fold, at_fold) = overturning::fold(ETA);
     // Up to the fold, which is one of the frequencies, and beyond.
     let mut omegas: Vec<f64> = (0..POINTS)
@@ -222,34 +222,31 @@ pub(super) fn chart() -> Result<ShownChart, EvidenceError> {
     }
     let (panel, lowest) = low_frequencies(&with_impact)?;
     panels.push(panel);
-    Ok(ShownChart {
-        number: "Figure 20".into(),
-        chart: Chart {
-            heading: Heading {
-                name: "figure-20".into(),
-                title: "Overturning spectrum of one-sine pulses".into(),
-                description: "Amplitude over the uplift threshold against \
+    Ok(Chart {
+        heading: Heading {
+            name: "figure-20".into(),
+            title: "Overturning spectrum of one-sine pulses".into(),
+            description: "Amplitude over the uplift threshold against \
                               frequency over p at which a block overturns, \
                               restitution 0.92: after one impact, without \
                               impact, and in narrow bands after three and \
                               more; by two criteria, in Eq. 2 (regions) and \
                               in Eq. 1 (dashed)."
-                    .into(),
-                arm: None,
-            },
-            panels,
-            columns: 3,
+                .into(),
+            arm: None,
         },
-        reading: format!(
-            "Mode 1 folds back at omega/p = {fold:.3} and leaves a safe bay \
+        panels,
+        columns: 3,
+    }
+    .figure(format!(
+        "Mode 1 folds back at omega/p = {fold:.3} and leaves a safe bay \
              below mode 2; by |theta| >= alpha the bay opens at 6.999 only. \
              At omega/p = 0.5 a pulse {:.1} % above the threshold overturns \
              after {} impacts, less than mode 1 needs. Regions are of Eq. 2; \
              dashed, the lower edges of Eq. 1 at alpha = 0.25.",
-            100.0 * (lowest.1 - 1.0),
-            lowest.0
-        ),
-    })
+        100.0 * (lowest.1 - 1.0),
+        lowest.0
+    )))
 }
 
 /// The bands of three impacts and more, and the lowest of them at 0.5.

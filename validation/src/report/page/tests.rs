@@ -29,8 +29,8 @@ fn made_up() -> ReportInput {
         rejects: "energy ratio taken for velocity ratio".into(),
         passed: k != 2,
     };
-    let shown = |figure: &dyn Figure| {
-        let heading = figure.heading();
+    let shown = |figure: &Figure| {
+        let heading = &figure.heading;
         ShownFigure {
             name: heading.name.clone(),
             number: heading.name.replace("figure-", "Figure "),
@@ -38,7 +38,7 @@ fn made_up() -> ReportInput {
             reading: "Nothing can be seen here, the numbers are made up."
                 .into(),
             svg: figure.svg().unwrap(),
-            csv: figure.csv(),
+            csv: figure.csv.clone(),
             csv_path: format!("data/{}.csv", heading.name),
         }
     };
@@ -67,7 +67,7 @@ fn made_up() -> ReportInput {
             header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
             rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
         }],
-        figures: demonstration().iter().map(|f| shown(f.as_ref())).collect(),
+        figures: demonstration().iter().map(shown).collect(),
         provenance: vec![
             ("version".into(), "0.1.0".into()),
             (

@@ -3,8 +3,9 @@
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
 use super::{Answer, Cell, Rows, both, capital};
-use crate::draw::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
+use crate::draw::figures::Figure;
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
 use crate::paper::{Arm, Intensity};
 use crate::paper::{demand_index, demands};
@@ -12,7 +13,7 @@ use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
 use crate::study::claims::median;
 use crate::study::distributions::{BlockSamples, factors};
-use crate::study::figures::{Figure, Results, range};
+use crate::study::figures::{Results, range};
 use crate::study::normality::{LEVEL, over_critical};
 
 /// Demands at which the null is simulated; between them the ratio of the
@@ -189,13 +190,13 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             .collect();
         ChartPanel {
             title: format!("{kind} records"),
-            x: Axis {
+            x: ChartAxis {
                 label: "*θ̃*".into(),
                 scale: Scale::Linear,
                 range: Some((0.0, 1.0)),
                 categories: Vec::new(),
             },
-            y: Axis {
+            y: ChartAxis {
                 label: "critical value over the table's".into(),
                 scale: Scale::Linear,
                 range: None,
@@ -204,26 +205,26 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             series,
         }
     };
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-null".into(),
-                title: "Critical values with the shift estimated anew".into(),
-                description: "Critical value of Lilliefors' test at 5 % \
+    Chart {
+        heading: Heading {
+            name: "figure-null".into(),
+            title: "Critical values with the shift estimated anew".into(),
+            description: "Critical value of Lilliefors' test at 5 % \
                               with the shift estimated in every draw, over \
                               the tabulated one, along the demand; shifted \
                               PGV, ordinary and pulse-type records."
-                    .into(),
-                arm: Some(arm),
-            },
-            panels: vec![panel("ordinary"), panel("pulse-type")],
-            columns: 2,
-        }),
-        reading: "Critical value at 5 % with IM_R estimated anew, over that \
+                .into(),
+            arm: Some(arm),
+        },
+        panels: vec![panel("ordinary"), panel("pulse-type")],
+        columns: 2,
+    }
+    .figure(
+        "Critical value at 5 % with IM_R estimated anew, over that \
                   of the table: median and range over five slendernesses. \
                   From 2000 replicates, with a standard error of 1.6 %."
             .into(),
-    }
+    )
 }
 
 #[cfg(test)]

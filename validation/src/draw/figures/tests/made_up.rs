@@ -3,11 +3,12 @@
 
 mod statistics;
 
-use crate::draw::figures::Figure;
-use crate::draw::figures::data::*;
+use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
+
+use crate::draw::figures::*;
 use crate::paper::{Arm, Intensity};
 pub use statistics::{
-    accepted, by_constant, chart, fates, fragilities, spectrum, tests_along,
+    accepted, by_constant, chart, fragilities, spectrum, tests_along,
 };
 
 pub const ALPHAS: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
@@ -33,22 +34,21 @@ pub fn normal(i: usize) -> f64 {
     (0..12).map(|k| noise(12 * i + k)).sum::<f64>() - 6.0
 }
 
-pub fn all() -> Vec<Box<dyn Figure>> {
+pub fn all() -> Vec<Figure> {
     vec![
-        Box::new(sketch()),
-        Box::new(histories()),
-        Box::new(ida()),
-        Box::new(boxplots(4)),
-        Box::new(boxplots(8)),
-        Box::new(quantiles()),
-        Box::new(capacities()),
-        Box::new(accepted()),
-        Box::new(tests_along()),
-        Box::new(fragilities()),
-        Box::new(by_constant()),
-        Box::new(chart()),
-        Box::new(spectrum()),
-        Box::new(fates()),
+        sketch().figure(String::new()),
+        histories().figure(String::new()),
+        ida().figure(String::new()),
+        boxplots(4).figure(String::new()),
+        boxplots(8).figure(String::new()),
+        quantiles().figure(String::new()),
+        capacities().figure(String::new()),
+        accepted().figure(String::new()),
+        tests_along().figure(String::new()),
+        fragilities().figure(String::new()),
+        by_constant().figure(String::new()),
+        chart().figure(String::new()),
+        spectrum().figure(String::new()),
     ]
 }
 
@@ -141,25 +141,9 @@ pub fn ida() -> IdaCurves {
     }
 }
 
-pub fn notched(mut sample: Vec<f64>) -> NotchedBox {
-    sample.sort_by(f64::total_cmp);
-    let n = sample.len();
-    let at = |q: f64| sample[((n - 1) as f64 * q) as usize];
-    let (q1, median, q3) = (at(0.25), at(0.5), at(0.75));
-    let half = 1.57 * (q3 - q1) / (n as f64).sqrt();
-    let inside =
-        |x: &&f64| **x >= q1 - 1.5 * (q3 - q1) && **x <= q3 + 1.5 * (q3 - q1);
-    NotchedBox {
-        q1,
-        median,
-        q3,
-        notch_low: median - half,
-        notch_high: median + half,
-        whisker_low: *sample.iter().find(inside).unwrap(),
-        whisker_high: *sample.iter().rev().find(inside).unwrap(),
-        outliers: sample.iter().filter(|x| !inside(x)).copied().collect(),
-        median_interval: Some((median - half, median + 0.9 * half)),
-    }
+pub fn notched(sample: &[f64]) -> Boxplot {
+    let sample = ExtendedSample::try_new(sample).unwrap();
+    Boxplot::try_new(&sample, QuantileType::default()).unwrap()
 }
 
 pub fn boxplots(panels: usize) -> Boxplots {
@@ -176,8 +160,8 @@ pub fn boxplots(panels: usize) -> Boxplots {
                 let spread = 0.05 + 0.06 * i as f64;
                 let ratio =
                     |r| libm::exp(spread * normal(r + 100 * k + 900 * i));
-                let sample = (0..usable).map(ratio).collect();
-                let summary = (usable >= 10).then(|| notched(sample));
+                let sample: Vec<f64> = (0..usable).map(ratio).collect();
+                let summary = (usable >= 10).then(|| notched(&sample));
                 Stripe { level: *level, usable, records: 86, summary }
             })
             .collect(),

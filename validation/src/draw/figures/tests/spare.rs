@@ -2,13 +2,12 @@
 
 use super::made_up;
 use super::made_up::heading;
-use crate::draw::figures::Figure;
-use crate::draw::figures::data::*;
+use crate::draw::figures::*;
 use crate::paper::Arm;
 
 const HOLES: [f64; 4] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0];
 
-pub fn all() -> Vec<Box<dyn Figure>> {
+pub fn all() -> Vec<Figure> {
     let mut histories = made_up::histories();
     histories.heading = heading("spare-02", None);
     histories.panels[0].curves.clear();
@@ -100,21 +99,16 @@ pub fn all() -> Vec<Box<dyn Figure>> {
         series.y = vec![-1.0; 4];
     }
 
-    let mut fates = made_up::fates();
-    fates.heading = heading("spare-fates", None);
-    fates.panels[0].fates.clear();
-
     vec![
-        Box::new(histories),
-        Box::new(ida),
-        Box::new(boxplots),
-        Box::new(quantiles),
-        Box::new(capacities),
-        Box::new(accepted),
-        Box::new(tests),
-        Box::new(fragilities),
-        Box::new(by_constant),
-        Box::new(chart),
-        Box::new(fates),
+        histories.figure(String::new()),
+        ida.figure(String::new()),
+        boxplots.figure(String::new()),
+        quantiles.figure(String::new()),
+        capacities.figure(String::new()),
+        accepted.figure(String::new()),
+        tests.figure(String::new()),
+        fragilities.figure(String::new()),
+        by_constant.figure(String::new()),
+        chart.figure(String::new()),
     ]
 }

@@ -1,7 +1,9 @@
-//! Made-up tests, fits and maps.
+//! Made-up tests and fits.
+
+use rocking::statistics::Lognormal;
 
 use super::{ALPHAS, FREQUENCIES, heading, noise, normal};
-use crate::draw::figures::data::*;
+use crate::draw::figures::*;
 use crate::paper::{Arm, Intensity};
 
 pub fn accepted() -> AcceptedShares {
@@ -86,6 +88,10 @@ pub fn tests_along() -> TestsAlongDemand {
     }
 }
 
+fn lognormal(shift: f64, log_mean: f64, dispersion: f64) -> Lognormal {
+    Lognormal::try_new(shift, log_mean, dispersion).unwrap()
+}
+
 pub fn fragilities() -> Fragilities {
     let threshold = |edp: f64, seed: usize, shift: f64| {
         let mut capacities: Vec<f64> = sample(86, seed, 0.5)
@@ -95,12 +101,9 @@ pub fn fragilities() -> Fragilities {
         capacities[5] = f64::INFINITY;
         let ln_median = libm::log(2.0 * edp.sqrt());
         let fit = |estimator, curve| Fitted { estimator, curve };
-        let shifted = Lognormal { ln_median, dispersion: 0.5, shift };
-        let unshifted = Lognormal {
-            ln_median: libm::log(shift + 2.0 * edp.sqrt()),
-            dispersion: 0.4,
-            shift: 0.0,
-        };
+        let shifted = lognormal(shift, ln_median, 0.5);
+        let unshifted =
+            lognormal(0.0, libm::log(shift + 2.0 * edp.sqrt()), 0.4);
         Threshold {
             edp,
             sample: capacities,
@@ -130,8 +133,7 @@ pub fn fragilities() -> Fragilities {
 }
 
 pub fn by_constant() -> ByConstant {
-    let fit =
-        |dispersion| Lognormal { ln_median: 0.0, dispersion, shift: 1.0 };
+    let fit = |dispersion| lognormal(1.0, 0.0, dispersion);
     let panel = |(title, grow): (&str, f64)| ByConstantPanel {
         title: title.into(),
         benchmark: Some(fit(0.7)),
@@ -156,8 +158,8 @@ pub fn by_constant() -> ByConstant {
     }
 }
 
-fn axis(label: &str, scale: Scale) -> Axis {
-    Axis { label: label.into(), scale, range: None, categories: vec![] }
+fn axis(label: &str, scale: Scale) -> ChartAxis {
+    ChartAxis { label: label.into(), scale, range: None, categories: vec![] }
 }
 
 pub fn chart() -> Chart {
@@ -197,7 +199,7 @@ pub fn chart() -> Chart {
             },
             ChartPanel {
                 title: "named ticks".into(),
-                x: Axis {
+                x: ChartAxis {
                     categories: vec![
                         "option 1".into(),
                         "option 2".into(),
@@ -232,7 +234,7 @@ pub fn spectrum() -> Chart {
         panels: vec![ChartPanel {
             title: "one-sine pulse".into(),
             x: axis("*ω*_{p} / *p*", Scale::Linear),
-            y: Axis {
+            y: ChartAxis {
                 range: Some((0.0, 12.0)),
                 ..axis("*a*_{p} / (*g* tan *α*)", Scale::Linear)
             },
@@ -244,37 +246,6 @@ pub fn spectrum() -> Chart {
             .into_iter()
             .map(series)
             .collect(),
-        }],
-        columns: 1,
-    }
-}
-
-pub fn fates() -> FateMap {
-    let edges = |low: f64, high: f64| -> Vec<f64> {
-        let step = (high - low) / 120.0;
-        (0..=120).map(|i| low + step * f64::from(i)).collect()
-    };
-    let fate = |i: usize| {
-        let (x, y) = ((i % 120) as f64 / 12.0, (i / 120) as f64 / 12.0);
-        if y < 1.0 {
-            Fate::NoUplift
-        } else if y > 1.0 + 0.2 * x * x {
-            Fate::OverturnedWithoutImpact
-        } else if y > 1.0 + 0.1 * x * x {
-            Fate::OverturnedAfterImpact
-        } else {
-            Fate::Rocked
-        }
-    };
-    FateMap {
-        heading: heading("figure-fates", None),
-        panels: vec![FatePanel {
-            title: "one-sine pulse".into(),
-            x: axis("*ω*_{p} / *p*", Scale::Linear),
-            y: axis("*a*_{p} / (*g* tan *α*)", Scale::Linear),
-            x_edges: edges(0.0, 10.0),
-            y_edges: edges(0.0, 10.0),
-            fates: (0..120 * 120).map(fate).collect(),
         }],
         columns: 1,
     }

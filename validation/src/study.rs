@@ -2,19 +2,15 @@
 //! figures, their data, and what was found about the paper's claims.
 
 pub mod analyses;
-pub mod capacities;
 pub mod certainty;
-pub mod choice;
 pub mod claims;
 pub mod distributions;
 pub mod figures;
 pub mod findings;
-pub mod histories;
 pub mod normality;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
-pub mod stripes;
 
 use indicatif::ProgressBar;
 use rocking::block::BlockError;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::input::{Flaw, amount};
+use super::flaw::{Flaw, amount};
 use super::{Content, Item, Limit};
 use crate::proof::verdict::snapshot::supported_digits;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Map, Value};
 
-use super::input::{Flaw, amount, kind};
+use super::flaw::{Flaw, amount, kind};
 use super::words::{identities, identity, intensity, quantity, section};
 use super::{Content, Item, Limit};
 use crate::paper::Verdict;

@@ -7,6 +7,7 @@ mod lognormality;
 mod stages;
 mod stripes;
 
+use rocking::capacity::InversionRule;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::boxplot::median_interval;
@@ -15,8 +16,8 @@ use serde_json::{Value, json};
 
 use super::StudyError;
 use super::analyses::{Apart, SuiteResults};
-use super::capacities::at;
 use super::figures::{Results, median_of};
+use super::runs::capacities;
 use super::sensitivities::Varied;
 use crate::json::{ends, rounded};
 use crate::paper::Arm;
@@ -365,8 +366,8 @@ pub fn varied_ratios(
     let (mut a, mut b) = (Vec::new(), Vec::new());
     for (curve, base) in varied.curves.iter().zip(base) {
         if let Some(curve) = curve {
-            a.extend(at(curve, &[demand])?);
-            b.extend(at(base, &[demand])?);
+            a.extend(capacities(curve, &[demand], InversionRule::Median)?);
+            b.extend(capacities(base, &[demand], InversionRule::Median)?);
         }
     }
     Ok(Pairs::try_new(&a, &b)?)

@@ -7,8 +7,7 @@ use super::{median, middle};
 use crate::paper::{Arm, Intensity};
 use crate::paper::{FREQUENCIES_RAD_S, position};
 use crate::study::analyses::SuiteResults;
-use crate::study::capacities::scaled;
-use crate::study::distributions::{Distributions, factors, least};
+use crate::study::distributions::{Distributions, factors, least, scaled};
 use crate::study::figures::range;
 use crate::study::normality::{accepted_share, along};
 

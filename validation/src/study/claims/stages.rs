@@ -11,8 +11,8 @@ use crate::paper::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::study::analyses::{Apart, SuiteResults};
-use crate::study::capacities::by_rule;
 use crate::study::figures::of_arm;
+use crate::study::runs::capacities;
 use crate::study::sensitivities::Choice;
 
 /// Demands at which intensities are compared.
@@ -302,7 +302,7 @@ fn inversion(results: &Results, arm: Arm) -> Result<Claim, StudyError> {
         let mean = |rule| -> Result<Vec<f64>, StudyError> {
             let mut sums = vec![0.0; DEMANDS.len()];
             for curve in records {
-                let own = by_rule(curve, &DEMANDS, rule)?;
+                let own = capacities(curve, &DEMANDS, rule)?;
                 for (sum, x) in sums.iter_mut().zip(own) {
                     *sum += x;
                 }

@@ -44,7 +44,7 @@ const HARNESS: Edges = &[
         "cli",
         &[
             "curves", "diff", "draw", "files", "json", "paper", "proof",
-            "report", "speed", "study", "suites",
+            "report", "speed", "study", "suites", "table",
         ],
     ),
     (
@@ -54,18 +54,21 @@ const HARNESS: Edges = &[
             "suites", "table", "words",
         ],
     ),
-    ("diff", &["files", "json", "paper", "proof", "speed"]),
-    ("speed", &["curves", "files", "paper", "suites"]),
-    ("study", &["curves", "draw", "json", "paper", "suites", "table"]),
-    ("draw", &["paper", "table"]),
+    ("diff", &["files", "json", "paper", "proof", "words"]),
+    ("speed", &["curves", "files", "paper", "suites", "words"]),
+    (
+        "study",
+        &["curves", "draw", "json", "paper", "suites", "table", "words"],
+    ),
+    ("draw", &["paper", "table", "words"]),
     ("proof", &["json", "suites"]),
-    ("suites", &[]),
+    ("suites", &["table"]),
     ("paper", &[]),
     ("curves", &[]),
     ("table", &[]),
-    ("words", &[]),
     ("files", &[]),
-    ("json", &[]),
+    ("json", &["words"]),
+    ("words", &[]),
 ];
 
 /// Each source folder with its table.

@@ -3,6 +3,8 @@
 
 use serde_json::{Value, json};
 
+use crate::words;
+
 /// A number as the command line prints it: shortest digits that read back to
 /// the same double, `null` where it is infinite or not a number.
 #[must_use]
@@ -43,7 +45,7 @@ pub fn all_extended(values: &[f64]) -> Value {
 /// no more than a reader compares.
 #[must_use]
 pub fn rounded(x: f64) -> Value {
-    extended(format!("{x:.8e}").parse().unwrap_or(x))
+    extended(words::rounded(x, 9))
 }
 
 /// The two ends of an interval, or null.

@@ -15,7 +15,7 @@ use rocking::record::{
 use sha2::{Digest as _, Sha256};
 use thiserror::Error;
 
-use inputs::read_suite;
+use inputs::{hex, read_suite};
 use remarks::Remarks;
 use synthesis::Pair;
 
@@ -178,8 +178,4 @@ impl StudySuite {
         }
         hex(&hash.finalize())
     }
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
 }

@@ -4,44 +4,37 @@
 /// Rows under one header line, as CSV.
 ///
 /// ```
-/// use rocking_validation::draw::figures::{Table, number};
+/// use rocking_validation::table::{Table, number};
 /// let mut table = Table::new(&["record", "im"]);
 /// table.row([String::from("A, B"), number(1.0 / 3.0)]);
 /// assert_eq!(table.finish(), "record,im\n\"A, B\",0.333333333\n");
 /// ```
-#[derive(Debug, Clone)]
 pub struct Table {
-    text: String,
+    csv: csv::Writer<Vec<u8>>,
 }
 
 impl Table {
     /// A table with its header line.
     #[must_use]
     pub fn new(header: &[&str]) -> Self {
-        Self { text: header.join(",") + "\n" }
+        let mut csv = csv::WriterBuilder::new();
+        let mut table = Self { csv: csv.flexible(true).from_writer(vec![]) };
+        table.row(header);
+        table
     }
 
     /// Adds a row; a cell with a comma, a quote or a line break is quoted.
-    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        for (i, cell) in cells.into_iter().enumerate() {
-            if i > 0 {
-                self.text.push(',');
-            }
-            if cell.contains([',', '"', '\n', '\r']) {
-                self.text.push('"');
-                self.text.push_str(&cell.replace('"', "\"\""));
-                self.text.push('"');
-            } else {
-                self.text.push_str(&cell);
-            }
-        }
-        self.text.push('\n');
+    pub fn row<C: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = C>) {
+        // Memory can be written to, and rows of any length are taken.
+        let _ = self.csv.write_record(cells);
     }
 
     /// The CSV text.
     #[must_use]
     pub fn finish(self) -> String {
-        self.text
+        // Text went in.
+        let bytes = self.csv.into_inner().unwrap_or_default();
+        String::from_utf8(bytes).unwrap_or_default()
     }
 }
 
@@ -49,16 +42,18 @@ impl Table {
 /// empty where there is none (NaN).
 #[must_use]
 pub fn number(x: f64) -> String {
-    to_digits(x, 9)
+    digits(x, 9)
 }
 
 /// The same with five digits: a point of a curve, to less than a hundredth
 /// of a pixel.
 pub fn point(x: f64) -> String {
-    to_digits(x, 5)
+    digits(x, 5)
 }
 
-fn to_digits(x: f64, digits: usize) -> String {
+/// The same with so many digits.
+#[must_use]
+pub fn digits(x: f64, digits: usize) -> String {
     if x.is_nan() {
         return String::new();
     }
@@ -115,26 +110,10 @@ impl PlainTable {
 }
 
 /// Cells of a line of CSV; a quoted cell has no line break in it.
+#[must_use]
 pub fn cells(line: &str) -> Vec<String> {
-    let mut cells = vec![String::new()];
-    let mut quoted = false;
-    let mut characters = line.chars().peekable();
-    while let Some(c) = characters.next() {
-        match c {
-            '"' if quoted && characters.peek() == Some(&'"') => {
-                characters.next();
-                push(&mut cells, '"');
-            }
-            '"' => quoted = !quoted,
-            ',' if !quoted => cells.push(String::new()),
-            _ => push(&mut cells, c),
-        }
-    }
-    cells
-}
-
-fn push(cells: &mut [String], c: char) {
-    if let Some(cell) = cells.last_mut() {
-        cell.push(c);
-    }
+    let mut reader = csv::ReaderBuilder::new();
+    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
+    let record = reader.records().next().and_then(Result::ok);
+    record.iter().flatten().map(String::from).collect()
 }

@@ -3,7 +3,6 @@
 mod refine;
 mod summary;
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -27,12 +26,12 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
 use super::{
-    Failure, SOFTWARE, csv_text, logged, print, print_json, progress,
-    with_threads,
+    Failure, SOFTWARE, logged, print, print_json, progress, with_threads,
 };
 use crate::files::Output;
 use crate::suites::inputs::{files, read_suite};
 use crate::suites::remarks::Remarks;
+use crate::table::Table;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
@@ -263,7 +262,7 @@ impl Args {
 impl Job<'_> {
     /// The table: one row an analysis, by record, then level.
     fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
-        let mut text = COLUMNS.join(",") + "\n";
+        let mut table = Table::new(&COLUMNS);
         let p = analysis.block.frequency_rad_s();
         let setting = Setting {
             eta: analysis.restitution.velocity_ratio().to_string(),
@@ -274,17 +273,12 @@ impl Job<'_> {
             processing: self.processing.clone().unwrap_or("none".into()),
             software: SOFTWARE.to_owned(),
         };
-        let setting = setting.cells().map(csv_text).join(",");
         for curve in self.table {
             let remarks = self.remarks.codes(&curve.record);
             let mut row = |point: &IdaPoint, outcome: &str| {
                 let pgv_m_s =
                     point.pga_g * curve.velocity_ratio_s * gravity_m_s2;
-                // Writing to a string cannot fail.
-                let _ = writeln!(
-                    text,
-                    "{},{},{},{},{},{},{},{},{},{},{remarks},{setting}",
-                    csv_text(&curve.record),
+                let numbers = [
                     point.slenderness_rad,
                     p,
                     point.pga_g,
@@ -292,9 +286,13 @@ impl Job<'_> {
                     point.im,
                     point.im * curve.velocity_factor(p),
                     point.edp(),
-                    outcome,
-                    point.fate_margin
-                );
+                ];
+                let own = [curve.record.clone()].into_iter();
+                let own = own.chain(numbers.map(|x| x.to_string()));
+                let margin = point.fate_margin.to_string();
+                let last = [outcome.into(), margin, remarks.clone()];
+                let setting = setting.cells().map(String::from);
+                table.row(own.chain(last).chain(setting));
             };
             row(&curve.onset, "no-uplift");
             for point in curve.points.iter().chain(&curve.above) {
@@ -305,6 +303,6 @@ impl Job<'_> {
                 row(&point, "overturned-refined");
             }
         }
-        text
+        table.finish()
     }
 }

@@ -17,11 +17,10 @@ use crate::paper::BLOCKS;
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
 use crate::speed::clock::peak_memory_mib;
-use crate::speed::many;
 use crate::speed::measured::{Total, read_answers, text, totals};
-use crate::speed::singles::{BASE, ORDERS};
+use crate::speed::singles::{self, BASE, ORDERS};
 use crate::speed::throughput::{self, Job, Throughput, analyses, on_threads};
-use crate::speed::{export, singles};
+use crate::speed::{export, many};
 use crate::suites::StudySuite;
 use crate::suites::inputs::read_suite;
 

@@ -3,20 +3,14 @@
 use rocking::block::{BlockError, Restitution};
 use rocking::integrator::Overturning;
 
-use super::ReportError;
-use super::answers::answers;
-use super::credibility;
-use super::evidence;
-use super::evidence::{NOT_RUN, Proof};
-use super::ledger;
-use super::page::{Finding, ReportInput, ShownFigure, Summary};
-use super::plain;
+use super::evidence::{self, NOT_RUN, Proof};
+use super::page::{Finding, ReportInput, ShownFigure};
+use super::summary::summary;
 use super::timings::Timings;
+use super::{ReportError, credibility, ledger};
 use crate::draw::DrawError;
 use crate::draw::figures::Figure;
-use crate::paper::BLOCKS;
-use crate::paper::GRAVITY_M_S2;
-use crate::study::analyses::SuiteResults;
+use crate::paper::{BLOCKS, GRAVITY_M_S2};
 use crate::study::claims::Claim;
 use crate::study::figures::Results;
 use crate::study::questions::Answer;
@@ -86,70 +80,6 @@ fn tables(
         tables.extend(answer.tables.iter().cloned());
     }
     Ok(tables)
-}
-
-fn summary(
-    results: &Results,
-    claims: &[Claim],
-    timings: &Timings,
-    proof: Option<&Proof>,
-) -> Summary {
-    let found = |suite: &SuiteResults| {
-        let certainty = suite.work.certainty;
-        let work = format!(
-            "{} {} records, {} analyses",
-            suite.records.len(),
-            suite.kind,
-            suite.work.analyses
-        );
-        if certainty.unresolved == 0 {
-            return format!("{work}; double precision tells every one.");
-        }
-        let ends = certainty.ends;
-        format!(
-            "{work}. Of {} of them rounding in double precision may have \
-             changed the peak or the fate: their motion is chaotic. {} of \
-             these are first overturnings, on which capacities rest. All of \
-             those were told again: {} by double precision, every decision \
-             being assessed, {} by double-double, {} by octuple precision, \
-             {} by none. Double precision had told {} of them wrongly; with \
-             these and those that none told at the next level that \
-             overturns, the 16, 50 and 84 % overturning intensities would \
-             move by {} at most.",
-            certainty.unresolved,
-            ends.all,
-            ends.double,
-            ends.double_double,
-            ends.octuple,
-            ends.undecided,
-            ends.moved,
-            rounded_text(certainty.largest_shift)
-        )
-    };
-    Summary {
-        asked: "Can the slenderness of a rocking block be normalized out, \
-                and are its capacities lognormal above the intensity of \
-                uplift? Fifteen rigid blocks, p = 1, 3, 4 rad/s and alpha = \
-                0.05 to 0.25 rad, were rocked to overturning by every record \
-                of two suites."
-            .into(),
-        found: [
-            plain::answers(results, claims, timings, proof),
-            answers(claims),
-            vec![found(&results.ordinary), found(&results.pulse)],
-        ]
-        .concat(),
-        trust: "Margins were fixed before any result was seen, but for those \
-                whose note says otherwise and one more: the sharp onset for \
-                PGA was first measured by the largest intensity at a rotation \
-                of 0.005 alpha, which turned out to measure the block's size, \
-                and is now measured by the onsets themselves, which for PGA \
-                are 1 by definition. A verdict needs the whole interval on \
-                one side of its margin; where there is no interval the value \
-                alone decides, and that is said there. Verdicts hold for \
-                these suites."
-            .into(),
-    }
 }
 
 /// The figures among `names` that a claim is about: those of its section, in

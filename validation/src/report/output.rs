@@ -9,10 +9,9 @@ use super::evidence::{self, Proof};
 use super::timings::Timings;
 use super::{ReportError, input, page};
 use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
-use crate::study::Study;
 use crate::study::claims::Claim;
 use crate::study::figures::Results;
-use crate::study::questions;
+use crate::study::{Study, questions};
 use crate::table::{Table, number};
 use crate::words::rounded_text;
 

@@ -9,7 +9,7 @@ use rocking::record::Processing;
 use super::evidence::{NOT_RUN, Proof};
 use super::ledger::requirements;
 use super::output::{self, FINDINGS, Files};
-use super::{credibility, input, plain};
+use super::{credibility, input, summary};
 use crate::curves::Execution;
 use crate::paper::Arm;
 use crate::proof::cases::load_all;
@@ -76,7 +76,7 @@ fn said_of(source: &Source) -> String {
     let tables = credibility::tables(&results, &[], None);
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
-    limits + &plain::not_checked(&results) + &cells
+    limits + &summary::not_checked(&results) + &cells
 }
 
 #[test]

@@ -3,14 +3,13 @@
 
 mod tables;
 
-use crate::draw::figures::Figure;
 use crate::draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::speed::measured::{self, Total, totals};
 use crate::speed::singles::BASE;
 use crate::speed::throughput::{self, Throughput};
-use crate::study::figures::range;
+use crate::words::{range, rounded};
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
 const MANY: &str = include_str!("../../../fixtures/speed/throughput.csv");
@@ -353,7 +352,7 @@ fn digits(x: f64) -> String {
     if !x.is_finite() {
         return if x.is_nan() { "none".into() } else { "one missing".into() };
     }
-    let rounded = measured::rounded(x, if x.abs() >= 100.0 { 3 } else { 2 });
+    let rounded = rounded(x, if x.abs() >= 100.0 { 3 } else { 2 });
     if rounded == 0.0 || (1e-2..1e6).contains(&rounded.abs()) {
         format!("{rounded}")
     } else {

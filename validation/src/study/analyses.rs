@@ -17,8 +17,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::StudyError;
 use super::certainty::Certainty;
 use super::runs::Setup;
-use crate::paper::Arm;
-use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
+use crate::paper::{Arm, BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
 use crate::suites::{Motion, Source, StudySuite};
 
 /// Periods of the response spectra, in s.

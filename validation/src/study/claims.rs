@@ -20,9 +20,7 @@ use super::figures::{Results, median_of};
 use super::runs::capacities;
 use super::sensitivities::Varied;
 use crate::json::{ends, rounded};
-use crate::paper::Arm;
-use crate::paper::Verdict;
-use crate::paper::{FREQUENCIES_RAD_S, position};
+use crate::paper::{Arm, FREQUENCIES_RAD_S, Verdict, position};
 
 /// Level of all intervals.
 const LEVEL: f64 = 0.95;

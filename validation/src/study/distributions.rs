@@ -9,8 +9,9 @@ use super::StudyError;
 use super::analyses::SuiteResults;
 use super::normality::{accepted_share, along, null_band};
 use super::runs::capacities;
-use crate::paper::{Arm, Intensity};
-use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
+};
 
 /// Capacities of one block, and the test along the demand.
 #[derive(Clone, Debug)]

@@ -104,18 +104,3 @@ fn name(number: u32, arm: Option<Arm>) -> String {
         None => format!("figure-{number:02}"),
     }
 }
-
-/// Percent with one decimal, for sentences.
-fn percent(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
-}
-
-/// Least and largest of some numbers, those that are not finite left out.
-pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.filter(|x| x.is_finite()).fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(low, high), x| {
-            (if x < low { x } else { low }, if x > high { x } else { high })
-        },
-    )
-}

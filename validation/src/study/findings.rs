@@ -3,13 +3,12 @@
 use rocking::integrator::Overturning;
 use serde_json::{Map, Value, json};
 
-use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::claims::{self, Claim, wilson};
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
-use super::normality;
 use super::questions::{self, Answer};
 use super::sensitivities::Varied;
+use super::{StudyError, normality};
 use crate::draw::figures::Stripe;
 use crate::json::{ends, rounded};
 use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};

@@ -2,7 +2,6 @@
 //! from which the same accelerograms are read, bit for bit.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use rocking::record::{Accelerogram, Suite};
@@ -11,6 +10,7 @@ use thiserror::Error;
 
 use super::inputs::sha256_hex;
 use super::synthesis::Pair;
+use crate::table::Table;
 
 /// A suite that cannot be written as files.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -92,13 +92,20 @@ pub fn files(
         .iter()
         .flat_map(|row| row.attributes.iter().map(|(name, _)| *name))
         .collect();
-    let mut index = String::from(
-        "file,format,units,dt_s,npts,pga_g,pgv_m_s,pair,study_component,sha256",
-    );
-    for column in &extra {
-        let _ = write!(index, ",{}", cell(column));
-    }
-    index.push('\n');
+    let columns = [
+        "file",
+        "format",
+        "units",
+        "dt_s",
+        "npts",
+        "pga_g",
+        "pgv_m_s",
+        "pair",
+        "study_component",
+        "sha256",
+    ];
+    let header: Vec<&str> = columns.into_iter().chain(extra.clone()).collect();
+    let mut index = Table::new(&header);
     let mut files = Vec::with_capacity(rows.len() + 1);
     for row in rows {
         let motion = row.motion;
@@ -108,38 +115,30 @@ pub fn files(
         }
         let file = format!("{name}/{}.at2", motion.name());
         let text = at2(motion);
-        // Writing to a string cannot fail.
-        let _ = write!(
-            index,
-            "{},at2,g,{},{},{},{},{},{},{}",
-            cell(&file),
-            motion.dt_s(),
-            motion.samples_g().len(),
-            motion.pga_g(),
-            motion.pgv_m_s(STANDARD_GRAVITY_M_S2),
-            cell(row.pair.unwrap_or("")),
-            u8::from(row.study_component),
+        let mut cells = vec![
+            file.clone(),
+            "at2".into(),
+            "g".into(),
+            motion.dt_s().to_string(),
+            motion.samples_g().len().to_string(),
+            motion.pga_g().to_string(),
+            motion.pgv_m_s(STANDARD_GRAVITY_M_S2).to_string(),
+            row.pair.unwrap_or_default().into(),
+            u8::from(row.study_component).to_string(),
             sha256_hex(text.as_bytes()),
-        );
+        ];
         for column in &extra {
             let own = row.attributes.iter().find(|(name, _)| name == column);
-            let text = own.map_or("", |(_, text)| text.as_str());
-            let _ = write!(index, ",{}", cell(text));
+            cells.push(own.map_or(String::new(), |(_, text)| text.clone()));
         }
-        index.push('\n');
+        index.row(cells);
         files.push((PathBuf::from(file), text.into_bytes()));
     }
-    files.push((PathBuf::from(format!("{name}.csv")), index.into_bytes()));
+    files.push((
+        PathBuf::from(format!("{name}.csv")),
+        index.finish().into_bytes(),
+    ));
     Ok(files)
-}
-
-/// A cell of the index, quoted where it must be.
-fn cell(text: &str) -> String {
-    if text.contains([',', '"']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
 }
 
 /// A record as AT2, five numbers of 25 characters a line: 17 digits, which

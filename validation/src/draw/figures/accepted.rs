@@ -1,16 +1,15 @@
 //! Figures 12 and 14: share of demand levels at which lognormality is
 //! accepted, by block.
 
-use super::common::Slendernesses;
-use super::{Figure, Heading, common};
+use super::common::{self, Slendernesses};
+use super::{Figure, Heading};
 use crate::draw::axis::Tick;
 use crate::draw::{
     Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
     Sample, Scene,
 };
 use crate::paper::{Arm, Intensity};
-use crate::table::optional;
-use crate::table::{Table, number};
+use crate::table::{Table, number, optional};
 use crate::words::letter;
 
 /// Share of the demand levels at which lognormality is accepted, by block.

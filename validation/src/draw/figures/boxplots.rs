@@ -9,8 +9,7 @@ use crate::draw::{
     Axis, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample, Scene,
 };
 use crate::paper::Intensity;
-use crate::table::optional;
-use crate::table::{Table, number};
+use crate::table::{Table, number, optional};
 use crate::words::letter;
 
 /// Notched boxplots of paired ratios, stripe by stripe.

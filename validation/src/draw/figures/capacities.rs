@@ -1,11 +1,10 @@
 //! Figure 11: intensity given demand, original and shifted.
 
-use super::common::{largest, thin};
-use super::{Figure, Heading, common};
+use super::common::{self, largest, thin};
+use super::{Figure, Heading};
 use crate::draw::{Axis, Dash, Entry, Grid, Ink, Panel, Pen, Sample, Scene};
 use crate::paper::Intensity;
-use crate::table::point;
-use crate::table::{Table, number};
+use crate::table::{Table, number, point};
 use crate::words::letter;
 
 /// Size of a panel for [`Capacities::thinned`].

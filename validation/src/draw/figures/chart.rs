@@ -1,10 +1,10 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
-use super::common::{largest, thin};
-use super::{Figure, Heading, common};
-use crate::draw::markup;
+use super::common::{self, largest, thin};
+use super::{Figure, Heading};
 use crate::draw::{
     Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
+    markup,
 };
 use crate::table::{Table, number};
 use crate::words::letter;

@@ -2,8 +2,9 @@
 
 use super::Heading;
 use crate::draw::geometry::kept;
-use crate::draw::{Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene};
-use crate::draw::{legend, markup};
+use crate::draw::{
+    Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene, legend, markup,
+};
 use crate::paper::{Arm, Intensity};
 use crate::words::letter;
 

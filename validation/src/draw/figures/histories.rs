@@ -1,12 +1,10 @@
 //! Figures 2 and 3: response histories.
 
-use super::common::Slendernesses;
-use super::common::{largest, thin};
-use super::{Figure, Heading, common};
+use super::common::{self, Slendernesses, largest, thin};
+use super::{Figure, Heading};
 use crate::draw::{Axis, Grid, Ink, Marker, Panel, Pen, Scene};
 use crate::paper::Intensity;
-use crate::table::point;
-use crate::table::{Table, number};
+use crate::table::{Table, number, point};
 use crate::words::letter;
 
 /// Size of a panel for [`Histories::thinned`].

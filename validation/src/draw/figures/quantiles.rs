@@ -1,9 +1,8 @@
 //! Figures 8 and 10: 16/50/84 % curves of the demand given the intensity.
 
 use super::{Figure, Heading, common};
-use crate::draw::markup;
 use crate::draw::{
-    Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene,
+    Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene, markup,
 };
 use crate::paper::Intensity;
 use crate::table::{Table, number};

@@ -67,7 +67,7 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
             series,
         });
     }
-    let (low, high) = crate::study::figures::range(slopes.into_iter());
+    let (low, high) = crate::words::range(slopes.into_iter());
     Ok(Chart {
         heading: Heading {
             name: "figure-19".into(),

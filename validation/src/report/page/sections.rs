@@ -2,10 +2,8 @@
 
 use maud::{Markup, html};
 
-use super::figures;
-use super::figures::ShownFigure;
-use super::table;
-use super::table::scrolled;
+use super::figures::{self, ShownFigure};
+use super::table::{self, scrolled};
 use super::{Family, Finding, Part, ReportInput, Summary};
 use crate::paper::Verdict;
 

@@ -2,11 +2,11 @@
 
 use rocking::block::Restitution;
 
-use super::{Claim, Context, Measured, Results, SAME};
-use super::{StudyError, all_one, varied_ratios};
-use crate::paper::BLOCKS;
-use crate::paper::GRAVITY_M_S2;
-use crate::paper::RESTITUTION;
+use super::{
+    Claim, Context, Measured, Results, SAME, StudyError, all_one,
+    varied_ratios,
+};
+use crate::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use crate::study::sensitivities::Choice;
 
 /// Table 1 as printed, by frequency parameter: half diagonal, then widths
@@ -101,7 +101,7 @@ fn restitution() -> Result<Vec<Claim>, StudyError> {
         .iter()
         .map(|b| Ok(Restitution::housner(b)?.velocity_ratio()))
         .collect::<Result<Vec<f64>, StudyError>>()?;
-    let (low, high) = crate::study::figures::range(etas.iter().copied());
+    let (low, high) = crate::words::range(etas.iter().copied());
     let housner = "Housner's coefficient of restitution varies within \
                    0.91 - 1.00";
     let [low, high] = [low, high].map(Measured::exact);

@@ -3,12 +3,12 @@
 use rocking::capacity::InversionRule;
 use rocking::statistics::paired::Pairs;
 
-use super::varied_ratios;
-use super::{Claim, Context, Measured, Results, SAME, StudyError};
-use super::{all_one, away, difference, median, middle, stripes};
-use crate::paper::Arm;
+use super::{
+    Claim, Context, Measured, Results, SAME, StudyError, all_one, away,
+    difference, median, middle, stripes, varied_ratios,
+};
 use crate::paper::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::study::analyses::{Apart, SuiteResults};
 use crate::study::figures::of_arm;

@@ -2,11 +2,12 @@
 
 use rocking::statistics::paired::Pairs;
 
-use super::{Cells, Claim, Context, Measured, Results, SAME, StudyError};
-use super::{all_one, away, median};
-use crate::paper::Arm;
+use super::{
+    Cells, Claim, Context, Measured, Results, SAME, StudyError, all_one, away,
+    median,
+};
 use crate::paper::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+    Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
 };
 use crate::study::figures::{adjusted_split, demand_boxes, of_arm, pairs};
 

@@ -3,18 +3,19 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
-use super::{Figure, Results, name, percent, range};
+use super::{Figure, Results, name};
 use crate::draw::figures::{
     AcceptedShares, BlockShare, Capacities, CapacityCurve, CapacityPanel,
     Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
 };
-use crate::paper::{Arm, Intensity};
 use crate::paper::{
-    FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index, demands, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
+    demands, position,
 };
 use crate::study::StudyError;
 use crate::study::distributions::{BlockSamples, Distributions};
 use crate::study::normality::{LEVEL, accepted_share, ends, over_critical};
+use crate::words::{percent, range};
 
 impl Results {
     /// The capacity samples of a suite in an arm and a measure.
@@ -134,7 +135,7 @@ pub(super) fn shares(
             let sample = if shifted { "shifted" } else { "original" };
             words.push(format!(
                 "{} for {sample} {} samples",
-                percent(mean),
+                percent(mean, 1),
                 suite.kind
             ));
             panels.push(SharePanel {
@@ -184,8 +185,8 @@ pub(super) fn along(
             results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
         words.push(format!(
             "{} original and {} shifted at alpha = {:.2}",
-            percent(accepted_share(&block.original)),
-            percent(accepted_share(&block.shifted)),
+            percent(accepted_share(&block.original), 1),
+            percent(accepted_share(&block.shifted), 1),
             block.alpha_rad
         ));
         blocks.push(TestedBlock {

@@ -9,8 +9,7 @@ use crate::draw::figures::{
     ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
     Fragilities, FragilityPanel, Heading, Threshold,
 };
-use crate::paper::demand_index;
-use crate::paper::{Arm, Intensity};
+use crate::paper::{Arm, Intensity, demand_index};
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
 

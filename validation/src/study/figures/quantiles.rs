@@ -6,9 +6,8 @@ use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Figure, name};
 use crate::draw::figures::{Heading, QuantileGroup, QuantilePanel, Quantiles};
-use crate::paper::{Arm, Intensity};
 use crate::paper::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;

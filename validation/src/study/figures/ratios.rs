@@ -3,15 +3,15 @@
 use rocking::statistics::paired::Pairs;
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::{Figure, name, percent, range};
+use super::{Figure, name};
 use crate::draw::figures::{BoxPanel, Boxplots, Heading, Stripe, StripeKind};
-use crate::paper::{Arm, Intensity};
 use crate::paper::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
-    position,
+    Arm, FREQUENCIES_RAD_S, Intensity, LEAST_USABLE, REFERENCE,
+    SLENDERNESSES_RAD, STRIPES, position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::{StripeDemands, SuiteResults};
+use crate::words::{percent, range};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
 pub(super) fn slendernesses(
@@ -232,6 +232,6 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
         "The medians of {} boxes lie between {low:.3} and {high:.3}; the \
          share of usable ratios falls from 100 % to {}.",
         stripes().count(),
-        percent(least)
+        percent(least, 1)
     )
 }

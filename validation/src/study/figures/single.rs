@@ -5,8 +5,9 @@ use crate::draw::figures::{
     BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
     IdaCurves, IdaPanel,
 };
-use crate::paper::{Arm, Intensity};
-use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
+};
 use crate::study::StudyError;
 use crate::study::analyses::{
     Apart, HISTORY_INTERVAL_S, SingleRecords, SuiteResults,

@@ -9,13 +9,14 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::{Answer, Cell, Rows};
-use crate::paper::Arm;
 use crate::paper::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+    position,
 };
 use crate::study::StudyError;
-use crate::study::figures::{Results, of_arm, pairs, range};
+use crate::study::figures::{Results, of_arm, pairs};
 use crate::study::runs::capacities;
+use crate::words::range;
 
 /// Demands at which intensities are compared.
 const DEMANDS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];

@@ -10,17 +10,19 @@ use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 use rocking::statistics::{ExtendedSample, Lognormal};
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows, both, capital, percent};
-use crate::draw::figures::Figure;
+use super::{Answer, Cell, Rows, both};
 use crate::draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale as AxisScale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale as AxisScale,
+    Series,
 };
-use crate::paper::{Arm, Intensity};
-use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
+};
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
 use crate::study::figures::Results;
 use crate::study::normality::LEVEL;
+use crate::words::{capital, percent};
 
 /// Samples drawn for the grid's own share.
 const DRAWS: u64 = 1000;
@@ -100,10 +102,10 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 format!(
                     "{} in A, {} in B and {} in C at p = {p} ({} by the \
                      grid alone, {} distinct values of {})",
-                    percent(row.rejected[0]),
-                    percent(row.rejected[1]),
-                    percent(row.rejected[2]),
-                    percent(row.grid_alone),
+                    percent(row.rejected[0], 0),
+                    percent(row.rejected[1], 0),
+                    percent(row.rejected[2], 0),
+                    percent(row.grid_alone, 0),
                     row.distinct[0],
                     suite.records.len(),
                 )

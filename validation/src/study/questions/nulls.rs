@@ -2,19 +2,18 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::{Answer, Cell, Rows, both, capital};
-use crate::draw::figures::Figure;
+use super::{Answer, Cell, Rows, both};
 use crate::draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
-use crate::paper::{Arm, Intensity};
-use crate::paper::{demand_index, demands};
+use crate::paper::{Arm, Intensity, demand_index, demands};
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
 use crate::study::claims::median;
 use crate::study::distributions::{BlockSamples, factors};
-use crate::study::figures::{Results, range};
+use crate::study::figures::Results;
 use crate::study::normality::{LEVEL, over_critical};
+use crate::words::{capital, range};
 
 /// Demands at which the null is simulated; between them the ratio of the
 /// two critical values is linear.

@@ -10,9 +10,8 @@ use rocking::statistics::normality::{
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows};
-use crate::draw::figures::Figure;
 use crate::draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::study::StudyError;
 use crate::study::figures::Results;

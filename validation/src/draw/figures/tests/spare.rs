@@ -1,7 +1,6 @@
 //! Data that are empty, infinite, or missing.
 
-use super::made_up;
-use super::made_up::heading;
+use super::made_up::{self, heading};
 use crate::draw::figures::*;
 use crate::paper::Arm;
 

@@ -5,9 +5,8 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
 use super::{MLE, Summary, trimmed};
-use crate::draw::figures::Figure;
 use crate::draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::paper::{Arm, Intensity};
 

@@ -8,8 +8,7 @@ use rocking::statistics::two_sample::kolmogorov_smirnov;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::row::{Group, Interval, Row, Side};
-use crate::paper::{Arm, Intensity};
-use crate::paper::{BLOCKS, demand_index};
+use crate::paper::{Arm, BLOCKS, Intensity, demand_index};
 use crate::study::StudyError;
 use crate::study::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,

@@ -2,12 +2,10 @@
 
 use super::row::{Group, Row};
 use super::{MOTIONS, of_motion};
-use crate::draw::figures::Figure;
 use crate::draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
-use crate::paper::FREQUENCIES_RAD_S;
-use crate::paper::Intensity;
+use crate::paper::{FREQUENCIES_RAD_S, Intensity};
 use crate::study::analyses::SPECTRUM_PERIODS_S;
 
 /// Demands at which capacities are drawn.

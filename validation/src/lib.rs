@@ -3,7 +3,8 @@
 //! Everything here stands on the core's public interface alone. It is built
 //! in stages, each of which uses those below it alone: [`cli`], [`report`],
 //! [`diff`], [`speed`], [`study`], [`draw`], [`proof`]; at the bottom
-//! [`suites`], [`paper`], [`curves`], [`files`] and [`json`].
+//! [`suites`], [`paper`], [`curves`], [`table`], [`files`], [`json`] and
+//! [`words`].
 
 pub mod cli;
 pub mod curves;

@@ -1,6 +1,5 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
-mod refine;
 mod summary;
 
 use std::path::PathBuf;
@@ -14,8 +13,6 @@ use rocking::ida::{
 };
 use rocking::integrator::WorkLimit;
 use rocking::record::{Suite, SuiteMember};
-
-use refine::Refine;
 
 use super::limit::{LimitArgs, curve_refused};
 use super::order::OrderName;
@@ -256,6 +253,33 @@ impl Args {
             )));
         }
         Ok(chosen)
+    }
+}
+
+/// Bisection of the first overturning bracket, as `--refine` has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Refine(Option<f64>);
+
+impl std::str::FromStr for Refine {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" {
+            return Ok(Self(None));
+        }
+        match text.parse() {
+            Ok(width) if width > 0.0 && f64::is_finite(width) => {
+                Ok(Self(Some(width)))
+            }
+            _ => Err("expected a positive number, or none".to_owned()),
+        }
+    }
+}
+
+impl Refine {
+    /// The width, if any.
+    fn width(self) -> Option<f64> {
+        self.0
     }
 }
 

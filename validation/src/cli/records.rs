@@ -18,7 +18,6 @@ use crate::suites::inputs;
 use crate::suites::remarks::Remarks;
 use measures::{Found, MeasureArgs};
 
-mod drift;
 mod measures;
 mod plot;
 

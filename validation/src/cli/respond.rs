@@ -1,7 +1,5 @@
 //! `rocking respond`: one block, one excitation.
 
-mod history;
-
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -13,8 +11,6 @@ use rocking::integrator::{
 };
 use serde_json::{Map, Value, json};
 
-use history::history_csv;
-
 use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
@@ -24,6 +20,7 @@ use crate::files::Output;
 use crate::json::{number, optional};
 use crate::paper::Intensity;
 use crate::suites::remarks::Remarks;
+use crate::table::Table;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]
@@ -476,4 +473,21 @@ impl Setting<'_> {
         row("steps", response.work.steps.to_string());
         text
     }
+}
+
+/// The history as a table, one row a point.
+fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
+    let alpha = scene.block.slenderness_rad();
+    let mut table = Table::new(&[
+        "time_s",
+        "rotation_rad",
+        "velocity_rad_s",
+        "rotation_ratio",
+    ]);
+    for point in &response.history {
+        let angle = point.rotation_rad;
+        let cells = [point.time_s, angle, point.velocity_rad_s, angle / alpha];
+        table.row(cells.map(|x| x.to_string()));
+    }
+    table.finish()
 }

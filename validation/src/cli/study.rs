@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
-use rocking::integrator::Overturning;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
+use super::scene::Criterion;
 use super::way::WayArgs;
 use super::{Failure, logged, print, with_threads};
 use crate::files::{Folder, is_interrupted};
@@ -86,14 +86,6 @@ pub struct Args {
     /// Print the findings as JSON.
     #[arg(long, conflicts_with = "check")]
     json: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Criterion {
-    /// |theta| reaches alpha.
-    Alpha,
-    /// |theta| exceeds pi/2.
-    HalfPi,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
@@ -234,13 +226,9 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
             ArmName::C => Arm::C,
         })
         .collect();
-    let overturning = match args.overturn {
-        Criterion::Alpha => Overturning::Alpha,
-        Criterion::HalfPi => Overturning::HalfPi,
-    };
     let setup = Setup {
         restitution: Restitution::constant(args.eta)?,
-        overturning,
+        overturning: args.overturn.into(),
         tolerance: args.refine,
         way: args.way.way()?,
     };

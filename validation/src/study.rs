@@ -11,8 +11,10 @@ pub mod normality;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
+mod whole;
 
-use indicatif::ProgressBar;
+pub use whole::Study;
+
 use rocking::block::BlockError;
 use rocking::capacity::CapacityError;
 use rocking::ida::IdaError;
@@ -24,14 +26,7 @@ use rocking::statistics::paired::PairedError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
-use crate::draw::figures::Figure;
-use crate::suites::{StudySuite, StudySuiteError};
-use analyses::Plan;
-use claims::Claim;
-use distributions::of_suite;
-use figures::Results;
-use findings::Findings;
-use questions::Answer;
+use crate::suites::StudySuiteError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -70,55 +65,4 @@ pub enum StudyError {
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,
-}
-
-/// A finished study.
-pub struct Study {
-    /// What the analyses gave.
-    pub results: Results,
-    /// The figures, those of the answers at the end.
-    pub figures: Vec<Figure>,
-    /// The claims and what was found about them.
-    pub claims: Vec<Claim>,
-    /// Answers to the questions beyond the paper; their figures are among
-    /// the others.
-    pub answers: Vec<Answer>,
-    findings: Findings,
-}
-
-impl Study {
-    /// Runs everything: `suites` are the ordinary and the pulse-type one;
-    /// `full` runs other choices on all blocks.
-    ///
-    /// # Errors
-    /// [`StudyError`] where an analysis cannot be done.
-    pub fn run(
-        plan: Plan,
-        suites: &[StudySuite; 2],
-        full: bool,
-        progress: &ProgressBar,
-    ) -> Result<Self, StudyError> {
-        let [first, second] = suites;
-        let ordinary = plan.run(first, true, progress)?;
-        let pulse = plan.run(second, false, progress)?;
-        let common = plan.common();
-        let mut distributions = of_suite(&ordinary, common)?;
-        distributions.extend(of_suite(&pulse, common)?);
-        let varied = plan.sensitivities(first, full)?;
-        let results = Results { plan, ordinary, pulse, distributions, varied };
-        let mut figures = results.figures()?;
-        let mut answers = questions::all(&results, full)?;
-        for answer in &mut answers {
-            figures.append(&mut answer.figures);
-        }
-        let claims = claims::all(&results)?;
-        let findings = findings::all(&results, &claims, &answers)?;
-        Ok(Self { results, figures, claims, findings, answers })
-    }
-
-    /// Text of `findings.json`.
-    #[must_use]
-    pub fn findings_text(&self) -> String {
-        findings::text(&self.findings)
-    }
 }

@@ -1,0 +1,64 @@
+//! The study from suites to findings.
+
+use indicatif::ProgressBar;
+
+use super::StudyError;
+use super::analyses::Plan;
+use super::claims::{self, Claim};
+use super::distributions::of_suite;
+use super::figures::Results;
+use super::findings::{self, Findings};
+use super::questions::{self, Answer};
+use crate::draw::figures::Figure;
+use crate::suites::StudySuite;
+
+/// A finished study.
+pub struct Study {
+    /// What the analyses gave.
+    pub results: Results,
+    /// The figures, those of the answers at the end.
+    pub figures: Vec<Figure>,
+    /// The claims and what was found about them.
+    pub claims: Vec<Claim>,
+    /// Answers to the questions beyond the paper; their figures are among
+    /// the others.
+    pub answers: Vec<Answer>,
+    findings: Findings,
+}
+
+impl Study {
+    /// Runs everything: `suites` are the ordinary and the pulse-type one;
+    /// `full` runs other choices on all blocks.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub fn run(
+        plan: Plan,
+        suites: &[StudySuite; 2],
+        full: bool,
+        progress: &ProgressBar,
+    ) -> Result<Self, StudyError> {
+        let [first, second] = suites;
+        let ordinary = plan.run(first, true, progress)?;
+        let pulse = plan.run(second, false, progress)?;
+        let common = plan.common();
+        let mut distributions = of_suite(&ordinary, common)?;
+        distributions.extend(of_suite(&pulse, common)?);
+        let varied = plan.sensitivities(first, full)?;
+        let results = Results { plan, ordinary, pulse, distributions, varied };
+        let mut figures = results.figures()?;
+        let mut answers = questions::all(&results, full)?;
+        for answer in &mut answers {
+            figures.append(&mut answer.figures);
+        }
+        let claims = claims::all(&results)?;
+        let findings = findings::all(&results, &claims, &answers)?;
+        Ok(Self { results, figures, claims, findings, answers })
+    }
+
+    /// Text of `findings.json`.
+    #[must_use]
+    pub fn findings_text(&self) -> String {
+        findings::text(&self.findings)
+    }
+}

@@ -81,8 +81,8 @@ const CORE_DEPENDENCIES: &[&str] =
 /// The only files with `unsafe` begin so.
 const UNSAFE: &str = "src/number/dispatch";
 
-/// Lines of the longest file: a file is one concept, and ends with it. Who
-/// comes near the limit asks whether there are two.
+/// Most lines of a file. A file holds one concept; one that comes near the
+/// limit may hold two.
 const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.

@@ -25,14 +25,14 @@ impl Table {
 
     /// Adds a row; a cell with a comma, a quote or a line break is quoted.
     pub fn row<C: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = C>) {
-        // Memory can be written to, and rows of any length are taken.
+        // Writing to memory cannot fail, and rows may differ in length.
         let _ = self.csv.write_record(cells);
     }
 
     /// The CSV text.
     #[must_use]
     pub fn finish(self) -> String {
-        // Text went in.
+        // Only text was written.
         let bytes = self.csv.into_inner().unwrap_or_default();
         String::from_utf8(bytes).unwrap_or_default()
     }
@@ -45,13 +45,14 @@ pub fn number(x: f64) -> String {
     digits(x, 9)
 }
 
-/// The same with five digits: a point of a curve, to less than a hundredth
-/// of a pixel.
+/// A coordinate of a curve as a cell: five digits place it to less than a
+/// hundredth of a pixel.
+#[must_use]
 pub fn point(x: f64) -> String {
     digits(x, 5)
 }
 
-/// The same with so many digits.
+/// A number as a cell with at most `digits` significant digits.
 #[must_use]
 pub fn digits(x: f64, digits: usize) -> String {
     if x.is_nan() {
@@ -70,6 +71,7 @@ pub fn digits(x: f64, digits: usize) -> String {
 }
 
 /// A number that may be missing, as a cell.
+#[must_use]
 pub fn optional(x: Option<f64>) -> String {
     x.map_or_else(String::new, number)
 }

@@ -16,7 +16,7 @@ pub fn letter(panel: usize) -> String {
     }
 }
 
-/// A number to so many significant digits.
+/// A number rounded to `digits` significant digits.
 #[must_use]
 pub fn rounded(x: f64, digits: usize) -> f64 {
     format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
@@ -32,7 +32,7 @@ pub fn percent(share: f64, decimals: usize) -> String {
     }
 }
 
-/// Least and largest of some numbers, those that are not finite left out.
+/// The least and the largest of the finite numbers.
 #[must_use]
 pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.filter(|x| x.is_finite()).fold(
@@ -43,7 +43,7 @@ pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     )
 }
 
-/// With a capital letter.
+/// A word with a capital first letter.
 #[must_use]
 pub fn capital(word: &str) -> String {
     let mut letters = word.chars();

@@ -352,8 +352,8 @@ fn to_text(assessment: &Assessment, others: &[Option<Other>; 3]) -> String {
     text + "\n"
 }
 
-/// Simulates every size of the committed table and writes it: 3.4e8 samples,
-/// some minutes of one core.
+/// Simulates every size of `fixtures/lilliefors/table.csv` and writes it:
+/// 3.4e8 samples, some minutes of one core.
 ///
 /// # Errors
 /// [`Failure`] if the file cannot be written.

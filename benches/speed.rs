@@ -16,10 +16,10 @@ use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use rocking_validation::curves::Execution;
+use rocking_validation::paper::BLOCKS;
 use rocking_validation::speed::cases::{self, Case};
 use rocking_validation::speed::throughput::{analyses, samples_of};
-use rocking_validation::study::grid::blocks;
-use rocking_validation::study::suites::StudySuite;
+use rocking_validation::suites::StudySuite;
 
 static RECORDS: LazyLock<Vec<NormalisedRecord>> = LazyLock::new(|| {
     let suites = StudySuite::embedded().expect("suites");
@@ -217,8 +217,7 @@ fn whole_study(bencher: Bencher, work: &str) {
         "Eq. 1, order 6" => (Model::Nonlinear, Some(Order::Six)),
         _ => (Model::Nonlinear, None),
     };
-    let blocks = blocks().expect("blocks");
-    let all = analyses(&blocks, model, order).expect("analyses");
+    let all = analyses(&BLOCKS, model, order).expect("analyses");
     let threads = rayon::current_num_threads();
     ida(bencher, threads, &RECORDS, &all);
 }

@@ -70,7 +70,7 @@ impl Block {
     ///
     /// # Errors
     /// [`BlockError`] unless 0 < alpha < pi/2 and p is positive and finite.
-    pub fn try_new(
+    pub const fn try_new(
         slenderness_rad: f64,
         frequency_rad_s: f64,
     ) -> Result<Self, BlockError> {
@@ -172,7 +172,7 @@ impl Restitution {
     ///
     /// # Errors
     /// [`BlockError::Restitution`] unless 0 < eta <= 1.
-    pub fn constant(velocity_ratio: f64) -> Result<Self, BlockError> {
+    pub const fn constant(velocity_ratio: f64) -> Result<Self, BlockError> {
         if velocity_ratio > 0.0 && velocity_ratio <= 1.0 {
             Ok(Self(velocity_ratio))
         } else {

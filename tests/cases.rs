@@ -6,9 +6,11 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use rocking_validation::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
-use rocking_validation::methods::{METHODS, digits, digits_csv};
-use rocking_validation::verdict::{run_all, run_case, snapshot};
+use rocking_validation::proof::cases::{
+    Case, Cost, FAMILIES, WrongModel, load_all,
+};
+use rocking_validation::proof::methods::{METHODS, digits, digits_csv};
+use rocking_validation::proof::verdict::{run_all, run_case, snapshot};
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();

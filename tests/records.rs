@@ -7,7 +7,7 @@ use std::process::Command;
 
 use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
-use rocking_validation::inputs;
+use rocking_validation::suites::inputs;
 
 #[path = "records/export.rs"]
 mod export;

@@ -14,7 +14,7 @@ use rocking::integrator::{
 use rocking::number::dispatch::Isa;
 use rocking::record::Accelerogram;
 use rocking::streams::Streams;
-use rocking_validation::inputs::sha256_hex;
+use rocking_validation::suites::inputs::sha256_hex;
 
 /// SHA-256 of what the analyses give: see [`explain`] when it changes.
 const GOLDEN: &str =

@@ -4,10 +4,9 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-use rocking_validation::evidence::{Proof, charts};
-use rocking_validation::figures::Figure as _;
-use rocking_validation::study::suites::StudySuite;
-use rocking_validation::study::{output, page};
+use rocking_validation::report::evidence::{Proof, charts};
+use rocking_validation::report::{input, output};
+use rocking_validation::suites::StudySuite;
 use serde_json::Value;
 
 fn study(folder: &PathBuf, args: &[&str]) -> Output {
@@ -139,14 +138,14 @@ fn the_committed_report_is_of_this_program_where_that_is_cheap() {
     for (line, row) in read("data/table-01.csv")
         .lines()
         .skip(1)
-        .zip(page::table_1().expect("table").rows)
+        .zip(input::table_1().expect("table").rows)
     {
         assert_eq!(line, row.join(","));
     }
-    for shown in charts().expect("charts") {
-        let name = &shown.chart.heading.name;
-        let svg = shown.chart.svg().expect("drawing");
+    for chart in charts().expect("charts") {
+        let name = &chart.heading.name;
+        let svg = chart.svg().expect("drawing");
         assert!(read(&format!("figures/{name}.svg")) == svg, "{name}");
-        assert!(read(&format!("data/{name}.csv")) == shown.chart.csv());
+        assert!(read(&format!("data/{name}.csv")) == chart.csv);
     }
 }

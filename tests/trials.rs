@@ -10,11 +10,11 @@ use std::path::Path;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::record::{Processing, ReadOptions};
-use rocking_validation::study::grid::blocks;
-use rocking_validation::study::suites::StudySuite;
-use rocking_validation::trials::{
+use rocking_validation::paper::BLOCKS;
+use rocking_validation::proof::trials::{
     Judgement, Reading, Stratum, Summary, Survey, findings, trial,
 };
+use rocking_validation::suites::StudySuite;
 
 /// Scenes that are looked at where the environment chooses none.
 const DEFAULT: &str = "ordinary:0:8";
@@ -117,7 +117,7 @@ fn surveyed() -> (Vec<(&'static str, Vec<NormalisedRecord>)>, Vec<Block>) {
         _ => StudySuite::embedded().unwrap(),
     };
     let (few, blocks) = match asked {
-        Some(_) => (usize::MAX, blocks().unwrap()),
+        Some(_) => (usize::MAX, BLOCKS.to_vec()),
         None => (2, vec![Block::try_new(0.1, 4.0).unwrap()]),
     };
     let records = |suite: &StudySuite| {

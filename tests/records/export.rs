@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use rocking::record::{Accelerogram, ReadOptions};
-use rocking_validation::{inputs, synthesis};
+use rocking_validation::suites::{inputs, synthesis};
 
 use super::folder;
 

@@ -105,15 +105,6 @@ impl<E: std::error::Error> From<E> for Failure {
 /// Name and version of the program, for results.
 pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));
 
-/// A text field, quoted where it must be.
-fn csv_text(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
 /// Prints `text` on standard output; a closed pipe ends the program quietly.
 ///
 /// # Errors

@@ -7,6 +7,7 @@
 mod cases;
 mod change;
 mod findings;
+mod flaw;
 mod input;
 mod print;
 mod strict;

@@ -1,7 +1,9 @@
 //! JSON numbers: those of the command line, which every reader holds as
 //! numbers, and those of the data files, which tell infinity.
 
-use serde_json::Value;
+use serde_json::{Value, json};
+
+use crate::words;
 
 /// A number as the command line prints it: shortest digits that read back to
 /// the same double, `null` where it is infinite or not a number.
@@ -37,4 +39,17 @@ pub fn extended(x: f64) -> Value {
 #[must_use]
 pub fn all_extended(values: &[f64]) -> Value {
     Value::Array(values.iter().copied().map(extended).collect())
+}
+
+/// A number rounded to nine significant digits: what a bound supports, and
+/// no more than a reader compares.
+#[must_use]
+pub fn rounded(x: f64) -> Value {
+    extended(words::rounded(x, 9))
+}
+
+/// The two ends of an interval, or null.
+#[must_use]
+pub fn ends(interval: Option<(f64, f64)>) -> Value {
+    interval.map_or(Value::Null, |(a, b)| json!([rounded(a), rounded(b)]))
 }

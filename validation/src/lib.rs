@@ -1,29 +1,22 @@
 //! Verification and validation harness of `rocking`, and its command line.
 //!
-//! Everything here stands on the core's public interface alone.
+//! Everything here stands on the core's public interface alone. It is built
+//! in stages, each of which uses those below it alone: [`cli`], [`report`],
+//! [`diff`], [`speed`], [`study`], [`draw`], [`proof`]; at the bottom
+//! [`suites`], [`paper`], [`curves`], [`table`], [`files`], [`json`] and
+//! [`words`].
 
-pub mod arithmetic;
-pub mod cases;
 pub mod cli;
 pub mod curves;
 pub mod diff;
-pub mod drawing;
-pub mod engine;
-pub mod evidence;
-pub mod export;
-pub mod figures;
+pub mod draw;
 pub mod files;
-pub mod inputs;
 pub mod json;
-pub mod ledger;
-pub mod methods;
-pub mod naive;
-pub mod oracles;
-pub mod remarks;
+pub mod paper;
+pub mod proof;
 pub mod report;
-pub mod scene;
 pub mod speed;
 pub mod study;
-pub mod synthesis;
-pub mod trials;
-pub mod verdict;
+pub mod suites;
+pub mod table;
+pub mod words;

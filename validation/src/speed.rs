@@ -23,6 +23,8 @@ use rocking::record::AccelerogramError;
 use rocking::statistics::lilliefors::LillieforsError;
 use thiserror::Error;
 
+use crate::suites::StudySuiteError;
+
 /// Why something could not be measured.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -45,6 +47,9 @@ pub enum SpeedError {
     /// A measurement in a process of its own that failed.
     #[error("measuring in a process of its own: {0}")]
     Child(String),
+    /// A suite that cannot be made.
+    #[error(transparent)]
+    Suite(#[from] StudySuiteError),
     /// Threads that cannot be started.
     #[error(transparent)]
     Threads(#[from] ThreadPoolBuildError),

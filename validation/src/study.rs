@@ -1,32 +1,17 @@
 //! The whole study: 15 blocks, two suites, three arms of the intensity grid;
 //! figures, their data, and what was found about the paper's claims.
 
-mod adjustment;
 pub mod analyses;
-mod answers;
-pub mod capacities;
 pub mod certainty;
-pub mod choice;
 pub mod claims;
-pub mod credibility;
 pub mod distributions;
 pub mod figures;
 pub mod findings;
-pub mod grid;
-pub mod histories;
 pub mod normality;
-pub mod output;
-pub mod overturning;
-pub mod page;
-mod plain;
 pub mod questions;
 pub mod runs;
 pub mod sensitivities;
-pub mod speed;
-pub mod stale;
-pub mod stripes;
-pub mod suites;
-pub mod whole;
+mod whole;
 
 pub use whole::Study;
 
@@ -35,16 +20,13 @@ use rocking::capacity::CapacityError;
 use rocking::ida::IdaError;
 use rocking::integrator::SceneError;
 use rocking::intensity::IntensityError;
-use rocking::record::{AccelerogramError, ProcessingError, SuiteError};
 use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
 use rocking::statistics::paired::PairedError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
-use crate::drawing::DrawError;
-use crate::evidence::EvidenceError;
-use crate::ledger::LedgerError;
+use crate::suites::StudySuiteError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -52,13 +34,7 @@ use crate::ledger::LedgerError;
 pub enum StudyError {
     /// A suite that was refused.
     #[error(transparent)]
-    Suite(#[from] SuiteError),
-    /// A record that cannot be processed as asked.
-    #[error(transparent)]
-    Processing(#[from] ProcessingError),
-    /// A synthetic record that is none.
-    #[error(transparent)]
-    Accelerogram(#[from] AccelerogramError),
+    Suite(#[from] StudySuiteError),
     /// A block outside the model's range.
     #[error(transparent)]
     Block(#[from] BlockError),
@@ -86,22 +62,7 @@ pub enum StudyError {
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),
-    /// Evidence that cannot be shown.
-    #[error(transparent)]
-    Evidence(#[from] EvidenceError),
-    /// Requirements that cannot be read.
-    #[error(transparent)]
-    Ledger(#[from] LedgerError),
-    /// A drawing that grew too large.
-    #[error(transparent)]
-    Draw(#[from] DrawError),
-    /// A table of timings that cannot be read.
-    #[error("timings: {0}")]
-    Timings(#[from] csv::Error),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,
 }
-
-#[cfg(test)]
-mod tests;

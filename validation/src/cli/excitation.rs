@@ -9,7 +9,7 @@ use rocking::record::{Accelerogram, read_file};
 use super::Failure;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use crate::remarks::Remarks;
+use crate::suites::remarks::Remarks;
 
 /// The excitation: a record, a pulse, or none.
 #[derive(clap::Args, Clone, Debug)]

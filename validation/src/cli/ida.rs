@@ -1,9 +1,7 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
-mod refine;
 mod summary;
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -16,8 +14,6 @@ use rocking::ida::{
 use rocking::integrator::WorkLimit;
 use rocking::record::{Suite, SuiteMember};
 
-use refine::Refine;
-
 use super::limit::{LimitArgs, curve_refused};
 use super::order::OrderName;
 use super::processing::{ProcessingArgs, words};
@@ -27,12 +23,12 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
 use super::{
-    Failure, SOFTWARE, csv_text, logged, print, print_json, progress,
-    with_threads,
+    Failure, SOFTWARE, logged, print, print_json, progress, with_threads,
 };
 use crate::files::Output;
-use crate::inputs::{files, read_suite};
-use crate::remarks::Remarks;
+use crate::suites::inputs::{files, read_suite};
+use crate::suites::remarks::Remarks;
+use crate::table::Table;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
@@ -260,10 +256,37 @@ impl Args {
     }
 }
 
+/// Bisection of the first overturning bracket, as `--refine` has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Refine(Option<f64>);
+
+impl std::str::FromStr for Refine {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "none" {
+            return Ok(Self(None));
+        }
+        match text.parse() {
+            Ok(width) if width > 0.0 && f64::is_finite(width) => {
+                Ok(Self(Some(width)))
+            }
+            _ => Err("expected a positive number, or none".to_owned()),
+        }
+    }
+}
+
+impl Refine {
+    /// The width, if any.
+    fn width(self) -> Option<f64> {
+        self.0
+    }
+}
+
 impl Job<'_> {
     /// The table: one row an analysis, by record, then level.
     fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
-        let mut text = COLUMNS.join(",") + "\n";
+        let mut table = Table::new(&COLUMNS);
         let p = analysis.block.frequency_rad_s();
         let setting = Setting {
             eta: analysis.restitution.velocity_ratio().to_string(),
@@ -274,17 +297,12 @@ impl Job<'_> {
             processing: self.processing.clone().unwrap_or("none".into()),
             software: SOFTWARE.to_owned(),
         };
-        let setting = setting.cells().map(csv_text).join(",");
         for curve in self.table {
             let remarks = self.remarks.codes(&curve.record);
             let mut row = |point: &IdaPoint, outcome: &str| {
                 let pgv_m_s =
                     point.pga_g * curve.velocity_ratio_s * gravity_m_s2;
-                // Writing to a string cannot fail.
-                let _ = writeln!(
-                    text,
-                    "{},{},{},{},{},{},{},{},{},{},{remarks},{setting}",
-                    csv_text(&curve.record),
+                let numbers = [
                     point.slenderness_rad,
                     p,
                     point.pga_g,
@@ -292,9 +310,13 @@ impl Job<'_> {
                     point.im,
                     point.im * curve.velocity_factor(p),
                     point.edp(),
-                    outcome,
-                    point.fate_margin
-                );
+                ];
+                let own = [curve.record.clone()].into_iter();
+                let own = own.chain(numbers.map(|x| x.to_string()));
+                let margin = point.fate_margin.to_string();
+                let last = [outcome.into(), margin, remarks.clone()];
+                let setting = setting.cells().map(String::from);
+                table.row(own.chain(last).chain(setting));
             };
             row(&curve.onset, "no-uplift");
             for point in curve.points.iter().chain(&curve.above) {
@@ -305,6 +327,6 @@ impl Job<'_> {
                 row(&point, "overturned-refined");
             }
         }
-        text
+        table.finish()
     }
 }

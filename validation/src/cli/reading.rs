@@ -5,7 +5,7 @@ use rocking::record::ReadOptions;
 use rocking::units::AccelerationUnit;
 
 use super::Failure;
-use crate::remarks::Remarks;
+use crate::suites::remarks::Remarks;
 
 /// What record files do not state.
 #[derive(clap::Args, Clone, Copy, Debug)]

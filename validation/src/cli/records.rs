@@ -13,12 +13,11 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, print, print_json};
 use crate::files::Output;
-use crate::inputs;
 use crate::json::number;
-use crate::remarks::Remarks;
+use crate::suites::inputs;
+use crate::suites::remarks::Remarks;
 use measures::{Found, MeasureArgs};
 
-mod drift;
 mod measures;
 mod plot;
 

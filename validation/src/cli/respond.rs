@@ -1,7 +1,5 @@
 //! `rocking respond`: one block, one excitation.
 
-mod history;
-
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -13,19 +11,16 @@ use rocking::integrator::{
 };
 use serde_json::{Map, Value, json};
 
-use history::history_csv;
-
 use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print, print_json};
-use crate::figures::Figure as _;
-use crate::figures::data::{
-    Heading, Histories, History, HistoryPanel, Intensity,
-};
+use crate::draw::figures::{Heading, Histories, History, HistoryPanel};
 use crate::files::Output;
 use crate::json::{number, optional};
-use crate::remarks::Remarks;
+use crate::paper::Intensity;
+use crate::suites::remarks::Remarks;
+use crate::table::Table;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]
@@ -179,7 +174,7 @@ fn drawing(
         arm: None,
     };
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
-    Ok(figure.thinned().svg()?)
+    Ok(figure.thinned().figure(String::new()).svg()?)
 }
 
 /// Name of an outcome, `unresolved` where it cannot be told.
@@ -478,4 +473,21 @@ impl Setting<'_> {
         row("steps", response.work.steps.to_string());
         text
     }
+}
+
+/// The history as a table, one row a point.
+fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
+    let alpha = scene.block.slenderness_rad();
+    let mut table = Table::new(&[
+        "time_s",
+        "rotation_rad",
+        "velocity_rad_s",
+        "rotation_ratio",
+    ]);
+    for point in &response.history {
+        let angle = point.rotation_rad;
+        let cells = [point.time_s, angle, point.velocity_rad_s, angle / alpha];
+        table.row(cells.map(|x| x.to_string()));
+    }
+    table.finish()
 }

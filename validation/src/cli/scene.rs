@@ -139,12 +139,22 @@ enum ModelName {
     Linearized,
 }
 
+/// When a block counts as overturned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Criterion {
+pub enum Criterion {
     /// |theta| reaches alpha.
     Alpha,
     /// |theta| exceeds pi/2.
     HalfPi,
+}
+
+impl From<Criterion> for Overturning {
+    fn from(criterion: Criterion) -> Self {
+        match criterion {
+            Criterion::Alpha => Self::Alpha,
+            Criterion::HalfPi => Self::HalfPi,
+        }
+    }
 }
 
 impl ModelArgs {
@@ -183,10 +193,7 @@ impl ModelArgs {
     /// Overturning criterion.
     #[must_use]
     pub fn overturning(&self) -> Overturning {
-        match self.overturn {
-            Criterion::Alpha => Overturning::Alpha,
-            Criterion::HalfPi => Overturning::HalfPi,
-        }
+        self.overturn.into()
     }
 
     /// The criterion's name on the command line.

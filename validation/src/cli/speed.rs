@@ -12,19 +12,18 @@ use serde_json::{Value, json};
 use super::{Failure, print, print_json, progress};
 use crate::curves::Execution;
 use crate::files::Output;
-use crate::inputs::read_suite;
 use crate::json::{number, optional};
+use crate::paper::BLOCKS;
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
 use crate::speed::clock::peak_memory_mib;
-use crate::speed::many;
 use crate::speed::measured::{Total, read_answers, text, totals};
 use crate::speed::scale::{self, Axis, growth};
-use crate::speed::singles::{BASE, ORDERS};
+use crate::speed::singles::{self, BASE, ORDERS};
 use crate::speed::throughput::{self, Job, Throughput, analyses, on_threads};
-use crate::speed::{export, singles};
-use crate::study::grid::blocks;
-use crate::study::suites::StudySuite;
+use crate::speed::{export, many};
+use crate::suites::StudySuite;
+use crate::suites::inputs::read_suite;
 
 /// Measures speed and error on this machine: thirty single analyses against
 /// double-double, and the paper's whole analysis of a suite, in lanes and
@@ -89,7 +88,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
         let records = records(args)?;
-        let analyses = analyses(&blocks()?, Model::Nonlinear, None)?;
+        let analyses = analyses(&BLOCKS, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
         let way = Execution::default();
         let job = Job { analyses: &analyses, records: &records, way, threads };

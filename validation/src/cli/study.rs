@@ -5,20 +5,21 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
-use rocking::integrator::Overturning;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
+use super::scene::Criterion;
 use super::way::WayArgs;
 use super::{Failure, logged, print, with_threads};
-use crate::evidence::{NOT_RUN, Proof};
-use crate::figures::data::Arm;
 use crate::files::{Folder, is_interrupted};
+use crate::paper::{Arm, RESTITUTION};
+use crate::report::evidence::{NOT_RUN, Proof};
+use crate::report::{output, stale};
+use crate::study::Study;
 use crate::study::analyses::Plan;
-use crate::study::runs::{RESTITUTION, Setup};
-use crate::study::suites::StudySuite;
-use crate::study::{Study, output, stale};
+use crate::study::runs::Setup;
+use crate::suites::StudySuite;
 
 /// Folder that a study writes to unless told otherwise.
 pub const REPORT: &str = "rocking-report";
@@ -85,14 +86,6 @@ pub struct Args {
     /// Print the findings as JSON.
     #[arg(long, conflicts_with = "check")]
     json: bool,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Criterion {
-    /// |theta| reaches alpha.
-    Alpha,
-    /// |theta| exceeds pi/2.
-    HalfPi,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
@@ -165,7 +158,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let study =
         logged(&progress, || Study::run(plan, &suites, args.full, &progress))?;
     progress.finish_and_clear();
-    let files = study.files(proof.as_ref())?;
+    let files = output::files(&study, proof.as_ref())?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
     if args.json {
@@ -178,7 +171,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         }
         print(&format!(
             "{}\n{}\nReport: {}\n",
-            study.table(),
+            output::claims_table(&study.claims),
             proof.map_or(NOT_RUN.into(), |proof| proof.to_string()),
             args.out.join("index.html").display()
         ))
@@ -233,13 +226,9 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
             ArmName::C => Arm::C,
         })
         .collect();
-    let overturning = match args.overturn {
-        Criterion::Alpha => Overturning::Alpha,
-        Criterion::HalfPi => Overturning::HalfPi,
-    };
     let setup = Setup {
         restitution: Restitution::constant(args.eta)?,
-        overturning,
+        overturning: args.overturn.into(),
         tolerance: args.refine,
         way: args.way.way()?,
     };

@@ -8,8 +8,8 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, print};
 use crate::files::Folder;
-use crate::inputs::read_suite;
-use crate::{export, synthesis};
+use crate::suites::inputs::read_suite;
+use crate::suites::{export, synthesis};
 
 /// Suites of records as files.
 #[derive(clap::Args)]

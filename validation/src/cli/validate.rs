@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::{Failure, print, print_json};
-use crate::cases::{Case, Cost, FAMILIES, load_all};
 use crate::diff::{self, Results};
 use crate::files::Output;
 use crate::json;
-use crate::methods::{digits, digits_csv};
-use crate::verdict::{Outcome, Verdict, run_all, snapshot};
+use crate::proof::cases::{Case, Cost, FAMILIES, load_all};
+use crate::proof::methods::{digits, digits_csv};
+use crate::proof::verdict::{Outcome, Verdict, run_all, snapshot};
 
 /// Runs the declared cases. With `--out` it writes the results to
 /// OUT/data/validation.json, and to OUT/data/precision.csv what single,

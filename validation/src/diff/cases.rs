@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use super::input::{Flaw, amount};
+use super::flaw::{Flaw, amount};
 use super::{Content, Item, Limit};
-use crate::verdict::snapshot::supported_digits;
+use crate::proof::verdict::snapshot::supported_digits;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

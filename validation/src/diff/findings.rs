@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use serde_json::{Map, Value};
 
-use super::input::{Flaw, amount, kind};
+use super::flaw::{Flaw, amount, kind};
 use super::words::{identities, identity, intensity, quantity, section};
 use super::{Content, Item, Limit};
-use crate::report::Verdict;
+use crate::paper::Verdict;
 
 /// Numbers that a field `interval` beside them belongs to; `x_interval`
 /// belongs to `x`.

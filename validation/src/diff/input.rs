@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::files::is_interrupted;
 
+use super::flaw::{Flaw, kind};
 use super::strict::Strict;
 use super::{Item, cases, findings};
 
@@ -83,28 +84,6 @@ pub enum DiffError {
         /// The other.
         new: PathBuf,
     },
-}
-
-/// What is wrong at a place of a file.
-#[derive(Debug)]
-pub struct Flaw {
-    pub place: String,
-    pub found: String,
-    pub expected: String,
-}
-
-impl Flaw {
-    pub fn new(
-        place: impl Into<String>,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) -> Self {
-        Self {
-            place: place.into(),
-            found: found.into(),
-            expected: expected.into(),
-        }
-    }
 }
 
 /// The results of one side.
@@ -205,30 +184,4 @@ impl Results {
 
 fn looks_like_cases(map: &Map<String, Value>) -> bool {
     !map.is_empty() && map.values().all(|v| v.get("verdict").is_some())
-}
-
-/// The kind of a value, in words.
-pub fn kind(value: &Value) -> &'static str {
-    match value {
-        Value::Null => "null",
-        Value::Bool(_) => "a truth value",
-        Value::Number(_) => "a number",
-        Value::String(_) => "a text",
-        Value::Array(_) => "a list",
-        Value::Object(_) => "an object",
-    }
-}
-
-/// A number, "inf", "-inf" or null.
-pub fn amount(place: &str, value: &Value) -> Result<f64, Flaw> {
-    let wrong = |found: String| {
-        Flaw::new(place, found, "a number, \"inf\", \"-inf\" or null")
-    };
-    match value {
-        Value::Null => Ok(f64::NAN),
-        Value::String(text) if text == "inf" => Ok(f64::INFINITY),
-        Value::String(text) if text == "-inf" => Ok(f64::NEG_INFINITY),
-        Value::String(text) => Err(wrong(format!("\"{text}\""))),
-        other => other.as_f64().ok_or_else(|| wrong(kind(other).into())),
-    }
 }

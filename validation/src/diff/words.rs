@@ -1,6 +1,6 @@
 //! Numbers and names as an engineer says them.
 
-use crate::speed::measured::rounded;
+use crate::words::rounded;
 
 /// A number with at most so many significant digits; "none" for NaN.
 pub fn plain(x: f64, digits: usize) -> String {

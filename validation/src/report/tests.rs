@@ -1,207 +1,176 @@
-//! The page from made-up words.
+//! Tests of the study as a whole, on the first motions of the embedded
+//! suites.
 
-use super::*;
-use crate::drawing::colour;
-use crate::figures::{Figure, demonstration};
+use indicatif::ProgressBar;
+use rocking::block::Restitution;
+use rocking::integrator::Overturning;
+use rocking::record::Processing;
 
-fn made_up() -> ReportInput {
-    let finding = |k: usize| Finding {
-        id: format!("stage-{k}"),
-        claim: "“the median r conforms to 1.0 with 95 % confidence”".into(),
-        source: format!("section {k}"),
-        tested_on: "86 ordinary records, p = 1, arm C".into(),
-        measure: "share of stripes whose interval holds 1".into(),
-        value: "0.91".into(),
-        interval: "0.83 to 0.96 (95 %)".into(),
-        margin: "at least 0.90".into(),
-        verdict: Verdict::ALL[k % 3],
-        figures: vec!["figure-08".into()],
-        remark: if k == 1 { "The lowest stripe.".into() } else { "".into() },
+use super::evidence::{NOT_RUN, Proof};
+use super::ledger::requirements;
+use super::output::{self, FINDINGS, Files};
+use super::{credibility, input, summary};
+use crate::curves::Execution;
+use crate::paper::Arm;
+use crate::proof::cases::load_all;
+use crate::study::Study;
+use crate::study::analyses::{Plan, SuiteResults, Work};
+use crate::study::certainty::Certainty;
+use crate::study::figures::Results;
+use crate::study::runs::Setup;
+use crate::suites::{Source, StudySuite};
+
+fn plan(way: Execution) -> Plan {
+    let setup = Setup {
+        restitution: Restitution::constant(0.92).expect("restitution"),
+        overturning: Overturning::Alpha,
+        tolerance: 1e-3,
+        way,
     };
-    let case = |k: usize| ShownCase {
-        id: format!("free-rocking/decay-{k}"),
-        claim: "peaks fall as the closed form says".into(),
-        source: "Housner 1963, Eq. 8".into(),
-        tolerance: "1e-12 relative".into(),
-        because: "hundred times what double precision can give".into(),
-        error: "3.1e-14".into(),
-        margin: "32 times".into(),
-        rejects: "energy ratio taken for velocity ratio".into(),
-        passed: k != 2,
+    Plan { setup, arms: vec![Arm::A, Arm::B] }
+}
+
+/// Results of nothing, on two suites from there.
+fn empty(source: &Source) -> Results {
+    let suite = |kind| SuiteResults {
+        kind,
+        source: source.clone(),
+        component_rule: String::new(),
+        remarks: None,
+        sha256: String::new(),
+        work: Work { analyses: 0, certainty: Certainty::default() },
+        records: Vec::new(),
+        onset_violations: 0,
+        chosen: [0; 3],
+        arms: Vec::new(),
+        single: Vec::new(),
+        stripes: Vec::new(),
+        adjusted: Vec::new(),
     };
-    let shown = |figure: &dyn Figure| {
-        let heading = figure.heading();
-        ShownFigure {
-            name: heading.name.clone(),
-            number: heading.name.replace("figure-", "Figure "),
-            title: "made-up numbers & <marks>".into(),
-            reading: "Nothing can be seen here, the numbers are made up."
-                .into(),
-            svg: figure.svg().unwrap(),
-            csv: figure.csv(),
-            csv_path: format!("data/{}.csv", heading.name),
-        }
-    };
-    let words = |cells: &[&str]| -> Vec<String> {
-        cells.iter().map(|c| (*c).into()).collect()
-    };
-    ReportInput {
-        title: "Rocking: what was verified, what was found".into(),
-        subtitle: "Free-standing blocks under 86 + 44 records".into(),
-        summary: Summary {
-            asked: "Is slenderness normalized out? ".repeat(4),
-            found: vec!["It is, on average.".into(); 3],
-            trust: "As far as the cases go. ".repeat(3),
-        },
-        findings: (0..7).map(finding).collect(),
-        proof: "By the results handed in: all cases pass.".into(),
-        families: vec![Family {
-            name: "free-rocking".into(),
-            purpose: "The motion has closed forms.".into(),
-            cases: (0..3).map(case).collect(),
-        }],
-        tables: vec![PlainTable {
-            name: "table-1".into(),
-            title: "Table 1. The blocks".into(),
-            reading: "Sizes follow from p and alpha.".into(),
-            header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
-            rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
-        }],
-        figures: demonstration().iter().map(|f| shown(f.as_ref())).collect(),
-        provenance: vec![
-            ("version".into(), "0.1.0".into()),
-            (
-                "suite ordinary".into(),
-                "sha256 ".to_owned() + &"ab1".repeat(21),
-            ),
-        ],
-        limits: vec!["Two suites only.".into(); 3],
-        credibility: vec![],
+    Results {
+        plan: plan(Execution::default()),
+        ordinary: suite("ordinary"),
+        pulse: suite("pulse-type"),
+        distributions: Vec::new(),
+        varied: Vec::new(),
     }
 }
 
-/// Writes the page where `ROCKING_FIGURES` says, to be looked at.
-#[test]
-fn writes_it_to_be_looked_at() {
-    let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
-    std::fs::write(format!("{folder}/index.html"), page(&made_up())).unwrap();
+fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
+    let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
+    ordinary.motions.truncate(10);
+    pulse.motions.truncate(4);
+    let plan = plan(way);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("pool").install(|| {
+        let progress = ProgressBar::hidden();
+        let study = Study::run(plan, &[ordinary, pulse], false, &progress);
+        output::files(&study.expect("study"), proof).expect("report")
+    })
+}
+
+/// Everything that is said of where the records come from.
+fn said_of(source: &Source) -> String {
+    let results = empty(source);
+    let limits = input::limits(&results).concat();
+    let tables = credibility::tables(&results, &[], None);
+    let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
+    let cells: String = cells.collect();
+    limits + &summary::not_checked(&results) + &cells
 }
 
 #[test]
-fn same_bytes_twice() {
-    assert_eq!(page(&made_up()), page(&made_up()));
-}
-
-#[test]
-fn asks_nothing_of_network_or_scripts() {
-    let html = page(&made_up());
-    for word in ["<script", "<link", "@import", "url(", "src="] {
-        assert!(!html.contains(word), "{word}");
-    }
-    let plain = html.replace("http://www.w3.org/2000/svg", "");
-    assert!(!plain.contains("http"));
-}
-
-#[test]
-fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
-    let html = page(&made_up());
-    let values = |key: &str| -> Vec<String> {
-        let parts = html.split(key).skip(1);
-        parts.map(|p| p.split('"').next().unwrap().to_owned()).collect()
+fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
+    let named = |name: &str| Source::Files {
+        name: name.into(),
+        processing: Processing::default(),
     };
-    let mut ids = values(" id=\"");
-    assert!(ids.len() > 30);
-    for target in values("href=\"#") {
-        assert!(ids.contains(&target), "{target}");
-    }
-    for labels in values("aria-labelledby=\"") {
-        for label in labels.split(' ') {
-            assert!(ids.contains(&label.to_owned()), "{label}");
-        }
-    }
-    let all = ids.len();
-    ids.sort();
-    ids.dedup();
-    assert_eq!(ids.len(), all);
+    let own = said_of(&named("my-synthetic"));
+    assert!(own.contains("Suites given by the user"), "{own}");
+    assert!(!own.contains("ynthetic"), "{own}");
+    // The words in which the embedded suites are named.
+    assert_eq!(own, said_of(&named("embedded synthetic suite, streams x")));
+    let embedded = said_of(&Source::Embedded { streams: "x" });
+    assert!(embedded.contains("Synthetic suites from two"), "{embedded}");
+    assert!(embedded.contains("The embedded suites are synthetic"));
+    assert!(embedded.contains("these suites are synthetic"));
 }
 
 #[test]
-fn has_landmarks_and_headings_without_gaps() {
-    let html = page(&made_up());
-    for tag in ["<header>", "<nav ", "<main ", "<footer>", "lang=\"en\""] {
-        assert_eq!(html.matches(tag).count(), 1, "{tag}");
-    }
-    let levels = html.match_indices("<h").filter_map(|(at, _)| {
-        html[at + 2..].chars().next().and_then(|c| c.to_digit(10))
+fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    let proof = Proof::read(data.as_ref()).expect("proof");
+    let mut one = small(1, Execution::default(), Some(&proof));
+    let mut two = small(2, Execution::OneByOne, None);
+    // The proof is on the page alone.
+    let pages = [&mut one, &mut two].map(|files| {
+        let page = files.remove("index.html").expect("page");
+        String::from_utf8(page).expect("text")
     });
-    let levels: Vec<u32> = levels.collect();
-    assert_eq!(levels.iter().filter(|l| **l == 1).count(), 1);
-    assert!(levels.windows(2).all(|w| w[1] <= w[0] + 1), "{levels:?}");
-    assert_eq!(
-        html.matches("<svg").count(),
-        html.matches("role=\"img\"").count()
-    );
-}
-
-#[test]
-fn figures_share_one_style_sheet() {
-    assert_eq!(page(&made_up()).matches(colour::STYLE).count(), 1);
-}
-
-/// WCAG 2 contrast of two colours.
-fn contrast(a: &str, b: &str) -> f64 {
-    let luminance = |hex: &str| {
-        let full: String = if hex.len() == 4 {
-            hex[1..].chars().flat_map(|c| [c, c]).collect()
-        } else {
-            hex[1..].to_owned()
-        };
-        let channel = |k: usize| {
-            let byte = u8::from_str_radix(&full[2 * k..2 * k + 2], 16);
-            let x = f64::from(byte.unwrap()) / 255.0;
-            if x <= 0.04045 {
-                x / 12.92
-            } else {
-                libm::pow((x + 0.055) / 1.055, 2.4)
-            }
-        };
-        0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2)
+    assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
+    for (name, content) in &one {
+        assert!(*content == two[name], "{name} differs");
+    }
+    let [page, without] = pages;
+    let (id, table) = (&load_all().expect("cases")[0].id, "table-precision");
+    assert!(page.contains(&proof.to_string()) && !page.contains("run here"));
+    assert!(page.contains(id) && page.contains(table));
+    assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
+    assert!(!without.contains(id) && !without.contains(table));
+    // Up to what the proof says, they are the same.
+    let findings = |page: &str| {
+        let start = page.find("<section id=\"findings\"").expect("findings");
+        let end = page.find("<section id=\"evidence\"").expect("evidence");
+        page[start..end].to_owned()
     };
-    let (a, b) = (luminance(a), luminance(b));
-    (a.max(b) + 0.05) / (a.min(b) + 0.05)
-}
-
-#[test]
-fn text_has_contrast_4_5_and_lines_3() {
-    let colour = |css: &str, key: &str| -> String {
-        let at = css.find(key).unwrap_or_else(|| panic!("{key}"));
-        let rest = &css[at + key.len()..];
-        rest.split([';', '}']).next().unwrap().trim().to_owned()
-    };
-    let (light, dark) = STYLE.split_once("@media screen").unwrap();
-    for css in [light, dark] {
-        let paper = colour(css, "--paper:");
-        for key in
-            ["--ink:", "--soft:", "--link:", "--yes:", "--no:", "--open:"]
-        {
-            let ratio = contrast(&colour(css, key), &paper);
-            assert!(ratio >= 4.5, "{key} {ratio}");
+    assert!(findings(&page) == findings(&without));
+    // Every figure with its numbers, the findings, Table 1 and the page.
+    for number in 1..=18 {
+        for (folder, suffix) in [("figures", "svg"), ("data", "csv")] {
+            let stem = format!("{folder}/figure-{number:02}");
+            let found = one
+                .keys()
+                .any(|name| name.starts_with(&stem) && name.ends_with(suffix));
+            assert!(found, "{stem}: no {suffix}");
         }
     }
-    let (light, dark) = colour::STYLE.split_once("@media").unwrap();
-    for css in [light, dark] {
-        let paper = colour(css, ".p{fill:");
-        for (key, least) in [(".t{fill:", 4.5), (".m{fill:", 4.5)] {
-            let ratio = contrast(&colour(css, key), &paper);
-            assert!(ratio >= least, "{key} {ratio}");
-        }
-        let mut last = f64::INFINITY;
-        for k in 1..=5 {
-            let key = format!(".l.s{k}{{stroke:");
-            let ratio = contrast(&colour(css, &key), &paper);
-            assert!(ratio >= 3.0, "{key} {ratio}");
-            assert!(ratio < last || css == dark, "{key} {ratio}");
-            last = ratio;
-        }
+    for name in [FINDINGS, "data/table-01.csv"] {
+        assert!(one.contains_key(name), "{name}");
     }
+    let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
+    let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    // The onset of rocking is exact for every record.
+    let onset = json["claims"].as_array().expect("claims").iter();
+    let onset: Vec<_> = onset
+        .filter(|c| c["measure"].as_str().is_some_and(|m| m.contains("1e-9")))
+        .collect();
+    assert_eq!(onset.len(), 2);
+    assert!(onset.iter().all(|c| c["verdict"] == "confirmed"));
+    // Ten records, all above 0.14 g: none fails to lift alpha = 0.10.
+    assert_eq!(json["uplift_unscaled"][1]["ordinary"], 10);
+    // The ledger names what was measured, and all of it.
+    let keys: Vec<&str> = json["claims"]
+        .as_array()
+        .expect("claims")
+        .iter()
+        .map(|claim| claim["id"].as_str().expect("id"))
+        .collect();
+    let named: Vec<String> = requirements()
+        .expect("ledger")
+        .into_iter()
+        .flat_map(|requirement| requirement.findings)
+        .collect();
+    for name in &named {
+        let measured = keys.iter().any(|key| key.starts_with(name.as_str()));
+        assert!(measured, "the ledger names {name}, which is no claim");
+    }
+    for key in &keys {
+        let listed = named.iter().any(|name| key.starts_with(name.as_str()));
+        assert!(listed, "the ledger does not name {key}");
+    }
+    for table in ["ledger", "comparison-error", "credibility-assessment"] {
+        assert!(page.contains(&format!("<div id=\"{table}\">")), "{table}");
+    }
+    let names: Vec<_> = json.as_object().expect("object").keys().collect();
+    assert!(names.is_sorted(), "{names:?}");
 }

@@ -7,9 +7,9 @@ use rocking::ida::{Analysis, curve};
 use rocking::integrator::{Model, Overturning, Scene};
 use rocking::record::Accelerogram;
 
-use crate::study::StudyError;
-use crate::study::grid::blocks;
-use crate::study::suites::StudySuite;
+use super::SpeedError;
+use crate::paper::BLOCKS;
+use crate::suites::StudySuite;
 
 /// Coefficient of restitution of all of them.
 pub const ETA: f64 = 0.92;
@@ -60,10 +60,10 @@ impl Case {
 ///
 /// # Errors
 /// None in practice: records and blocks are in range.
-pub fn all() -> Result<Vec<Case>, StudyError> {
+pub fn all() -> Result<Vec<Case>, SpeedError> {
     let mut cases = Vec::new();
     for suite in StudySuite::embedded()? {
-        for (k, block) in blocks()?.into_iter().enumerate() {
+        for (k, block) in BLOCKS.into_iter().enumerate() {
             let place = k * suite.motions.len() / 15;
             let record = &suite.motions[place].study;
             let share = SHARES[(k + k / 5) % SHARES.len()];
@@ -77,7 +77,7 @@ fn case(
     record: &Accelerogram,
     block: Block,
     share: f64,
-) -> Result<Case, StudyError> {
+) -> Result<Case, SpeedError> {
     let record = NormalisedRecord::new(record);
     let restitution = Restitution::constant(ETA)?;
     let curve = curve(&record, &Analysis::paper(block, restitution))?;

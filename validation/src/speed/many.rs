@@ -11,7 +11,7 @@ use super::throughput::{
     Job, Throughput, analyses, kernel, lilliefors, moved, samples_of,
 };
 use crate::curves::Execution;
-use crate::study::grid::blocks;
+use crate::paper::BLOCKS;
 
 /// Names of both ways of making curves.
 const WAYS: [&str; 2] = ["in lanes", "one by one"];
@@ -62,8 +62,7 @@ fn whole(
     words: &str,
     done: &dyn Fn(),
 ) -> Result<Vec<Throughput>, SpeedError> {
-    let blocks = blocks()?;
-    let shipped = analyses(&blocks, model, None)?;
+    let shipped = analyses(&BLOCKS, model, None)?;
     let mut all = Vec::new();
     let mut base = Vec::new();
     for how in WAYS {
@@ -88,7 +87,7 @@ fn whole(
         order.filter(|_| model == Model::Nonlinear).map(|o| (name, o))
     });
     for (setting, order) in fixed {
-        let analyses = analyses(&blocks, model, Some(order))?;
+        let analyses = analyses(&BLOCKS, model, Some(order))?;
         for how in WAYS {
             let work = format!("15 blocks, {words}, {how}, {setting}");
             let (mut measured, found) = make(&work, &analyses, records, how)?;

@@ -7,6 +7,7 @@ use thiserror::Error;
 
 use super::answers::{Answer, COMPARED};
 use super::cases::Case;
+use crate::words::rounded;
 
 /// A tool with its setting on one case.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -175,12 +176,6 @@ pub fn text(rows: &[Row]) -> Result<Vec<u8>, csv::Error> {
         })?;
     }
     writer.into_inner().map_err(|e| e.into_error().into())
-}
-
-/// A number to so many significant digits.
-#[must_use]
-pub fn rounded(x: f64, digits: usize) -> f64 {
-    format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
 }
 
 /// What a tool with its setting came to over the cases.

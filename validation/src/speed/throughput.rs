@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use super::SpeedError;
 use super::cases::ETA;
 use super::clock::process_s;
-use super::measured::rounded;
 use crate::curves::Execution;
+use crate::words::rounded;
 
 /// A piece of work and what it took.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,9 @@
 //! All analyses of a study, in a fixed order for any number of threads.
 
+mod single;
 mod stripes;
+
+pub use single::{Apart, HISTORY_INTERVAL_S, ShownHistory, SingleRecords};
 
 use indicatif::ProgressBar;
 use rayon::prelude::*;
@@ -11,19 +14,11 @@ use rocking::ida::Adjust;
 use rocking::intensity::{Measures, Settings};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
+use super::StudyError;
 use super::certainty::Certainty;
-use super::choice::{by_rank, common_level};
-use super::grid::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, blocks, position,
-};
-use super::histories::{distance, mean_log_ratio};
 use super::runs::Setup;
-use super::suites::{Motion, Source, StudySuite};
-use super::{StudyError, capacities};
-use crate::figures::data::Arm;
-
-/// Interval at which histories are compared and drawn, in s.
-pub const HISTORY_INTERVAL_S: f64 = 0.01;
+use crate::paper::{Arm, BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
+use crate::suites::{Motion, Source, StudySuite};
 
 /// Periods of the response spectra, in s.
 pub const SPECTRUM_PERIODS_S: [f64; 14] = [
@@ -62,35 +57,6 @@ pub struct ArmCurves {
     pub arm: Arm,
     /// Curves by block (15), then by record.
     pub curves: Vec<Vec<ResponseCurve>>,
-}
-
-/// Theta/alpha every [`HISTORY_INTERVAL_S`], and whether the block
-/// overturned.
-pub type ShownHistory = (Vec<f64>, bool);
-
-/// Histories of the chosen records, and how far all records' histories and
-/// curves are from the reference slenderness, for one frequency parameter.
-#[derive(Clone, Debug)]
-pub struct SingleRecords {
-    /// Level of the histories.
-    pub im: f64,
-    /// Theta/alpha of the chosen records, by record, then by slenderness,
-    /// and whether the block overturned.
-    pub histories: Vec<Vec<ShownHistory>>,
-    /// By record, then by slenderness other than the reference.
-    pub apart: Vec<Vec<Apart>>,
-}
-
-/// A block against the reference slenderness under one record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Apart {
-    /// Normalized L2 distance of the histories; NaN where one overturned.
-    pub distance: f64,
-    /// Ratio of the peaks; NaN where one overturned.
-    pub peak_ratio: f64,
-    /// Mean |ln| of the ratio of intensities at equal demand; NaN where
-    /// there is none.
-    pub mean_ln_im: f64,
 }
 
 /// Demands on the stripes for one arm's first overturnings.
@@ -196,7 +162,6 @@ impl Plan {
         stages_3_and_4: bool,
         progress: &ProgressBar,
     ) -> Result<SuiteResults, StudyError> {
-        let blocks = blocks()?;
         let records: Vec<NormalisedRecord> = suite
             .motions
             .iter()
@@ -205,13 +170,13 @@ impl Plan {
         let facts: Vec<Facts> =
             suite.motions.par_iter().map(facts).collect::<Result<_, _>>()?;
         let scans = Setup::scans(&self.arms).len();
-        let chains = scans * blocks.len() * records.len();
+        let chains = scans * BLOCKS.len() * records.len();
         progress.inc_length(chains as u64);
-        let (arms, work) = self.curves(&blocks, &records, progress)?;
+        let (arms, work) = self.curves(&BLOCKS, &records, progress)?;
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
-        let chosen = by_rank(&ratios);
-        let reference = blocks[position(1, REFERENCE)];
+        let chosen = single::by_rank(&ratios);
+        let reference = BLOCKS[position(1, REFERENCE)];
         let violations: Vec<bool> = records
             .par_iter()
             .map(|record| self.setup.violates_onset(reference, record))
@@ -233,12 +198,12 @@ impl Plan {
         };
         for frequency in 0..FREQUENCIES_RAD_S.len() {
             let single =
-                self.single(frequency, &blocks, &records, &results)?;
+                self.single(frequency, &BLOCKS, &records, &results)?;
             results.single.push(single);
         }
         if stages_3_and_4 {
-            results.adjusted = self.adjusted(&blocks, &records, progress)?;
-            results.stripes = self.stripes(&blocks, &records, &results)?;
+            results.adjusted = self.adjusted(&BLOCKS, &records, progress)?;
+            results.stripes = self.stripes(&BLOCKS, &records, &results)?;
         }
         Ok(results)
     }
@@ -260,70 +225,6 @@ impl Plan {
         Ok((arms.collect(), work))
     }
 
-    fn single(
-        &self,
-        frequency: usize,
-        blocks: &[Block],
-        records: &[NormalisedRecord],
-        results: &SuiteResults,
-    ) -> Result<SingleRecords, StudyError> {
-        let Some(curves) = results.curves(self.common()) else {
-            return Err(StudyError::NoArm);
-        };
-        let of = |slenderness, record: usize| -> &ResponseCurve {
-            &curves[position(frequency, slenderness)][record]
-        };
-        let last = |curve: &ResponseCurve| match curve.overturning_im() {
-            Some(_) => curve.last_im(),
-            None => f64::INFINITY,
-        };
-        let slendernesses = 0..SLENDERNESSES_RAD.len();
-        let standing: Vec<Vec<f64>> = results
-            .chosen
-            .iter()
-            .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
-            .collect();
-        let im = common_level(&standing);
-        let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
-            .into_par_iter()
-            .map(|record| {
-                let histories: Vec<(Vec<f64>, f64)> = slendernesses
-                    .clone()
-                    .map(|s| {
-                        self.setup.history(
-                            blocks[position(frequency, s)],
-                            &records[record],
-                            im,
-                            HISTORY_INTERVAL_S,
-                        )
-                    })
-                    .collect::<Result<_, _>>()?;
-                let apart = slendernesses
-                    .clone()
-                    .filter(|s| *s != REFERENCE)
-                    .map(|s| {
-                        let (a, b) = (&histories[s], &histories[REFERENCE]);
-                        let curves = (of(s, record), of(REFERENCE, record));
-                        apart(a, b, curves)
-                    })
-                    .collect::<Result<_, _>>()?;
-                let kept = if results.chosen.contains(&record) {
-                    histories
-                        .into_iter()
-                        .map(|(h, peak)| (h, peak.is_infinite()))
-                        .collect()
-                } else {
-                    Vec::new()
-                };
-                Ok((kept, apart))
-            })
-            .collect::<Result<_, StudyError>>()?;
-        let histories =
-            results.chosen.iter().map(|r| all[*r].0.clone()).collect();
-        let apart = all.into_iter().map(|(_, apart)| apart).collect();
-        Ok(SingleRecords { im, histories, apart })
-    }
-
     fn adjusted(
         &self,
         blocks: &[Block],
@@ -343,24 +244,6 @@ impl Plan {
         let arms = drawn.into_iter().zip(chains.curves);
         Ok(arms.map(|(arm, curves)| ArmCurves { arm, curves }).collect())
     }
-}
-
-fn apart(
-    compared: &(Vec<f64>, f64),
-    reference: &(Vec<f64>, f64),
-    curves: (&ResponseCurve, &ResponseCurve),
-) -> Result<Apart, StudyError> {
-    let stand = compared.1.is_finite() && reference.1.is_finite();
-    let when_standing = |x: f64| if stand { x } else { f64::NAN };
-    // Demands 0.1, 0.2, ... 1.0.
-    let levels: Vec<f64> = (1..=10).map(|k| f64::from(k) / 10.0).collect();
-    let a = capacities::at(curves.0, &levels)?;
-    let b = capacities::at(curves.1, &levels)?;
-    Ok(Apart {
-        distance: when_standing(distance(&compared.0, &reference.0)),
-        peak_ratio: when_standing(compared.1 / reference.1),
-        mean_ln_im: mean_log_ratio(&a, &b),
-    })
 }
 
 /// What a study knows of a motion's component.

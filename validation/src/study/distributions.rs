@@ -1,13 +1,17 @@
 //! Capacity samples of all blocks, and what Lilliefors' test says of them.
 
-use super::StudyError;
-use super::analyses::SuiteResults;
-use super::capacities::{samples, scaled};
-use super::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
-use super::normality::{accepted_share, along, null_band};
-use crate::figures::data::{Arm, Intensity};
+use rayon::prelude::*;
+use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::lilliefors::Assessment;
+
+use super::StudyError;
+use super::analyses::SuiteResults;
+use super::normality::{accepted_share, along, null_band};
+use super::runs::capacities;
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
+};
 
 /// Capacities of one block, and the test along the demand.
 #[derive(Clone, Debug)]
@@ -115,6 +119,29 @@ fn block(
         shifted: along(&samples, shift)?,
         samples,
     })
+}
+
+/// Samples by level: capacities of all records of a block.
+///
+/// # Errors
+/// [`StudyError`] for a level that is not positive.
+fn samples(
+    curves: &[ResponseCurve],
+    levels: &[f64],
+) -> Result<Vec<Vec<f64>>, StudyError> {
+    let by_record: Vec<Vec<f64>> = curves
+        .par_iter()
+        .map(|curve| capacities(curve, levels, InversionRule::Median))
+        .collect::<Result<_, _>>()?;
+    let of = |k: usize| by_record.iter().map(|r| r[k]).collect();
+    Ok((0..levels.len()).map(of).collect())
+}
+
+/// The same sample in another measure: each capacity times its record's
+/// factor.
+#[must_use]
+pub fn scaled(sample: &[f64], factors: &[f64]) -> Vec<f64> {
+    sample.iter().zip(factors).map(|(x, f)| x * f).collect()
 }
 
 /// What turns PGA/(g tan alpha) into the measure, record by record: 1, or

@@ -18,7 +18,8 @@ use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
-use crate::figures::data::Arm;
+use crate::draw::figures::Figure;
+use crate::paper::Arm;
 
 /// Everything that the figures are made of.
 #[derive(Clone, Debug)]
@@ -33,14 +34,6 @@ pub struct Results {
     pub distributions: Vec<Distributions>,
     /// Curves under other choices, ordinary suite.
     pub varied: Vec<Varied>,
-}
-
-/// A figure and the sentence that says what one sees.
-pub struct Figure {
-    /// The drawing and its numbers.
-    pub drawing: Box<dyn crate::figures::Figure + Send + Sync>,
-    /// What one sees, in one sentence made from the numbers.
-    pub reading: String,
 }
 
 impl Results {
@@ -110,19 +103,4 @@ fn name(number: u32, arm: Option<Arm>) -> String {
         }
         None => format!("figure-{number:02}"),
     }
-}
-
-/// Percent with one decimal, for sentences.
-fn percent(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
-}
-
-/// Least and largest of some numbers, those that are not finite left out.
-pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.filter(|x| x.is_finite()).fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(low, high), x| {
-            (if x < low { x } else { low }, if x > high { x } else { high })
-        },
-    )
 }

@@ -1,156 +1,17 @@
-//! What was found: claims with measure, interval, margin and verdict.
+//! Everything that a study found, as `findings.json` holds it.
 
+use rocking::integrator::Overturning;
 use serde_json::{Map, Value, json};
 
-use crate::figures::data::Arm;
-use crate::json::extended;
-pub use crate::report::Verdict;
-
-/// A measured value, with an interval where there is one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
-    /// The value; NaN where there are no data.
-    pub value: f64,
-    /// 95 % interval.
-    pub interval: Option<(f64, f64)>,
-}
-
-impl Measured {
-    /// A value that is not a sample's: counted or computed exactly.
-    #[must_use]
-    pub fn exact(value: f64) -> Self {
-        Self { value, interval: None }
-    }
-
-    fn ends(&self) -> (f64, f64) {
-        self.interval.unwrap_or((self.value, self.value))
-    }
-
-    /// Claim: between `low` and `high`, ends included.
-    #[must_use]
-    pub fn within(&self, low: f64, high: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if a >= low && b <= high {
-            Verdict::Confirmed
-        } else if b < low || a > high {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-
-    /// Claim: above `limit`.
-    #[must_use]
-    pub fn above(&self, limit: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if a > limit {
-            Verdict::Confirmed
-        } else if b <= limit {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-
-    /// Claim: below `limit`.
-    #[must_use]
-    pub fn below(&self, limit: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if b < limit {
-            Verdict::Confirmed
-        } else if a >= limit {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-}
-
-/// One claim of the paper, measured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
-    /// Short name: `stage-3-median-p1`.
-    pub id: String,
-    /// Section or figure of the paper.
-    pub section: String,
-    /// The paper's words.
-    pub quote: String,
-    /// Suite measured.
-    pub suite: String,
-    /// Blocks measured.
-    pub blocks: String,
-    /// Arm of the grid, where there is one.
-    pub arm: Option<Arm>,
-    /// What is measured.
-    pub measure: String,
-    /// What came out.
-    pub measured: Measured,
-    /// What counts as confirmed, decided beforehand.
-    pub margin: String,
-    /// What follows.
-    pub verdict: Verdict,
-    /// What else a reader must know; may be empty.
-    pub note: String,
-}
-
-impl Claim {
-    /// Unique among all claims: id, suite and arm.
-    #[must_use]
-    pub fn key(&self) -> String {
-        let arm = self.arm.map_or(String::new(), |arm| {
-            format!("-{}", arm.letter().to_lowercase())
-        });
-        format!("{}-{}{arm}", self.id, self.suite)
-    }
-
-    /// As JSON, keys sorted.
-    #[must_use]
-    pub fn json(&self) -> Value {
-        let Measured { value, interval } = self.measured;
-        json!({
-            "id": self.key(),
-            "section": self.section,
-            "quote": self.quote,
-            "suite": self.suite,
-            "blocks": self.blocks,
-            "arm": self.arm.map(Arm::letter),
-            "measure": self.measure,
-            "value": rounded(value),
-            "interval": ends(interval),
-            "margin": self.margin,
-            "verdict": self.verdict.name(),
-            "note": self.note,
-        })
-    }
-}
-
-/// A number rounded to nine significant digits: what a bound supports, and
-/// no more than a reader compares.
-#[must_use]
-pub fn rounded(x: f64) -> Value {
-    extended(format!("{x:.8e}").parse().unwrap_or(x))
-}
-
-/// The two ends of an interval, or null.
-#[must_use]
-pub fn ends(interval: Option<(f64, f64)>) -> Value {
-    interval.map_or(Value::Null, |(a, b)| json!([rounded(a), rounded(b)]))
-}
-
-/// Standard normal quantile of 97.5 %.
-const NORMAL_975: f64 = 1.959_963_984_540_054;
-
-/// Wilson's 95 % interval of a share: `count` of `of` records, which are
-/// independent of each other.
-#[must_use]
-pub fn wilson(count: usize, of: usize) -> (f64, f64) {
-    let (n, z2) = (of as f64, NORMAL_975 * NORMAL_975);
-    let share = count as f64 / n;
-    let middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
-    let spread = share * (1.0 - share) / n + z2 / (4.0 * n * n);
-    let half = NORMAL_975 * spread.sqrt() / (1.0 + z2 / n);
-    (middle - half, middle + half)
-}
+use super::analyses::{Plan, SuiteResults};
+use super::claims::{self, Claim, wilson};
+use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
+use super::questions::{self, Answer};
+use super::sensitivities::Varied;
+use super::{StudyError, normality};
+use crate::draw::figures::Stripe;
+use crate::json::{ends, rounded};
+use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
 
 /// Everything that goes to `findings.json`, by name; keys are sorted.
 pub type Findings = Map<String, Value>;
@@ -164,44 +25,246 @@ pub fn text(findings: &Findings) -> String {
     serde_json::to_string_pretty(&value).unwrap_or_default() + "\n"
 }
 
+/// All findings of a study.
+///
+/// # Errors
+/// [`StudyError`] where a number cannot be computed.
+pub fn all(
+    results: &Results,
+    claims: &[Claim],
+    answers: &[Answer],
+) -> Result<Findings, StudyError> {
+    let mut out = Findings::new();
+    let claims = claims.iter().map(Claim::json).collect();
+    out.insert("claims".into(), Value::Array(claims));
+    out.insert("options".into(), options(&results.plan));
+    out.insert("questions".into(), questions::json(answers));
+    let suites = [&results.ordinary, &results.pulse].map(suite);
+    out.insert("suites".into(), Value::Array(suites.into()));
+    out.insert("figure_09".into(), adjustment(results)?);
+    out.insert("uplift_unscaled".into(), uplift(results));
+    out.insert("accepted_shares".into(), shares(results));
+    out.insert("overturning".into(), overturning(results));
+    out.insert("resurrections".into(), resurrections(results));
+    out.insert("single_records".into(), single(results));
+    out.insert("sensitivities".into(), varied(results)?);
+    Ok(out)
+}
+
+fn options(plan: &Plan) -> Value {
+    let arms: Vec<&str> = plan.arms.iter().map(|a| a.letter()).collect();
+    let overturning = match plan.setup.overturning {
+        Overturning::Alpha => "alpha",
+        Overturning::HalfPi => "half-pi",
+    };
+    json!({
+        "arms": arms,
+        "eta": rounded(plan.setup.restitution.velocity_ratio()),
+        "overturning": overturning,
+        "refinement_im": rounded(plan.setup.tolerance),
+        "version": env!("CARGO_PKG_VERSION"),
+    })
+}
+
+fn suite(suite: &SuiteResults) -> Value {
+    let chosen: Vec<&str> = suite
+        .chosen
+        .iter()
+        .map(|record| suite.records[*record].name.as_str())
+        .collect();
+    let certainty = &suite.work.certainty;
+    let mut value = json!({
+        "kind": suite.kind,
+        "source": suite.source.to_string(),
+        "component_rule": suite.component_rule,
+        "records": suite.records.len(),
+        "sha256": suite.sha256,
+        "analyses": suite.work.analyses,
+        "not_told_by_double_precision": certainty.unresolved,
+        "first_overturnings_told_again": {
+            "all": certainty.ends.all,
+            "by_double": certainty.ends.double,
+            "by_double_double": certainty.ends.double_double,
+            "by_octuple": certainty.ends.octuple,
+            "left_open": certainty.ends.undecided,
+            "told_wrongly_in_double": certainty.ends.moved,
+        },
+        "largest_shift_if_flipped": rounded(certainty.largest_shift),
+        "shown_alone": chosen,
+    });
+    if let Some(remarks) = &suite.remarks {
+        value["remarks"] = remarks.clone().into();
+    }
+    value
+}
+
+/// How many records uplift each block without being scaled.
+fn uplift(results: &Results) -> Value {
+    let rows: Vec<Value> = BLOCKS
+        .iter()
+        .map(|block| {
+            json!({
+                "p_rad_s": rounded(block.frequency_rad_s()),
+                "alpha_rad": rounded(block.slenderness_rad()),
+                "ordinary": results.ordinary.uplift_unscaled(block),
+                "pulse_type": results.pulse.uplift_unscaled(block),
+            })
+        })
+        .collect();
+    Value::Array(rows)
+}
+
+fn shares(results: &Results) -> Value {
+    let mut rows = Vec::new();
+    for d in &results.distributions {
+        for block in &d.blocks {
+            let (original, shifted) = block.shares();
+            rows.push(json!({
+                "suite": d.kind,
+                "arm": d.arm.letter(),
+                "im_kind": d.intensity.name(),
+                "p_rad_s": rounded(block.p_rad_s),
+                "alpha_rad": rounded(block.alpha_rad),
+                "im_r": rounded(block.shift),
+                "original": rounded(original),
+                "original_null_band": ends(block.bands[0].as_ref().and_then(normality::ends)),
+                "shifted": rounded(shifted),
+                "shifted_null_band": ends(block.bands[1].as_ref().and_then(normality::ends)),
+            }));
+        }
+    }
+    json!({ "levels": demands().len(), "rows": rows })
+}
+
+fn resurrections(results: &Results) -> Value {
+    let rows: Vec<Value> = results
+        .ordinary
+        .stripes
+        .iter()
+        .map(|stripes| {
+            let total = |counts: &[Vec<usize>]| -> usize {
+                counts.iter().flatten().sum()
+            };
+            json!({
+                "arm": stripes.arm.letter(),
+                "overturned": total(&stripes.overturned),
+                "stand_again": total(&stripes.stand_again),
+            })
+        })
+        .collect();
+    Value::Array(rows)
+}
+
+fn single(results: &Results) -> Value {
+    let mut rows = Vec::new();
+    for suite in [&results.ordinary, &results.pulse] {
+        for row in claims::single_rows(suite) {
+            rows.push(json!({
+                "suite": suite.kind,
+                "p_rad_s": rounded(row.p_rad_s),
+                "im_pga": rounded(row.im),
+                "usable": row.usable,
+                "median_distance": rounded(row.distance),
+                "median_peak_ratio": rounded(row.peak_ratio),
+                "median_ln_im": rounded(row.mean_ln_im),
+            }));
+        }
+    }
+    Value::Array(rows)
+}
+
+fn varied(results: &Results) -> Result<Value, StudyError> {
+    let rows = results
+        .varied
+        .iter()
+        .map(|v: &Varied| {
+            let pairs = claims::varied_ratios(results, v, 1.0)?;
+            let measured = claims::median(&pairs.ratios);
+            Ok(json!({
+                "choice": v.choice.name(),
+                "p_rad_s": rounded(FREQUENCIES_RAD_S[v.frequency]),
+                "alpha_rad":
+                    rounded(SLENDERNESSES_RAD[v.slenderness]),
+                "edp": 1.0,
+                "usable": pairs.ratios.len(),
+                "median_ratio": rounded(measured.value),
+                "interval": ends(measured.interval),
+            }))
+        })
+        .collect::<Result<Vec<Value>, StudyError>>()?;
+    Ok(Value::Array(rows))
+}
+
+/// Figure 9, a row a box: usable count with Wilson's 95 % interval, and
+/// median; the same apart by whether the adjusted slenderness is within the
+/// paper's.
+fn adjustment(results: &Results) -> Result<Value, StudyError> {
+    let suite = &results.ordinary;
+    let mut rows = Vec::new();
+    for arm in results.plan.drawn() {
+        let Some(demands) = of_arm(suite, arm) else { continue };
+        for (frequency, (p_rad_s, stripes)) in
+            adjusted_boxes(suite, arm)?.into_iter().enumerate()
+        {
+            let splits = adjusted_split(suite, demands, frequency)?;
+            for (stripe, split) in stripes.iter().zip(splits) {
+                let median = stripe.summary.as_ref().map(|b| b.median);
+                rows.push(json!({
+                    "arm": arm.letter(),
+                    "p_rad_s": rounded(p_rad_s),
+                    "im_pga": rounded(split.im),
+                    "records": stripe.records,
+                    "usable": stripe.usable,
+                    "usable_interval": count_interval(stripe),
+                    "median": median.map(rounded),
+                    "median_alpha_to_0.25": median_of_part(&split.within),
+                    "median_alpha_above_0.25": median_of_part(&split.above),
+                    "usable_alpha_above_0.25": split.above.len(),
+                }));
+            }
+        }
+    }
+    Ok(Value::Array(rows))
+}
+
+/// Of as many records of the kind, how many would be usable.
+fn count_interval(stripe: &Stripe) -> Value {
+    let (low, high) = wilson(stripe.usable, stripe.records);
+    let n = stripe.records as f64;
+    ends(Some((low * n, high * n)))
+}
+
+fn median_of_part(ratios: &[f64]) -> Value {
+    rounded(claims::median(ratios).value)
+}
+
+/// Median overturning intensities, a row a block, suite and measure, in the arm that figures share: the
+/// median intensity at demand 1.00 with its order-statistic interval.
+fn overturning(results: &Results) -> Value {
+    let arm = results.plan.common();
+    let mut rows = Vec::new();
+    for d in results.distributions.iter().filter(|d| d.arm == arm) {
+        for block in &d.blocks {
+            // The last of the demand levels is overturning.
+            let last = block.samples.last().map_or(&[][..], Vec::as_slice);
+            let measured = claims::median(last);
+            rows.push(json!({
+                "suite": d.kind,
+                "arm": d.arm.letter(),
+                "im_kind": d.intensity.name(),
+                "p_rad_s": rounded(block.p_rad_s),
+                "alpha_rad": rounded(block.alpha_rad),
+                "median": rounded(measured.value),
+                "interval": ends(measured.interval),
+            }));
+        }
+    }
+    Value::Array(rows)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn verdicts_need_the_whole_interval() {
-        let m = |value, a, b| Measured { value, interval: Some((a, b)) };
-        use Verdict::{Confirmed, Inconclusive, NotConfirmed};
-        assert_eq!(m(1.0, 0.97, 1.03).within(0.95, 1.05), Confirmed);
-        assert_eq!(m(1.0, 0.90, 1.03).within(0.95, 1.05), Inconclusive);
-        assert_eq!(m(1.2, 1.10, 1.30).within(0.95, 1.05), NotConfirmed);
-        assert_eq!(m(0.2, 0.1, 0.3).above(0.0), Confirmed);
-        assert_eq!(m(0.2, -0.1, 0.3).above(0.0), Inconclusive);
-        assert_eq!(m(0.2, 0.1, 0.3).below(0.1), NotConfirmed);
-        assert_eq!(Measured::exact(0.1536).within(0.15, 0.16), Confirmed);
-    }
-
-    #[test]
-    fn missing_data_never_confirm() {
-        let m = Measured::exact(f64::NAN);
-        assert_eq!(m.within(0.0, 1.0), Verdict::Inconclusive);
-        assert_eq!(m.above(0.0), Verdict::Inconclusive);
-        assert_eq!(m.below(0.0), Verdict::Inconclusive);
-        assert_eq!(rounded(f64::NAN), Value::Null);
-        assert_eq!(rounded(f64::INFINITY), Value::from("inf"));
-        assert_eq!(rounded(1.0 / 3.0).to_string(), "0.333333333");
-    }
-
-    #[test]
-    fn wilson_agrees_with_its_closed_ends_and_r() {
-        // At 0 of n the upper end is z^2/(n + z^2).
-        let (low, high) = wilson(0, 20);
-        assert!(low.abs() < 1e-15 && (high - 0.161_125_158).abs() < 1e-8);
-        // R 4: prop.test(5, 10, correct = FALSE).
-        let (low, high) = wilson(5, 10);
-        assert!((low - 0.236_593_1).abs() < 1e-7, "{low}");
-        assert!((high - 0.763_406_9).abs() < 1e-7, "{high}");
-    }
 
     #[test]
     fn text_has_sorted_keys() {

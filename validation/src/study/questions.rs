@@ -17,9 +17,9 @@ use serde_json::{Value, json};
 
 use super::StudyError;
 use super::analyses::SuiteResults;
-use super::figures::{Figure, Results};
-use crate::figures::data::Table;
-use crate::report::PlainTable;
+use super::figures::Results;
+use crate::draw::figures::Figure;
+use crate::table::{PlainTable, Table};
 
 /// A question with its answer and the numbers behind it.
 pub struct Answer {
@@ -152,7 +152,7 @@ impl Cell {
         match self {
             Self::Word(text) => text.clone(),
             Self::Count(count) => count.to_string(),
-            Self::Number(x, _) => crate::figures::data::number(*x),
+            Self::Number(x, _) => crate::table::number(*x),
         }
     }
 
@@ -178,20 +178,4 @@ fn mean(values: &[f64]) -> f64 {
 
 fn both(results: &Results) -> [&SuiteResults; 2] {
     [&results.ordinary, &results.pulse]
-}
-
-/// With a capital letter.
-fn capital(word: &str) -> String {
-    let mut letters = word.chars();
-    let first = letters.next().map(|c| c.to_uppercase().to_string());
-    first.unwrap_or_default() + letters.as_str()
-}
-
-/// A share in words; a dash where there are no data.
-fn percent(share: f64) -> String {
-    if share.is_nan() {
-        "–".into()
-    } else {
-        format!("{:.0} %", 100.0 * share)
-    }
 }

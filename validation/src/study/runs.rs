@@ -2,7 +2,7 @@
 //! histories.
 
 use rocking::block::{Block, Restitution};
-use rocking::capacity::ResponseCurve;
+use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Adjust, Analysis, Grid, Overturned};
 use rocking::integrator::{
@@ -13,10 +13,7 @@ use rocking::integrator::{
 use super::StudyError;
 use super::certainty::{Certainty, certainty};
 use crate::curves::Execution;
-use crate::figures::data::Arm;
-
-/// The paper's coefficient of restitution, for every block.
-pub const RESTITUTION: f64 = 0.92;
+use crate::paper::Arm;
 
 /// What holds for every analysis of a study.
 #[derive(Clone, Copy, Debug)]
@@ -197,6 +194,19 @@ impl Setup {
             .collect();
         Ok((ratio, response.outcome.edp()))
     }
+}
+
+/// Capacities of one curve at demand levels by a rule; infinite where a level
+/// was never reached.
+///
+/// # Errors
+/// [`StudyError`] for a level that is not positive.
+pub fn capacities(
+    curve: &ResponseCurve,
+    levels: &[f64],
+    rule: InversionRule,
+) -> Result<Vec<f64>, StudyError> {
+    levels.iter().map(|e| Ok(curve.capacity(*e, rule)?.im())).collect()
 }
 
 /// What an arm counts as the first overturning.

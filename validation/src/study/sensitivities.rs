@@ -9,9 +9,9 @@ use rocking::integrator::Overturning;
 
 use super::StudyError;
 use super::analyses::Plan;
-use super::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use super::runs::Setup;
-use super::suites::StudySuite;
+use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
+use crate::suites::StudySuite;
 
 /// A choice other than the study's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use rocking::intensity::velocity_pulse::{Candidate, candidates, pulse};
 use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
 use serde_json::{Value, json};
 
-use super::{Listed, drift, line};
+use super::{Listed, line};
 use crate::cli::Failure;
 use crate::json::{number, optional};
 
@@ -149,11 +149,10 @@ impl Found {
         let own = self.singles.as_ref().and_then(|all| all.get(position));
         if let (Some(own), Some(map)) = (own, record.as_object_mut()) {
             if let (Some(message), Some(remarks)) = (
-                drift::remark(own, self.baseline.as_deref()),
+                drift(own, self.baseline.as_deref()),
                 map.get_mut("remarks").and_then(Value::as_array_mut),
             ) {
-                remarks
-                    .push(json!({ "code": drift::CODE, "message": message }));
+                remarks.push(json!({ "code": DRIFT, "message": message }));
             }
             let settings = &self.settings;
             map.insert(
@@ -219,8 +218,8 @@ impl Found {
             self.measures_table(&mut text, &rows);
             for (listed, found) in records.iter().zip(singles) {
                 let baseline = self.baseline.as_deref();
-                if let Some(message) = drift::remark(found, baseline) {
-                    let (file, code) = (&listed.file, drift::CODE);
+                if let Some(message) = drift(found, baseline) {
+                    let (file, code) = (&listed.file, DRIFT);
                     line(&mut text, format_args!("{file}: {code}: {message}"));
                 }
             }
@@ -390,4 +389,23 @@ fn candidate(c: &Candidate) -> Value {
         "indicator": number(c.indicator),
         "late": c.late,
     })
+}
+
+/// Code of the remark on displacements that a drifting baseline makes.
+const DRIFT: &str = "drift";
+
+/// A peak ground displacement above this, in m, is remarked where nothing
+/// filtered slow drifts out: the largest that processed records of
+/// earthquakes have are of 4 m or so, permanent offsets aside.
+const LARGEST_PGD_M: f64 = 5.0;
+
+/// What makes the displacement implausible, if it is; `baseline` says what
+/// was done to the record where slow drifts were not filtered out.
+fn drift(
+    found: &Result<Measures, IntensityError>,
+    baseline: Option<&str>,
+) -> Option<String> {
+    let (pgd_m, baseline) = (found.as_ref().ok()?.pgd_m, baseline?);
+    (!(pgd_m <= LARGEST_PGD_M))
+        .then(|| format!("PGD {pgd_m:.1} m: {baseline}; see --high-pass"))
 }

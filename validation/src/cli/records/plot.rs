@@ -5,11 +5,10 @@ use rocking::record::Accelerogram;
 
 use super::Listed;
 use crate::cli::Failure;
-use crate::drawing::markup;
-use crate::figures::Figure as _;
-use crate::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
+use crate::draw::markup;
 
 /// Periods of the spectrum: 40 a decade from 0.05 to 10 s.
 const PERIODS: i32 = 92;
@@ -30,7 +29,7 @@ pub(super) fn svg(
         )));
     };
     let chart = chart(&listed.motion, processing, gravity_m_s2)?;
-    Ok(chart.thinned().svg()?)
+    Ok(chart.thinned().figure(String::new()).svg()?)
 }
 
 fn chart(
@@ -111,8 +110,8 @@ fn chart(
     Ok(Chart { heading, panels, columns: 2 })
 }
 
-fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> Axis {
-    Axis { label: label.to_owned(), scale, range, categories: Vec::new() }
+fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> ChartAxis {
+    ChartAxis { label: label.to_owned(), scale, range, categories: Vec::new() }
 }
 
 /// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a

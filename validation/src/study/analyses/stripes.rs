@@ -7,11 +7,10 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
 use super::{ArmCurves, Plan, StripeDemands, SuiteResults};
-use crate::study::StudyError;
-use crate::study::grid::{
+use crate::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };
-use crate::study::stripes::on_stripe;
+use crate::study::StudyError;
 
 impl Plan {
     /// One run a block, stripe and record; what an arm's scan makes of it
@@ -127,4 +126,26 @@ fn on_levels(
         .iter()
         .map(|im| records.par_iter().map(|r| run(*im, r)).collect())
         .collect()
+}
+
+/// Demand of a record on a stripe: infinite once the scan along rising
+/// intensity overturned at or below the level, whatever a run there gives.
+fn on_stripe(level: f64, overturning: Option<f64>, run: f64) -> f64 {
+    match overturning {
+        Some(first) if !(level < first) => f64::INFINITY,
+        _ => run,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_overturned_below_does_not_stand_again() {
+        assert_eq!(on_stripe(1.5, Some(1.6), 0.4), 0.4);
+        assert_eq!(on_stripe(1.6, Some(1.6), 0.4), f64::INFINITY);
+        assert_eq!(on_stripe(2.0, Some(1.6), 0.4), f64::INFINITY);
+        assert_eq!(on_stripe(2.0, None, 0.4), 0.4);
+    }
 }

@@ -2,10 +2,11 @@
 
 use rocking::block::Restitution;
 
-use super::{Claim, Context, Measured, PAPER_GRAVITY_M_S2, Results, SAME};
-use super::{StudyError, all_one, varied_ratios};
-use crate::study::grid::blocks;
-use crate::study::runs::RESTITUTION;
+use super::{
+    Claim, Context, Measured, Results, SAME, StudyError, all_one,
+    varied_ratios,
+};
+use crate::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use crate::study::sensitivities::Choice;
 
 /// Table 1 as printed, by frequency parameter: half diagonal, then widths
@@ -54,15 +55,14 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
 }
 
 fn table_1() -> Result<Claim, StudyError> {
-    let blocks = blocks()?;
     let mut worst: f64 = 0.0;
     for (frequency, (radius, widths, heights)) in
         TABLE_1.into_iter().enumerate()
     {
         for slenderness in 0..widths.len() {
             let block =
-                &blocks[crate::study::grid::position(frequency, slenderness)];
-            let size = block.dimensions(PAPER_GRAVITY_M_S2)?;
+                &BLOCKS[crate::paper::position(frequency, slenderness)];
+            let size = block.dimensions(GRAVITY_M_S2)?;
             for off in [
                 size.half_diagonal_m - radius,
                 size.width_m - widths[slenderness],
@@ -97,11 +97,11 @@ fn table_1() -> Result<Claim, StudyError> {
 fn restitution() -> Result<Vec<Claim>, StudyError> {
     let context =
         Context { section: "3", suite: "none", blocks: "all 15", arm: None };
-    let etas = blocks()?
+    let etas = BLOCKS
         .iter()
         .map(|b| Ok(Restitution::housner(b)?.velocity_ratio()))
         .collect::<Result<Vec<f64>, StudyError>>()?;
-    let (low, high) = crate::study::figures::range(etas.iter().copied());
+    let (low, high) = crate::words::range(etas.iter().copied());
     let housner = "Housner's coefficient of restitution varies within \
                    0.91 - 1.00";
     let [low, high] = [low, high].map(Measured::exact);

@@ -4,11 +4,11 @@ use rocking::fragility::eq6;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Claim, Context, Measured, Results, StudyError};
-use crate::figures::data::Intensity;
+use crate::paper::{Intensity, demand_index};
 use crate::study::figures::{
-    BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, range, usfl7,
+    BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, usfl7,
 };
-use crate::study::grid::demand_index;
+use crate::words::range;
 
 /// One threshold of one measure.
 struct At {

@@ -2,15 +2,15 @@
 
 use rocking::statistics::{ExtendedSample, QuantileType};
 
-use super::{Claim, Context, Measured, Results, SAME, StudyError};
-use super::{median, middle};
-use crate::figures::data::{Arm, Intensity};
+use super::{
+    Claim, Context, Measured, Results, SAME, StudyError, median, middle,
+};
+use crate::paper::{Arm, FREQUENCIES_RAD_S, Intensity, position};
 use crate::study::analyses::SuiteResults;
-use crate::study::capacities::scaled;
-use crate::study::distributions::{Distributions, factors, least};
-use crate::study::figures::range;
-use crate::study::grid::{FREQUENCIES_RAD_S, position};
+use crate::study::distributions::{Distributions, factors, least, scaled};
+
 use crate::study::normality::{accepted_share, along};
+use crate::words::range;
 
 pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
     let mut out = Vec::new();

@@ -3,16 +3,16 @@
 use rocking::capacity::InversionRule;
 use rocking::statistics::paired::Pairs;
 
-use super::varied_ratios;
-use super::{Claim, Context, Measured, Results, SAME, StudyError};
-use super::{all_one, away, difference, median, middle, stripes};
-use crate::figures::data::Arm;
-use crate::study::analyses::{Apart, SuiteResults};
-use crate::study::capacities::by_rule;
-use crate::study::figures::of_arm;
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+use super::{
+    Claim, Context, Measured, Results, SAME, StudyError, all_one, away,
+    difference, median, middle, stripes, varied_ratios,
 };
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+};
+use crate::study::analyses::{Apart, SuiteResults};
+use crate::study::figures::of_arm;
+use crate::study::runs::capacities;
 use crate::study::sensitivities::Choice;
 
 /// Demands at which intensities are compared.
@@ -302,7 +302,7 @@ fn inversion(results: &Results, arm: Arm) -> Result<Claim, StudyError> {
         let mean = |rule| -> Result<Vec<f64>, StudyError> {
             let mut sums = vec![0.0; DEMANDS.len()];
             for curve in records {
-                let own = by_rule(curve, &DEMANDS, rule)?;
+                let own = capacities(curve, &DEMANDS, rule)?;
                 for (sum, x) in sums.iter_mut().zip(own) {
                     *sum += x;
                 }

@@ -2,13 +2,14 @@
 
 use rocking::statistics::paired::Pairs;
 
-use super::{Cells, Claim, Context, Measured, Results, SAME, StudyError};
-use super::{all_one, away, median};
-use crate::figures::data::Arm;
-use crate::study::figures::{adjusted_split, demand_boxes, of_arm, pairs};
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+use super::{
+    Cells, Claim, Context, Measured, Results, SAME, StudyError, all_one, away,
+    median,
 };
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+};
+use crate::study::figures::{adjusted_split, demand_boxes, of_arm, pairs};
 
 /// Ratios of the stripes with enough of them, from the lowest on.
 fn usable(

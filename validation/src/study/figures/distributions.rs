@@ -3,17 +3,19 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
-use super::{Figure, Results, name, percent, range};
-use crate::figures::data::{
-    AcceptedShares, Arm, BlockShare, Capacities, CapacityCurve, CapacityPanel,
-    Heading, Histogram, Intensity, SharePanel, TestedBlock, TestsAlongDemand,
+use super::{Figure, Results, name};
+use crate::draw::figures::{
+    AcceptedShares, BlockShare, Capacities, CapacityCurve, CapacityPanel,
+    Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
+};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
+    demands, position,
 };
 use crate::study::StudyError;
 use crate::study::distributions::{BlockSamples, Distributions};
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index, demands, position,
-};
 use crate::study::normality::{LEVEL, accepted_share, ends, over_critical};
+use crate::words::{percent, range};
 
 impl Results {
     /// The capacity samples of a suite in an arm and a measure.
@@ -78,33 +80,27 @@ pub(super) fn inverted(
         });
     }
     let (pga, pgv) = (onsets[0], onsets[1]);
-    Ok(Figure {
-        drawing: Box::new(
-            Capacities {
-                heading: Heading {
-                    name: name(11, None),
-                    title: "Intensity given demand, original and shifted"
-                        .into(),
-                    description:
-                        "A curve for each record of the intensity that \
+    Ok(Capacities {
+        heading: Heading {
+            name: name(11, None),
+            title: "Intensity given demand, original and shifted".into(),
+            description: "A curve for each record of the intensity that \
                               reaches a demand, by median point; PGA and \
                               PGV, as inverted and above IM_R."
-                            .into(),
-                    arm: Some(arm),
-                },
-                alpha_rad: SLENDERNESSES_RAD[3],
-                p_rad_s: FREQUENCIES_RAD_S[0],
-                panels,
-            }
-            .thinned(),
-        ),
-        reading: format!(
-            "At the lowest demand all capacities lie between {:.3} and \
+                .into(),
+            arm: Some(arm),
+        },
+        alpha_rad: SLENDERNESSES_RAD[3],
+        p_rad_s: FREQUENCIES_RAD_S[0],
+        panels,
+    }
+    .thinned()
+    .figure(format!(
+        "At the lowest demand all capacities lie between {:.3} and \
              {:.3} for PGA, but between {:.3} and {:.3} for PGV: the onset \
              is sharp in the former alone.",
-            pga.0, pga.1, pgv.0, pgv.1
-        ),
-    })
+        pga.0, pga.1, pgv.0, pgv.1
+    )))
 }
 
 /// Figure 12 (PGA) or 14 (PGV).
@@ -139,7 +135,7 @@ pub(super) fn shares(
             let sample = if shifted { "shifted" } else { "original" };
             words.push(format!(
                 "{} for {sample} {} samples",
-                percent(mean),
+                percent(mean, 1),
                 suite.kind
             ));
             panels.push(SharePanel {
@@ -151,31 +147,29 @@ pub(super) fn shares(
         }
     }
     let measure = if number == 12 { "PGA" } else { "PGV" };
-    Ok(Figure {
-        drawing: Box::new(AcceptedShares {
-            heading: Heading {
-                name: name(number, None),
-                title: format!(
-                    "Share of demand levels at which lognormality is \
+    Ok(AcceptedShares {
+        heading: Heading {
+            name: name(number, None),
+            title: format!(
+                "Share of demand levels at which lognormality is \
                      accepted, {measure}"
-                ),
-                description: "Percent of 200 demand levels accepted by \
+            ),
+            description: "Percent of 200 demand levels accepted by \
                               Lilliefors' test at 5 %, for 15 blocks; \
                               original and shifted samples, ordinary and \
                               pulse-type."
-                    .into(),
-                arm: None,
-            },
-            intensity,
-            expected: 1.0 - LEVEL,
-            panels,
-            columns: 2,
-        }),
-        reading: format!(
-            "Mean over blocks and arms of the accepted share: {}.",
-            words.join(", ")
-        ),
-    })
+                .into(),
+            arm: None,
+        },
+        intensity,
+        expected: 1.0 - LEVEL,
+        panels,
+        columns: 2,
+    }
+    .figure(format!(
+        "Mean over blocks and arms of the accepted share: {}.",
+        words.join(", ")
+    )))
 }
 
 /// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA.
@@ -191,8 +185,8 @@ pub(super) fn along(
             results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
         words.push(format!(
             "{} original and {} shifted at alpha = {:.2}",
-            percent(accepted_share(&block.original)),
-            percent(accepted_share(&block.shifted)),
+            percent(accepted_share(&block.original), 1),
+            percent(accepted_share(&block.shifted), 1),
             block.alpha_rad
         ));
         blocks.push(TestedBlock {
@@ -205,24 +199,22 @@ pub(super) fn along(
             shifted_histogram: histogram(&block.shifted[demand_index(edp)]),
         });
     }
-    Ok(Figure {
-        drawing: Box::new(TestsAlongDemand {
-            heading: Heading {
-                name: name(13, Some(arm)),
-                title: "Lilliefors' test along the demand, p = 3".into(),
-                description: "Test statistic over its critical value along \
+    Ok(TestsAlongDemand {
+        heading: Heading {
+            name: name(13, Some(arm)),
+            title: "Lilliefors' test along the demand, p = 3".into(),
+            description: "Test statistic over its critical value along \
                               the demand, and histograms of the logarithm \
                               of the capacity at demand 0.50, original and \
                               shifted; alpha = 0.05 and 0.20."
-                    .into(),
-                arm: Some(arm),
-            },
-            intensity: Intensity::Pga,
-            edp,
-            blocks,
-        }),
-        reading: format!("Accepted levels: {}.", words.join("; ")),
-    })
+                .into(),
+            arm: Some(arm),
+        },
+        intensity: Intensity::Pga,
+        edp,
+        blocks,
+    }
+    .figure(format!("Accepted levels: {}.", words.join("; "))))
 }
 
 /// Of the logarithms tested.

@@ -2,16 +2,16 @@
 
 use rocking::fragility::transform;
 use rocking::statistics::lognormal::{FitMethod, fit};
-use rocking::statistics::{self, ExtendedSample, QuantileType};
+use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 
 use super::{Figure, Results, name};
-use crate::figures::data::{
-    Arm, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Heading, Intensity, Lognormal, Threshold,
+use crate::draw::figures::{
+    ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
+    Fragilities, FragilityPanel, Heading, Threshold,
 };
+use crate::paper::{Arm, Intensity, demand_index};
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
-use crate::study::grid::demand_index;
 
 /// Demand thresholds of Figures 15 to 17.
 pub(crate) const THRESHOLDS: [f64; 3] = [0.15, 0.35, 1.0];
@@ -26,11 +26,11 @@ pub(crate) const BLOCK: (usize, usize) = (1, 3);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fits {
     /// Fitted to the sample as it is, by maximum likelihood.
-    pub usfl: Option<statistics::Lognormal>,
+    pub usfl: Option<Lognormal>,
     /// Fitted to the shifted sample, by maximum likelihood.
-    pub ssfl: Option<statistics::Lognormal>,
+    pub ssfl: Option<Lognormal>,
     /// Fitted to the trimmed sample, by moments.
-    pub trimmed: Option<statistics::Lognormal>,
+    pub trimmed: Option<Lognormal>,
 }
 
 impl Fits {
@@ -49,28 +49,20 @@ impl Fits {
 
 /// Eqs. 5 and 7 applied to a fit; none where they are not defined.
 pub(crate) fn usfl7(
-    usfl: Option<statistics::Lognormal>,
+    usfl: Option<Lognormal>,
     shift: f64,
     c: f64,
-) -> Option<statistics::Lognormal> {
+) -> Option<Lognormal> {
     transform(&usfl?, shift, c).ok()
 }
 
 /// Largest distance of a fitted fragility to the empirical one; NaN where
 /// there is no fit.
 pub(crate) fn distance(
-    fitted: Option<statistics::Lognormal>,
+    fitted: Option<Lognormal>,
     sample: &ExtendedSample,
 ) -> f64 {
     fitted.map_or(f64::NAN, |f| f.kolmogorov_distance(sample))
-}
-
-fn curve(fitted: Option<statistics::Lognormal>) -> Option<Lognormal> {
-    fitted.map(|f| Lognormal {
-        ln_median: f.log_mean(),
-        dispersion: f.dispersion(),
-        shift: f.shift(),
-    })
 }
 
 fn sample_at(
@@ -119,8 +111,8 @@ pub(super) fn thresholds(
                 edp,
                 sample: block.samples[demand_index(edp)].clone(),
                 curves: vec![
-                    Fitted { estimator: Estimator::Usfl, curve: curve(first) },
-                    Fitted { estimator: second.0, curve: curve(second.1) },
+                    Fitted { estimator: Estimator::Usfl, curve: first },
+                    Fitted { estimator: second.0, curve: second.1 },
                 ],
             });
         }
@@ -135,24 +127,22 @@ pub(super) fn thresholds(
             ("Fragilities: USFL and USFL7, untrimmed, c = 1", "USFL and USFL7")
         }
     };
-    Ok(Figure {
-        drawing: Box::new(Fragilities {
-            heading: Heading {
-                name: name(number, None),
-                title: title.into(),
-                description: "Empirical fragilities at three demands with \
+    Ok(Fragilities {
+        heading: Heading {
+            name: name(number, None),
+            title: title.into(),
+            description: "Empirical fragilities at three demands with \
                               two fitted ones each; PGA and PGV; p = 3, \
                               alpha = 0.20."
-                    .into(),
-                arm: Some(arm),
-            },
-            panels,
-        }),
-        reading: format!(
-            "Largest distance of {pair} to the empirical fragility: {}.",
-            words.join(", ")
-        ),
-    })
+                .into(),
+            arm: Some(arm),
+        },
+        panels,
+    }
+    .figure(format!(
+        "Largest distance of {pair} to the empirical fragility: {}.",
+        words.join(", ")
+    )))
 }
 
 /// Figure 18: demand 0.15, PGA.
@@ -178,35 +168,33 @@ pub(super) fn constants(
                     || "undefined".into(),
                     |f| format!("{:.3}", f.kolmogorov_distance(&sample)),
                 ));
-                ConstantCurve { c: *c, curve: curve(fitted) }
+                ConstantCurve { c: *c, curve: fitted }
             })
             .collect();
         words.push(format!("{title} {}", distances.join(", ")));
         panels.push(ByConstantPanel {
             title: title.into(),
-            benchmark: curve(fits.ssfl),
+            benchmark: fits.ssfl,
             sample: block.samples[demand_index(edp)].clone(),
             curves,
         });
     }
-    Ok(Figure {
-        drawing: Box::new(ByConstant {
-            heading: Heading {
-                name: name(18, None),
-                title: "The constant c of Eq. 7".into(),
-                description: "USFL7 for four constants against the SSFL, \
+    Ok(ByConstant {
+        heading: Heading {
+            name: name(18, None),
+            title: "The constant c of Eq. 7".into(),
+            description: "USFL7 for four constants against the SSFL, \
                               demand 0.15, PGA; untrimmed and trimmed."
-                    .into(),
-                arm: Some(arm),
-            },
-            intensity: Intensity::Pga,
-            edp,
-            panels,
-        }),
-        reading: format!(
-            "Largest distance of USFL7 to the empirical fragility for c = \
+                .into(),
+            arm: Some(arm),
+        },
+        intensity: Intensity::Pga,
+        edp,
+        panels,
+    }
+    .figure(format!(
+        "Largest distance of USFL7 to the empirical fragility for c = \
              0.25, 0.5, 0.75, 1: {}.",
-            words.join("; ")
-        ),
-    })
+        words.join("; ")
+    )))
 }

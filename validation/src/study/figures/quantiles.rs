@@ -5,14 +5,12 @@ use rocking::capacity::ResponseCurve;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Figure, name};
-use crate::figures::data::{
-    Arm, Heading, Intensity, QuantileGroup, QuantilePanel, Quantiles,
+use crate::draw::figures::{Heading, QuantileGroup, QuantilePanel, Quantiles};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
-};
 
 /// Most points of a line.
 const MOST_POINTS: usize = 160;
@@ -33,27 +31,25 @@ pub(super) fn slendernesses(
             .collect()
     })?;
     let words = overturning_in_words(&panels);
-    Ok(Figure {
-        drawing: Box::new(Quantiles {
-            heading: Heading {
-                name: name(8, Some(arm)),
-                title: "16/50/84 % demand given intensity, five \
+    Ok(Quantiles {
+        heading: Heading {
+            name: name(8, Some(arm)),
+            title: "16/50/84 % demand given intensity, five \
                         slendernesses"
-                    .into(),
-                description: "Three quantile curves for each slenderness, \
+                .into(),
+            description: "Three quantile curves for each slenderness, \
                               one panel a frequency parameter; a curve ends \
                               where its quantile is overturned."
-                    .into(),
-                arm: Some(arm),
-            },
-            intensity: Intensity::Pga,
-            panels,
-            columns: 3,
-        }),
-        reading: format!(
-            "The median demand becomes overturning {words}, by slenderness."
-        ),
-    })
+                .into(),
+            arm: Some(arm),
+        },
+        intensity: Intensity::Pga,
+        panels,
+        columns: 3,
+    }
+    .figure(format!(
+        "The median demand becomes overturning {words}, by slenderness."
+    )))
 }
 
 pub(super) fn adjusted(
@@ -74,27 +70,25 @@ pub(super) fn adjusted(
         Ok(groups)
     })?;
     let words = overturning_in_words(&panels);
-    Ok(Figure {
-        drawing: Box::new(Quantiles {
-            heading: Heading {
-                name: name(10, Some(arm)),
-                title: "16/50/84 % demand given intensity: scaled records \
+    Ok(Quantiles {
+        heading: Heading {
+            name: name(10, Some(arm)),
+            title: "16/50/84 % demand given intensity: scaled records \
                         and adjusted slenderness"
-                    .into(),
-                description: "Three quantile curves for each procedure, one \
+                .into(),
+            description: "Three quantile curves for each procedure, one \
                               panel a frequency parameter; alpha = 0.10 for \
                               the scaled records."
-                    .into(),
-                arm: Some(arm),
-            },
-            intensity: Intensity::Pga,
-            panels,
-            columns: 3,
-        }),
-        reading: format!(
-            "The median demand becomes overturning {words}, by procedure."
-        ),
-    })
+                .into(),
+            arm: Some(arm),
+        },
+        intensity: Intensity::Pga,
+        panels,
+        columns: 3,
+    }
+    .figure(format!(
+        "The median demand becomes overturning {words}, by procedure."
+    )))
 }
 
 fn panels(

@@ -3,17 +3,15 @@
 use rocking::statistics::paired::Pairs;
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::{Figure, name, percent, range};
-use crate::figures::data::{
-    Arm, BoxPanel, Boxplots, Heading, Intensity, NotchedBox, Stripe,
-    StripeKind,
+use super::{Figure, name};
+use crate::draw::figures::{BoxPanel, Boxplots, Heading, Stripe, StripeKind};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, LEAST_USABLE, REFERENCE,
+    SLENDERNESSES_RAD, STRIPES, position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::{StripeDemands, SuiteResults};
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, STRIPES,
-    position,
-};
+use crate::words::{percent, range};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
 pub(super) fn slendernesses(
@@ -40,8 +38,8 @@ pub(super) fn slendernesses(
     }
     let p = if number == 6 { "p = 1" } else { "p = 3 and 4" };
     let reading = medians_in_words(&panels);
-    Ok(Some(Figure {
-        drawing: Box::new(Boxplots {
+    Ok(Some(
+        Boxplots {
             heading: Heading {
                 name: name(number, Some(arm)),
                 title: format!(
@@ -59,9 +57,9 @@ pub(super) fn slendernesses(
             stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
             columns: 4,
-        }),
-        reading,
-    }))
+        }
+        .figure(reading),
+    ))
 }
 
 /// Figure 9; none where stripes were not run.
@@ -83,8 +81,8 @@ pub(super) fn adjusted(
         })
         .collect::<Result<Vec<_>, StudyError>>()?;
     let reading = medians_in_words(&panels);
-    Ok(Some(Figure {
-        drawing: Box::new(Boxplots {
+    Ok(Some(
+        Boxplots {
             heading: Heading {
                 name: name(9, Some(arm)),
                 title: "Slenderness adjustment against record scaling".into(),
@@ -99,9 +97,9 @@ pub(super) fn adjusted(
             stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
             columns: 3,
-        }),
-        reading,
-    }))
+        }
+        .figure(reading),
+    ))
 }
 
 /// Demands on the stripes of an arm.
@@ -219,20 +217,9 @@ fn boxes(
         .collect()
 }
 
-fn notched(ratios: &[f64]) -> Result<NotchedBox, StudyError> {
+fn notched(ratios: &[f64]) -> Result<Boxplot, StudyError> {
     let sample = ExtendedSample::try_new(ratios)?;
-    let b = Boxplot::try_new(&sample, QuantileType::default())?;
-    Ok(NotchedBox {
-        q1: b.q1,
-        median: b.median,
-        q3: b.q3,
-        notch_low: b.notch_low,
-        notch_high: b.notch_high,
-        whisker_low: b.whisker_low,
-        whisker_high: b.whisker_high,
-        outliers: b.outliers,
-        median_interval: b.median_interval.map(|i| (i.low, i.high)),
-    })
+    Ok(Boxplot::try_new(&sample, QuantileType::default())?)
 }
 
 fn medians_in_words(panels: &[BoxPanel]) -> String {
@@ -245,6 +232,6 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
         "The medians of {} boxes lie between {low:.3} and {high:.3}; the \
          share of usable ratios falls from 100 % to {}.",
         stripes().count(),
-        percent(least)
+        percent(least, 1)
     )
 }

@@ -1,37 +1,39 @@
 //! Figures 1 to 5: the block, and single records.
 
 use super::{Figure, name};
-use crate::figures::data::{
-    Arm, BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
-    IdaCurves, IdaPanel, Intensity,
+use crate::draw::figures::{
+    BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
+    IdaCurves, IdaPanel,
+};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::{
     Apart, HISTORY_INTERVAL_S, SingleRecords, SuiteResults,
 };
-use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 
 pub(super) fn sketch() -> Figure {
-    Figure {
-        drawing: Box::new(BlockSketch {
-            heading: Heading {
-                name: name(1, None),
-                title: "The rocking block".into(),
-                description: "A rectangular block of width 2b and height 2h, \
+    BlockSketch {
+        heading: Heading {
+            name: name(1, None),
+            title: "The rocking block".into(),
+            description: "A rectangular block of width 2b and height 2h, \
                               rotated about one base corner; R is half its \
                               diagonal and alpha the angle between diagonal \
                               and side."
-                    .into(),
-                arm: None,
-            },
-            alpha_rad: 0.35,
-            rotation_rad: 0.15,
-        }),
-        reading: "A block starts to rock when the ground acceleration \
+                .into(),
+            arm: None,
+        },
+        alpha_rad: 0.35,
+        rotation_rad: 0.15,
+    }
+    .figure(
+        "A block starts to rock when the ground acceleration \
                   exceeds g tan alpha; at theta = alpha its weight no longer \
                   rights it."
             .into(),
-    }
+    )
 }
 
 pub(super) fn histories(
@@ -66,26 +68,21 @@ pub(super) fn histories(
         "Response histories under three {} motions at equal intensity",
         suite.kind
     );
-    Figure {
-        drawing: Box::new(
-            Histories {
-                heading: Heading {
-                    name: name(number, None),
-                    title,
-                    description:
-                        "Rotation over slenderness against time, five \
+    Histories {
+        heading: Heading {
+            name: name(number, None),
+            title,
+            description: "Rotation over slenderness against time, five \
                               slendernesses in each panel; rows by frequency \
                               parameter, columns by record."
-                            .into(),
-                    arm: Some(arm),
-                },
-                panels,
-                columns: 3,
-            }
-            .thinned(),
-        ),
-        reading: apart_in_words(suite),
+                .into(),
+            arm: Some(arm),
+        },
+        panels,
+        columns: 3,
     }
+    .thinned()
+    .figure(apart_in_words(suite))
 }
 
 /// The history to rest.
@@ -175,33 +172,29 @@ pub(super) fn curves(
             format!("{:.2} % at p = {p}", 100.0 * apart)
         })
         .collect();
-    Ok(Figure {
-        drawing: Box::new(
-            IdaCurves {
-                heading: Heading {
-                    name: name(number, None),
-                    title: format!(
-                        "IDA curves of three {} motions, five slendernesses",
-                        suite.kind
-                    ),
-                    description: "Peak rotation over slenderness against \
+    Ok(IdaCurves {
+        heading: Heading {
+            name: name(number, None),
+            title: format!(
+                "IDA curves of three {} motions, five slendernesses",
+                suite.kind
+            ),
+            description: "Peak rotation over slenderness against \
                               dimensionless intensity up to first \
                               overturning; rows by frequency parameter, \
                               columns by record."
-                        .into(),
-                    arm: Some(arm),
-                },
-                intensity: Intensity::Pga,
-                panels,
-                columns: 3,
-            }
-            .thinned(),
-        ),
-        reading: format!(
-            "Over all {} records the intensity that reaches a given demand \
+                .into(),
+            arm: Some(arm),
+        },
+        intensity: Intensity::Pga,
+        panels,
+        columns: 3,
+    }
+    .thinned()
+    .figure(format!(
+        "Over all {} records the intensity that reaches a given demand \
              differs from that of alpha = 0.10 by a median of {}.",
-            suite.records.len(),
-            differences.join(", ")
-        ),
-    })
+        suite.records.len(),
+        differences.join(", ")
+    )))
 }

@@ -1,6 +1,7 @@
 //! What does an equivalence test say where the paper says "conforms to 1.0
 //! with 95 % confidence"?
 
+use rocking::capacity::InversionRule;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::{
     Pairs, SignTest, equivalence, sign_equivalence,
@@ -8,13 +9,14 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::{Answer, Cell, Rows};
-use crate::figures::data::Arm;
-use crate::study::StudyError;
-use crate::study::capacities::at;
-use crate::study::figures::{Results, of_arm, pairs, range};
-use crate::study::grid::{
-    FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD, position,
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+    position,
 };
+use crate::study::StudyError;
+use crate::study::figures::{Results, of_arm, pairs};
+use crate::study::runs::capacities;
+use crate::words::range;
 
 /// Demands at which intensities are compared.
 const DEMANDS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
@@ -209,7 +211,9 @@ impl Compared {
                 let of = |s| -> Result<Vec<Vec<f64>>, StudyError> {
                     curves[position(frequency, s)]
                         .iter()
-                        .map(|curve| at(curve, &DEMANDS))
+                        .map(|curve| {
+                            capacities(curve, &DEMANDS, InversionRule::Median)
+                        })
                         .collect()
                 };
                 let reference = of(REFERENCE)?;

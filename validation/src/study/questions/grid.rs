@@ -10,16 +10,19 @@ use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 use rocking::statistics::{ExtendedSample, Lognormal};
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows, both, capital, percent};
-use crate::figures::data::{
-    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark,
-    Scale as AxisScale, Series,
+use super::{Answer, Cell, Rows, both};
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale as AxisScale,
+    Series,
+};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
-use crate::study::figures::{Figure, Results};
-use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
+use crate::study::figures::Results;
 use crate::study::normality::LEVEL;
+use crate::words::{capital, percent};
 
 /// Samples drawn for the grid's own share.
 const DRAWS: u64 = 1000;
@@ -99,10 +102,10 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 format!(
                     "{} in A, {} in B and {} in C at p = {p} ({} by the \
                      grid alone, {} distinct values of {})",
-                    percent(row.rejected[0]),
-                    percent(row.rejected[1]),
-                    percent(row.rejected[2]),
-                    percent(row.grid_alone),
+                    percent(row.rejected[0], 0),
+                    percent(row.rejected[1], 0),
+                    percent(row.rejected[2], 0),
+                    percent(row.grid_alone, 0),
                     row.distinct[0],
                     suite.records.len(),
                 )
@@ -256,26 +259,26 @@ fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
             })
         })
         .collect();
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-grid".into(),
-                title: "Rejections and the grid of 0.01 g".into(),
-                description: "Share of demand levels at which the shifted \
+    Chart {
+        heading: Heading {
+            name: "figure-grid".into(),
+            title: "Rejections and the grid of 0.01 g".into(),
+            description: "Share of demand levels at which the shifted \
                               sample is rejected, by slenderness, in three \
                               arms of the grid; ordinary and pulse-type \
                               records, PGA."
-                    .into(),
-                arm: None,
-            },
-            panels,
-            columns: 3,
-        }),
-        reading: "Rejected share of the demand levels, shifted PGA, in \
+                .into(),
+            arm: None,
+        },
+        panels,
+        columns: 3,
+    }
+    .figure(
+        "Rejected share of the demand levels, shifted PGA, in \
                   three arms of the grid; dashed: what the grid of 0.01 g \
                   alone does to a shifted lognormal sample at overturning."
             .into(),
-    }
+    )
 }
 
 /// One frequency parameter: the first rows are its blocks.
@@ -301,7 +304,7 @@ fn panel(title: String, rows: &[Row]) -> ChartPanel {
         .collect();
     let words = "the grid alone, at overturning";
     series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
-    let axis = |label: &str, range| Axis {
+    let axis = |label: &str, range| ChartAxis {
         label: label.into(),
         scale: AxisScale::Linear,
         range: Some(range),

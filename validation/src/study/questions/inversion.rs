@@ -2,11 +2,12 @@
 
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
-use super::{Answer, Cell, Rows, both, capital};
+use super::{Answer, Cell, Rows, both};
+use crate::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use crate::study::StudyError;
-use crate::study::capacities::by_rule;
 use crate::study::figures::Results;
-use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
+use crate::study::runs::capacities;
+use crate::words::capital;
 
 const DEMANDS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 
@@ -107,7 +108,7 @@ impl Row {
     ) -> Result<(), StudyError> {
         for curve in curves {
             let of = |rule| -> Result<f64, StudyError> {
-                Ok(by_rule(curve, &[edp], rule)?[0])
+                Ok(capacities(curve, &[edp], rule)?[0])
             };
             let unbiased = of(InversionRule::Monotone)?;
             if !unbiased.is_finite() {

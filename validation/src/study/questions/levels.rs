@@ -6,13 +6,14 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::{Answer, Cell, Rows, both, capital, mean};
-use crate::figures::data::Intensity;
+use super::{Answer, Cell, Rows, both, mean};
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::figures::Results;
 use crate::study::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
+use crate::words::capital;
 
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;

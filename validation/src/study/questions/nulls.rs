@@ -2,17 +2,18 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::{Answer, Cell, Rows, both, capital};
-use crate::figures::data::{
-    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+use super::{Answer, Cell, Rows, both};
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
+use crate::paper::{Arm, Intensity, demand_index, demands};
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
 use crate::study::claims::median;
 use crate::study::distributions::{BlockSamples, factors};
-use crate::study::figures::{Figure, Results, range};
-use crate::study::grid::{demand_index, demands};
+use crate::study::figures::Results;
 use crate::study::normality::{LEVEL, over_critical};
+use crate::words::{capital, range};
 
 /// Demands at which the null is simulated; between them the ratio of the
 /// two critical values is linear.
@@ -188,13 +189,13 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             .collect();
         ChartPanel {
             title: format!("{kind} records"),
-            x: Axis {
+            x: ChartAxis {
                 label: "*θ̃*".into(),
                 scale: Scale::Linear,
                 range: Some((0.0, 1.0)),
                 categories: Vec::new(),
             },
-            y: Axis {
+            y: ChartAxis {
                 label: "critical value over the table's".into(),
                 scale: Scale::Linear,
                 range: None,
@@ -203,26 +204,26 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             series,
         }
     };
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-null".into(),
-                title: "Critical values with the shift estimated anew".into(),
-                description: "Critical value of Lilliefors' test at 5 % \
+    Chart {
+        heading: Heading {
+            name: "figure-null".into(),
+            title: "Critical values with the shift estimated anew".into(),
+            description: "Critical value of Lilliefors' test at 5 % \
                               with the shift estimated in every draw, over \
                               the tabulated one, along the demand; shifted \
                               PGV, ordinary and pulse-type records."
-                    .into(),
-                arm: Some(arm),
-            },
-            panels: vec![panel("ordinary"), panel("pulse-type")],
-            columns: 2,
-        }),
-        reading: "Critical value at 5 % with IM_R estimated anew, over that \
+                .into(),
+            arm: Some(arm),
+        },
+        panels: vec![panel("ordinary"), panel("pulse-type")],
+        columns: 2,
+    }
+    .figure(
+        "Critical value at 5 % with IM_R estimated anew, over that \
                   of the table: median and range over five slendernesses. \
                   From 2000 replicates, with a standard error of 1.6 %."
             .into(),
-    }
+    )
 }
 
 #[cfg(test)]

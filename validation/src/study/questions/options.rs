@@ -11,12 +11,15 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::{Answer, Cell, Rows};
-use crate::figures::data::{Intensity, Table, number};
+use crate::paper::{
+    FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
+};
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::distributions::BlockSamples;
-use crate::study::figures::{BLOCK, Results, THRESHOLDS, range};
-use crate::study::grid::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demand_index};
+use crate::study::figures::{BLOCK, Results, THRESHOLDS};
+use crate::table::{Table, digits, number};
+use crate::words::range;
 
 /// Draws of the bootstrap, by default and with all blocks and choices.
 const REPLICATES: [usize; 2] = [100, 1000];
@@ -327,10 +330,7 @@ fn by_block(entries: &[Entry]) -> String {
 
 /// Six digits: more than 86 records say.
 fn short(x: f64) -> String {
-    if x.is_nan() {
-        return String::new();
-    }
-    number(format!("{x:.5e}").parse().unwrap_or(x))
+    digits(x, 6)
 }
 
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the

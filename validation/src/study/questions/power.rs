@@ -10,11 +10,11 @@ use rocking::statistics::normality::{
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows};
-use crate::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Mark, Scale, Series,
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::study::StudyError;
-use crate::study::figures::{Figure, Results};
+use crate::study::figures::Results;
 use crate::study::normality::LEVEL;
 
 /// Excess medians of the truth, in units of the shift.
@@ -121,13 +121,13 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
         .zip(all)
         .map(|(n, rates)| ChartPanel {
             title: format!("{n} records"),
-            x: Axis {
+            x: ChartAxis {
                 label: "excess median over the shift".into(),
                 scale: Scale::Logarithmic,
                 range: Some((0.2, 10.0)),
                 categories: Vec::new(),
             },
-            y: Axis {
+            y: ChartAxis {
                 label: "rejected samples (%)".into(),
                 scale: Scale::Linear,
                 range: Some((0.0, 100.0)),
@@ -146,26 +146,26 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
                 .collect(),
         })
         .collect();
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-power".into(),
-                title: "Power of four tests of lognormality".into(),
-                description: "Share of simulated shifted-lognormal samples \
+    Chart {
+        heading: Heading {
+            name: "figure-power".into(),
+            title: "Power of four tests of lognormality".into(),
+            description: "Share of simulated shifted-lognormal samples \
                               that tests of the unshifted logarithms reject \
                               at 5 %, against the excess median, for the \
                               sizes of both suites."
-                    .into(),
-                arm: None,
-            },
-            panels,
-            columns: 2,
-        }),
-        reading: "Rejected share of samples that are lognormal above 1, \
+                .into(),
+            arm: None,
+        },
+        panels,
+        columns: 2,
+    }
+    .figure(
+        "Rejected share of samples that are lognormal above 1, \
                   tested as if they were lognormal: Lilliefors sees least, \
                   and fewer records see less."
             .into(),
-    }
+    )
 }
 
 #[cfg(test)]

@@ -10,9 +10,9 @@ use rocking::intensity::{Measures, Settings};
 use rocking::record::{Processing, ReadOptions, Suite};
 
 use super::{Answer, Cell, Rows};
-use crate::inputs;
 use crate::study::StudyError;
 use crate::study::figures::Results;
+use crate::suites::{StudySuiteError, inputs};
 
 /// Original files, as the PyPI package `gmprocess` 2.8.0 has them, zipped.
 const RIDGECREST: &[u8] =
@@ -31,7 +31,7 @@ const QUESTION: &str = "What do recorded motions that may be shipped give?";
 ///
 /// # Errors
 /// None in practice: the files are fixed.
-pub fn ridgecrest() -> Result<Suite, StudyError> {
+pub fn ridgecrest() -> Result<Suite, StudySuiteError> {
     let options = inputs::suite_options(ReadOptions::default());
     let archive = Cursor::new(RIDGECREST);
     let survey = inputs::survey_zip("ridgecrest.zip", archive, &options)?;
@@ -54,8 +54,10 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     ]);
     let (mut overturned, mut analyses) = (0, 0);
     for corner_hz in CORNERS_HZ {
-        let processing = Processing::try_new(true, Some(corner_hz))?;
-        for member in suite.clone().processed(&processing)?.members() {
+        let processing = Processing::try_new(true, Some(corner_hz))
+            .map_err(StudySuiteError::from)?;
+        let suite = suite.clone().processed(&processing);
+        for member in suite.map_err(StudySuiteError::from)?.members() {
             let motion = &member.accelerogram;
             let measures = Measures::of(motion, &settings)?;
             let scene = Scene {

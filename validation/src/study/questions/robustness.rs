@@ -6,13 +6,14 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
-use super::{Answer, Cell, Rows, both, capital, mean};
-use crate::figures::data::Intensity;
+use super::{Answer, Cell, Rows, both, mean};
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::distributions::BlockSamples;
-use crate::study::figures::{Results, range};
+use crate::study::figures::Results;
 use crate::study::normality::{LEVEL, accepted_share, every};
+use crate::words::{capital, range};
 
 /// Subsamples of the size of the pulse-type suite.
 const SUBSAMPLES: u64 = 200;

@@ -8,12 +8,14 @@ mod row;
 
 use row::{Group, Row};
 
-use super::{Answer, capital};
-use crate::figures::data::Intensity;
-use crate::report::PlainTable;
+use super::Answer;
+use crate::draw::markup;
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::claims::median;
-use crate::study::figures::{Results, range};
+use crate::study::figures::Results;
+use crate::table::PlainTable;
+use crate::words::{capital, range};
 
 /// The comparison with 86 ordinary and 44 pulse-type recorded motions:
 /// medians, dispersions and intervals alone.
@@ -113,8 +115,9 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             .iter()
             .filter_map(|(quantity, label)| {
                 let ratio = of_motion(rows, kind, quantity)?.ratio;
-                (!ratio.holds(1.0))
-                    .then(|| format!("{} {:.2}", plain(label), ratio.value))
+                (!ratio.holds(1.0)).then(|| {
+                    format!("{} {:.2}", markup::plain(label), ratio.value)
+                })
             })
             .collect();
         let motions = if motions.is_empty() {
@@ -150,11 +153,6 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             .into(),
     );
     out.join(" ")
-}
-
-/// A label without its marks.
-fn plain(label: &str) -> String {
-    label.replace(['*', '{', '}', '_'], "")
 }
 
 fn header(names: &[&str]) -> Vec<String> {
@@ -318,7 +316,7 @@ fn accepted(rows: &[Row]) -> PlainTable {
 mod tests {
     use super::*;
     use crate::study::analyses::facts;
-    use crate::study::suites::StudySuite;
+    use crate::suites::StudySuite;
     use rocking::statistics::ExtendedSample;
     use rocking::statistics::QuantileType;
 

@@ -6,11 +6,12 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows, both, capital, mean, percent};
-use crate::figures::data::Intensity;
+use super::{Answer, Cell, Rows, both, mean};
+use crate::paper::Intensity;
 use crate::study::StudyError;
 use crate::study::figures::Results;
 use crate::study::normality::every;
+use crate::words::{capital, percent};
 
 /// Every so many demand levels enter.
 const STRIDE: usize = 10;
@@ -78,10 +79,10 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                         let [low, .., high] = counts[class];
                         format!(
                             "{} for skewness {} ({} samples; {} at c = 0.25)",
-                            percent(high.share()),
+                            percent(high.share(), 0),
                             class_words(class),
                             high.samples,
-                            percent(low.share()),
+                            percent(low.share(), 0),
                         )
                     })
                     .collect();
@@ -109,8 +110,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         "Where the truth is shifted lognormal (excess median 1, dispersion \
          0.6), trimming brings USFL7 nearer to it in {} of the samples at c \
          = 1 and in {} at c = 0.25.",
-        percent(truth[3].share()),
-        percent(truth[0].share()),
+        percent(truth[3].share(), 0),
+        percent(truth[0].share(), 0),
     ));
     let mut answer = Answer::new(
         "trimming",

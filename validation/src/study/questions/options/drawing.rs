@@ -5,10 +5,10 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
 use super::{MLE, Summary, trimmed};
-use crate::figures::data::{
-    Arm, Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
-use crate::study::figures::Figure;
+use crate::paper::{Arm, Intensity};
 
 /// Median distance over blocks and demands against the constant of Eq. 7.
 pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
@@ -39,13 +39,13 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
         let (fitted, sample) = (Centre::FittedMedian, Centre::SampleMedian);
         ChartPanel {
             title: intensity.name().to_uppercase(),
-            x: Axis {
+            x: ChartAxis {
                 label: "*c* of Eq. 7".into(),
                 scale: Scale::Linear,
                 range: Some((0.2, 1.05)),
                 categories: Vec::new(),
             },
-            y: Axis {
+            y: ChartAxis {
                 label: "median Kolmogorov distance".into(),
                 scale: Scale::Linear,
                 range: None,
@@ -65,24 +65,24 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
             ],
         }
     };
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-options".into(),
-                title: "Options 1, 2 and 3 compared".into(),
-                description: "Median over 15 blocks and three demands of \
+    Chart {
+        heading: Heading {
+            name: "figure-options".into(),
+            title: "Options 1, 2 and 3 compared".into(),
+            description: "Median over 15 blocks and three demands of \
                               the Kolmogorov distance to the empirical \
                               fragility, against the constant of Eq. 7, for \
                               each option; PGA and PGV, ordinary records."
-                    .into(),
-                arm: Some(arm),
-            },
-            panels: vec![panel(Intensity::Pga), panel(Intensity::Pgv)],
-            columns: 2,
-        }),
-        reading: "Median over 15 blocks and demands 0.15, 0.35 and 1.00 of \
+                .into(),
+            arm: Some(arm),
+        },
+        panels: vec![panel(Intensity::Pga), panel(Intensity::Pgv)],
+        columns: 2,
+    }
+    .figure(
+        "Median over 15 blocks and demands 0.15, 0.35 and 1.00 of \
                   the Kolmogorov distance to the empirical fragility, of \
                   the blocks where the option is defined."
             .into(),
-    }
+    )
 }

@@ -8,7 +8,7 @@ use rocking::statistics::two_sample::kolmogorov_smirnov;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::row::{Group, Interval, Row, Side};
-use crate::figures::data::{Arm, Intensity};
+use crate::paper::{Arm, BLOCKS, Intensity, demand_index};
 use crate::study::StudyError;
 use crate::study::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
@@ -16,9 +16,8 @@ use crate::study::analyses::{
 use crate::study::certainty::Certainty;
 use crate::study::distributions::{BlockSamples, Distributions, of_suite};
 use crate::study::figures::{Results, THRESHOLDS};
-use crate::study::grid::{blocks, demand_index};
 use crate::study::normality::ends;
-use crate::study::suites::StudySuite;
+use crate::suites::StudySuite;
 
 /// Draws of the bootstrap.
 const REPLICATES: usize = 2000;
@@ -68,7 +67,7 @@ fn capacities(
         .map(|m| NormalisedRecord::new(&m.study))
         .collect();
     let chains = results.plan.setup.chains(
-        &blocks()?,
+        &BLOCKS,
         &records,
         &[arm],
         Adjust::RecordScaling,

@@ -2,18 +2,17 @@
 
 use super::row::{Group, Row};
 use super::{MOTIONS, of_motion};
-use crate::figures::data::{
-    Axis, Chart, ChartPanel, Heading, Intensity, Mark, Scale, Series,
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
+use crate::paper::{FREQUENCIES_RAD_S, Intensity};
 use crate::study::analyses::SPECTRUM_PERIODS_S;
-use crate::study::figures::Figure;
-use crate::study::grid::FREQUENCIES_RAD_S;
 
 /// Demands at which capacities are drawn.
 const SHOWN: [f64; 2] = [0.15, 1.0];
 
-fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> Axis {
-    Axis { label: label.into(), scale, range, categories: Vec::new() }
+fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> ChartAxis {
+    ChartAxis { label: label.into(), scale, range, categories: Vec::new() }
 }
 
 /// Equality, as a grey line.
@@ -32,27 +31,27 @@ pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
     let mut panels: Vec<ChartPanel> =
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-suites".into(),
-                title: "Embedded motions beside recorded ones".into(),
-                description: "Above, the ratio of the embedded to the \
+    Chart {
+        heading: Heading {
+            name: "figure-suites".into(),
+            title: "Embedded motions beside recorded ones".into(),
+            description: "Above, the ratio of the embedded to the \
                               recorded median of eight measures with its 95 \
                               % interval; below, median and 16 to 84 % of \
                               the response spectra at 5 % damping; ordinary \
                               and pulse-type suites."
-                    .into(),
-                arm: None,
-            },
-            panels,
-            columns: 2,
-        }),
-        reading: "Where a bar does not reach the dashed line the embedded \
+                .into(),
+            arm: None,
+        },
+        panels,
+        columns: 2,
+    }
+    .figure(
+        "Where a bar does not reach the dashed line the embedded \
                   median differs from the recorded one; bands are 16 to 84 \
                   % of the motions."
             .into(),
-    }
+    )
 }
 
 fn ratios(rows: &[Row], kind: &str) -> ChartPanel {
@@ -66,7 +65,7 @@ fn ratios(rows: &[Row], kind: &str) -> ChartPanel {
     let places = (1..=MOTIONS.len()).map(|k| k as f64).collect();
     ChartPanel {
         title: format!("{kind}: ratio of medians"),
-        x: Axis {
+        x: ChartAxis {
             label: String::new(),
             scale: Scale::Linear,
             range: None,
@@ -129,26 +128,26 @@ pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
             }
         }
     }
-    Figure {
-        drawing: Box::new(Chart {
-            heading: Heading {
-                name: "figure-suites-capacities".into(),
-                title: "Capacities under embedded and recorded motions".into(),
-                description: "Ratio of the embedded to the recorded median \
+    Chart {
+        heading: Heading {
+            name: "figure-suites-capacities".into(),
+            title: "Capacities under embedded and recorded motions".into(),
+            description: "Ratio of the embedded to the recorded median \
                               capacity with its 95 % interval, block by \
                               block, at demands 0.15 and 1.00, for PGA and \
                               PGV, ordinary and pulse-type suites."
-                    .into(),
-                arm: None,
-            },
-            panels,
-            columns: 2,
-        }),
-        reading: "Ratio of median capacities, embedded over recorded; a bar \
+                .into(),
+            arm: None,
+        },
+        panels,
+        columns: 2,
+    }
+    .figure(
+        "Ratio of median capacities, embedded over recorded; a bar \
                   that does not reach the dashed line is a difference of \
                   the suites that records alone don't explain."
             .into(),
-    }
+    )
 }
 
 fn blocks(

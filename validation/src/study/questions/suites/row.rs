@@ -1,6 +1,6 @@
 //! One quantity of the embedded and the recorded suite, and its CSV.
 
-use crate::figures::data::Table;
+use crate::table::{Table, digits};
 
 /// What kind of quantity a row holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,13 +114,9 @@ const HEADER: [&str; 24] = [
     "ks_p_value",
 ];
 
-/// Four digits: more than so many records say.
+/// Four digits, more than so many records say; nothing where it is not finite.
 fn short(x: f64) -> String {
-    if !x.is_finite() {
-        return String::new();
-    }
-    let rounded = format!("{x:.3e}").parse().unwrap_or(x);
-    crate::figures::data::number(rounded)
+    if x.is_finite() { digits(x, 4) } else { String::new() }
 }
 
 pub(super) fn to_csv(rows: &[Row]) -> String {

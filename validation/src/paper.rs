@@ -1,0 +1,171 @@
+//! What the paper fixes: blocks, gravity, restitution, stripes, demand
+//! levels, arms of the grid, intensity measures, and the verdicts on its
+//! claims.
+
+use rocking::block::Block;
+
+/// Frequency parameters of the paper's blocks, in rad/s.
+pub const FREQUENCIES_RAD_S: [f64; 3] = [1.0, 3.0, 4.0];
+
+/// Slenderness angles of the paper's blocks, in rad.
+pub const SLENDERNESSES_RAD: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
+
+/// The paper's coefficient of restitution, for every block.
+pub const RESTITUTION: f64 = 0.92;
+
+/// Gravity of the paper's Table 1, in m/s2.
+pub const GRAVITY_M_S2: f64 = 9.81;
+
+/// Position of the reference slenderness, 0.10 rad.
+pub const REFERENCE: usize = 1;
+
+/// Stripe levels on offer; those are used at which at least
+/// [`LEAST_USABLE`] ratios are well defined.
+pub const STRIPES: [f64; 16] = [
+    1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0,
+    25.0, 30.0,
+];
+
+/// Least number of well-defined ratios for a box.
+pub const LEAST_USABLE: usize = 10;
+
+/// The 15 blocks, by frequency parameter, then by slenderness.
+pub const BLOCKS: [Block; 15] = {
+    let mut blocks = [block(0, 0); 15];
+    let mut at = 0;
+    while at < blocks.len() {
+        let slendernesses = SLENDERNESSES_RAD.len();
+        blocks[at] = block(at / slendernesses, at % slendernesses);
+        at += 1;
+    }
+    blocks
+};
+
+/// A block by the positions of its frequency parameter and slenderness.
+const fn block(frequency: usize, slenderness: usize) -> Block {
+    let alpha_rad = SLENDERNESSES_RAD[slenderness];
+    match Block::try_new(alpha_rad, FREQUENCIES_RAD_S[frequency]) {
+        Ok(block) => block,
+        Err(_) => panic!("a block of the paper out of range"),
+    }
+}
+
+/// Position of a block among the 15.
+#[must_use]
+pub fn position(frequency: usize, slenderness: usize) -> usize {
+    frequency * SLENDERNESSES_RAD.len() + slenderness
+}
+
+/// Demand levels of the tests: 0.005, 0.010, ... 1.000, each the double
+/// nearest to its decimal.
+#[must_use]
+pub fn demands() -> Vec<f64> {
+    (1..=200).map(|k| f64::from(5 * k) / 1000.0).collect()
+}
+
+/// Position of a demand in [`demands`], for multiples of 0.005.
+#[must_use]
+pub fn demand_index(demand: f64) -> usize {
+    ((demand * 200.0).round() as usize).saturating_sub(1)
+}
+
+/// Arm of the intensity grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Arm {
+    /// The paper's 0.01 g steps, not refined.
+    A,
+    /// The paper's steps, first overturning bracket bisected.
+    B,
+    /// The same dimensionless steps for every slenderness, bisected.
+    C,
+}
+
+impl Arm {
+    /// The letter.
+    #[must_use]
+    pub fn letter(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+        }
+    }
+
+    /// The letter and what it stands for.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::A => "A: steps of 0.01 g",
+            Self::B => "B: steps of 0.01 g, first overturning bisected",
+            Self::C => "C: steps of 0.02 in intensity, bisected",
+        }
+    }
+}
+
+/// Dimensionless intensity measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Intensity {
+    /// PGA/(g tan alpha).
+    Pga,
+    /// p PGV/(g tan alpha).
+    Pgv,
+}
+
+impl Intensity {
+    /// Plain name for tables: `pga` or `pgv`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pga => "pga",
+            Self::Pgv => "pgv",
+        }
+    }
+}
+
+/// What a measure says about a claim.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The whole interval lies where the claim says.
+    Confirmed,
+    /// The whole interval lies where the claim does not.
+    NotConfirmed,
+    /// The interval lies on both sides, or there are no data.
+    Inconclusive,
+}
+
+impl Verdict {
+    /// All of them, in the order of a count.
+    pub const ALL: [Self; 3] =
+        [Self::Confirmed, Self::NotConfirmed, Self::Inconclusive];
+
+    /// The words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Confirmed => "confirmed",
+            Self::NotConfirmed => "not confirmed",
+            Self::Inconclusive => "inconclusive",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn demands_hold_the_paper_s_thresholds_exactly() {
+        let levels = demands();
+        assert_eq!((levels[0], levels[199]), (0.005, 1.0));
+        for threshold in [0.15, 0.35, 0.5, 1.0] {
+            assert_eq!(levels[demand_index(threshold)], threshold);
+        }
+    }
+
+    #[test]
+    fn blocks_are_ordered_by_frequency_then_slenderness() {
+        let at = &BLOCKS[position(2, REFERENCE)];
+        assert_eq!(at.frequency_rad_s(), 4.0);
+        assert_eq!(at.slenderness_rad(), 0.10);
+    }
+}

@@ -1,0 +1,12 @@
+//! The proof: declared cases, what they are compared with, and the verdict
+//! on each. Nothing here knows the study.
+
+pub mod arithmetic;
+pub mod cases;
+pub mod engine;
+pub mod methods;
+pub mod naive;
+pub mod oracles;
+pub mod scene;
+pub mod trials;
+pub mod verdict;

@@ -1,0 +1,320 @@
+//! High-precision references, embedded; every number is a decimal string
+//! with 36 or 40 digits and is read to the nearest double.
+
+use std::sync::LazyLock;
+
+use rocking::number::double::DoubleDouble;
+use serde_json::Value;
+
+use super::MethodError;
+use crate::proof::arithmetic::decimal;
+use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+
+/// An embedded file.
+pub(super) struct Reference {
+    pub file: &'static str,
+    text: &'static str,
+}
+
+macro_rules! reference {
+    ($name:literal) => {
+        Reference {
+            file: concat!("fixtures/references/", $name),
+            text: include_str!(concat!(
+                "../../../../fixtures/references/",
+                $name
+            )),
+        }
+    };
+}
+
+pub(super) const TRAJECTORIES: Reference = reference!("trajectories.json");
+pub(super) const RECORDS: Reference = reference!("records.json");
+pub(super) const LINEAR_PULSES: Reference = reference!("linear_pulses.json");
+pub(super) const FREE_ROCKING: Reference = reference!("free_rocking.json");
+pub(super) const RECT_PULSE: Reference = reference!("rect_pulse.json");
+pub(super) const SPECTRUM: Reference =
+    reference!("linear_overturning_spectrum.json");
+
+impl Reference {
+    pub fn read(&self) -> Result<Value, MethodError> {
+        serde_json::from_str(self.text).map_err(|e| self.lacks(e))
+    }
+
+    pub fn lacks(&self, what: impl std::fmt::Display) -> MethodError {
+        MethodError::Reference { file: self.file, what: what.to_string() }
+    }
+
+    /// The field `key` of `value`.
+    pub fn get<'a>(
+        &self,
+        value: &'a Value,
+        key: &str,
+    ) -> Result<&'a Value, MethodError> {
+        value.get(key).ok_or_else(|| self.lacks(format!("no field `{key}`")))
+    }
+
+    /// The list `key` of `value`.
+    pub fn list<'a>(
+        &self,
+        value: &'a Value,
+        key: &str,
+    ) -> Result<&'a [Value], MethodError> {
+        let found = self.get(value, key)?.as_array();
+        found
+            .map(Vec::as_slice)
+            .ok_or_else(|| self.lacks(format!("`{key}` is no list")))
+    }
+
+    /// A number, from JSON or from the first word of a string.
+    pub fn number(&self, value: &Value) -> Result<f64, MethodError> {
+        let text = value.as_str().and_then(|s| s.split_whitespace().next());
+        let read = match text {
+            Some(word) => word.parse().ok(),
+            None => value.as_f64(),
+        };
+        read.ok_or_else(|| self.lacks(format!("`{value}` is no number")))
+    }
+
+    /// The number `key` of `value`.
+    pub fn f64(&self, value: &Value, key: &str) -> Result<f64, MethodError> {
+        self.number(self.get(value, key)?)
+    }
+
+    /// The number `key` of `value`, which may be null.
+    pub fn optional(
+        &self,
+        value: &Value,
+        key: &str,
+    ) -> Result<Option<f64>, MethodError> {
+        match self.get(value, key)? {
+            Value::Null => Ok(None),
+            found => self.number(found).map(Some),
+        }
+    }
+
+    /// The number `key` of `value` to the last bits of a double-double.
+    pub fn wide(
+        &self,
+        value: &Value,
+        key: &str,
+    ) -> Result<DoubleDouble, MethodError> {
+        let found = self.get(value, key)?;
+        let number = found.as_str().and_then(decimal);
+        number.ok_or_else(|| self.lacks(format!("`{found}` is no decimal")))
+    }
+
+    /// The numbers `key` of every entry of a list.
+    pub fn column(
+        &self,
+        entries: &[Value],
+        key: &str,
+    ) -> Result<Vec<f64>, MethodError> {
+        entries.iter().map(|entry| self.f64(entry, key)).collect()
+    }
+}
+
+/// The entry of this number among a file's cases.
+pub(super) fn entry(
+    file: &Reference,
+    number: usize,
+) -> Result<Value, MethodError> {
+    let all = file.read()?;
+    let found = file.list(&all, "cases")?.get(number).cloned();
+    found.ok_or_else(|| file.lacks(format!("no entry {number}")))
+}
+
+/// A block (alpha, p, g) in Eq. 2 under the pulse of a dimensionless case of
+/// `linear_pulses.json`.
+pub(super) fn linear_scene(
+    case: &Value,
+    [alpha, p, g]: [f64; 3],
+    criterion: Criterion,
+) -> Result<Scene, MethodError> {
+    Ok(Scene {
+        slenderness_rad: alpha,
+        frequency_rad_s: p,
+        restitution: LINEAR_PULSES.f64(case, "eta")?,
+        gravity_m_s2: g,
+        equation: Equation::Linearized,
+        criterion,
+        forcing: scaled(case, g * alpha, p)?,
+        until_s: None,
+    })
+}
+
+/// Its pulse, in a unit of acceleration and for a frequency p.
+fn scaled(case: &Value, unit: f64, p: f64) -> Result<Forcing, MethodError> {
+    let file = &LINEAR_PULSES;
+    let get = |key| file.f64(case, key);
+    let amplitude_m_s2 =
+        if case["A"].is_null() { 0.0 } else { get("A")? * unit };
+    let rate = |key| Ok::<f64, MethodError>(get(key)? * p);
+    let time = |key| Ok::<f64, MethodError>(get(key)? / p);
+    Ok(match file.get(case, "pulse")?.as_str() {
+        Some("one_sine") => Forcing::Sine {
+            amplitude_m_s2,
+            omega_rad_s: rate("Omega")?,
+            half_cycles: 2,
+        },
+        Some("half_sine") => Forcing::Sine {
+            amplitude_m_s2,
+            omega_rad_s: rate("Omega")?,
+            half_cycles: 1,
+        },
+        Some("one_cosine") => {
+            Forcing::Cosine { amplitude_m_s2, omega_rad_s: rate("Omega")? }
+        }
+        Some("rectangular") => {
+            Forcing::Rectangle { amplitude_m_s2, duration_s: time("tau_d")? }
+        }
+        Some("triangular") => {
+            Forcing::Triangle { amplitude_m_s2, duration_s: time("tau_d")? }
+        }
+        Some(kind @ ("ricker_sym" | "ricker_anti")) => Forcing::Ricker {
+            amplitude_m_s2,
+            period_s: time("tau_p")?,
+            cycles: 4.0,
+            antisymmetric: kind == "ricker_anti",
+        },
+        Some("mavroeidis") => Forcing::Mavroeidis {
+            velocity_m_s: get("A_v")? * unit / p,
+            frequency_hz: rate("f_p")?,
+            gamma: get("gamma")?,
+            phase_rad: get("nu")?,
+        },
+        kind => return Err(file.lacks(format!("pulse {kind:?}"))),
+    })
+}
+
+/// The block and pulse of an entry of `rect_pulse.json`.
+pub(super) fn rectangular_scene(
+    case: &Value,
+    criterion: Criterion,
+) -> Result<Scene, MethodError> {
+    let file = &RECT_PULSE;
+    Ok(Scene {
+        slenderness_rad: file.f64(case, "alpha")?,
+        frequency_rad_s: file.f64(case, "p")?,
+        restitution: file.f64(case, "eta")?,
+        gravity_m_s2: file.f64(&file.read()?, "g")?,
+        equation: Equation::Nonlinear,
+        criterion,
+        forcing: Forcing::Rectangle {
+            amplitude_m_s2: file.f64(case, "a0")?,
+            duration_s: file.f64(case, "td")?,
+        },
+        until_s: None,
+    })
+}
+
+/// The file of trajectories, read once.
+static READ: LazyLock<Result<Value, MethodError>> =
+    LazyLock::new(|| TRAJECTORIES.read());
+
+/// The trajectory of this name.
+pub(super) fn trajectory(name: &str) -> Result<&'static Value, MethodError> {
+    let file = READ.as_ref().map_err(Clone::clone)?;
+    let named = |case: &&Value| case["name"] == name;
+    TRAJECTORIES
+        .list(file, "cases")?
+        .iter()
+        .find(named)
+        .ok_or_else(|| TRAJECTORIES.lacks(format!("no case `{name}`")))
+}
+
+/// What a careful double-precision code was off by on the trajectory of this
+/// name.
+pub(crate) fn attainable_float64(
+    name: &str,
+) -> Result<&'static Value, MethodError> {
+    TRAJECTORIES.get(trajectory(name)?, "attainable_float64")
+}
+
+/// The scene of a trajectory.
+pub(super) fn scene(
+    case: &Value,
+    criterion: Criterion,
+) -> Result<Scene, MethodError> {
+    let file = &TRAJECTORIES;
+    let equation = match case["model"].as_str() {
+        Some("nonlinear") => Equation::Nonlinear,
+        Some("linear") => Equation::Linearized,
+        _ => return Err(file.lacks("model neither nonlinear nor linear")),
+    };
+    Ok(Scene {
+        slenderness_rad: file.f64(case, "alpha")?,
+        frequency_rad_s: file.f64(case, "p")?,
+        restitution: file.f64(case, "eta")?,
+        gravity_m_s2: file.f64(case, "g")?,
+        equation,
+        criterion,
+        forcing: forcing(file.get(case, "forcing")?)?,
+        until_s: None,
+    })
+}
+
+fn forcing(value: &Value) -> Result<Forcing, MethodError> {
+    let file = &TRAJECTORIES;
+    let get = |key| file.f64(value, key);
+    let sine = |half_cycles| {
+        Ok(Forcing::Sine {
+            amplitude_m_s2: get("a_p")?,
+            omega_rad_s: get("omega")?,
+            half_cycles,
+        })
+    };
+    let ricker = |antisymmetric| {
+        Ok(Forcing::Ricker {
+            amplitude_m_s2: get("a_p")?,
+            period_s: get("T_p")?,
+            cycles: get("n_Tp")?,
+            antisymmetric,
+        })
+    };
+    match file.get(value, "kind")?.as_str() {
+        Some("one_sine") => sine(2),
+        Some("half_sine") => sine(1),
+        Some("one_cosine") => Ok(Forcing::Cosine {
+            amplitude_m_s2: get("a_p")?,
+            omega_rad_s: get("omega")?,
+        }),
+        Some("rectangular") => Ok(Forcing::Rectangle {
+            amplitude_m_s2: get("a_p")?,
+            duration_s: get("t_d")?,
+        }),
+        Some("ricker_sym") => ricker(false),
+        Some("ricker_anti") => ricker(true),
+        Some("mavroeidis") => Ok(Forcing::Mavroeidis {
+            velocity_m_s: get("A_v")?,
+            frequency_hz: get("f_p")?,
+            gamma: get("gamma")?,
+            phase_rad: get("nu")?,
+        }),
+        Some("sampled") => Ok(Forcing::Samples {
+            dt_s: get("dt")?,
+            acceleration_m_s2: samples(value)?,
+        }),
+        kind => Err(file.lacks(format!("forcing of kind {kind:?}"))),
+    }
+}
+
+fn samples(value: &Value) -> Result<Vec<f64>, MethodError> {
+    let file = &TRAJECTORIES;
+    if file.get(value, "acc")?.is_array() {
+        let list = file.list(value, "acc")?;
+        return list.iter().map(|a| file.number(a)).collect();
+    }
+    let name = file.get(value, "record")?.as_str().unwrap_or_default();
+    record(name).map(|(_, samples)| samples)
+}
+
+/// A synthetic record: interval in s and samples in m/s2.
+pub(super) fn record(name: &str) -> Result<(f64, Vec<f64>), MethodError> {
+    let records = RECORDS.read()?;
+    let record = RECORDS.get(&records, name)?;
+    let list = RECORDS.list(record, "acc")?;
+    let samples: Result<_, _> =
+        list.iter().map(|a| RECORDS.number(a)).collect();
+    Ok((RECORDS.f64(record, "dt")?, samples?))
+}

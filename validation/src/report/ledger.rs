@@ -1,0 +1,276 @@
+//! The ledger of evidence: what was required, and what proves it.
+
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+use crate::study::claims::Claim;
+use crate::table::PlainTable;
+
+/// The requirements, embedded.
+const REQUIREMENTS: &str = include_str!("../../requirements.toml");
+
+/// Who requires something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// Who asked for the implementation.
+    User,
+    /// The paper.
+    Paper,
+    /// This project.
+    Ours,
+}
+
+/// One requirement and where its evidence is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Requirement {
+    /// Unique name.
+    pub id: String,
+    /// Who requires it.
+    pub source: Origin,
+    /// Where it stands.
+    pub place: String,
+    /// What is required.
+    pub text: String,
+    /// Ids of declared cases; one `*` stands for anything.
+    #[serde(default)]
+    pub cases: Vec<String>,
+    /// Names of claims.
+    #[serde(default)]
+    pub findings: Vec<String>,
+    /// Functions of the gate: `file::function`.
+    #[serde(default)]
+    pub tests: Vec<String>,
+    /// What the evidence leaves open; may be empty.
+    #[serde(default)]
+    pub gap: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    requirement: Vec<Requirement>,
+}
+
+/// Why there is no ledger.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LedgerError {
+    /// The file is not of the expected form.
+    #[error("requirements.toml: {0}")]
+    Form(#[from] toml::de::Error),
+    /// Two requirements have one name.
+    #[error("requirements.toml: two requirements are named `{0}`")]
+    Duplicate(String),
+}
+
+/// The requirements, in the order of the file.
+///
+/// # Errors
+/// [`LedgerError`] for unknown keys, missing fields and duplicate names.
+pub fn requirements() -> Result<Vec<Requirement>, LedgerError> {
+    parse(REQUIREMENTS)
+}
+
+fn parse(text: &str) -> Result<Vec<Requirement>, LedgerError> {
+    let file: File = toml::from_str(text)?;
+    let mut ids = BTreeSet::new();
+    for requirement in &file.requirement {
+        if !ids.insert(requirement.id.as_str()) {
+            return Err(LedgerError::Duplicate(requirement.id.clone()));
+        }
+    }
+    Ok(file.requirement)
+}
+
+/// How a requirement stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Standing {
+    /// Number of cases that passed.
+    pub passed: usize,
+    /// Cases that did not.
+    pub failed: Vec<String>,
+    /// Whether cases are named whose results are not there.
+    pub not_run: bool,
+    /// Patterns and names that no executed evidence fits.
+    pub missing: Vec<String>,
+    /// Whether anything at all is named as evidence.
+    pub named: bool,
+}
+
+impl Standing {
+    /// Whether all evidence named was executed, and the cases passed.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.named
+            && !self.not_run
+            && self.failed.is_empty()
+            && self.missing.is_empty()
+    }
+}
+
+impl Requirement {
+    /// Whether only tests prove it, whose results are in no file.
+    #[must_use]
+    pub fn is_tests_alone(&self) -> bool {
+        self.cases.is_empty()
+            && self.findings.is_empty()
+            && !self.tests.is_empty()
+    }
+
+    /// How it stands, given the results of the declared cases, if there are
+    /// any, and whether a claim was measured, a test is part of the gate.
+    #[must_use]
+    pub fn standing(
+        &self,
+        results: Option<&Map<String, Value>>,
+        measured: &dyn Fn(&str) -> bool,
+        is_test: &dyn Fn(&str) -> bool,
+    ) -> Standing {
+        let named = [&self.cases, &self.findings, &self.tests];
+        let mut out = Standing {
+            named: named.iter().any(|list| !list.is_empty()),
+            not_run: results.is_none() && !self.cases.is_empty(),
+            ..Standing::default()
+        };
+        let mut met = BTreeSet::new();
+        for pattern in &self.cases {
+            let Some(results) = results else { break };
+            let mut fits = false;
+            for (id, result) in results.iter().filter(|r| fit(pattern, r.0)) {
+                fits = true;
+                if !met.insert(id) {
+                    continue;
+                }
+                if result["verdict"] == "pass" {
+                    out.passed += 1;
+                } else {
+                    out.failed.push(id.clone());
+                }
+            }
+            if !fits {
+                out.missing.push(pattern.clone());
+            }
+        }
+        let missing = |list: &[String], there: &dyn Fn(&str) -> bool| {
+            let gone = list.iter().filter(|name| !there(name));
+            gone.cloned().collect::<Vec<String>>()
+        };
+        out.missing.extend(missing(&self.findings, measured));
+        out.missing.extend(missing(&self.tests, is_test));
+        out
+    }
+}
+
+/// Whether an id fits a pattern with at most one `*`.
+fn fit(pattern: &str, id: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == id,
+        Some((before, after)) => {
+            id.len() >= before.len() + after.len()
+                && id.starts_with(before)
+                && id.ends_with(after)
+        }
+    }
+}
+
+/// The ledger for the page: what was required, and what proves it.
+///
+/// # Errors
+/// [`LedgerError`] where the requirements cannot be read.
+pub fn table(
+    results: Option<&Map<String, Value>>,
+    claims: &[Claim],
+) -> Result<PlainTable, LedgerError> {
+    let measured = |name: &str| claims.iter().any(|c| c.id == name);
+    let requirements = requirements()?;
+    let mut rows = Vec::with_capacity(requirements.len());
+    let (mut met, mut by_tests) = (0, 0);
+    for r in &requirements {
+        let standing = r.standing(results, &measured, &|_| true);
+        let tests_alone = r.is_tests_alone();
+        met += usize::from(standing.is_met() && !tests_alone);
+        by_tests += usize::from(tests_alone);
+        let source = match r.source {
+            Origin::User => "asked for",
+            Origin::Paper => "paper",
+            Origin::Ours => "our own",
+        };
+        rows.push(vec![
+            r.text.clone(),
+            format!("{source}, {}", r.place),
+            evidence(r, &standing, claims),
+            state(r, &standing),
+            r.gap.clone(),
+        ]);
+    }
+    let header =
+        ["requirement", "source", "evidence", "state", "what it leaves open"];
+    Ok(PlainTable {
+        name: "ledger".into(),
+        title: "What was required, and what proves it".into(),
+        reading: format!(
+            "{met} of {} requirements have executed evidence and no failed \
+             case; {by_tests} more rest on tests of the gate alone, whose \
+             results are not in these files. A finding is evidence that the \
+             claim was measured, whatever its verdict.",
+            rows.len()
+        ),
+        header: header.map(String::from).into(),
+        rows,
+    })
+}
+
+fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
+    let mut parts = Vec::new();
+    if standing.not_run {
+        parts.push(format!("cases, not run here ({})", r.cases.join(", ")));
+    } else if !r.cases.is_empty() {
+        let n = standing.passed;
+        let cases = if n == 1 { "case" } else { "cases" };
+        parts.push(format!("{n} {cases} passed ({})", r.cases.join(", ")));
+    }
+    let found: Vec<String> = claims
+        .iter()
+        .filter(|claim| r.findings.contains(&claim.id))
+        .map(|claim| format!("{} {}", claim.key(), claim.verdict.name()))
+        .collect();
+    if !found.is_empty() {
+        parts.push(format!("findings: {}", found.join(", ")));
+    }
+    if !r.tests.is_empty() {
+        // Names of tests are sentences; words wrap, paths don't.
+        let words = |test: &String| {
+            let (file, name) = test.split_once("::").unwrap_or(("", test));
+            format!("{} ({file})", name.replace('_', " "))
+        };
+        let tests: Vec<String> = r.tests.iter().map(words).collect();
+        parts.push(format!("tests: {}", tests.join(", ")));
+    }
+    parts.join("; ")
+}
+
+fn state(r: &Requirement, standing: &Standing) -> String {
+    if !standing.failed.is_empty() {
+        return format!("✗ failed: {}", standing.failed.join(", "));
+    }
+    if !standing.missing.is_empty() {
+        return format!("✗ no evidence: {}", standing.missing.join(", "));
+    }
+    if standing.not_run {
+        return "not run here".into();
+    }
+    match (standing.named, r.is_tests_alone()) {
+        (false, _) => "✗ no evidence named",
+        (true, true) => "in the gate alone",
+        (true, false) => "✓ executed",
+    }
+    .into()
+}
+
+#[cfg(test)]
+mod tests;

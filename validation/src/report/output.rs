@@ -1,0 +1,143 @@
+//! The files of a report, and where they lie in its folder.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use rocking::block::BlockError;
+
+use super::evidence::{self, Proof};
+use super::timings::Timings;
+use super::{ReportError, input, page};
+use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
+use crate::study::claims::Claim;
+use crate::study::figures::Results;
+use crate::study::{Study, questions};
+use crate::table::{Table, number};
+use crate::words::rounded_text;
+
+/// Files of a report by name; folders in a name are parted by `/`.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// The page: where it is, all other files are.
+pub const PAGE: &str = "index.html";
+
+/// Where a report's findings lie.
+pub const FINDINGS: &str = "data/findings.json";
+
+/// Puts what a person compares into `data/`, drawings into `figures/`; the
+/// page stays on top.
+fn laid_out(files: Files) -> Files {
+    let place = |name: String| match name.rsplit_once('.') {
+        Some((_, "csv" | "json")) => format!("data/{name}"),
+        Some((_, "svg")) => format!("figures/{name}"),
+        _ => name,
+    };
+    files.into_iter().map(|(name, text)| (place(name), text)).collect()
+}
+
+/// The report's files: `index.html`, numbers in `data/`, drawings in
+/// `figures/`. The page shows `proof`, the results of the declared cases,
+/// if they were handed in.
+///
+/// # Errors
+/// [`ReportError`] where a figure cannot be drawn.
+pub fn files(
+    study: &Study,
+    proof: Option<&Proof>,
+) -> Result<Files, ReportError> {
+    let mut files = Files::new();
+    let timed = Timings::kept()?.figure();
+    let charts = evidence::charts()?;
+    for figure in study.figures.iter().chain([&timed]).chain(&charts) {
+        let name = &figure.heading.name;
+        files.insert(format!("{name}.svg"), figure.svg()?.into_bytes());
+        let csv = figure.csv.clone();
+        files.insert(format!("{name}.csv"), csv.into_bytes());
+    }
+    files.insert("table-01.csv".into(), table_1()?.into_bytes());
+    let single = single_csv(&study.results);
+    files.insert("single-records.csv".into(), single.into_bytes());
+    let text = study.findings_text();
+    files.insert("findings.json".into(), text.into_bytes());
+    files.extend(questions::files(&study.answers));
+    let input = input::input(
+        &study.results,
+        &study.figures,
+        &charts,
+        &study.claims,
+        &study.answers,
+        proof,
+    )?;
+    files.insert("index.html".into(), page::page(&input).into_bytes());
+    Ok(laid_out(files))
+}
+
+/// Table 1 as CSV.
+fn table_1() -> Result<String, BlockError> {
+    let printed = input::table_1()?;
+    let header: Vec<&str> =
+        printed.header.iter().map(String::as_str).collect();
+    let mut table = Table::new(&header);
+    for row in printed.rows {
+        table.row(row);
+    }
+    Ok(table.finish())
+}
+
+/// Every record's histories and curves against those of alpha = 0.10.
+fn single_csv(results: &Results) -> String {
+    let mut table = Table::new(&[
+        "suite",
+        "record",
+        "p_rad_s",
+        "im_pga",
+        "alpha_rad",
+        "normalized_l2_distance",
+        "peak_ratio",
+        "mean_abs_ln_im_ratio",
+    ]);
+    let others: Vec<f64> = (0..SLENDERNESSES_RAD.len())
+        .filter(|s| *s != REFERENCE)
+        .map(|s| SLENDERNESSES_RAD[s])
+        .collect();
+    for suite in [&results.ordinary, &results.pulse] {
+        for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
+            for (record, apart) in suite.records.iter().zip(&single.apart) {
+                for (alpha, a) in others.iter().zip(apart) {
+                    table.row([
+                        suite.kind.into(),
+                        record.name.clone(),
+                        number(p),
+                        number(single.im),
+                        number(*alpha),
+                        number(a.distance),
+                        number(a.peak_ratio),
+                        number(a.mean_ln_im),
+                    ]);
+                }
+            }
+        }
+    }
+    table.finish()
+}
+
+/// The claims as a table for people.
+#[must_use]
+pub fn claims_table(claims: &[Claim]) -> String {
+    let mut out = String::new();
+    for claim in claims {
+        let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
+        let suite = claim.suite.clone() + &arm.unwrap_or_default();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "{:<13}  {:<34} {:<20} {:>10}  {}",
+            claim.verdict.name(),
+            claim.id,
+            suite,
+            rounded_text(claim.measured.value),
+            claim.margin
+        );
+    }
+    out
+}

@@ -1,0 +1,82 @@
+//! Figures on the page, each with its reading and its data.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::table;
+use crate::draw::colour;
+
+/// Rows of data shown on the page; the file has all.
+const PREVIEW_ROWS: usize = 25;
+
+/// A wider drawing scrolls on a phone instead of shrinking to its width.
+const WIDE_PX: u32 = 640;
+
+/// A drawing ready for the page.
+#[derive(Debug, Clone, Default)]
+pub struct ShownFigure {
+    /// File stem, unique, also the anchor: `figure-06-c`.
+    pub name: String,
+    /// `Figure 6, arm C`.
+    pub number: String,
+    /// What it shows, in a few words.
+    pub title: String,
+    /// What is to be seen in it, in one sentence.
+    pub reading: String,
+    /// The drawing as [`crate::draw::figures::Figure::svg`] gives it.
+    pub svg: String,
+    /// The numbers as CSV.
+    pub csv: String,
+    /// Where the CSV lies, relative to the page.
+    pub csv_path: String,
+}
+
+impl ShownFigure {
+    /// What it is called where it is named: its number, or its title if it
+    /// shares the number with others.
+    fn called(&self) -> &str {
+        if self.number.starts_with("Figure") {
+            &self.number
+        } else {
+            &self.title
+        }
+    }
+}
+
+/// The figure with title, reading and data.
+pub fn figure(shown: &ShownFigure) -> Markup {
+    let label = format!("{}, drawing", shown.called());
+    let class = if width_px(&shown.svg) > WIDE_PX {
+        "scroll drawing wide"
+    } else {
+        "scroll drawing"
+    };
+    html! {
+        figure id=(shown.name) {
+            h3 { (shown.number) ". " (shown.title) }
+            div class=(class) role="region" aria-label=(label) tabindex="0" {
+                (PreEscaped(inline(&shown.svg)))
+            }
+            figcaption { (shown.reading) }
+            details {
+                summary { "Data of " (shown.called()) }
+                p {
+                    a href=(shown.csv_path) { (shown.csv_path) }
+                }
+                (table::preview(shown.called(), &shown.csv, PREVIEW_ROWS))
+            }
+        }
+    }
+}
+
+/// The width that the SVG says it has, or 0.
+fn width_px(svg: &str) -> u32 {
+    let value = svg.split(" width=\"").nth(1);
+    let digits = value.and_then(|v| v.split('"').next());
+    digits.and_then(|d| d.parse().ok()).unwrap_or(0)
+}
+
+/// The SVG without its own style sheet, which the page has once.
+fn inline(svg: &str) -> String {
+    let style = format!("<style>{}</style>\n", colour::STYLE);
+    svg.replacen(&style, "", 1)
+}

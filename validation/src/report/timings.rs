@@ -1,0 +1,364 @@
+//! Speed against error on the page: drawn from the timings kept in
+//! `fixtures/speed`, never timed again.
+
+mod tables;
+
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+};
+use crate::speed::measured::{self, Total, totals};
+use crate::speed::singles::BASE;
+use crate::speed::throughput::{self, Throughput};
+use crate::words::{range, rounded};
+
+const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
+const MANY: &str = include_str!("../../../fixtures/speed/throughput.csv");
+const WINDOW_STEP: &str =
+    include_str!("../../../fixtures/speed/window-step.csv");
+const CONDITIONS: &str =
+    include_str!("../../../fixtures/speed/conditions.csv");
+
+/// The work that the paper's study is made of, and a peer that did it.
+const PAPER: &str = "15 blocks, Eq. 1, in lanes";
+const PEER: &str = "15 blocks, Eq. 1, Boost.odeint dopri5, rtol 1e-09";
+const PEER_SETTING: [&str; 3] = ["Boost.odeint", "dopri5", "rtol 1e-09"];
+
+/// Lines of the figure: legend, tool, method, and settings left out.
+const LINES: [(&str, &str, &str, &[&str]); 7] = [
+    (
+        "this project: orders 4, 6, 8, as shipped",
+        "rocking",
+        "Taylor",
+        &["order 10"],
+    ),
+    ("heyoka", "heyoka", "Taylor sample by sample", &[]),
+    (
+        "Boost.odeint, stopped at samples",
+        "Boost.odeint",
+        "dopri5 sample by sample",
+        &[],
+    ),
+    ("Boost.odeint", "Boost.odeint", "dopri5", &[]),
+    ("SUNDIALS CVODE", "SUNDIALS CVODE", "Adams with roots", &[]),
+    ("SciPy DOP853", "SciPy", "solve_ivp DOP853", &[]),
+    ("GNU Octave ode45", "GNU Octave", "ode45", &[]),
+];
+
+/// The kept timings.
+pub struct Timings {
+    singles: Vec<Total>,
+    many: Vec<Throughput>,
+    conditions: Vec<(String, String)>,
+    /// Header and rows of a trial.
+    window_step: (Vec<String>, Vec<Vec<String>>),
+}
+
+impl Timings {
+    /// The timings that come with the program.
+    ///
+    /// # Errors
+    /// [`csv::Error`] where a table has been damaged.
+    pub fn kept() -> Result<Self, csv::Error> {
+        let pairs = csv::Reader::from_reader(CONDITIONS.as_bytes())
+            .deserialize()
+            .collect::<Result<_, _>>();
+        Ok(Self {
+            singles: totals(&measured::parse(SINGLES)?, BASE),
+            many: throughput::parse(MANY)?,
+            conditions: pairs?,
+            window_step: table(WINDOW_STEP)?,
+        })
+    }
+
+    /// `2026-11-21 on AMD EPYC, AVX-512 ..`.
+    fn measured_on(&self) -> String {
+        let value = |what: &str| {
+            let found = self.conditions.iter().find(|(name, _)| name == what);
+            found.map_or("unknown", |(_, value)| value.as_str())
+        };
+        format!(
+            "Measured on {} on one core of {}, {}, {}; rustc {}, g++ {}.",
+            value("date"),
+            value("processor"),
+            value("vectors"),
+            value("system"),
+            value("rustc"),
+            value("g++"),
+        )
+    }
+
+    fn of(&self, tool: &str, method: &str, without: &[&str]) -> Vec<&Total> {
+        let own = |t: &&Total| {
+            let [name, _, how, setting] = &t.label;
+            name == tool
+                && how == method
+                && !without.contains(&setting.as_str())
+        };
+        self.singles.iter().filter(own).collect()
+    }
+
+    /// Error against time and work.
+    #[must_use]
+    pub fn figure(&self) -> Figure {
+        let series = |x: fn(&Total) -> f64, y: fn(&Total) -> f64| {
+            let line = |(label, tool, method, without): &(
+                &str,
+                &str,
+                &str,
+                &[&str],
+            )| {
+                let of = self.of(tool, method, without);
+                Series {
+                    label: (*label).into(),
+                    mark: Mark::LineAndPoints,
+                    x: of.iter().map(|t| x(t)).collect(),
+                    y: of.iter().map(|t| y(t)).collect(),
+                    interval: Vec::new(),
+                }
+            };
+            LINES.iter().map(line).filter(|s| !s.x.is_empty()).collect()
+        };
+        let time = "processor time, multiples of ours as shipped";
+        let panel = |title: &str, x: ChartAxis, y: ChartAxis, series| {
+            ChartPanel { title: title.into(), x, y, series }
+        };
+        let error = "median error of peak |*θ*|/*α*";
+        let share =
+            |t: &Total| 100.0 * t.other_impacts as f64 / t.cases as f64;
+        let mut panels = vec![
+            panel(
+                "peak, by time",
+                logarithmic(time),
+                logarithmic(error),
+                series(|t| t.ratio, |t| t.peak_error),
+            ),
+            panel(
+                "peak, by work",
+                logarithmic("Taylor polynomials, or derivatives evaluated"),
+                logarithmic(error),
+                series(|t| t.work, |t| t.peak_error),
+            ),
+            panel(
+                "first ten impacts, by time",
+                logarithmic(time),
+                logarithmic("median error of their times (s)"),
+                series(|t| t.ratio, |t| t.impact_error_s),
+            ),
+            panel(
+                "all impacts, by time",
+                logarithmic(time),
+                ChartAxis {
+                    label: "cases with another number of them (%)".into(),
+                    scale: Scale::Linear,
+                    range: Some((-4.0, 104.0)),
+                    categories: Vec::new(),
+                },
+                series(|t| t.ratio, share),
+            ),
+        ];
+        panels.iter_mut().for_each(widen);
+        let drawing = Chart {
+            heading: Heading {
+                name: "speed-and-error".into(),
+                title: "Speed and error, this project and other tools".into(),
+                description: format!(
+                    "Error of the peak and of impact times, and share of \
+                     analyses with another number of impacts, against \
+                     processor time and work. {}",
+                    self.measured_on()
+                ),
+                arm: None,
+            },
+            panels,
+            columns: 2,
+        };
+        drawing.figure(self.reading())
+    }
+
+    /// Our own run as shipped.
+    fn own(&self) -> Option<&Total> {
+        self.singles.iter().find(|t| {
+            let [tool, _, method, setting] = &t.label;
+            [tool.as_str(), method, setting] == BASE
+        })
+    }
+
+    /// Errors against double-double, in a sentence.
+    #[must_use]
+    pub fn accuracy(&self) -> String {
+        let Some(own) = self.own() else { return String::new() };
+        format!(
+            "Over {} analyses of the timings the peak of |theta|/alpha is \
+             off by {} (median) and by {} (90 % are below), with {} wrong \
+             fates, against double-double.",
+            own.cases,
+            digits(own.peak_error),
+            digits(own.peak_error_90),
+            own.wrong_fates
+        )
+    }
+
+    /// How fast, in a sentence.
+    #[must_use]
+    pub fn plain(&self) -> String {
+        let best = self.most_accurate();
+        let (fast, slow) = range(best.iter().map(|t| t.ratio));
+        let many = self.of_many(PAPER).map_or(String::new(), |paper| {
+            let peer = self.of_many(PEER).map_or(String::new(), |peer| {
+                let ratio = |t: &Throughput| {
+                    digits(t.rate_per_s() / peer.rate_per_s())
+                };
+                let equal = self.no_worse(peer).map_or(
+                    String::new(),
+                    |(setting, quick)| {
+                        format!(
+                            "; at {setting}, the fastest setting whose \
+                             errors are no larger than that tool's in the \
+                             median, for nine in ten cases and at worst, {} \
+                             times",
+                            ratio(quick)
+                        )
+                    },
+                );
+                format!(
+                    ", {} times as many as Boost.odeint's dopri5 at \
+                     1e-9{equal}",
+                    ratio(paper)
+                )
+            });
+            format!(
+                " The paper's chains of 15 blocks run at {:.0} analyses a \
+                 second and core{peer}.",
+                paper.rate_per_s()
+            )
+        });
+        format!(
+            "How fast? A single analysis takes {} ms of one core, the most \
+             accurate setting of each other tool {} to {} times as \
+             long.{many} {}",
+            self.own().map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
+            digits(fast),
+            digits(slow),
+            self.measured_on()
+        )
+    }
+
+    /// A piece of work on one thread.
+    fn of_many(&self, work: &str) -> Option<&Throughput> {
+        self.many.iter().find(|t| t.threads == 1 && t.work == work)
+    }
+
+    /// The fastest of our settings that is no worse than a peer's 1e-9 in any
+    /// error, the largest ones too, and the same work by it.
+    fn no_worse(&self, peer: &Throughput) -> Option<(&str, &Throughput)> {
+        let [tool, method, setting] = PEER_SETTING;
+        let theirs = self
+            .of(tool, method, &[])
+            .into_iter()
+            .find(|t| t.label[3] == setting)?;
+        let errors = |t: &Total| {
+            [
+                t.peak_error,
+                t.peak_error_90,
+                t.peak_error_worst,
+                t.impact_error_s,
+                t.impact_error_worst_s,
+                t.wrong_fates as f64,
+                t.other_impacts as f64,
+            ]
+        };
+        let limits = errors(theirs);
+        self.of(BASE[0], BASE[1], &[])
+            .into_iter()
+            .filter(|t| errors(t).iter().zip(limits).all(|(e, max)| *e <= max))
+            .filter_map(|t| {
+                let setting = t.label[3].as_str();
+                let work = self.of_many(&format!("{PAPER}, {setting}"))?;
+                (work.moved? <= peer.moved?).then_some((setting, work))
+            })
+            .max_by(|a, b| a.1.rate_per_s().total_cmp(&b.1.rate_per_s()))
+    }
+
+    /// The most accurate setting of every other tool.
+    fn most_accurate(&self) -> Vec<&Total> {
+        LINES[1..]
+            .iter()
+            .filter_map(|(_, tool, method, without)| {
+                self.of(tool, method, without)
+                    .into_iter()
+                    .min_by(|a, b| a.peak_error.total_cmp(&b.peak_error))
+            })
+            .collect()
+    }
+
+    fn reading(&self) -> String {
+        let own = self.own();
+        let best = self.most_accurate();
+        let (fast, slow) = range(best.iter().map(|t| t.ratio));
+        let (good, bad) = range(best.iter().map(|t| t.peak_error));
+        format!(
+            "{} cases, the same records, blocks and rest rule for all, \
+             against double-double. As shipped, an analysis takes {} ms at a \
+             median error of {}; the most accurate setting of each other \
+             tool takes {} to {} times as long at {} to {}. A line joins the \
+             settings of a tool, least accurate first. {}",
+            own.map_or(0, |t| t.cases),
+            own.map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
+            own.map_or(String::new(), |t| digits(t.peak_error)),
+            digits(fast),
+            digits(slow),
+            digits(good),
+            digits(bad),
+            self.measured_on()
+        )
+    }
+}
+
+/// Header and rows.
+fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers()?.iter().map(str::to_owned).collect();
+    let rows = reader.deserialize().collect::<Result<_, _>>()?;
+    Ok((header, rows))
+}
+
+fn logarithmic(label: &str) -> ChartAxis {
+    ChartAxis {
+        label: label.into(),
+        scale: Scale::Logarithmic,
+        range: None,
+        categories: Vec::new(),
+    }
+}
+
+/// Room for the marks within the axes.
+fn widen(panel: &mut ChartPanel) {
+    let all = |of: fn(&Series) -> &[f64]| -> Vec<f64> {
+        panel.series.iter().flat_map(of).copied().collect()
+    };
+    let (xs, ys) = (all(|s| &s.x), all(|s| &s.y));
+    for (axis, values, by) in
+        [(&mut panel.x, xs, 1.6), (&mut panel.y, ys, 8.0)]
+    {
+        if axis.range.is_none() {
+            let (low, high) = range(values.into_iter().filter(|v| *v > 0.0));
+            axis.range = Some((low / by, high * by));
+        }
+    }
+}
+
+/// Two significant digits, as people write them.
+fn digits(x: f64) -> String {
+    if !x.is_finite() {
+        return if x.is_nan() { "none".into() } else { "one missing".into() };
+    }
+    let rounded = rounded(x, if x.abs() >= 100.0 { 3 } else { 2 });
+    if rounded == 0.0 || (1e-2..1e6).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! Tests of what is drawn from the kept timings.
+
+use super::*;
+
+#[test]
+fn kept_timings_have_every_line_and_a_base_for_ratios() {
+    let kept = Timings::kept().expect("tables");
+    for (label, tool, method, without) in LINES {
+        let of = kept.of(tool, method, without);
+        assert!(of.len() > 1, "{label}");
+        for total in of {
+            assert!(total.ratio > 0.0, "{label}");
+        }
+    }
+    assert!(!kept.measured_on().contains("unknown"));
+    let based = kept.many.iter().filter(|t| kept.base(t).is_some());
+    assert!(based.count() > 8);
+}
+
+/// An integrator that shares nothing with ours agrees with the reference
+/// to rounding: what was measured vouches for the reference, too.
+#[test]
+fn heyoka_agreed_with_the_reference() {
+    let kept = Timings::kept().expect("tables");
+    for total in kept.of("heyoka", "Taylor sample by sample", &[]) {
+        assert_eq!((total.wrong_fates, total.other_impacts), (0, 0));
+        assert!(total.peak_error < 1e-12 && total.impact_error_s < 1e-11);
+    }
+}
+
+/// Writes the figure where `ROCKING_FIGURES` says, to be looked at.
+#[test]
+fn draws_the_same_bytes_twice() {
+    let draw = || {
+        let figure = Timings::kept().expect("tables").figure();
+        (figure.svg().expect("drawn"), figure.csv)
+    };
+    let (svg, csv) = draw();
+    assert_eq!((&svg, &csv), (&draw().0, &draw().1));
+    assert!(!svg.contains("no data in this range"));
+    if let Ok(folder) = std::env::var("ROCKING_FIGURES") {
+        std::fs::write(format!("{folder}/speed.svg"), svg).expect("write");
+    }
+}
+
+/// A ratio of times means little beside another error: ours is that of a
+/// setting that is no worse than the peer's in any of them, and a peer that
+/// errs less leaves fewer settings, in the end none.
+#[test]
+fn ratios_are_at_no_larger_error() {
+    let mut kept = Timings::kept().expect("tables");
+    let mut peer = kept.of_many(PEER).expect("work").clone();
+    let quick = |kept: &Timings, peer: &Throughput| {
+        kept.no_worse(peer).map(|(setting, _)| setting.to_owned())
+    };
+    let told = quick(&kept, &peer).expect("a setting");
+    assert!(kept.plain().contains(&format!("; at {told}, the fastest")));
+
+    // Order 4 has the smaller medians, but a larger worst case.
+    let of = |[tool, method, setting]: [&str; 3]| {
+        let mut all = kept.of(tool, method, &[]).into_iter();
+        all.find(|t| t.label[3] == setting).expect("setting").clone()
+    };
+    let (low, theirs) = (of([BASE[0], BASE[1], "order 4"]), of(PEER_SETTING));
+    assert!(low.peak_error < theirs.peak_error);
+    assert!(low.peak_error_worst > theirs.peak_error_worst);
+    assert_ne!(told, "order 4");
+
+    let moved = kept.of_many(&format!("{PAPER}, {told}")).expect("work").moved;
+    peer.moved = moved.map(|n| n - 1);
+    assert_ne!(quick(&kept, &peer), Some(told));
+    let theirs = |t: &&mut Total| t.label[0] == PEER_SETTING[0];
+    for total in kept.singles.iter_mut().filter(theirs) {
+        total.peak_error = 0.0;
+    }
+    assert_eq!(quick(&kept, &peer), None);
+}
+
+#[test]
+fn numbers_are_short() {
+    let shown = [0.0, 2.84e-16, 0.0171, 1.0, 9703.4, f64::NAN];
+    let words = shown.map(digits);
+    assert_eq!(words, ["0", "2.8e-16", "0.017", "1", "9700", "none"]);
+}

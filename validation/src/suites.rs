@@ -1,0 +1,181 @@
+//! The two suites of a study: embedded, or read from files.
+
+pub mod export;
+pub mod inputs;
+pub mod remarks;
+pub mod synthesis;
+
+use std::fmt;
+use std::path::Path;
+
+use rocking::record::{
+    Accelerogram, AccelerogramError, Processing, ProcessingError, ReadOptions,
+    SuiteError,
+};
+use sha2::{Digest as _, Sha256};
+use thiserror::Error;
+
+use inputs::{hex, read_suite};
+use remarks::Remarks;
+use synthesis::Pair;
+
+/// Why a suite of the study could not be had.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StudySuiteError {
+    /// A suite that was refused.
+    #[error(transparent)]
+    Suite(#[from] SuiteError),
+    /// A record that cannot be processed as asked.
+    #[error(transparent)]
+    Processing(#[from] ProcessingError),
+    /// A synthetic record that is none.
+    #[error(transparent)]
+    Accelerogram(#[from] AccelerogramError),
+}
+
+/// Where the records of a suite come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// The synthetic suite of these streams, embedded.
+    Embedded {
+        /// Seed of the streams.
+        streams: &'static str,
+    },
+    /// The user's files.
+    Files {
+        /// Name of the folder or index.
+        name: String,
+        /// What was done to the records.
+        processing: Processing,
+    },
+}
+
+impl Source {
+    /// Whether the suite is an embedded one.
+    #[must_use]
+    pub fn is_embedded(&self) -> bool {
+        matches!(self, Self::Embedded { .. })
+    }
+}
+
+impl fmt::Display for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Embedded { streams } => {
+                write!(f, "embedded synthetic suite, streams {streams}")
+            }
+            Self::Files { name, processing } if processing.is_none() => {
+                write!(f, "suite {name}")
+            }
+            Self::Files { name, processing } => {
+                write!(f, "suite {name} ({processing})")
+            }
+        }
+    }
+}
+
+/// The component a study uses, and the other of its pair.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// The component applied.
+    pub study: Accelerogram,
+    /// The other component, if the suite has it.
+    pub other: Option<Accelerogram>,
+}
+
+/// A suite as the study uses it.
+#[derive(Clone, Debug)]
+pub struct StudySuite {
+    /// `ordinary` or `pulse-type`.
+    pub kind: &'static str,
+    /// Where the records come from.
+    pub source: Source,
+    /// Who chose the study component, in words.
+    pub component_rule: String,
+    /// What is suspicious about the records; nothing for an embedded suite.
+    pub remarks: Remarks,
+    /// The motions, in the suite's order.
+    pub motions: Vec<Motion>,
+}
+
+impl StudySuite {
+    /// The embedded suites, ordinary and pulse-type.
+    ///
+    /// # Errors
+    /// None in practice: the samples are finite by construction.
+    pub fn embedded() -> Result<[Self; 2], StudySuiteError> {
+        let of = |kind, streams, pairs: Vec<Pair>| Self {
+            kind,
+            source: Source::Embedded { streams },
+            component_rule: "the first component of each pair".into(),
+            remarks: Remarks::default(),
+            motions: pairs
+                .into_iter()
+                .map(|Pair { components: [study, other], .. }| Motion {
+                    study,
+                    other: Some(other),
+                })
+                .collect(),
+        };
+        Ok([
+            of("ordinary", synthesis::ORDINARY_SEED, synthesis::ordinary()?),
+            of("pulse-type", synthesis::PULSE_SEED, synthesis::pulse()?),
+        ])
+    }
+
+    /// The suite in a folder or an index.
+    ///
+    /// # Errors
+    /// [`StudySuiteError`] naming the file that was refused, and why.
+    pub fn read(
+        kind: &'static str,
+        path: &Path,
+        options: ReadOptions,
+        processing: &Processing,
+    ) -> Result<Self, StudySuiteError> {
+        let suite = read_suite(path, options)?;
+        let suite = suite.processed(processing)?;
+        let all = suite.members().iter();
+        let all = all.map(|m| (&m.accelerogram, m.pair.as_deref()));
+        let remarks = Remarks::of(&all.collect::<Vec<_>>());
+        let motions = suite
+            .study_components()
+            .map(|study| Motion {
+                study: study.accelerogram.clone(),
+                other: study.pair.as_ref().and_then(|pair| {
+                    suite
+                        .other_components()
+                        .find(|other| other.pair.as_ref() == Some(pair))
+                        .map(|other| other.accelerogram.clone())
+                }),
+            })
+            .collect();
+        Ok(Self {
+            kind,
+            source: Source::Files {
+                name: suite.name().to_owned(),
+                processing: *processing,
+            },
+            component_rule: suite.study_rule().to_string(),
+            remarks,
+            motions,
+        })
+    }
+
+    /// SHA-256 over names, sampling intervals and samples of the study
+    /// components, so that results can be told apart by their input.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        let mut hash = Sha256::new();
+        for Motion { study, .. } in &self.motions {
+            hash.update(study.name().as_bytes());
+            hash.update([0]);
+            hash.update(study.dt_s().to_le_bytes());
+            for a in study.samples_g() {
+                hash.update(a.to_le_bytes());
+            }
+        }
+        hex(&hash.finalize())
+    }
+}

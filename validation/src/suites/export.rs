@@ -1,0 +1,225 @@
+//! Suites as files: a folder of AT2 records and an index with their hashes,
+//! from which the same accelerograms are read, bit for bit.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use rocking::record::{Accelerogram, Suite};
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use thiserror::Error;
+
+use super::inputs::sha256_hex;
+use super::synthesis::Pair;
+use crate::table::Table;
+
+/// A suite that cannot be written as files.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// A record's name becomes the name of its file.
+    #[error("record {0:?}: expected a name that a file can have")]
+    Name(String),
+}
+
+/// One record of a suite to be written.
+pub struct Row<'a> {
+    /// The component.
+    pub motion: &'a Accelerogram,
+    /// Name of its pair, if it has a partner.
+    pub pair: Option<&'a str>,
+    /// Whether the study uses it.
+    pub study_component: bool,
+    /// Other columns of the index, by name.
+    pub attributes: Vec<(&'a str, String)>,
+}
+
+/// The members of a suite, and what was done to them, in words.
+#[must_use]
+pub fn members<'a>(suite: &'a Suite, done: Option<&str>) -> Vec<Row<'a>> {
+    let done = done.map(|words| ("processing", words.to_owned()));
+    suite
+        .members()
+        .iter()
+        .map(|member| Row {
+            motion: &member.accelerogram,
+            pair: member.pair.as_deref(),
+            study_component: member.study_component,
+            attributes: member
+                .attributes
+                .iter()
+                .map(|(name, cell)| (name.as_str(), cell.clone()))
+                .chain(done.clone())
+                .collect(),
+        })
+        .collect()
+}
+
+/// The components of embedded pairs, with earthquake and site.
+#[must_use]
+pub fn pairs(pairs: &[Pair]) -> Vec<Row<'_>> {
+    let mut rows = Vec::with_capacity(2 * pairs.len());
+    for Pair { components, scenario, .. } in pairs {
+        let reverse = scenario.reverse;
+        let mechanism = if reverse { "reverse" } else { "strike slip" };
+        for (k, motion) in components.iter().enumerate() {
+            let name = motion.name();
+            rows.push(Row {
+                motion,
+                pair: name.rsplit_once('-').map(|(pair, _)| pair),
+                study_component: k == 0,
+                attributes: vec![
+                    ("mechanism", mechanism.to_owned()),
+                    ("mw", scenario.mw.to_string()),
+                    ("rrup_km", scenario.rrup_km.to_string()),
+                    ("vs30_m_s", scenario.vs30_m_s.to_string()),
+                ],
+            });
+        }
+    }
+    rows
+}
+
+/// The files of a suite `name`: `name.csv`, the index, and its records in a
+/// folder `name`.
+///
+/// # Errors
+/// [`ExportError`] for a record whose name no file can have.
+pub fn files(
+    name: &str,
+    rows: &[Row<'_>],
+) -> Result<Vec<(PathBuf, Vec<u8>)>, ExportError> {
+    let extra: BTreeSet<&str> = rows
+        .iter()
+        .flat_map(|row| row.attributes.iter().map(|(name, _)| *name))
+        .collect();
+    let columns = [
+        "file",
+        "format",
+        "units",
+        "dt_s",
+        "npts",
+        "pga_g",
+        "pgv_m_s",
+        "pair",
+        "study_component",
+        "sha256",
+    ];
+    let header: Vec<&str> = columns.into_iter().chain(extra.clone()).collect();
+    let mut index = Table::new(&header);
+    let mut files = Vec::with_capacity(rows.len() + 1);
+    for row in rows {
+        let motion = row.motion;
+        let fits = |c: char| !c.is_control() && !"/\\".contains(c);
+        if motion.name().is_empty() || !motion.name().chars().all(fits) {
+            return Err(ExportError::Name(motion.name().to_owned()));
+        }
+        let file = format!("{name}/{}.at2", motion.name());
+        let text = at2(motion);
+        let mut cells = vec![
+            file.clone(),
+            "at2".into(),
+            "g".into(),
+            motion.dt_s().to_string(),
+            motion.samples_g().len().to_string(),
+            motion.pga_g().to_string(),
+            motion.pgv_m_s(STANDARD_GRAVITY_M_S2).to_string(),
+            row.pair.unwrap_or_default().into(),
+            u8::from(row.study_component).to_string(),
+            sha256_hex(text.as_bytes()),
+        ];
+        for column in &extra {
+            let own = row.attributes.iter().find(|(name, _)| name == column);
+            cells.push(own.map_or(String::new(), |(_, text)| text.clone()));
+        }
+        index.row(cells);
+        files.push((PathBuf::from(file), text.into_bytes()));
+    }
+    files.push((
+        PathBuf::from(format!("{name}.csv")),
+        index.finish().into_bytes(),
+    ));
+    Ok(files)
+}
+
+/// A record as AT2, five numbers of 25 characters a line: 17 digits, which
+/// give every double back.
+#[must_use]
+pub fn at2(motion: &Accelerogram) -> String {
+    let samples = motion.samples_g();
+    let mut text = format!(
+        "Written by rocking\nACCELERATION TIME SERIES IN UNITS OF G\n\
+         NPTS= {}, DT= {} SEC\n",
+        samples.len(),
+        motion.dt_s()
+    );
+    for line in samples.chunks(5) {
+        for sample in line {
+            text.push_str(&fixed(*sample));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A number in 25 characters, as Fortran's E25.16 writes it: three digits of
+/// an exponent leave no room for its letter.
+fn fixed(x: f64) -> String {
+    let text = format!("{x:.16e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let (sign, digits) = match exponent.strip_prefix('-') {
+        Some(digits) => ('-', digits),
+        None => ('+', exponent),
+    };
+    let exponent = match digits.len() {
+        3 => format!("{sign}{digits}"),
+        _ => format!("E{sign}{digits:0>2}"),
+    };
+    format!("{:>25}", format!("{mantissa}{exponent}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use rocking::record::{ReadOptions, read};
+
+    use super::*;
+
+    #[test]
+    fn every_double_is_read_back() {
+        let samples = vec![
+            0.1,
+            -0.0,
+            1.0 / 3.0,
+            -f64::MIN_POSITIVE,
+            5e-324,
+            -1.234e-100,
+            f64::MAX,
+            -1e23,
+            1e99,
+            0.5,
+            f64::EPSILON,
+        ];
+        let dt_s = 1.0 / 410.0;
+        let motion = Accelerogram::try_new("a.b", dt_s, samples).unwrap();
+        let text = at2(&motion);
+        let options = ReadOptions::default();
+        let found = read("d/a.b.at2", text.as_bytes(), &options).unwrap();
+        assert_eq!(found.accelerogram, motion);
+        let bits = |m: &Accelerogram| -> Vec<u64> {
+            m.samples_g().iter().map(|a| a.to_bits()).collect()
+        };
+        assert_eq!(bits(&found.accelerogram), bits(&motion));
+    }
+
+    #[test]
+    fn names_that_no_file_has_are_refused() {
+        let motion = Accelerogram::try_new("a/b", 0.1, vec![0.0; 2]).unwrap();
+        let row = Row {
+            motion: &motion,
+            pair: None,
+            study_component: true,
+            attributes: Vec::new(),
+        };
+        let error = files("x", &[row]).unwrap_err();
+        assert_eq!(error, ExportError::Name("a/b".to_owned()));
+    }
+}

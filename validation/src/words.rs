@@ -1,0 +1,52 @@
+//! Numbers and names as people read them.
+
+/// A number for people: four decimals, "none" where there is none.
+#[must_use]
+pub fn rounded_text(x: f64) -> String {
+    if x.is_nan() { "none".into() } else { format!("{x:.4}") }
+}
+
+/// The letter of a panel: a, b, c and so on.
+#[must_use]
+pub fn letter(panel: usize) -> String {
+    let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i));
+    match letter {
+        Some(c) if c.is_ascii_lowercase() => char::from(c).to_string(),
+        _ => (panel + 1).to_string(),
+    }
+}
+
+/// A number rounded to `digits` significant digits.
+#[must_use]
+pub fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
+}
+
+/// A share in percent; a dash where there are no data.
+#[must_use]
+pub fn percent(share: f64, decimals: usize) -> String {
+    if share.is_nan() {
+        "–".into()
+    } else {
+        format!("{:.decimals$} %", 100.0 * share)
+    }
+}
+
+/// The least and the largest of the finite numbers.
+#[must_use]
+pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.filter(|x| x.is_finite()).fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(low, high), x| {
+            (if x < low { x } else { low }, if x > high { x } else { high })
+        },
+    )
+}
+
+/// A word with a capital first letter.
+#[must_use]
+pub fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}

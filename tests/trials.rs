@@ -11,6 +11,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::record::{Processing, ReadOptions};
 use rocking_validation::paper::BLOCKS;
+use rocking_validation::paper::SuiteKind;
 use rocking_validation::proof::trials::{
     Judgement, Reading, Stratum, Summary, Survey, findings, trial,
 };
@@ -111,9 +112,10 @@ fn surveyed() -> (Vec<(&'static str, Vec<NormalisedRecord>)>, Vec<Block>) {
         StudySuite::read(kind, Path::new(path), options, &none).unwrap()
     };
     let suites = match asked.as_deref().map(|text| text.split_once(',')) {
-        Some(Some((ordinary, pulse))) => {
-            [read("ordinary", ordinary), read("pulse-type", pulse)]
-        }
+        Some(Some((ordinary, pulse))) => [
+            read(SuiteKind::Ordinary, ordinary),
+            read(SuiteKind::PulseType, pulse),
+        ],
         _ => StudySuite::embedded().unwrap(),
     };
     let (few, blocks) = match asked {
@@ -124,7 +126,7 @@ fn surveyed() -> (Vec<(&'static str, Vec<NormalisedRecord>)>, Vec<Block>) {
         let motions = suite.motions.iter().take(few);
         motions.map(|m| NormalisedRecord::new(&m.study)).collect()
     };
-    (suites.iter().map(|s| (s.kind, records(s))).collect(), blocks)
+    (suites.iter().map(|s| (s.kind.name(), records(s))).collect(), blocks)
 }
 
 /// What is flagged is all that wider arithmetic tells otherwise.

@@ -8,35 +8,55 @@ use serde_json::Value;
 use super::support::{folder, json, refused_for, run};
 
 const FINDINGS: &str = r#"{
+  "schema": 2,
+  "version": "0.1.0",
+  "settings": {
+    "arms": ["C"], "eta": 0.92, "overturning": "alpha", "refinement_im": 0.0001
+  },
+  "suites": [],
   "claims": [
     {
-      "arm": "C", "blocks": "p = 3 and 4", "id": "ratios-ordinary-c",
-      "interval": [0.98, 1.02], "margin": "all within 5 % of 1",
-      "measure": "median paired ratio", "note": "", "quote": "The same",
-      "section": "4, Figure 7", "suite": "ordinary", "value": 1.0,
-      "verdict": "confirmed"
+      "id": "ratios-ordinary-c", "name": "ratios",
+      "section": { "number": 4, "shown": { "figure": 7 } },
+      "quote": "The same", "suites": ["ordinary"], "blocks": "p = 3 and 4",
+      "arm": "C", "measure": "median paired ratio",
+      "measured": { "value": 1.0, "low": 0.98, "high": 1.02 },
+      "margin": "all within 5 % of 1", "verdict": "confirmed", "note": ""
     },
     {
-      "arm": null, "blocks": "all 15", "id": "energy-loss-none",
-      "interval": null, "margin": "15.36 % to four digits",
-      "measure": "1 - eta^2", "note": "", "quote": "15.36%",
-      "section": "3", "suite": "none", "value": 0.1536,
-      "verdict": "confirmed"
+      "id": "energy-loss-none", "name": "energy-loss",
+      "section": { "number": 3, "shown": "text" },
+      "quote": "15.36%", "suites": [], "blocks": "all 15",
+      "arm": null, "measure": "1 - eta^2",
+      "measured": { "value": 0.1536, "low": null, "high": null },
+      "margin": "15.36 % to four digits", "verdict": "confirmed", "note": ""
     }
   ],
-  "options": { "arms": ["C"], "eta": 0.92, "version": "0.1.0" },
-  "overturning": [
+  "tables": [
     {
-      "alpha_rad": 0.2, "arm": "C", "im_kind": "pga",
-      "interval": [2.27, 2.3353], "median": 2.31, "p_rad_s": 3.0,
-      "suite": "ordinary", "usable": 86
-    },
-    {
-      "alpha_rad": 0.2, "arm": "C", "im_kind": "pga",
-      "interval": [3.1, 3.5], "median": 3.3, "p_rad_s": 1.0,
-      "suite": "ordinary", "usable": 86
+      "topic": "overturning",
+      "quantities": [
+        { "name": "median", "words": "median overturning", "unit": "1" }
+      ],
+      "rows": [
+        {
+          "at": {
+            "suite": "ordinary", "arm": "C", "intensity": "pga",
+            "p_rad_s": 3.0, "alpha_rad": 0.2
+          },
+          "values": [{ "value": 2.31, "low": 2.27, "high": 2.3353 }]
+        },
+        {
+          "at": {
+            "suite": "ordinary", "arm": "C", "intensity": "pga",
+            "p_rad_s": 1.0, "alpha_rad": 0.2
+          },
+          "values": [{ "value": 3.3, "low": 3.1, "high": 3.5 }]
+        }
+      ]
     }
-  ]
+  ],
+  "questions": []
 }
 "#;
 
@@ -222,6 +242,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("list.json", "[1]", "found a list, expected findings"),
         ("other.json", "{\"a\": 1}", "found the keys `a`"),
         ("twice.json", "{\"claims\": [], \"claims\": []}", "stands twice"),
+        ("first.json", "{\"claims\": []}", "schema 1, expected schema 2"),
     ];
     for (name, text, _) in files {
         fs::write(place.join(name), text).unwrap();
@@ -232,11 +253,12 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         refused_for(&place, &format!("diff new {name}"), &[name, words]);
     }
     let flawed = [
-        ("\"confirmed\"", "\"perhaps\"", "confirmed, not confirmed"),
-        ("[0.98, 1.02]", "[1.02, 0.98]", "two rising numbers"),
-        ("[0.98, 1.02]", "[0.98]", "two rising numbers"),
+        ("\"confirmed\"", "\"perhaps\"", "unknown variant `perhaps`"),
+        ("0.98,", "1.03,", "expected rising numbers"),
+        ("0.98,", "null,", "expected rising numbers"),
         ("\"value\": 1.0", "\"value\": \"one\"", "found \"one\""),
-        ("\"value\": 1.0,", "", "claim 1, value: found nothing"),
+        ("\"value\": 1.0,", "", "missing field `value` at line 14"),
+        ("\"p_rad_s\": 1.0", "\"p_rad_s\": 3.0", "twice"),
         ("energy-loss-none", "ratios-ordinary-c", "twice"),
     ];
     for (from, to, words) in flawed {

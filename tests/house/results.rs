@@ -1,5 +1,7 @@
 //! The results in the README are those of the committed report.
 
+use rocking_validation::findings::{Findings, Topic};
+use rocking_validation::paper::{Intensity, SuiteKind, Verdict};
 use serde_json::Value;
 
 use super::read;
@@ -7,45 +9,31 @@ use super::read;
 const BEGIN: &str = "<!-- results -->\n";
 const END: &str = "<!-- end of results -->";
 
-fn report(name: &str) -> Value {
-    serde_json::from_str(&read(&format!("reports/data/{name}"))).unwrap()
-}
-
-fn list<'a>(value: &'a Value, name: &str) -> &'a [Value] {
-    value[name].as_array().unwrap()
-}
-
 /// Number of claims with each verdict.
-fn claims(findings: &Value) -> String {
-    let claims = list(findings, "claims");
-    let count = |verdict: &str| {
-        claims.iter().filter(|c| c["verdict"] == verdict).count()
-    };
+fn claims(findings: &Findings) -> String {
+    let claims = &findings.claims;
+    let count = |v: Verdict| claims.iter().filter(|c| c.verdict == v).count();
     format!(
         "{} of {} confirmed, {} not confirmed, {} inconclusive",
-        count("confirmed"),
+        count(Verdict::Confirmed),
         claims.len(),
-        count("not confirmed"),
-        count("inconclusive")
+        count(Verdict::NotConfirmed),
+        count(Verdict::Inconclusive)
     )
 }
 
 /// Median overturning intensities of one block, with their intervals.
-fn overturning(findings: &Value, suite: &str) -> String {
-    let row = list(findings, "overturning").iter().find(|row| {
-        row["suite"] == suite
-            && row["im_kind"] == "pga"
-            && row["p_rad_s"] == 3.0
-            && row["alpha_rad"] == 0.2
+fn overturning(findings: &Findings, suite: SuiteKind) -> String {
+    let table = findings.table(Topic::Overturning).unwrap();
+    let row = table.rows.iter().find(|row| {
+        row.at.suite == Some(suite)
+            && row.at.intensity == Some(Intensity::Pga)
+            && row.at.p_rad_s == Some(3.0)
+            && row.at.alpha_rad == Some(0.2)
     });
-    let row = row.unwrap();
-    let number = |value: &Value| value.as_f64().unwrap();
-    format!(
-        "{:.2} ({:.2} to {:.2})",
-        number(&row["median"]),
-        number(&row["interval"][0]),
-        number(&row["interval"][1])
-    )
+    let median = row.unwrap().values[0];
+    let (low, high) = median.interval.unwrap();
+    format!("{:.2} ({low:.2} to {high:.2})", median.value)
 }
 
 /// Share of its tolerance that half of all compared numbers stay below.
@@ -63,22 +51,20 @@ fn middle_margin(cases: &Value) -> f64 {
 }
 
 fn table() -> String {
-    let (findings, cases) =
-        (report("findings.json"), report("validation.json"));
+    let report = |name: &str| read(&format!("reports/data/{name}"));
+    let findings = Findings::parse(&report("findings.json")).unwrap();
+    let cases: Value =
+        serde_json::from_str(&report("validation.json")).unwrap();
     let all = cases.as_object().unwrap();
     let passed = all.values().filter(|case| case["verdict"] == "pass").count();
     let rejected: usize = all
         .values()
         .map(|case| case["rejected"].as_object().unwrap().len())
         .sum();
-    let analyses: u64 = list(&findings, "suites")
-        .iter()
-        .map(|suite| suite["analyses"].as_u64().unwrap())
-        .sum();
-    let open: u64 = list(&findings, "suites")
-        .iter()
-        .map(|suite| suite["not_told_by_double_precision"].as_u64().unwrap())
-        .sum();
+    let suites = &findings.suites;
+    let analyses: u64 = suites.iter().map(|suite| suite.analyses).sum();
+    let open: usize =
+        suites.iter().map(|suite| suite.not_told_by_double_precision).sum();
     let rows = [
         (
             "declared cases that pass",
@@ -98,9 +84,9 @@ fn table() -> String {
         (
             "median overturning PGA/(g tan alpha), p = 3 rad/s, alpha = \
              0.20, ordinary (95 % interval)",
-            overturning(&findings, "ordinary"),
+            overturning(&findings, SuiteKind::Ordinary),
         ),
-        ("the same, pulse-type", overturning(&findings, "pulse-type")),
+        ("the same, pulse-type", overturning(&findings, SuiteKind::PulseType)),
     ];
     let lines: Vec<String> = rows
         .iter()

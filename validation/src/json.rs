@@ -1,7 +1,7 @@
 //! JSON numbers: those of the command line, which every reader holds as
 //! numbers, and those of the data files, which tell infinity.
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::words;
 
@@ -48,8 +48,41 @@ pub fn rounded(x: f64) -> Value {
     extended(words::rounded(x, 9))
 }
 
-/// The two ends of an interval, or null.
-#[must_use]
-pub fn ends(interval: Option<(f64, f64)>) -> Value {
-    interval.map_or(Value::Null, |(a, b)| json!([rounded(a), rounded(b)]))
+/// Numbers of nine significant digits in serialized types: as [`rounded`]
+/// writes them, and read back.
+pub mod nine {
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use serde_json::Value;
+
+    /// Writes a number.
+    ///
+    /// # Errors
+    /// The serializer's.
+    pub fn serialize<S: Serializer>(
+        x: &f64,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        super::rounded(*x).serialize(to)
+    }
+
+    /// Reads a number.
+    ///
+    /// # Errors
+    /// For what is no number, `"inf"`, `"-inf"` or `null`.
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<f64, D::Error> {
+        let found = Value::deserialize(from)?;
+        let number = match &found {
+            Value::Null => Some(f64::NAN),
+            Value::String(text) if text == "inf" => Some(f64::INFINITY),
+            Value::String(text) if text == "-inf" => Some(f64::NEG_INFINITY),
+            other => other.as_f64(),
+        };
+        number.ok_or_else(|| {
+            let expected = "a number, \"inf\", \"-inf\" or null";
+            D::Error::custom(format!("found {found}, expected {expected}"))
+        })
+    }
 }

@@ -11,6 +11,7 @@ pub mod curves;
 pub mod diff;
 pub mod draw;
 pub mod files;
+pub mod findings;
 pub mod json;
 pub mod paper;
 pub mod proof;

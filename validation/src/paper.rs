@@ -1,8 +1,11 @@
 //! What the paper fixes: blocks, gravity, restitution, stripes, demand
-//! levels, arms of the grid, intensity measures, and the verdicts on its
-//! claims.
+//! levels, arms of the grid, intensity measures, its sections, and the
+//! verdicts on its claims.
+
+use std::fmt;
 
 use rocking::block::Block;
+use serde::{Deserialize, Serialize};
 
 /// Frequency parameters of the paper's blocks, in rad/s.
 pub const FREQUENCIES_RAD_S: [f64; 3] = [1.0, 3.0, 4.0];
@@ -69,8 +72,49 @@ pub fn demand_index(demand: f64) -> usize {
     ((demand * 200.0).round() as usize).saturating_sub(1)
 }
 
+/// One of the paper's two suites of records.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SuiteKind {
+    /// Far-field records without pulses.
+    Ordinary,
+    /// Near-fault records with a pulse in the velocity.
+    PulseType,
+}
+
+impl SuiteKind {
+    /// Both of them.
+    pub const BOTH: [Self; 2] = [Self::Ordinary, Self::PulseType];
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Ordinary => "ordinary",
+            Self::PulseType => "pulse-type",
+        }
+    }
+}
+
+impl fmt::Display for SuiteKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 /// Arm of the intensity grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Serialize,
+    Deserialize,
+)]
 pub enum Arm {
     /// The paper's 0.01 g steps, not refined.
     A,
@@ -103,7 +147,19 @@ impl Arm {
 }
 
 /// Dimensionless intensity measure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Serialize,
+    Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
 pub enum Intensity {
     /// PGA/(g tan alpha).
     Pga,
@@ -120,16 +176,88 @@ impl Intensity {
             Self::Pgv => "pgv",
         }
     }
+
+    /// The measure as the paper writes it.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Pga => "PGA/(g tan alpha)",
+            Self::Pgv => "p PGV/(g tan alpha)",
+        }
+    }
+}
+
+/// Where the paper says a thing: a section, and the table or the figures
+/// that show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// The section.
+    pub number: u8,
+    /// What shows it.
+    pub shown: Shown,
+}
+
+/// What of the paper shows a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shown {
+    /// The text alone.
+    Text,
+    /// A table.
+    Table(u8),
+    /// A figure.
+    Figure(u8),
+    /// A panel of a figure.
+    Panel(u8, char),
+    /// Two figures.
+    Figures(u8, u8),
+}
+
+impl Section {
+    /// Section `number`, shown there.
+    #[must_use]
+    pub const fn new(number: u8, shown: Shown) -> Self {
+        Self { number, shown }
+    }
+
+    /// Numbers of the figures that show it.
+    #[must_use]
+    pub fn figures(&self) -> Vec<u8> {
+        match self.shown {
+            Shown::Text | Shown::Table(_) => Vec::new(),
+            Shown::Figure(one) | Shown::Panel(one, _) => vec![one],
+            Shown::Figures(one, other) => vec![one, other],
+        }
+    }
+}
+
+impl fmt::Display for Section {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = self.number;
+        match self.shown {
+            Shown::Text => write!(f, "{number}"),
+            Shown::Table(n) => write!(f, "{number}, Table {n}"),
+            Shown::Figure(n) => write!(f, "{number}, Figure {n}"),
+            Shown::Panel(n, panel) => write!(f, "{number}, Figure {n}{panel}"),
+            Shown::Figures(a, b) => write!(f, "{number}, Figures {a} and {b}"),
+        }
+    }
 }
 
 /// What a measure says about a claim.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
 pub enum Verdict {
     /// The whole interval lies where the claim says.
+    #[serde(rename = "confirmed")]
     Confirmed,
     /// The whole interval lies where the claim does not.
+    #[serde(rename = "not confirmed")]
     NotConfirmed,
     /// The interval lies on both sides, or there are no data.
+    #[serde(rename = "inconclusive")]
     Inconclusive,
 }
 

@@ -5,6 +5,7 @@ pub mod inputs;
 pub mod remarks;
 pub mod synthesis;
 
+use crate::paper::SuiteKind;
 use std::fmt;
 use std::path::Path;
 
@@ -88,7 +89,7 @@ pub struct Motion {
 #[derive(Clone, Debug)]
 pub struct StudySuite {
     /// `ordinary` or `pulse-type`.
-    pub kind: &'static str,
+    pub kind: SuiteKind,
     /// Where the records come from.
     pub source: Source,
     /// Who chose the study component, in words.
@@ -119,8 +120,16 @@ impl StudySuite {
                 .collect(),
         };
         Ok([
-            of("ordinary", synthesis::ORDINARY_SEED, synthesis::ordinary()?),
-            of("pulse-type", synthesis::PULSE_SEED, synthesis::pulse()?),
+            of(
+                SuiteKind::Ordinary,
+                synthesis::ORDINARY_SEED,
+                synthesis::ordinary()?,
+            ),
+            of(
+                SuiteKind::PulseType,
+                synthesis::PULSE_SEED,
+                synthesis::pulse()?,
+            ),
         ])
     }
 
@@ -129,7 +138,7 @@ impl StudySuite {
     /// # Errors
     /// [`StudySuiteError`] naming the file that was refused, and why.
     pub fn read(
-        kind: &'static str,
+        kind: SuiteKind,
         path: &Path,
         options: ReadOptions,
         processing: &Processing,

@@ -13,7 +13,7 @@ use super::scene::Criterion;
 use super::way::WayArgs;
 use super::{Failure, logged, print, with_threads};
 use crate::files::{Folder, is_interrupted};
-use crate::paper::{Arm, RESTITUTION};
+use crate::paper::{Arm, RESTITUTION, SuiteKind};
 use crate::report::evidence::{NOT_RUN, Proof};
 use crate::report::{output, stale};
 use crate::study::Study;
@@ -118,9 +118,10 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         Ok(suite)
     };
     let suites = match (&args.ordinary, &args.pulse) {
-        (Some(ordinary), Some(pulse)) => {
-            [read("ordinary", ordinary)?, read("pulse-type", pulse)?]
-        }
+        (Some(ordinary), Some(pulse)) => [
+            read(SuiteKind::Ordinary, ordinary)?,
+            read(SuiteKind::PulseType, pulse)?,
+        ],
         _ => match args.reading.given().or(args.processing.given()) {
             None => StudySuite::embedded()?,
             Some(flag) => {
@@ -162,7 +163,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
     if args.json {
-        print(&study.findings_text())
+        print(&study.findings.text())
     } else {
         for suite in &suites {
             if let Some(words) = suite.remarks.words() {
@@ -171,7 +172,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         }
         print(&format!(
             "{}\n{}\nReport: {}\n",
-            output::claims_table(&study.claims),
+            output::claims_table(&study.findings.claims),
             proof.map_or(NOT_RUN.into(), |proof| proof.to_string()),
             args.out.join("index.html").display()
         ))

@@ -1,33 +1,21 @@
-//! Findings of a study as items: claims by name, everything else row by row.
+//! Findings of a study as items: claims by name, tables row by row.
 
 use std::collections::BTreeSet;
 
-use serde_json::{Map, Value};
-
-use super::flaw::{Flaw, amount, kind};
-use super::words::{identities, identity, intensity, quantity, section};
+use super::flaw::Flaw;
 use super::{Content, Item, Limit};
-use crate::paper::Verdict;
+use crate::findings::{
+    Claim, Findings, Measured, Place, Question, Suite, Table, Topic,
+};
 
-/// Numbers that a field `interval` beside them belongs to; `x_interval`
-/// belongs to `x`.
-const MEASURED: [&str; 3] = ["value", "median_ratio", "median"];
-
-/// Texts of the section of suites that make it another suite.
-const SUITE: [&str; 4] = ["sha256", "source", "component_rule", "remarks"];
-
-type Object = Map<String, Value>;
-
-/// The items of `findings.json`.
-pub fn items(map: &Object) -> Result<Vec<Item>, Flaw> {
+/// The items of a study's findings.
+pub fn items(findings: &Findings) -> Result<Vec<Item>, Flaw> {
     let mut out = Vec::new();
-    for (name, value) in map {
-        if name == "claims" {
-            claims(&mut out, value)?;
-        } else {
-            Row::top(name).value(&mut out, "", value)?;
-        }
-    }
+    findings.claims.iter().for_each(|c| claim(&mut out, c));
+    settings(&mut out, findings);
+    findings.suites.iter().for_each(|s| suite(&mut out, s));
+    findings.tables.iter().for_each(|t| table(&mut out, t));
+    findings.questions.iter().for_each(|q| question(&mut out, q));
     let mut seen = BTreeSet::new();
     for item in &out {
         if !seen.insert((&item.owner, &item.name)) {
@@ -41,287 +29,172 @@ pub fn items(map: &Object) -> Result<Vec<Item>, Flaw> {
     Ok(out)
 }
 
-fn claims(out: &mut Vec<Item>, value: &Value) -> Result<(), Flaw> {
-    let Value::Array(claims) = value else {
-        return Err(Flaw::new("claims", kind(value), "a list"));
-    };
-    for (k, claim) in claims.iter().enumerate() {
-        let place = format!("claim {}", k + 1);
-        let Value::Object(claim) = claim else {
-            return Err(Flaw::new(place, kind(claim), "an object"));
-        };
-        one_claim(out, &place, claim)?;
-    }
-    Ok(())
-}
-
-fn one_claim(
-    out: &mut Vec<Item>,
-    place: &str,
-    claim: &Object,
-) -> Result<(), Flaw> {
-    let text = |field: &str| {
-        let found = claim.get(field);
-        found.and_then(Value::as_str).ok_or_else(|| {
-            let found = found.map_or("nothing", kind);
-            Flaw::new(format!("{place}, {field}"), found, "a text")
-        })
-    };
-    let (id, suite) = (text("id")?, text("suite")?);
-    let group = match suite {
-        "none" => "claims without records".into(),
-        "both" => "both suites: claims".into(),
-        suite => format!("{suite} suite: claims"),
-    };
-    let quoted = format!("{id}, \"{}\"", text("quote")?);
-    let owner = format!("claim {id}");
-    let words = |field: &str| format!("{owner}: {field}");
-    let mut item = |name: &str, words: String, content| {
-        let (owner, group) = (owner.clone(), group.clone());
-        out.push(Item { owner, name: name.into(), group, words, content });
-    };
-    let verdict = text("verdict")?;
-    if !Verdict::ALL.iter().any(|v| v.name() == verdict) {
-        return Err(Flaw::new(
-            format!("{place}, verdict"),
-            format!("\"{verdict}\""),
-            Verdict::ALL.map(Verdict::name).join(", "),
-        ));
-    }
-    item("verdict", quoted, Content::Verdict(verdict.into()));
-    let margin = Content::Setting(text("margin")?.into());
-    item("margin", words("margin"), margin);
-    let field = |field: &str| {
-        claim.get(field).ok_or_else(|| {
-            Flaw::new(format!("{place}, {field}"), "nothing", "a value")
-        })
-    };
-    let value = amount(&format!("{place}, value"), field("value")?)?;
-    let interval = ends(&format!("{place}, interval"), field("interval")?)?;
-    item("interval", words("95 % interval"), between(interval));
-    let arm = claim.get("arm").and_then(Value::as_str);
-    let arm = arm.map_or(String::new(), |arm| format!(", arm {arm}"));
-    item(
-        "value",
-        format!("{id}: {}, {}{arm}", text("measure")?, text("blocks")?),
-        Content::Number { value, limit: limit(interval) },
-    );
-    let known = ["id", "verdict", "margin", "value", "interval"];
-    for (name, value) in claim {
-        if !known.contains(&name.as_str()) {
-            let text = in_words(value);
-            item(name, words(name), Content::Text(text));
-        }
-    }
-    Ok(())
-}
-
-/// A row of a section, or the section itself.
-struct Row {
-    section: String,
-    /// Fields that name the row.
-    named_by: &'static [&'static str],
+/// Items of one owner.
+struct Owner<'a> {
+    out: &'a mut Vec<Item>,
     owner: String,
     group: String,
-    /// The intensity measure that the row is about.
-    measure: String,
-    /// `p = 3, alpha = 0.20`.
-    place: String,
 }
 
-impl Row {
-    fn top(name: &str) -> Self {
-        Self {
-            section: name.into(),
-            named_by: &[],
-            owner: section(name),
-            group: section(name),
-            measure: String::new(),
-            place: String::new(),
-        }
-    }
-
-    fn row(&self, k: usize, row: &Object) -> Self {
-        let named_by = identities(&self.section);
-        let text = |field: &str| row.get(field).and_then(Value::as_str);
-        let mut places: Vec<String> = named_by
-            .iter()
-            .filter_map(|field| {
-                let value = in_words(row.get(*field)?);
-                identity(field, value.trim_end_matches(".0"))
-            })
-            .collect();
-        let suite = text("suite").or(text("kind"));
-        if places.is_empty() && suite.is_none() {
-            places.push(format!("row {}", k + 1));
-        }
-        let mut group = section(&self.section);
-        if let Some(suite) = suite {
-            group = format!("{suite} suite: {group}");
-        }
-        let measure = text("im_kind").map_or("", intensity).to_owned();
-        let place = places.join(", ");
-        let parts = [group.clone(), measure.clone(), place.clone()];
-        let parts: Vec<String> =
-            parts.into_iter().filter(|part| !part.is_empty()).collect();
-        Self {
-            section: self.section.clone(),
-            named_by,
-            owner: parts.join(", "),
-            group,
-            measure,
-            place,
-        }
-    }
-
-    /// `median overturning PGA/(g tan alpha) at p = 3, alpha = 0.20`.
-    fn words(&self, name: &str) -> String {
-        let mut words = quantity(&self.section, name);
-        if !self.measure.is_empty() {
-            let overturning = self.section == "overturning";
-            words += if overturning { " " } else { ", by " };
-            words += &self.measure;
-        }
-        if !self.place.is_empty() {
-            words += &format!(" at {}", self.place);
-        }
-        words
-    }
-
-    fn item(&self, name: &str, content: Content) -> Item {
-        Item {
-            owner: self.owner.clone(),
+impl Owner<'_> {
+    fn item(&mut self, name: &str, words: String, content: Content) {
+        let (owner, group) = (self.owner.clone(), self.group.clone());
+        self.out.push(Item {
+            owner,
             name: name.into(),
-            group: self.group.clone(),
-            words: self.words(name),
+            group,
+            words,
             content,
-        }
+        });
     }
 
-    /// Everything below a value; `name` is the path to it within the row.
-    fn value(
-        &self,
-        out: &mut Vec<Item>,
-        name: &str,
-        value: &Value,
-    ) -> Result<(), Flaw> {
-        match value {
-            Value::Object(map) => self.object(out, name, map),
-            Value::Array(rows)
-                if !rows.is_empty() && rows.iter().all(Value::is_object) =>
-            {
-                let rows = rows.iter().filter_map(Value::as_object);
-                for (k, row) in rows.enumerate() {
-                    self.row(k, row).object(out, "", row)?;
-                }
-                Ok(())
-            }
-            leaf => {
-                let content = self.leaf(name, leaf)?;
-                out.push(self.item(name, content));
-                Ok(())
-            }
-        }
+    fn text(&mut self, name: &str, text: &str) {
+        let words = format!("{}: {name}", self.owner);
+        self.item(name, words, Content::Text(text.into()));
     }
 
-    fn object(
-        &self,
-        out: &mut Vec<Item>,
-        name: &str,
-        map: &Object,
-    ) -> Result<(), Flaw> {
-        for (field, value) in map {
-            if name.is_empty() && self.named_by.contains(&field.as_str()) {
-                continue;
-            }
-            let path = if name.is_empty() {
-                field.clone()
-            } else {
-                format!("{name} {field}")
-            };
-            let place = || format!("{}, {path}", self.owner);
-            if field == "interval" {
-                let content = between(ends(&place(), value)?);
-                out.push(self.item(&path, content));
-            } else if let Some(of) = field.strip_suffix("_interval")
-                && map.contains_key(of)
-            {
-                let content = between(ends(&place(), value)?);
-                out.push(self.item(&path, content));
-            } else if let Some(interval) =
-                map.get(&format!("{field}_interval")).or_else(|| {
-                    let own = MEASURED.contains(&field.as_str());
-                    map.get("interval").filter(|_| own)
-                })
-            {
-                let value = amount(&place(), value)?;
-                let limit = limit(ends(&place(), interval)?);
-                out.push(self.item(&path, Content::Number { value, limit }));
-            } else {
-                self.value(out, &path, value)?;
-            }
-        }
-        Ok(())
+    fn setting(&mut self, name: &str, text: String) {
+        self.item(name, name.into(), Content::Setting(text));
     }
 
-    fn leaf(&self, name: &str, value: &Value) -> Result<Content, Flaw> {
-        let setting = (self.section == "options" && name != "version")
-            || (self.section == "suites" && SUITE.contains(&name));
-        if setting {
-            return Ok(Content::Setting(in_words(value)));
+    /// A value, and its interval if it has one.
+    fn measured(&mut self, name: &str, words: String, measured: Measured) {
+        let Measured { value, interval } = measured;
+        let limit = match interval {
+            Some((low, high)) => Limit::Interval(low, high),
+            None => Limit::None,
+        };
+        if let Some((low, high)) = interval {
+            let ends = Content::Text(format!("{low} .. {high}"));
+            let words = format!("{words}, 95 % interval");
+            self.item(&format!("{name} interval"), words, ends);
         }
-        Ok(match value {
-            Value::String(text) if text != "inf" && text != "-inf" => {
-                Content::Text(text.clone())
-            }
-            Value::Array(_) | Value::Bool(_) => Content::Text(in_words(value)),
-            other => {
-                let place = format!("{}, {name}", self.owner);
-                let value = amount(&place, other)?;
-                Content::Number { value, limit: Limit::None }
-            }
-        })
+        self.item(name, words, Content::Number { value, limit });
     }
 }
 
-/// A value as text; lists by commas.
-fn in_words(value: &Value) -> String {
-    match value {
-        Value::String(text) => text.clone(),
-        Value::Array(values) => {
-            values.iter().map(in_words).collect::<Vec<_>>().join(", ")
-        }
-        Value::Null => "none".into(),
-        other => other.to_string(),
-    }
-}
-
-/// Two ends, or none.
-fn ends(place: &str, value: &Value) -> Result<Option<(f64, f64)>, Flaw> {
-    let wrong = |found: String| {
-        Flaw::new(place, found, "null or a list of two rising numbers")
+fn claim(out: &mut Vec<Item>, claim: &Claim) {
+    let group = match claim.suites[..] {
+        [] => "claims without records".into(),
+        [suite] => format!("{suite} suite: claims"),
+        _ => "both suites: claims".into(),
     };
-    match value {
-        Value::Null => Ok(None),
-        Value::Array(list) if list.len() == 2 => {
-            let (low, high) =
-                (amount(place, &list[0])?, amount(place, &list[1])?);
-            if low <= high {
-                Ok(Some((low, high)))
-            } else {
-                Err(wrong(value.to_string()))
-            }
-        }
-        other => Err(wrong(other.to_string())),
+    let id = &claim.id;
+    let owner = format!("claim {id}");
+    let mut own = Owner { out, owner, group };
+    own.item(
+        "verdict",
+        format!("{id}, \"{}\"", claim.quote),
+        Content::Verdict(claim.verdict.name().into()),
+    );
+    own.item(
+        "margin",
+        format!("claim {id}: margin"),
+        Content::Setting(claim.margin.clone()),
+    );
+    let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
+    let arm = arm.unwrap_or_default();
+    let words = format!("{id}: {}, {}{arm}", claim.measure, claim.blocks);
+    own.measured("value", words, claim.measured);
+    for (name, text) in [
+        ("measure", &claim.measure),
+        ("blocks", &claim.blocks),
+        ("quote", &claim.quote),
+        ("note", &claim.note),
+    ] {
+        own.text(name, text);
+    }
+    own.text("section", &claim.section.to_string());
+}
+
+fn settings(out: &mut Vec<Item>, findings: &Findings) {
+    let owner = String::from("settings");
+    let group = owner.clone();
+    let mut own = Owner { out, owner, group };
+    own.text("version", &findings.version);
+    let settings = &findings.settings;
+    let arms: Vec<&str> = settings.arms.iter().map(|a| a.letter()).collect();
+    own.setting("arms", arms.join(", "));
+    own.setting("eta", settings.eta.to_string());
+    own.setting("overturning", settings.overturning.clone());
+    own.setting("refinement im", settings.refinement_im.to_string());
+}
+
+fn suite(out: &mut Vec<Item>, suite: &Suite) {
+    let owner = format!("{} suite: suite and work", suite.kind);
+    let group = owner.clone();
+    let mut own = Owner { out, owner, group };
+    own.setting("source", suite.source.clone());
+    own.setting("component rule", suite.component_rule.clone());
+    own.setting("sha256", suite.sha256.clone());
+    let none = String::from("none");
+    own.setting("remarks", suite.remarks.clone().unwrap_or(none));
+    own.text("shown alone", &suite.shown_alone.join(", "));
+    let again = &suite.first_overturnings_told_again;
+    let told = "first overturnings told again";
+    for (name, value) in [
+        ("records".to_owned(), suite.records as f64),
+        ("analyses".to_owned(), suite.analyses as f64),
+        (
+            "not told by double precision".to_owned(),
+            suite.not_told_by_double_precision as f64,
+        ),
+        (format!("{told} all"), again.all as f64),
+        (format!("{told} by double"), again.by_double as f64),
+        (format!("{told} by double double"), again.by_double_double as f64),
+        (format!("{told} by octuple"), again.by_octuple as f64),
+        (format!("{told} left open"), again.left_open as f64),
+        (
+            format!("{told} told wrongly in double"),
+            again.told_wrongly_in_double as f64,
+        ),
+        (
+            "largest shift of an overturning quantile if all open fates \
+             flipped"
+                .to_owned(),
+            suite.largest_shift_if_flipped,
+        ),
+    ] {
+        own.measured(&name, name.clone(), Measured::exact(value));
     }
 }
 
-fn limit(interval: Option<(f64, f64)>) -> Limit {
-    interval.map_or(Limit::None, |(low, high)| Limit::Interval(low, high))
+fn table(out: &mut Vec<Item>, table: &Table) {
+    for row in &table.rows {
+        let Place { suite, intensity, .. } = row.at;
+        let topic = table.topic.words();
+        let group = suite.map_or(topic.to_owned(), |suite| {
+            format!("{suite} suite: {topic}")
+        });
+        let intensity = intensity.map_or("", |intensity| intensity.words());
+        let place = row.at.to_string();
+        let parts = [group.as_str(), intensity, place.as_str()];
+        let parts: Vec<&str> =
+            parts.into_iter().filter(|part| !part.is_empty()).collect();
+        let owner = parts.join(", ");
+        let mut own = Owner { out, owner, group };
+        for (quantity, value) in table.quantities.iter().zip(&row.values) {
+            let mut words = quantity.words.clone();
+            if !intensity.is_empty() {
+                let of = match table.topic {
+                    Topic::Overturning => " ",
+                    _ => ", by ",
+                };
+                words += &format!("{of}{intensity}");
+            }
+            if !place.is_empty() {
+                words += &format!(" at {place}");
+            }
+            own.measured(&quantity.name, words, *value);
+        }
+    }
 }
 
-fn between(interval: Option<(f64, f64)>) -> Content {
-    Content::Text(
-        interval.map_or("none".into(), |(a, b)| format!("{a} .. {b}")),
-    )
+fn question(out: &mut Vec<Item>, question: &Question) {
+    let owner = format!("questions beyond the paper, {}", question.id);
+    let group = "questions beyond the paper".into();
+    let mut own = Owner { out, owner, group };
+    own.text("question", &question.question);
+    own.text("answer", &question.answer);
+    own.text("data", &question.data);
 }

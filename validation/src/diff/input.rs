@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use thiserror::Error;
 
 use crate::files::is_interrupted;
+use crate::findings::Findings;
 
 use super::flaw::{Flaw, kind};
 use super::strict::Strict;
@@ -57,6 +58,14 @@ pub enum DiffError {
         /// The file.
         path: PathBuf,
         /// What is wrong, with line and column.
+        message: String,
+    },
+    /// A file of findings is not what it should be, or of another schema.
+    #[error("{}: {message}", path.display())]
+    Findings {
+        /// The file.
+        path: PathBuf,
+        /// What was found, with line and column where there are such.
         message: String,
     },
     /// A file of JSON is not what it should be.
@@ -169,7 +178,10 @@ impl Results {
             return Err(shape(Flaw::new("top", kind(&value), expected)));
         };
         if map.contains_key("claims") {
-            self.findings = Some(findings::items(map).map_err(shape)?);
+            let findings = Findings::parse(text).map_err(|message| {
+                DiffError::Findings { path: path.to_owned(), message }
+            })?;
+            self.findings = Some(findings::items(&findings).map_err(shape)?);
         } else if looks_like_cases(map) {
             self.cases = Some(cases::items(map).map_err(shape)?);
         } else {

@@ -2,7 +2,7 @@
 //! the paper prints a number, and a credibility assessment with its gaps.
 
 use super::evidence::{NOT_RUN, Proof};
-use crate::study::claims::Claim;
+use crate::findings::Claim;
 use crate::study::figures::Results;
 use crate::table::PlainTable;
 use crate::words::rounded_text;
@@ -96,7 +96,7 @@ pub fn tables(
 fn comparison(claims: &[Claim], shift: f64) -> PlainTable {
     let mut rows = Vec::new();
     for printed in &PRINTED {
-        for claim in claims.iter().filter(|c| c.id == printed.claim) {
+        for claim in claims.iter().filter(|c| c.name == printed.claim) {
             rows.push(row(claim, printed, shift));
         }
     }
@@ -161,7 +161,12 @@ fn row(claim: &Claim, printed: &Printed, shift: f64) -> Vec<String> {
         .arm
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
     vec![
-        format!("{} ({}, {}{arm})", claim.measure, claim.suite, claim.blocks),
+        format!(
+            "{} ({}, {}{arm})",
+            claim.measure,
+            claim.suite_name(),
+            claim.blocks
+        ),
         rounded_text(value),
         format!("{}", printed.value),
         short(error),
@@ -290,15 +295,17 @@ fn assessment(results: &Results, proof: Option<&Proof>) -> PlainTable {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::paper::Verdict;
-    use crate::study::claims::Measured;
+    use crate::findings::Measured;
+    use crate::paper::{Section, Shown};
+    use crate::paper::{SuiteKind, Verdict};
 
     fn claim(id: &str, value: f64, interval: Option<(f64, f64)>) -> Claim {
         Claim {
             id: id.into(),
-            section: "4".into(),
+            name: id.into(),
+            section: Section::new(4, Shown::Text),
             quote: "q".into(),
-            suite: "ordinary".into(),
+            suites: vec![SuiteKind::Ordinary],
             blocks: "all 15".into(),
             arm: None,
             measure: "m".into(),

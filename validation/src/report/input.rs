@@ -10,8 +10,8 @@ use super::timings::Timings;
 use super::{ReportError, credibility, ledger};
 use crate::draw::DrawError;
 use crate::draw::figures::Figure;
+use crate::findings::Claim;
 use crate::paper::{BLOCKS, GRAVITY_M_S2};
-use crate::study::claims::Claim;
 use crate::study::figures::Results;
 use crate::study::questions::Answer;
 use crate::table::PlainTable;
@@ -85,14 +85,8 @@ fn tables(
 /// The figures among `names` that a claim is about: those of its section, in
 /// its arm where there is one for each.
 fn shown_by(claim: &Claim, names: &[&str]) -> Vec<String> {
-    let Some((_, words)) = claim.section.split_once("Figure") else {
-        return Vec::new();
-    };
-    let numbers = words
-        .split(|c: char| !c.is_ascii_digit())
-        .filter_map(|digits| digits.parse::<u32>().ok());
     let mut out = Vec::new();
-    for number in numbers {
+    for number in claim.section.figures() {
         let stem = format!("figure-{number:02}");
         let own = claim
             .arm
@@ -108,8 +102,8 @@ fn shown_by(claim: &Claim, names: &[&str]) -> Vec<String> {
 
 /// What stands where no interval does.
 fn no_interval(claim: &Claim) -> String {
-    match (claim.suite.as_str(), claim.margin.as_str()) {
-        ("none", _) => "computed, not sampled",
+    match (&claim.suites[..], claim.margin.as_str()) {
+        ([], _) => "computed, not sampled",
         (_, "none") => "counted, all of them",
         _ => "none stated: the value alone decides",
     }
@@ -117,10 +111,10 @@ fn no_interval(claim: &Claim) -> String {
 }
 
 fn suite_words(claim: &Claim) -> &str {
-    match claim.suite.as_str() {
-        "none" => "no records",
-        "both" => "both suites",
-        suite => suite,
+    match claim.suites[..] {
+        [] => "no records",
+        [suite] => suite.name(),
+        _ => "both suites",
     }
 }
 
@@ -134,7 +128,7 @@ fn finding(claim: &Claim, names: &[&str]) -> Finding {
         |(a, b)| format!("{} to {}, 95 %", rounded_text(a), rounded_text(b)),
     );
     Finding {
-        id: claim.key(),
+        id: claim.id.clone(),
         claim: claim.quote.clone(),
         source: format!("paper, section {}", claim.section),
         tested_on: format!("{}, {}{arm}", suite_words(claim), claim.blocks),

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
-use crate::study::claims::Claim;
+use crate::findings::Claim;
 use crate::table::PlainTable;
 
 /// The requirements, embedded.
@@ -186,7 +186,7 @@ pub fn table(
     results: Option<&Map<String, Value>>,
     claims: &[Claim],
 ) -> Result<PlainTable, LedgerError> {
-    let measured = |name: &str| claims.iter().any(|c| c.id == name);
+    let measured = |name: &str| claims.iter().any(|c| c.name == name);
     let requirements = requirements()?;
     let mut rows = Vec::with_capacity(requirements.len());
     let (mut met, mut by_tests) = (0, 0);
@@ -236,8 +236,8 @@ fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     }
     let found: Vec<String> = claims
         .iter()
-        .filter(|claim| r.findings.contains(&claim.id))
-        .map(|claim| format!("{} {}", claim.key(), claim.verdict.name()))
+        .filter(|claim| r.findings.contains(&claim.name))
+        .map(|claim| format!("{} {}", claim.id, claim.verdict.name()))
         .collect();
     if !found.is_empty() {
         parts.push(format!("findings: {}", found.join(", ")));

@@ -8,8 +8,8 @@ use rocking::block::BlockError;
 use super::evidence::{self, Proof};
 use super::timings::Timings;
 use super::{ReportError, input, page};
+use crate::findings::Claim;
 use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
-use crate::study::claims::Claim;
 use crate::study::figures::Results;
 use crate::study::{Study, questions};
 use crate::table::{Table, number};
@@ -57,14 +57,14 @@ pub fn files(
     files.insert("table-01.csv".into(), table_1()?.into_bytes());
     let single = single_csv(&study.results);
     files.insert("single-records.csv".into(), single.into_bytes());
-    let text = study.findings_text();
+    let text = study.findings.text();
     files.insert("findings.json".into(), text.into_bytes());
     files.extend(questions::files(&study.answers));
     let input = input::input(
         &study.results,
         &study.figures,
         &charts,
-        &study.claims,
+        &study.findings.claims,
         &study.answers,
         proof,
     )?;
@@ -105,7 +105,7 @@ fn single_csv(results: &Results) -> String {
             for (record, apart) in suite.records.iter().zip(&single.apart) {
                 for (alpha, a) in others.iter().zip(apart) {
                     table.row([
-                        suite.kind.into(),
+                        suite.kind.name().into(),
                         record.name.clone(),
                         number(p),
                         number(single.im),
@@ -127,13 +127,13 @@ pub fn claims_table(claims: &[Claim]) -> String {
     let mut out = String::new();
     for claim in claims {
         let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
-        let suite = claim.suite.clone() + &arm.unwrap_or_default();
+        let suite = claim.suite_name().to_owned() + &arm.unwrap_or_default();
         // Writing to a string cannot fail.
         let _ = writeln!(
             out,
             "{:<13}  {:<34} {:<20} {:>10}  {}",
             claim.verdict.name(),
-            claim.id,
+            claim.name,
             suite,
             rounded_text(claim.measured.value),
             claim.margin

@@ -5,9 +5,9 @@
 use super::evidence::{NOT_RUN, Proof};
 use super::page::Summary;
 use super::timings::Timings;
+use crate::findings::Claim;
 use crate::paper::{Arm, Intensity, Verdict};
 use crate::study::analyses::SuiteResults;
-use crate::study::claims::Claim;
 use crate::study::figures::Results;
 use crate::words::{self, rounded_text};
 
@@ -95,7 +95,7 @@ fn first_answers(
 /// The value of a claim, on the arm if it has arms; NaN where it was not
 /// measured.
 fn value(claims: &[Claim], id: &str, arm: Option<Arm>) -> f64 {
-    let is = |c: &&Claim| c.id == id && (arm.is_none() || c.arm == arm);
+    let is = |c: &&Claim| c.name == id && (arm.is_none() || c.arm == arm);
     claims.iter().find(is).map_or(f64::NAN, |c| c.measured.value)
 }
 
@@ -241,20 +241,12 @@ impl Question {
 
     /// By the figure that a claim is about, or its section.
     fn of(claim: &Claim) -> Self {
-        let figure = claim
-            .section
-            .split_once("Figure")
-            .and_then(|(_, rest)| {
-                let digits = |c: char| c.is_ascii_digit();
-                rest.split(|c| !digits(c)).find(|part| !part.is_empty())
-            })
-            .and_then(|number| number.parse::<u32>().ok());
-        match figure {
+        match claim.section.figures().first() {
             Some(2..=5) => Self::Histories,
             Some(6..=10) => Self::Statistics,
             Some(11..=14) => Self::Distributions,
             Some(15..=18) => Self::Fragilities,
-            _ if claim.section.starts_with('4') => Self::Statistics,
+            _ if claim.section.number == 4 => Self::Statistics,
             _ => Self::Choices,
         }
     }
@@ -303,7 +295,7 @@ fn names(claims: &[&Claim]) -> String {
         let arm = claim
             .arm
             .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
-        let place = format!("{}{arm}", claim.suite);
+        let place = format!("{}{arm}", claim.suite_name());
         match seen.iter_mut().find(|(quote, _)| *quote == claim.quote) {
             Some((_, places)) => places.push(place),
             None => seen.push((&claim.quote, vec![place])),
@@ -321,7 +313,9 @@ fn names(claims: &[&Claim]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::claims::Measured;
+    use crate::findings::Measured;
+    use crate::paper::SuiteKind;
+    use crate::paper::{Section, Shown};
 
     #[test]
     fn what_was_not_measured_is_said() {
@@ -329,12 +323,13 @@ mod tests {
         assert_eq!(percent(0.0978), "9.8 %");
     }
 
-    fn claim(section: &str, verdict: Verdict) -> Claim {
+    fn claim(section: Section, verdict: Verdict) -> Claim {
         Claim {
             id: "made-up".into(),
-            section: section.into(),
+            name: "made-up".into(),
+            section,
             quote: "it drops out".into(),
-            suite: "ordinary".into(),
+            suites: vec![SuiteKind::Ordinary],
             blocks: "all 15".into(),
             arm: None,
             measure: "a measure".into(),
@@ -348,13 +343,13 @@ mod tests {
     #[test]
     fn puts_claims_to_the_questions_of_their_figures() {
         for (section, question) in [
-            ("4, Figures 2 and 3", Question::Histories),
-            ("4, Figures 6 and 7", Question::Statistics),
-            ("4", Question::Statistics),
-            ("5, Figure 11", Question::Distributions),
-            ("5, Figure 15a", Question::Fragilities),
-            ("3, Table 1", Question::Choices),
-            ("5", Question::Choices),
+            (Section::new(4, Shown::Figures(2, 3)), Question::Histories),
+            (Section::new(4, Shown::Figures(6, 7)), Question::Statistics),
+            (Section::new(4, Shown::Text), Question::Statistics),
+            (Section::new(5, Shown::Figure(11)), Question::Distributions),
+            (Section::new(5, Shown::Panel(15, 'a')), Question::Fragilities),
+            (Section::new(3, Shown::Table(1)), Question::Choices),
+            (Section::new(5, Shown::Text), Question::Choices),
         ] {
             let claim = claim(section, Verdict::Confirmed);
             assert_eq!(Question::of(&claim), question, "{section}");
@@ -364,9 +359,9 @@ mod tests {
     #[test]
     fn names_what_is_not_confirmed() {
         let claims = [
-            claim("4, Figure 6", Verdict::Confirmed),
-            claim("4, Figure 6", Verdict::NotConfirmed),
-            claim("4, Figure 7", Verdict::Inconclusive),
+            claim(Section::new(4, Shown::Figure(6)), Verdict::Confirmed),
+            claim(Section::new(4, Shown::Figure(6)), Verdict::NotConfirmed),
+            claim(Section::new(4, Shown::Figure(7)), Verdict::Inconclusive),
         ];
         let found = by_claims(&claims);
         assert_eq!(found.len(), 1);

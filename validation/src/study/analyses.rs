@@ -17,7 +17,9 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::StudyError;
 use super::certainty::Certainty;
 use super::runs::Setup;
-use crate::paper::{Arm, BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
+use crate::paper::{
+    Arm, BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SuiteKind, position,
+};
 use crate::suites::{Motion, Source, StudySuite};
 
 /// Periods of the response spectra, in s.
@@ -79,7 +81,7 @@ pub struct StripeDemands {
 #[derive(Clone, Debug)]
 pub struct SuiteResults {
     /// `ordinary` or `pulse-type`.
-    pub kind: &'static str,
+    pub kind: SuiteKind,
     /// Where the records come from.
     pub source: Source,
     /// Who chose the study component, in words.

@@ -12,15 +12,16 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::Pairs;
-use serde_json::{Value, json};
 
 use super::StudyError;
 use super::analyses::{Apart, SuiteResults};
 use super::figures::{Results, median_of};
 use super::runs::capacities;
 use super::sensitivities::Varied;
-use crate::json::{ends, rounded};
-use crate::paper::{Arm, FREQUENCIES_RAD_S, Verdict, position};
+use crate::findings::{Claim, Measured, suffix};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Section, SuiteKind, Verdict, position,
+};
 
 /// Level of all intervals.
 const LEVEL: f64 = 0.95;
@@ -30,124 +31,6 @@ const REPLICATES: usize = 2000;
 
 /// Equal within this share counts as the same.
 const SAME: f64 = 0.05;
-
-/// A measured value, with an interval where there is one.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
-    /// The value; NaN where there are no data.
-    pub value: f64,
-    /// 95 % interval.
-    pub interval: Option<(f64, f64)>,
-}
-
-impl Measured {
-    /// A value that is not a sample's: counted or computed exactly.
-    #[must_use]
-    pub fn exact(value: f64) -> Self {
-        Self { value, interval: None }
-    }
-
-    fn ends(&self) -> (f64, f64) {
-        self.interval.unwrap_or((self.value, self.value))
-    }
-
-    /// Claim: between `low` and `high`, ends included.
-    #[must_use]
-    pub fn within(&self, low: f64, high: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if a >= low && b <= high {
-            Verdict::Confirmed
-        } else if b < low || a > high {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-
-    /// Claim: above `limit`.
-    #[must_use]
-    pub fn above(&self, limit: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if a > limit {
-            Verdict::Confirmed
-        } else if b <= limit {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-
-    /// Claim: below `limit`.
-    #[must_use]
-    pub fn below(&self, limit: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if b < limit {
-            Verdict::Confirmed
-        } else if a >= limit {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-}
-
-/// One claim of the paper, measured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Claim {
-    /// Short name: `stage-3-median-p1`.
-    pub id: String,
-    /// Section or figure of the paper.
-    pub section: String,
-    /// The paper's words.
-    pub quote: String,
-    /// Suite measured.
-    pub suite: String,
-    /// Blocks measured.
-    pub blocks: String,
-    /// Arm of the grid, where there is one.
-    pub arm: Option<Arm>,
-    /// What is measured.
-    pub measure: String,
-    /// What came out.
-    pub measured: Measured,
-    /// What counts as confirmed, decided beforehand.
-    pub margin: String,
-    /// What follows.
-    pub verdict: Verdict,
-    /// What else a reader must know; may be empty.
-    pub note: String,
-}
-
-impl Claim {
-    /// Unique among all claims: id, suite and arm.
-    #[must_use]
-    pub fn key(&self) -> String {
-        let arm = self.arm.map_or(String::new(), |arm| {
-            format!("-{}", arm.letter().to_lowercase())
-        });
-        format!("{}-{}{arm}", self.id, self.suite)
-    }
-
-    /// As JSON, keys sorted.
-    #[must_use]
-    pub fn json(&self) -> Value {
-        let Measured { value, interval } = self.measured;
-        json!({
-            "id": self.key(),
-            "section": self.section,
-            "quote": self.quote,
-            "suite": self.suite,
-            "blocks": self.blocks,
-            "arm": self.arm.map(Arm::letter),
-            "measure": self.measure,
-            "value": rounded(value),
-            "interval": ends(interval),
-            "margin": self.margin,
-            "verdict": self.verdict.name(),
-            "note": self.note,
-        })
-    }
-}
 
 /// Standard normal quantile of 97.5 %.
 const NORMAL_975: f64 = 1.959_963_984_540_054;
@@ -178,8 +61,8 @@ pub fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
 
 /// What does not change from one claim to the next.
 struct Context<'a> {
-    section: &'a str,
-    suite: &'a str,
+    section: Section,
+    suites: &'a [SuiteKind],
     blocks: &'a str,
     arm: Option<Arm>,
 }
@@ -198,10 +81,11 @@ impl Context<'_> {
         note: String,
     ) -> Claim {
         Claim {
-            id: id.into(),
-            section: self.section.into(),
+            id: format!("{id}{}", suffix(self.suites, self.arm)),
+            name: id.into(),
+            section: self.section,
             quote: quote.into(),
-            suite: self.suite.into(),
+            suites: self.suites.to_vec(),
             blocks: self.blocks.into(),
             arm: self.arm,
             measure: measure.into(),
@@ -374,30 +258,6 @@ pub fn varied_ratios(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn verdicts_need_the_whole_interval() {
-        let m = |value, a, b| Measured { value, interval: Some((a, b)) };
-        use Verdict::{Confirmed, Inconclusive, NotConfirmed};
-        assert_eq!(m(1.0, 0.97, 1.03).within(0.95, 1.05), Confirmed);
-        assert_eq!(m(1.0, 0.90, 1.03).within(0.95, 1.05), Inconclusive);
-        assert_eq!(m(1.2, 1.10, 1.30).within(0.95, 1.05), NotConfirmed);
-        assert_eq!(m(0.2, 0.1, 0.3).above(0.0), Confirmed);
-        assert_eq!(m(0.2, -0.1, 0.3).above(0.0), Inconclusive);
-        assert_eq!(m(0.2, 0.1, 0.3).below(0.1), NotConfirmed);
-        assert_eq!(Measured::exact(0.1536).within(0.15, 0.16), Confirmed);
-    }
-
-    #[test]
-    fn missing_data_never_confirm() {
-        let m = Measured::exact(f64::NAN);
-        assert_eq!(m.within(0.0, 1.0), Verdict::Inconclusive);
-        assert_eq!(m.above(0.0), Verdict::Inconclusive);
-        assert_eq!(m.below(0.0), Verdict::Inconclusive);
-        assert_eq!(rounded(f64::NAN), Value::Null);
-        assert_eq!(rounded(f64::INFINITY), Value::from("inf"));
-        assert_eq!(rounded(1.0 / 3.0).to_string(), "0.333333333");
-    }
 
     #[test]
     fn wilson_agrees_with_its_closed_ends_and_r() {

@@ -10,7 +10,7 @@ use super::analyses::SuiteResults;
 use super::normality::{accepted_share, along, null_band};
 use super::runs::capacities;
 use crate::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, demands,
 };
 
 /// Capacities of one block, and the test along the demand.
@@ -44,7 +44,7 @@ impl BlockSamples {
 #[derive(Clone, Debug)]
 pub struct Distributions {
     /// `ordinary` or `pulse-type`.
-    pub kind: &'static str,
+    pub kind: SuiteKind,
     /// Arm of the grid.
     pub arm: Arm,
     /// Intensity measure.

@@ -19,7 +19,7 @@ use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
 use super::sensitivities::Varied;
 use crate::draw::figures::Figure;
-use crate::paper::Arm;
+use crate::paper::{Arm, SuiteKind};
 
 /// Everything that the figures are made of.
 #[derive(Clone, Debug)]
@@ -90,7 +90,7 @@ impl Results {
 
     /// The suite of that kind.
     #[must_use]
-    pub fn suite(&self, kind: &str) -> &SuiteResults {
+    pub fn suite(&self, kind: SuiteKind) -> &SuiteResults {
         if kind == self.pulse.kind { &self.pulse } else { &self.ordinary }
     }
 }

@@ -1,29 +1,18 @@
-//! Everything that a study found, as `findings.json` holds it.
+//! Everything that a study found, as [`Findings`].
 
 use rocking::integrator::Overturning;
-use serde_json::{Map, Value, json};
 
 use super::analyses::{Plan, SuiteResults};
-use super::claims::{self, Claim, wilson};
+use super::claims::{self, wilson};
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
 use super::questions::{self, Answer};
-use super::sensitivities::Varied;
 use super::{StudyError, normality};
 use crate::draw::figures::Stripe;
-use crate::json::{ends, rounded};
-use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, demands};
-
-/// Everything that goes to `findings.json`, by name; keys are sorted.
-pub type Findings = Map<String, Value>;
-
-/// Text of `findings.json`: one value a line, keys sorted, a line break at
-/// the end.
-#[must_use]
-pub fn text(findings: &Findings) -> String {
-    let value = Value::Object(findings.clone());
-    // Printing a value that is already JSON cannot fail.
-    serde_json::to_string_pretty(&value).unwrap_or_default() + "\n"
-}
+use crate::findings::{
+    Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Settings, Suite,
+    Table, ToldAgain, Topic, Unit,
+};
+use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 
 /// All findings of a study.
 ///
@@ -31,174 +20,264 @@ pub fn text(findings: &Findings) -> String {
 /// [`StudyError`] where a number cannot be computed.
 pub fn all(
     results: &Results,
-    claims: &[Claim],
+    claims: Vec<Claim>,
     answers: &[Answer],
 ) -> Result<Findings, StudyError> {
-    let mut out = Findings::new();
-    let claims = claims.iter().map(Claim::json).collect();
-    out.insert("claims".into(), Value::Array(claims));
-    out.insert("options".into(), options(&results.plan));
-    out.insert("questions".into(), questions::json(answers));
-    let suites = [&results.ordinary, &results.pulse].map(suite);
-    out.insert("suites".into(), Value::Array(suites.into()));
-    out.insert("figure_09".into(), adjustment(results)?);
-    out.insert("uplift_unscaled".into(), uplift(results));
-    out.insert("accepted_shares".into(), shares(results));
-    out.insert("overturning".into(), overturning(results));
-    out.insert("resurrections".into(), resurrections(results));
-    out.insert("single_records".into(), single(results));
-    out.insert("sensitivities".into(), varied(results)?);
-    Ok(out)
-}
-
-fn options(plan: &Plan) -> Value {
-    let arms: Vec<&str> = plan.arms.iter().map(|a| a.letter()).collect();
-    let overturning = match plan.setup.overturning {
-        Overturning::Alpha => "alpha",
-        Overturning::HalfPi => "half-pi",
-    };
-    json!({
-        "arms": arms,
-        "eta": rounded(plan.setup.restitution.velocity_ratio()),
-        "overturning": overturning,
-        "refinement_im": rounded(plan.setup.tolerance),
-        "version": env!("CARGO_PKG_VERSION"),
+    Ok(Findings {
+        schema: SCHEMA,
+        version: env!("CARGO_PKG_VERSION").into(),
+        settings: settings(&results.plan),
+        suites: [&results.ordinary, &results.pulse].map(suite).into(),
+        claims,
+        tables: vec![
+            shares(results),
+            adjustment(results)?,
+            overturning(results),
+            resurrections(results),
+            single(results),
+            varied(results)?,
+            uplift(results),
+        ],
+        questions: questions::findings(answers),
     })
 }
 
-fn suite(suite: &SuiteResults) -> Value {
-    let chosen: Vec<&str> = suite
-        .chosen
-        .iter()
-        .map(|record| suite.records[*record].name.as_str())
-        .collect();
-    let certainty = &suite.work.certainty;
-    let mut value = json!({
-        "kind": suite.kind,
-        "source": suite.source.to_string(),
-        "component_rule": suite.component_rule,
-        "records": suite.records.len(),
-        "sha256": suite.sha256,
-        "analyses": suite.work.analyses,
-        "not_told_by_double_precision": certainty.unresolved,
-        "first_overturnings_told_again": {
-            "all": certainty.ends.all,
-            "by_double": certainty.ends.double,
-            "by_double_double": certainty.ends.double_double,
-            "by_octuple": certainty.ends.octuple,
-            "left_open": certainty.ends.undecided,
-            "told_wrongly_in_double": certainty.ends.moved,
-        },
-        "largest_shift_if_flipped": rounded(certainty.largest_shift),
-        "shown_alone": chosen,
-    });
-    if let Some(remarks) = &suite.remarks {
-        value["remarks"] = remarks.clone().into();
+fn settings(plan: &Plan) -> Settings {
+    Settings {
+        arms: plan.arms.clone(),
+        eta: plan.setup.restitution.velocity_ratio(),
+        overturning: match plan.setup.overturning {
+            Overturning::Alpha => "alpha",
+            Overturning::HalfPi => "half-pi",
+        }
+        .into(),
+        refinement_im: plan.setup.tolerance,
     }
-    value
+}
+
+fn suite(suite: &SuiteResults) -> Suite {
+    let certainty = &suite.work.certainty;
+    let name = |record: &usize| suite.records[*record].name.clone();
+    Suite {
+        kind: suite.kind,
+        source: suite.source.to_string(),
+        component_rule: suite.component_rule.clone(),
+        records: suite.records.len(),
+        sha256: suite.sha256.clone(),
+        shown_alone: suite.chosen.iter().map(name).collect(),
+        remarks: suite.remarks.clone(),
+        analyses: suite.work.analyses,
+        not_told_by_double_precision: certainty.unresolved,
+        first_overturnings_told_again: ToldAgain {
+            all: certainty.ends.all,
+            by_double: certainty.ends.double,
+            by_double_double: certainty.ends.double_double,
+            by_octuple: certainty.ends.octuple,
+            left_open: certainty.ends.undecided,
+            told_wrongly_in_double: certainty.ends.moved,
+        },
+        largest_shift_if_flipped: certainty.largest_shift,
+    }
+}
+
+fn quantity(name: &str, unit: Unit, words: &str) -> Quantity {
+    Quantity { name: name.into(), unit, words: words.into() }
+}
+
+fn count(n: usize) -> Measured {
+    Measured::exact(n as f64)
 }
 
 /// How many records uplift each block without being scaled.
-fn uplift(results: &Results) -> Value {
-    let rows: Vec<Value> = BLOCKS
-        .iter()
-        .map(|block| {
-            json!({
-                "p_rad_s": rounded(block.frequency_rad_s()),
-                "alpha_rad": rounded(block.slenderness_rad()),
-                "ordinary": results.ordinary.uplift_unscaled(block),
-                "pulse_type": results.pulse.uplift_unscaled(block),
-            })
-        })
-        .collect();
-    Value::Array(rows)
+fn uplift(results: &Results) -> Table {
+    let row = |block| Row {
+        at: Place::of(block),
+        values: [&results.ordinary, &results.pulse]
+            .map(|suite| count(suite.uplift_unscaled(block)))
+            .into(),
+    };
+    Table {
+        topic: Topic::UpliftUnscaled,
+        quantities: vec![
+            quantity(
+                "ordinary",
+                Unit::Count,
+                "ordinary records that move the block",
+            ),
+            quantity(
+                "pulse_type",
+                Unit::Count,
+                "pulse-type records that move the block",
+            ),
+        ],
+        rows: BLOCKS.iter().map(row).collect(),
+    }
 }
 
-fn shares(results: &Results) -> Value {
+fn shares(results: &Results) -> Table {
     let mut rows = Vec::new();
     for d in &results.distributions {
         for block in &d.blocks {
             let (original, shifted) = block.shares();
-            rows.push(json!({
-                "suite": d.kind,
-                "arm": d.arm.letter(),
-                "im_kind": d.intensity.name(),
-                "p_rad_s": rounded(block.p_rad_s),
-                "alpha_rad": rounded(block.alpha_rad),
-                "im_r": rounded(block.shift),
-                "original": rounded(original),
-                "original_null_band": ends(block.bands[0].as_ref().and_then(normality::ends)),
-                "shifted": rounded(shifted),
-                "shifted_null_band": ends(block.bands[1].as_ref().and_then(normality::ends)),
-            }));
+            let band = |k: usize| block.bands[k].as_ref();
+            let null = |k| match band(k).and_then(normality::ends) {
+                Some((low, high)) => [low, high],
+                None => [f64::NAN; 2],
+            };
+            let [low, high] = null(0);
+            let [shifted_low, shifted_high] = null(1);
+            let values = [
+                block.shift,
+                original,
+                low,
+                high,
+                shifted,
+                shifted_low,
+                shifted_high,
+            ];
+            rows.push(Row {
+                at: Place {
+                    suite: Some(d.kind),
+                    arm: Some(d.arm),
+                    intensity: Some(d.intensity),
+                    p_rad_s: Some(block.p_rad_s),
+                    alpha_rad: Some(block.alpha_rad),
+                    ..Place::default()
+                },
+                values: values.map(Measured::exact).into(),
+            });
         }
     }
-    json!({ "levels": demands().len(), "rows": rows })
+    let null = "null band of the share";
+    let share = "share of demand levels accepted as";
+    Table {
+        topic: Topic::AcceptedShares,
+        quantities: [
+            ("im_r", "shift IM_R".to_owned()),
+            ("original", format!("{share} lognormal")),
+            ("original_null_low", format!("{null} accepted, lower end")),
+            ("original_null_high", format!("{null} accepted, upper end")),
+            ("shifted", format!("{share} shifted lognormal")),
+            (
+                "shifted_null_low",
+                format!("{null} accepted when shifted, lower end"),
+            ),
+            (
+                "shifted_null_high",
+                format!("{null} accepted when shifted, upper end"),
+            ),
+        ]
+        .map(|(name, words)| quantity(name, Unit::One, &words))
+        .into(),
+        rows,
+    }
 }
 
-fn resurrections(results: &Results) -> Value {
-    let rows: Vec<Value> = results
-        .ordinary
-        .stripes
-        .iter()
-        .map(|stripes| {
-            let total = |counts: &[Vec<usize>]| -> usize {
-                counts.iter().flatten().sum()
-            };
-            json!({
-                "arm": stripes.arm.letter(),
-                "overturned": total(&stripes.overturned),
-                "stand_again": total(&stripes.stand_again),
-            })
-        })
-        .collect();
-    Value::Array(rows)
+fn resurrections(results: &Results) -> Table {
+    let stripes = &results.ordinary.stripes;
+    let rows = stripes.iter().map(|stripes| {
+        let total = |counts: &[Vec<usize>]| -> Measured {
+            count(counts.iter().flatten().sum())
+        };
+        Row {
+            at: Place { arm: Some(stripes.arm), ..Place::default() },
+            values: vec![
+                total(&stripes.overturned),
+                total(&stripes.stand_again),
+            ],
+        }
+    });
+    Table {
+        topic: Topic::Resurrections,
+        quantities: vec![
+            quantity("overturned", Unit::Count, "overturned on a stripe"),
+            quantity(
+                "stand_again",
+                Unit::Count,
+                "overturned on a stripe that stand at that intensity",
+            ),
+        ],
+        rows: rows.collect(),
+    }
 }
 
-fn single(results: &Results) -> Value {
+fn single(results: &Results) -> Table {
     let mut rows = Vec::new();
     for suite in [&results.ordinary, &results.pulse] {
         for row in claims::single_rows(suite) {
-            rows.push(json!({
-                "suite": suite.kind,
-                "p_rad_s": rounded(row.p_rad_s),
-                "im_pga": rounded(row.im),
-                "usable": row.usable,
-                "median_distance": rounded(row.distance),
-                "median_peak_ratio": rounded(row.peak_ratio),
-                "median_ln_im": rounded(row.mean_ln_im),
-            }));
+            let ratios = [row.distance, row.peak_ratio, row.mean_ln_im];
+            let mut values = vec![count(row.usable)];
+            values.push(Measured::exact(row.im));
+            values.extend(ratios.map(Measured::exact));
+            let at = Place {
+                suite: Some(suite.kind),
+                p_rad_s: Some(row.p_rad_s),
+                ..Place::default()
+            };
+            rows.push(Row { at, values });
         }
     }
-    Value::Array(rows)
+    Table {
+        topic: Topic::SingleRecords,
+        quantities: vec![
+            quantity("usable", Unit::Count, "usable histories"),
+            quantity(
+                "im_pga",
+                Unit::One,
+                "PGA/(g tan alpha) of the histories",
+            ),
+            quantity(
+                "median_distance",
+                Unit::One,
+                "median normalized distance of histories to alpha = 0.10",
+            ),
+            quantity(
+                "median_peak_ratio",
+                Unit::One,
+                "median ratio of peaks to alpha = 0.10",
+            ),
+            quantity(
+                "median_ln_im",
+                Unit::One,
+                "median |ln| of the ratio of intensities to alpha = 0.10",
+            ),
+        ],
+        rows,
+    }
 }
 
-fn varied(results: &Results) -> Result<Value, StudyError> {
-    let rows = results
-        .varied
-        .iter()
-        .map(|v: &Varied| {
-            let pairs = claims::varied_ratios(results, v, 1.0)?;
-            let measured = claims::median(&pairs.ratios);
-            Ok(json!({
-                "choice": v.choice.name(),
-                "p_rad_s": rounded(FREQUENCIES_RAD_S[v.frequency]),
-                "alpha_rad":
-                    rounded(SLENDERNESSES_RAD[v.slenderness]),
-                "edp": 1.0,
-                "usable": pairs.ratios.len(),
-                "median_ratio": rounded(measured.value),
-                "interval": ends(measured.interval),
-            }))
-        })
-        .collect::<Result<Vec<Value>, StudyError>>()?;
-    Ok(Value::Array(rows))
+fn varied(results: &Results) -> Result<Table, StudyError> {
+    let mut rows = Vec::new();
+    for v in &results.varied {
+        let pairs = claims::varied_ratios(results, v, 1.0)?;
+        let at = Place {
+            choice: Some(v.choice.name().into()),
+            p_rad_s: Some(FREQUENCIES_RAD_S[v.frequency]),
+            alpha_rad: Some(SLENDERNESSES_RAD[v.slenderness]),
+            edp: Some(1.0),
+            ..Place::default()
+        };
+        let ratio = claims::median(&pairs.ratios);
+        rows.push(Row { at, values: vec![count(pairs.ratios.len()), ratio] });
+    }
+    Ok(Table {
+        topic: Topic::Sensitivities,
+        quantities: vec![
+            quantity("usable", Unit::Count, "usable pairs"),
+            quantity(
+                "median_ratio",
+                Unit::One,
+                "median ratio of capacities, this choice over the study's",
+            ),
+        ],
+        rows,
+    })
 }
 
 /// Figure 9, a row a box: usable count with Wilson's 95 % interval, and
 /// median; the same apart by whether the adjusted slenderness is within the
 /// paper's.
-fn adjustment(results: &Results) -> Result<Value, StudyError> {
+fn adjustment(results: &Results) -> Result<Table, StudyError> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
@@ -209,70 +288,93 @@ fn adjustment(results: &Results) -> Result<Value, StudyError> {
             let splits = adjusted_split(suite, demands, frequency)?;
             for (stripe, split) in stripes.iter().zip(splits) {
                 let median = stripe.summary.as_ref().map(|b| b.median);
-                rows.push(json!({
-                    "arm": arm.letter(),
-                    "p_rad_s": rounded(p_rad_s),
-                    "im_pga": rounded(split.im),
-                    "records": stripe.records,
-                    "usable": stripe.usable,
-                    "usable_interval": count_interval(stripe),
-                    "median": median.map(rounded),
-                    "median_alpha_to_0.25": median_of_part(&split.within),
-                    "median_alpha_above_0.25": median_of_part(&split.above),
-                    "usable_alpha_above_0.25": split.above.len(),
-                }));
+                let part =
+                    |of: &[f64]| Measured::exact(claims::median(of).value);
+                rows.push(Row {
+                    at: Place {
+                        arm: Some(arm),
+                        p_rad_s: Some(p_rad_s),
+                        im_pga: Some(split.im),
+                        ..Place::default()
+                    },
+                    values: vec![
+                        count(stripe.records),
+                        usable(stripe),
+                        Measured::exact(median.unwrap_or(f64::NAN)),
+                        part(&split.within),
+                        part(&split.above),
+                        count(split.above.len()),
+                    ],
+                });
             }
         }
     }
-    Ok(Value::Array(rows))
+    Ok(Table {
+        topic: Topic::SlendernessAdjustment,
+        quantities: vec![
+            quantity("records", Unit::Count, "records"),
+            quantity("usable", Unit::Count, "usable ratios of demands"),
+            quantity(
+                "median",
+                Unit::One,
+                "median ratio of demands, adjusted over scaled",
+            ),
+            quantity(
+                "median_alpha_to_0.25",
+                Unit::One,
+                "the same where the adjusted alpha is 0.25 at most",
+            ),
+            quantity(
+                "median_alpha_above_0.25",
+                Unit::One,
+                "the same where the adjusted alpha is above 0.25",
+            ),
+            quantity(
+                "usable_alpha_above_0.25",
+                Unit::Count,
+                "usable ratios where the adjusted alpha is above 0.25",
+            ),
+        ],
+        rows,
+    })
 }
 
 /// Of as many records of the kind, how many would be usable.
-fn count_interval(stripe: &Stripe) -> Value {
+fn usable(stripe: &Stripe) -> Measured {
     let (low, high) = wilson(stripe.usable, stripe.records);
     let n = stripe.records as f64;
-    ends(Some((low * n, high * n)))
+    Measured {
+        value: stripe.usable as f64,
+        interval: Some((low * n, high * n)),
+    }
 }
 
-fn median_of_part(ratios: &[f64]) -> Value {
-    rounded(claims::median(ratios).value)
-}
-
-/// Median overturning intensities, a row a block, suite and measure, in the arm that figures share: the
-/// median intensity at demand 1.00 with its order-statistic interval.
-fn overturning(results: &Results) -> Value {
+/// Median overturning intensities, a row a block, suite and measure, in the
+/// arm that figures share: the median intensity at demand 1.00 with its
+/// order-statistic interval.
+fn overturning(results: &Results) -> Table {
     let arm = results.plan.common();
     let mut rows = Vec::new();
     for d in results.distributions.iter().filter(|d| d.arm == arm) {
         for block in &d.blocks {
             // The last of the demand levels is overturning.
             let last = block.samples.last().map_or(&[][..], Vec::as_slice);
-            let measured = claims::median(last);
-            rows.push(json!({
-                "suite": d.kind,
-                "arm": d.arm.letter(),
-                "im_kind": d.intensity.name(),
-                "p_rad_s": rounded(block.p_rad_s),
-                "alpha_rad": rounded(block.alpha_rad),
-                "median": rounded(measured.value),
-                "interval": ends(measured.interval),
-            }));
+            rows.push(Row {
+                at: Place {
+                    suite: Some(d.kind),
+                    arm: Some(d.arm),
+                    intensity: Some(d.intensity),
+                    p_rad_s: Some(block.p_rad_s),
+                    alpha_rad: Some(block.alpha_rad),
+                    ..Place::default()
+                },
+                values: vec![claims::median(last)],
+            });
         }
     }
-    Value::Array(rows)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn text_has_sorted_keys() {
-        let mut findings = Findings::new();
-        findings.insert("b".into(), json!({"z": 1, "a": 2}));
-        findings.insert("a".into(), json!([1.5]));
-        let expected = "{\n  \"a\": [\n    1.5\n  ],\n  \"b\": {\n    \
-                        \"a\": 2,\n    \"z\": 1\n  }\n}\n";
-        assert_eq!(text(&findings), expected);
+    Table {
+        topic: Topic::Overturning,
+        quantities: vec![quantity("median", Unit::One, "median overturning")],
+        rows,
     }
 }

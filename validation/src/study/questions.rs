@@ -13,12 +13,11 @@ mod robustness;
 mod suites;
 mod trimming;
 
-use serde_json::{Value, json};
-
 use super::StudyError;
 use super::analyses::SuiteResults;
 use super::figures::Results;
 use crate::draw::figures::Figure;
+use crate::findings::Question;
 use crate::table::{PlainTable, Table};
 
 /// A question with its answer and the numbers behind it.
@@ -73,18 +72,16 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
     ])
 }
 
-/// Questions and answers for `findings.json`.
+/// Questions and answers as findings.
 #[must_use]
-pub fn json(answers: &[Answer]) -> Value {
-    let one = |answer: &Answer| {
-        json!({
-            "id": answer.id,
-            "question": answer.question,
-            "answer": answer.answer,
-            "data": format!("{}.csv", answer.id),
-        })
+pub fn findings(answers: &[Answer]) -> Vec<Question> {
+    let one = |answer: &Answer| Question {
+        id: answer.id.into(),
+        question: answer.question.into(),
+        answer: answer.answer.clone(),
+        data: format!("{}.csv", answer.id),
     };
-    Value::Array(answers.iter().map(one).collect())
+    answers.iter().map(one).collect()
 }
 
 /// The answers' CSV files, by name.

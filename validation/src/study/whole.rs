@@ -4,12 +4,13 @@ use indicatif::ProgressBar;
 
 use super::StudyError;
 use super::analyses::Plan;
-use super::claims::{self, Claim};
+use super::claims;
 use super::distributions::of_suite;
 use super::figures::Results;
-use super::findings::{self, Findings};
+use super::findings;
 use super::questions::{self, Answer};
 use crate::draw::figures::Figure;
+use crate::findings::Findings;
 use crate::suites::StudySuite;
 
 /// A finished study.
@@ -18,12 +19,11 @@ pub struct Study {
     pub results: Results,
     /// The figures, those of the answers at the end.
     pub figures: Vec<Figure>,
-    /// The claims and what was found about them.
-    pub claims: Vec<Claim>,
+    /// What was found.
+    pub findings: Findings,
     /// Answers to the questions beyond the paper; their figures are among
     /// the others.
     pub answers: Vec<Answer>,
-    findings: Findings,
 }
 
 impl Study {
@@ -52,13 +52,7 @@ impl Study {
             figures.append(&mut answer.figures);
         }
         let claims = claims::all(&results)?;
-        let findings = findings::all(&results, &claims, &answers)?;
-        Ok(Self { results, figures, claims, findings, answers })
-    }
-
-    /// Text of `findings.json`.
-    #[must_use]
-    pub fn findings_text(&self) -> String {
-        findings::text(&self.findings)
+        let findings = findings::all(&results, claims, &answers)?;
+        Ok(Self { results, figures, findings, answers })
     }
 }

@@ -6,7 +6,9 @@ use super::{
     Claim, Context, Measured, Results, SAME, StudyError, all_one,
     varied_ratios,
 };
-use crate::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
+use crate::paper::{
+    BLOCKS, GRAVITY_M_S2, RESTITUTION, Section, Shown, SuiteKind,
+};
 use crate::study::sensitivities::Choice;
 
 /// Table 1 as printed, by frequency parameter: half diagonal, then widths
@@ -34,8 +36,8 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
     out.extend(restitution()?);
     for suite in [&results.ordinary, &results.pulse] {
         let context = Context {
-            section: "2",
-            suite: suite.kind,
+            section: Section::new(2, Shown::Text),
+            suites: &[suite.kind],
             blocks: "p = 3, alpha = 0.10",
             arm: None,
         };
@@ -76,8 +78,8 @@ fn table_1() -> Result<Claim, StudyError> {
     }
     let measured = Measured::exact(worst);
     let context = Context {
-        section: "3, Table 1",
-        suite: "none",
+        section: Section::new(3, Shown::Table(1)),
+        suites: &[],
         blocks: "all 15",
         arm: None,
     };
@@ -95,8 +97,12 @@ fn table_1() -> Result<Claim, StudyError> {
 }
 
 fn restitution() -> Result<Vec<Claim>, StudyError> {
-    let context =
-        Context { section: "3", suite: "none", blocks: "all 15", arm: None };
+    let context = Context {
+        section: Section::new(3, Shown::Text),
+        suites: &[],
+        blocks: "all 15",
+        arm: None,
+    };
     let etas = BLOCKS
         .iter()
         .map(|b| Ok(Restitution::housner(b)?.velocity_ratio()))
@@ -148,8 +154,8 @@ fn criterion(results: &Results) -> Result<Claim, StudyError> {
     }
     let cells = all_one(&cells, SAME);
     let context = Context {
-        section: "2",
-        suite: results.ordinary.kind,
+        section: Section::new(2, Shown::Text),
+        suites: &[SuiteKind::Ordinary],
         blocks: "p = 3, alpha = 0.10 and 0.20 at least",
         arm: Some(results.plan.common()),
     };

@@ -4,7 +4,7 @@ use rocking::fragility::eq6;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::{Claim, Context, Measured, Results, StudyError};
-use crate::paper::{Intensity, demand_index};
+use crate::paper::{Intensity, Section, Shown, SuiteKind, demand_index};
 use crate::study::figures::{
     BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, usfl7,
 };
@@ -23,7 +23,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
     let arm = Some(results.plan.common());
     let context = |section| Context {
         section,
-        suite: results.ordinary.kind,
+        suites: &[SuiteKind::Ordinary],
         blocks: "p = 3, alpha = 0.20",
         arm,
     };
@@ -66,7 +66,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
     let identity = Measured::exact(eq6_by_eq7(&pga));
     let ks = "largest distance to the empirical fragility";
     Ok(vec![
-        context("5, Figure 15a").claim(
+        context(Section::new(5, Shown::Panel(15, 'a'))).claim(
             "shift-gains-pga",
             "fitting a lognormal to the shifted PGA data offers a \
              substantially better model",
@@ -77,7 +77,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             gain_pga.above(0.02),
             String::new(),
         ),
-        context("5, Figure 15b").claim(
+        context(Section::new(5, Shown::Panel(15, 'b'))).claim(
             "shift-gains-little-pgv",
             "while it is only a marginal improvement for PGV",
             "the same, PGV",
@@ -86,7 +86,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             gain_pgv.within(-0.02, 0.02),
             String::new(),
         ),
-        context("5, Figure 16a").claim(
+        context(Section::new(5, Shown::Panel(16, 'a'))).claim(
             "eq7-trimmed-pga",
             "Equation (7) manages a good job of transforming the USFL \
              results to USFL7 fragilities",
@@ -96,7 +96,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             trimmed.below(band),
             String::new(),
         ),
-        context("5, Figure 16a").claim(
+        context(Section::new(5, Shown::Panel(16, 'a'))).claim(
             "eq7-right-tail",
             "the latter do not fully match the right tail at overturning",
             "USFL7's probability at the sample's 90 % quantile minus 0.9, \
@@ -106,7 +106,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             tail.above(0.02),
             String::new(),
         ),
-        context("5, Figure 17a").claim(
+        context(Section::new(5, Shown::Panel(17, 'a'))).claim(
             "eq7-untrimmed-fails-pga",
             "For PGA, though, shifting an untrimmed-sample fragility by \
              Equation (7) fails to produce an effective match",
@@ -116,7 +116,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             untrimmed.above(band),
             String::new(),
         ),
-        context("5, Figure 17b").claim(
+        context(Section::new(5, Shown::Panel(17, 'b'))).claim(
             "eq7-untrimmed-pgv",
             "Once again, the results are of no concern for PGV",
             &format!("{ks}, untrimmed USFL7, c = 1, PGV (1 where undefined)"),
@@ -125,7 +125,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             untrimmed_pgv.below(band),
             String::new(),
         ),
-        context("5, Figure 18a").claim(
+        context(Section::new(5, Shown::Panel(18, 'a'))).claim(
             "low-c-helps",
             "a low value of c=0.25-0.5 can help improving the USFL7 result \
              even for an untrimmed sample",
@@ -136,7 +136,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             low_c.above(0.0),
             String::new(),
         ),
-        context("5, Figure 18b").claim(
+        context(Section::new(5, Shown::Panel(18, 'b'))).claim(
             "c-hardly-matters-trimmed",
             "if trimming is well-performed, practically any value of c = \
              0.25-1 will provide more-or-less the same result",
@@ -146,7 +146,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
             spread.below(0.03),
             String::new(),
         ),
-        context("5, Figure 16a").claim(
+        context(Section::new(5, Shown::Panel(16, 'a'))).claim(
             "eq7-at-1-is-eq6",
             "A typical choice could be c = 1, ... making them equivalent to \
              the 16/84% values and yielding back Equation (6)",
@@ -159,7 +159,7 @@ pub(super) fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
              the measure, after the other results were seen"
                 .into(),
         ),
-        context("5").claim(
+        context(Section::new(5, Shown::Text)).claim(
             "tail-inflates-dispersion",
             "a propensity of the sample towards having a long right tail, \
              thus pulling the dispersion to large values",

@@ -5,7 +5,9 @@ use rocking::statistics::{ExtendedSample, QuantileType};
 use super::{
     Claim, Context, Measured, Results, SAME, StudyError, median, middle,
 };
-use crate::paper::{Arm, FREQUENCIES_RAD_S, Intensity, position};
+use crate::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, Section, Shown, position,
+};
 use crate::study::analyses::SuiteResults;
 use crate::study::distributions::{Distributions, factors, least, scaled};
 
@@ -38,8 +40,8 @@ fn of<'a>(
 fn onset(results: &Results, arm: Arm) -> Result<Vec<Claim>, StudyError> {
     let suite = &results.ordinary;
     let context = Context {
-        section: "5, Figure 11",
-        suite: suite.kind,
+        section: Section::new(5, Shown::Figure(11)),
+        suites: &[suite.kind],
         blocks: "p = 1, alpha = 0.20",
         arm: Some(arm),
     };
@@ -91,11 +93,17 @@ fn shares(
     };
     let (pga, pga_shifted) = split(Intensity::Pga)?;
     let (pgv, pgv_shifted) = split(Intensity::Pgv)?;
-    let figure =
-        |n: u32| if n == 12 { "5, Figure 12" } else { "5, Figure 14" };
+    let figure = |n: u32| {
+        if n == 12 {
+            Section::new(5, Shown::Figure(12))
+        } else {
+            Section::new(5, Shown::Figure(14))
+        }
+    };
+    let suites = [suite.kind];
     let context = |n| Context {
         section: figure(n),
-        suite: suite.kind,
+        suites: &suites,
         blocks: "all 15",
         arm: Some(arm),
     };
@@ -172,9 +180,10 @@ fn figure_13(results: &Results, arm: Arm) -> Result<Vec<Claim>, StudyError> {
     let shifted = |slenderness| d.blocks[position(1, slenderness)].shares().1;
     let slender = Measured::exact(shifted(0));
     let better = Measured::exact(shifted(3) - shifted(0));
+    let suites = [suite.kind];
     let context = |blocks| Context {
-        section: "5, Figure 13",
-        suite: suite.kind,
+        section: Section::new(5, Shown::Figure(13)),
+        suites: &suites,
         blocks,
         arm: Some(arm),
     };
@@ -224,8 +233,8 @@ fn geometric_mean(results: &Results, arm: Arm) -> Result<Claim, StudyError> {
     }
     let measured = median(&changes);
     let context = Context {
-        section: "3",
-        suite: suite.kind,
+        section: Section::new(3, Shown::Text),
+        suites: &[suite.kind],
         blocks: "all 15",
         arm: Some(arm),
     };

@@ -8,7 +8,8 @@ use super::{
     difference, median, middle, stripes, varied_ratios,
 };
 use crate::paper::{
-    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, Section, Shown,
+    SuiteKind, position,
 };
 use crate::study::analyses::{Apart, SuiteResults};
 use crate::study::figures::of_arm;
@@ -51,9 +52,9 @@ fn by_record(suite: &SuiteResults, of: impl Fn(&Apart) -> f64) -> Vec<f64> {
 
 fn single_records(results: &Results) -> Vec<Claim> {
     let (ordinary, pulse) = (&results.ordinary, &results.pulse);
-    let context = |section, suite| Context {
+    let context = |section, suites| Context {
         section,
-        suite,
+        suites,
         blocks: "all 15",
         arm: Some(results.plan.common()),
     };
@@ -67,7 +68,7 @@ fn single_records(results: &Results) -> Vec<Claim> {
     let nearly = median(&apart(pulse));
     let curves = difference("curves", &apart(ordinary), &apart(pulse));
     vec![
-        context("4, Figures 2 and 3", "both").claim(
+        context(Section::new(4, Shown::Figures(2, 3)), &SuiteKind::BOTH).claim(
             "histories-pulse-better",
             "for the case of pulse-like ground motions normalization of the \
              slenderness seems to work better",
@@ -78,7 +79,7 @@ fn single_records(results: &Results) -> Vec<Claim> {
             histories.above(0.0),
             String::new(),
         ),
-        context("4, Figure 2", ordinary.kind).claim(
+        context(Section::new(4, Shown::Figure(2)), &[SuiteKind::Ordinary]).claim(
             "peaks-better-than-histories",
             "relatively low differences are observed for the peak \
              dimensionless rocking angle",
@@ -89,7 +90,7 @@ fn single_records(results: &Results) -> Vec<Claim> {
             peaks.below(0.0),
             String::new(),
         ),
-        context("4, Figure 5", pulse.kind).claim(
+        context(Section::new(4, Shown::Figure(5)), &[SuiteKind::PulseType]).claim(
             "one-curve-pulse",
             "the seismic response of the blocks of different alpha yields \
              close to a unique IDA curve",
@@ -100,7 +101,7 @@ fn single_records(results: &Results) -> Vec<Claim> {
             nearly.below(SAME),
             String::new(),
         ),
-        context("4, Figures 4 and 5", "both").claim(
+        context(Section::new(4, Shown::Figures(4, 5)), &SuiteKind::BOTH).claim(
             "curves-ordinary-worse",
             "in contrast, for the case of the ordinary ground motions, the \
              differences observed necessitate further investigation",
@@ -149,8 +150,8 @@ fn at_equal_demand(results: &Results, arm: Arm) -> Result<Claim, StudyError> {
     }
     let cells = all_one(&cells, SAME);
     let context = Context {
-        section: "4",
-        suite: results.ordinary.kind,
+        section: Section::new(4, Shown::Text),
+        suites: &[SuiteKind::Ordinary],
         blocks: "all 15",
         arm: Some(arm),
     };
@@ -212,7 +213,7 @@ fn quantile_curves(
     }
     let context = |section, blocks| Context {
         section,
-        suite: results.ordinary.kind,
+        suites: &[SuiteKind::Ordinary],
         blocks,
         arm: Some(arm),
     };
@@ -220,7 +221,7 @@ fn quantile_curves(
                    demands 0.1 to 1.0";
     let [slender, adjusted] = [slender, adjusted].map(Measured::exact);
     Ok(vec![
-        context("4, Figure 8", "all 15").claim(
+        context(Section::new(4, Shown::Figure(8)), "all 15").claim(
             "quantiles-coincide",
             "slenderness can be normalized out for rocking blocks when the \
              seismic response is treated on a probabilistic basis",
@@ -230,7 +231,7 @@ fn quantile_curves(
             slender.below(0.10),
             String::new(),
         ),
-        context("4, Figure 10", "alpha = 0.10").claim(
+        context(Section::new(4, Shown::Figure(10)), "alpha = 0.10").claim(
             "adjustment-quantiles",
             "the differences between the two methods are negligible",
             measure,
@@ -263,8 +264,8 @@ fn resurrections(
     let stocky = SLENDERNESSES_RAD.len() - 1;
     let sturdy = Measured::exact(of_slenderness(stocky) - of_slenderness(0));
     let context = Context {
-        section: "3",
-        suite: results.ordinary.kind,
+        section: Section::new(3, Shown::Text),
+        suites: &[SuiteKind::Ordinary],
         blocks: "all 15",
         arm: Some(arm),
     };
@@ -317,8 +318,8 @@ fn inversion(results: &Results, arm: Arm) -> Result<Claim, StudyError> {
     }
     let measured = Measured::exact(worst);
     let context = Context {
-        section: "5",
-        suite: results.ordinary.kind,
+        section: Section::new(5, Shown::Text),
+        suites: &[SuiteKind::Ordinary],
         blocks: "all 15",
         arm: Some(arm),
     };
@@ -354,8 +355,8 @@ fn housner(results: &Results) -> Result<Claim, StudyError> {
         pairs.map_or(Measured::exact(f64::NAN), |pairs| median(&pairs.ratios));
     let off = away(measured);
     let context = Context {
-        section: "4",
-        suite: results.ordinary.kind,
+        section: Section::new(4, Shown::Text),
+        suites: &[SuiteKind::Ordinary],
         blocks: "p = 3, alpha = 0.05 and 0.25",
         arm: Some(results.plan.common()),
     };

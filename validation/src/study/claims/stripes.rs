@@ -8,6 +8,7 @@ use super::{
 };
 use crate::paper::{
     Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+    Section, Shown, SuiteKind,
 };
 use crate::study::figures::{adjusted_split, demand_boxes, of_arm, pairs};
 
@@ -32,7 +33,7 @@ pub(super) fn all(
     results: &Results,
     arm: Arm,
 ) -> Result<Vec<Claim>, StudyError> {
-    let suite = results.ordinary.kind;
+    let suites = &[SuiteKind::Ordinary];
     let mut lowest = Vec::new();
     let mut cells = [Vec::new(), Vec::new()];
     let mut rises = 0_usize;
@@ -63,7 +64,7 @@ pub(super) fn all(
         }
     }
     let context =
-        |section, blocks| Context { section, suite, blocks, arm: Some(arm) };
+        |section, blocks| Context { section, suites, blocks, arm: Some(arm) };
     let cell = |id: &str, section, blocks, quote: &str, cells: Cells| {
         context(section, blocks).claim(
             id,
@@ -100,7 +101,7 @@ pub(super) fn all(
         let mut note = cells.note();
         note += "; the margin was set with the measure, after the other \
                  results were seen";
-        context("6, Figure 9", "alpha = 0.10").claim(
+        context(Section::new(6, Shown::Figure(9)), "alpha = 0.10").claim(
             id,
             quote,
             &format!(
@@ -117,13 +118,13 @@ pub(super) fn all(
     Ok(vec![
         cell(
             "ratios-p1",
-            "4, Figure 6",
+            Section::new(4, Shown::Figure(6)),
             "p = 1, all but alpha = 0.25 on the lowest stripe",
             "the median conforms to 1.0 with 95% confidence for most of the \
              blocks and IM levels",
             all_one(&first, SAME),
         ),
-        context("4, Figure 6", "p = 1, alpha = 0.25").claim(
+        context(Section::new(4, Shown::Figure(6)), "p = 1, alpha = 0.25").claim(
             "ratios-p1-exception",
             "The only exception regards the block with alpha = 0.25 rad in \
              the lowest IM-stripe",
@@ -135,12 +136,12 @@ pub(super) fn all(
         ),
         cell(
             "ratios-p3-p4",
-            "4, Figure 7",
+            Section::new(4, Shown::Figure(7)),
             "p = 3 and 4",
             "The same tendency is observed for the blocks with p = 3 or 4",
             all_one(&others, SAME),
         ),
-        context("4, Figures 6 and 7", "all 15").claim(
+        context(Section::new(4, Shown::Figures(6, 7)), "all 15").claim(
             "few-outliers",
             "these are clearly the exception and not the rule",
             "share of the ratios beyond the whiskers",
@@ -149,7 +150,7 @@ pub(super) fn all(
             outliers.below(0.10),
             String::new(),
         ),
-        context("4, Figures 6 and 7", "all 15").claim(
+        context(Section::new(4, Shown::Figures(6, 7)), "all 15").claim(
             "usable-falls",
             "the decreasing percentage of usable ratios with increasing \
              intensity",
@@ -159,7 +160,7 @@ pub(super) fn all(
             falling.within(0.0, 0.0),
             String::new(),
         ),
-        context("4, Figure 9", "alpha = 0.10").claim(
+        context(Section::new(4, Shown::Figure(9)), "alpha = 0.10").claim(
             "adjustment-ratios",
             "for all the values of p the two approaches yield practically \
              identical results",

@@ -9,8 +9,8 @@ use crate::draw::figures::{
     Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
 };
 use crate::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
-    demands, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
+    demand_index, demands, position,
 };
 use crate::study::StudyError;
 use crate::study::distributions::{BlockSamples, Distributions};
@@ -22,7 +22,7 @@ impl Results {
     #[must_use]
     pub fn distributions(
         &self,
-        kind: &str,
+        kind: SuiteKind,
         arm: Arm,
         intensity: Intensity,
     ) -> Option<&Distributions> {
@@ -139,7 +139,7 @@ pub(super) fn shares(
                 suite.kind
             ));
             panels.push(SharePanel {
-                suite: suite.kind.into(),
+                suite: suite.kind.name().into(),
                 records: suite.records.len(),
                 shifted,
                 shares,

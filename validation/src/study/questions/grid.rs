@@ -16,7 +16,7 @@ use crate::draw::figures::{
     Series,
 };
 use crate::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, position,
 };
 use crate::study::StudyError;
 use crate::study::distributions::BlockSamples;
@@ -74,7 +74,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             table.row(
                 slenderness == 0 || suite.kind == results.ordinary.kind,
                 vec![
-                    Cell::word(suite.kind),
+                    Cell::word(suite.kind.name()),
                     Cell::Number(
                         FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()],
                         0,
@@ -113,10 +113,10 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             .collect();
         words.push(format!(
             "{} records, alpha = 0.05, shifted PGA, rejected levels: {}.",
-            capital(suite.kind),
+            capital(suite.kind.name()),
             slender.join("; ")
         ));
-        by_suite.push((suite.kind, rows));
+        by_suite.push((suite.kind.name(), rows));
     }
     let mut answer = Answer::new(
         "grid",
@@ -137,7 +137,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     Ok(answer)
 }
 
-fn rows(results: &Results, kind: &str) -> Result<Vec<Row>, StudyError> {
+fn rows(results: &Results, kind: SuiteKind) -> Result<Vec<Row>, StudyError> {
     let of = |arm| results.distributions(kind, arm, Intensity::Pga);
     let finest = of(results.plan.common()).ok_or(StudyError::NoArm)?;
     (0..finest.blocks.len())

@@ -52,7 +52,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 gap = if row.gap > gap { row.gap } else { gap };
                 let share = row.several as f64 / row.curves as f64;
                 let mut cells = vec![
-                    Cell::word(suite.kind),
+                    Cell::word(suite.kind.name()),
                     Cell::Number(p, 0),
                     Cell::Number(edp, 1),
                     Cell::Count(row.curves),
@@ -68,7 +68,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
              most {:+.1} % from the unbiased one (p = {}, demand {:.1}); \
              {:.1} % of the curves cross a level more than once, and the \
              fragility by inversion is up to {gap:.3} off the stripes'.",
-            capital(suite.kind),
+            capital(suite.kind.name()),
             100.0 * worst,
             place.0,
             place.1,

@@ -71,7 +71,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     }
                     let kind = ["original", "shifted"][shifted];
                     let mut cells = vec![
-                        Cell::word(suite.kind),
+                        Cell::word(suite.kind.name()),
                         Cell::word(intensity.name()),
                         Cell::word(kind),
                         Cell::Number(block.p_rad_s, 0),
@@ -89,7 +89,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                  mean accepted share of the shifted ones {d:.2} by \
                  Lilliefors, {a:.2} by Anderson-Darling, {w:.2} by Cramer-von \
                  Mises, {s:.2} by Shapiro-Wilk.",
-                capital(suite.kind),
+                capital(suite.kind.name()),
                 intensity.name().to_uppercase(),
                 low[0],
                 found.blocks.len(),

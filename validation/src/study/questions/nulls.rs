@@ -66,7 +66,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             table.row(
                 true,
                 vec![
-                    Cell::word(suite.kind),
+                    Cell::word(suite.kind.name()),
                     Cell::Number(block.p_rad_s, 0),
                     Cell::Number(block.alpha_rad, 2),
                     Cell::Number(row.given, 3),
@@ -79,7 +79,12 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 ],
             );
             changes.push(row.anew - row.given);
-            drawn.push((suite.kind, block.p_rad_s, block.alpha_rad, row));
+            drawn.push((
+                suite.kind.name(),
+                block.p_rad_s,
+                block.alpha_rad,
+                row,
+            ));
             all_ratios.extend(finite);
         }
         let (least, most) = range(changes.iter().copied());
@@ -88,7 +93,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
              critical value is {:.3} times the table's (median), and the \
              accepted share of a block changes by {:.3} (median; {least:.3} \
              to {most:.3}).",
-            capital(suite.kind),
+            capital(suite.kind.name()),
             median(&all_ratios).value,
             median(&changes).value,
         ));

@@ -80,7 +80,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 table.row(
                     true,
                     vec![
-                        Cell::word(suite.kind),
+                        Cell::word(suite.kind.name()),
                         Cell::word(intensity.name()),
                         Cell::Number(block.p_rad_s, 0),
                         Cell::Number(block.alpha_rad, 2),
@@ -112,7 +112,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             words.push(format!(
                 "{}, shifted {}, accepted share: {by_size}leaving one record out moves it \
                  within a range of {:.2}, and 0.9 IM_R changes it by {:+.2}.",
-                capital(suite.kind),
+                capital(suite.kind.name()),
                 intensity.name().to_uppercase(),
                 of(&swings),
                 of(&moves),

@@ -10,7 +10,7 @@ use row::{Group, Row};
 
 use super::Answer;
 use crate::draw::markup;
-use crate::paper::Intensity;
+use crate::paper::{Intensity, SuiteKind};
 use crate::study::StudyError;
 use crate::study::claims::median;
 use crate::study::figures::Results;
@@ -48,7 +48,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     if rows.is_empty() {
         return Ok(Answer { csv: row::to_csv(&rows), ..none() });
     }
-    let kinds = [results.ordinary.kind, results.pulse.kind];
+    let kinds = SuiteKind::BOTH.map(SuiteKind::name);
     let mut answer = Answer::new("suites", QUESTION, words(&rows, kinds));
     answer.csv = row::to_csv(&rows);
     let origin = if own {
@@ -354,7 +354,7 @@ mod tests {
                     of(&|f| f.measures.mean_period_s.unwrap_or(0.0)),
                 ),
             ] {
-                let row = of_motion(&rows, suite.kind, quantity);
+                let row = of_motion(&rows, suite.kind.name(), quantity);
                 let kept = row.expect("a row").embedded.middle;
                 assert!(
                     (own - kept).abs() < 6e-4 * own,

@@ -64,7 +64,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             for (class, by_constant) in counts.iter().enumerate() {
                 for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
                     let mut cells = vec![
-                        Cell::word(suite.kind),
+                        Cell::word(suite.kind.name()),
                         Cell::word(intensity.name()),
                         Cell::word(class_words(class)),
                         Cell::Number(c, 2),
@@ -89,7 +89,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 words.push(format!(
                     "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
                      empirical fragility in {}.",
-                    capital(suite.kind),
+                    capital(suite.kind.name()),
                     shares.join(", ")
                 ));
             }

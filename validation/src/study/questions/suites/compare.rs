@@ -35,7 +35,7 @@ pub(super) fn rows(results: &Results) -> Result<Vec<Row>, StudyError> {
             Bootstrap::new(&name, 0, n, REPLICATES).map(<[_]>::to_vec)
         };
         let pair = Pair {
-            kind: recorded.kind,
+            kind: recorded.kind.name(),
             draws: [
                 draws("embedded", embedded.records.len()),
                 draws("recorded", recorded.records.len()),

@@ -7,7 +7,6 @@ use rocking::statistics::lilliefors::{
     Assessment, Inapplicable, LillieforsError, Null, NullDistribution, Scale,
     ShiftedNull, Table, Verdict,
 };
-use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::normality::{
     Battery, Calibrated, anderson_darling, cramer_von_mises, shapiro_wilk,
 };
@@ -167,7 +166,7 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
             (scale, ExtendedSample::try_new(&above)?)
         }
     };
-    let (method, simulated) = simulated_null(args, &sample, scale)?;
+    let (method, simulated) = simulated_null(args, &sample, file.values())?;
     let null = simulated
         .as_ref()
         .map_or(Null::Table(Table::embedded()), Null::Simulated);
@@ -190,21 +189,15 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
 fn simulated_null(
     args: &Args,
     sample: &ExtendedSample,
-    scale: Scale,
+    values: &[f64],
 ) -> Result<(&'static str, Option<NullDistribution>), Failure> {
     let (n, seed) = (sample.len(), args.seed.unwrap_or(0));
     if n < 4 || sample.censored() > 0 {
         return Ok(("none", None));
     }
-    if let (Some(Shift::Min), Scale::Logarithmic { shift }) =
-        (args.shift, scale)
-    {
-        let moment = fit(sample, shift, FitMethod::Moment);
-        let Ok(moment) = moment else { return Ok(("none", None)) };
-        let dispersion = moment.distribution.dispersion();
+    if args.shift == Some(Shift::Min) {
         let replicates = args.replicates.unwrap_or(REPLICATES_BEYOND);
-        let null =
-            ShiftedNull::smallest_value(n + 1, dispersion, replicates, seed)?;
+        let null = ShiftedNull::smallest_value(values, replicates, seed)?;
         return Ok(("simulation, smallest value as shift", Some(null.null)));
     }
     let beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);

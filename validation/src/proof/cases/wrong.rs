@@ -161,4 +161,6 @@ wrong_models! {
     OneSideDoubled = "one-side-doubled",
     /// The table though the shift was estimated.
     KnownShift = "known-shift",
+    /// The null by the dispersion above the smallest value.
+    DispersionAboveTheSmallest = "dispersion-above-the-smallest",
 }

@@ -10,6 +10,7 @@ use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::lilliefors::{ShiftedNull, Statistic, Table};
 use rocking::statistics::lognormal::{FitMethod, fit};
+use rocking::statistics::normal;
 use rocking::statistics::normality::{
     anderson_darling, cramer_von_mises, shapiro_wilk,
 };
@@ -120,12 +121,11 @@ pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
         (Some(WrongModel::OtherInterval), _) => "notch",
         (_, own) => own,
     };
-    let critical = shifted_critical(context, &input)?;
     let outcomes = input.truth.map(
         &context.case.id,
         input.n,
         input.trials,
-        |values| covers(procedure, input.truth, critical, values),
+        |values| covers(procedure, input.truth, context.wrong, values),
     )?;
     let (ours, gap) =
         rate_gap(&outcomes, input.rate, input.reference, input.rounding);
@@ -141,7 +141,7 @@ const RESAMPLES: usize = 499;
 fn covers(
     procedure: &str,
     truth: Truth,
-    critical: f64,
+    wrong: Option<WrongModel>,
     values: &[f64],
 ) -> Result<bool, MethodError> {
     let sample = || ExtendedSample::try_new(values).map_err(refused);
@@ -184,14 +184,7 @@ fn covers(
         }
         // The shift is the sample's smallest value, which is left out.
         "smallest-value-as-shift" => {
-            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-            let logs: Vec<f64> = values
-                .iter()
-                .filter(|x| **x > least)
-                .map(|x| log(x - least))
-                .collect();
-            let sample = Sample::try_new(&logs).map_err(refused)?;
-            Statistic::try_new(&sample).map_err(refused)?.d > critical
+            rejects_above_the_smallest(wrong, values)?
         }
         other => {
             return Err(MethodError::Input(format!("procedure {other}")));
@@ -235,26 +228,40 @@ fn dispersion_interval(
     Ok((found.low, found.high))
 }
 
-/// Critical value of the test with the smallest value as shift: simulated,
-/// or (wrong) the table's.
-fn shifted_critical(
-    context: &Context,
-    input: &CoverageInput,
-) -> Result<f64, MethodError> {
-    let Truth::Lognormal { dispersion } = input.truth else {
-        return Ok(f64::NAN);
+/// Replicates of the null of one sample whose smallest value is its shift.
+const NULL_REPLICATES: u64 = 400;
+
+/// Whether the test with the smallest value as shift rejects at 5 %: by the
+/// null that the command simulates, or (wrong) by the table, or by the
+/// dispersion above the smallest value.
+fn rejects_above_the_smallest(
+    wrong: Option<WrongModel>,
+    values: &[f64],
+) -> Result<bool, MethodError> {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let above = values.iter().filter(|x| **x > least);
+    let logs: Vec<f64> = above.map(|x| log(x - least)).collect();
+    let sample = Sample::try_new(&logs).map_err(refused)?;
+    let d = Statistic::try_new(&sample).map_err(refused)?.d;
+    if wrong == Some(WrongModel::KnownShift) {
+        let table = Table::embedded().critical_value(logs.len(), 0.05);
+        return Ok(d > table.map_err(refused)?.0);
+    }
+    let simulate = |values: &[f64]| {
+        ShiftedNull::smallest_value(values, NULL_REPLICATES, 0)
     };
-    if context.wrong == Some(WrongModel::KnownShift) {
-        let table = Table::embedded().critical_value(input.n - 1, 0.05);
-        return Ok(table.map_err(refused)?.0);
-    }
-    if input.procedure != "smallest-value-as-shift" {
-        return Ok(f64::NAN);
-    }
-    let replicates = input.reference;
-    let null = ShiftedNull::smallest_value(input.n, dispersion, replicates, 0)
-        .map_err(refused)?;
-    Ok(null.null.critical_value(0.05).map_err(refused)?.value)
+    let null = if wrong == Some(WrongModel::DispersionAboveTheSmallest) {
+        let beta =
+            (sample.sum_of_squares() / (logs.len() as f64 - 1.0)).sqrt();
+        // A sample of just that dispersion.
+        let n = values.len();
+        let share = |i: usize| (i as f64 - 0.5) / n as f64;
+        let values = (1..=n).map(|i| exp(beta * normal::quantile(share(i))));
+        simulate(&values.collect::<Vec<_>>())
+    } else {
+        simulate(values)
+    };
+    Ok(null.map_err(refused)?.null.p_value(d).value <= 0.05)
 }
 
 #[derive(Deserialize)]

@@ -153,7 +153,17 @@ fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
         return Err(LillieforsError::TooFew { found: n, least });
     }
     let mean = sample.mean();
-    let deviation = (sample.sum_of_squares() / (n as f64 - 1.0)).sqrt();
+    let mut deviation = (sample.sum_of_squares() / (n as f64 - 1.0)).sqrt();
+    if !deviation.is_normal() {
+        // Squares that overflow or underflow are those of scaled values.
+        let apart = |y: &f64| (y - mean).abs();
+        let unit = sample.sorted().iter().map(apart).fold(0.0, f64::max);
+        let square = sample.sorted().iter().fold(0.0, |sum, y| {
+            let scaled = (y - mean) / unit;
+            f64::mul_add(scaled, scaled, sum)
+        });
+        deviation = unit * (square / (n as f64 - 1.0)).sqrt();
+    }
     if !(deviation > 1e-12 * mean.abs() && deviation.is_finite()) {
         return Err(LillieforsError::Degenerate);
     }

@@ -15,9 +15,10 @@ pub struct Comparison {
 
 /// Compares two samples. With ties the p-value is an upper bound.
 ///
-/// The share of orders with a smaller distance follows from P(i, j) =
-/// i/(i + j) P(i - 1, j) + j/(i + j) P(i, j - 1), zero where |i/n - j/m| is
-/// not smaller (Hodges, Ark. Mat. 3 (1958) 469).
+/// The share of orders with a distance at least as large follows from
+/// Q(i, j) = i/(i + j) Q(i - 1, j) + j/(i + j) Q(i, j - 1), one where
+/// |i/n - j/m| is at least as large (Hodges, Ark. Mat. 3 (1958) 469): nothing
+/// cancels, however small it is.
 ///
 /// ```
 /// use rocking::statistics::{ExtendedSample, two_sample};
@@ -48,17 +49,39 @@ pub fn kolmogorov_smirnov(
     let mut share = vec![0.0; m + 1];
     for i in 0..=n {
         for j in 0..=m {
-            let below = if i + j == 0 {
-                1.0
+            let beyond = if i + j == 0 {
+                0.0
             } else {
                 let all = (i + j) as f64;
                 let from_i = if i > 0 { share[j] } else { 0.0 };
                 let from_j = if j > 0 { share[j - 1] } else { 0.0 };
                 (i as f64 * from_i + j as f64 * from_j) / all
             };
-            share[j] = if apart(i, j) < largest { below } else { 0.0 };
+            share[j] = if apart(i, j) < largest { beyond } else { 1.0 };
         }
     }
-    let p_value = if largest == 0 { 1.0 } else { 1.0 - share[m] };
-    Comparison { statistic: largest as f64 / (n * m) as f64, p_value }
+    let statistic = largest as f64 / (n * m) as f64;
+    Comparison { statistic, p_value: share[m] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_p_value_does_not_cancel() {
+        let sample = |from: u32| {
+            let values: Vec<f64> = (from..from + 86).map(f64::from).collect();
+            ExtendedSample::try_new(&values).unwrap()
+        };
+        let found = kolmogorov_smirnov(&sample(0), &sample(100));
+        // Two orders of binomial(172, 86).
+        let orders = (1..=86).fold(1.0, |product, k| {
+            product * f64::from(86 + k) / f64::from(k)
+        });
+        let expected = 2.0 / orders;
+        assert!((found.p_value / expected - 1.0).abs() < 1e-12);
+        let same = kolmogorov_smirnov(&sample(0), &sample(0));
+        assert_eq!((same.statistic, same.p_value), (0.0, 1.0));
+    }
 }

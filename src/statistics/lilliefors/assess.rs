@@ -156,6 +156,10 @@ impl Assessment {
                 self.critical_value = Some(critical.0);
                 table.p_value(n, d)?
             }
+            Null::Simulated(null) if null.n() != n => {
+                let (found, expected) = (n, null.n());
+                return Err(LillieforsError::Size { found, expected }.into());
+            }
             Null::Simulated(null) => {
                 let critical = null.critical_value(self.level)?;
                 self.critical_value = Some(critical.value);

@@ -1,4 +1,5 @@
 use super::*;
+use crate::statistics::ExtendedSample;
 
 fn statistic(values: &[f64]) -> Statistic {
     Statistic::try_new(&Sample::try_new(values).unwrap()).unwrap()
@@ -12,6 +13,27 @@ fn refuses_what_it_cannot_test() {
     let few = refused(&[1.0, 2.0]).to_string();
     assert_eq!(few, "2 values: expected at least 3");
     assert_eq!(refused(&[5.0; 8]), LillieforsError::Degenerate);
+}
+
+#[test]
+fn squares_may_overflow_and_underflow() {
+    let values = [1.0, 2.0, 4.0, 7.0, 7.5];
+    let expected = statistic(&values).d;
+    for unit in [1e-200, 1e200] {
+        let d = statistic(&values.map(|x| unit * x)).d;
+        assert!((d - expected).abs() < 1e-12, "{unit}: {d}");
+    }
+}
+
+#[test]
+fn a_null_distribution_holds_for_its_own_size() {
+    let values: Vec<f64> = (1..=30).map(f64::from).collect();
+    let sample = ExtendedSample::try_new(&values).unwrap();
+    let null = NullDistribution::simulate(20, 1000, 0).unwrap();
+    let null = Null::Simulated(&null);
+    let found = Assessment::new(&sample, Scale::Linear, 0.05, null);
+    let size = LillieforsError::Size { found: 30, expected: 20 };
+    assert_eq!(found.verdict, Err(Inapplicable::Test(size)));
 }
 
 #[test]

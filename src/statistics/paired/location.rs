@@ -109,10 +109,13 @@ pub fn sign_equivalence(
 pub struct HodgesLehmann {
     /// exp of the median of the Walsh averages of ln ratio.
     pub ratio: f64,
-    /// Lower end of the 95 % interval.
+    /// Lower end of the interval.
     pub low: f64,
-    /// Upper end of the 95 % interval.
+    /// Upper end of the interval.
     pub high: f64,
+    /// Level of the interval: 0.95, or 1 - 2^(1 - n) for n = 2 to 5 ratios,
+    /// whose Walsh averages reach no further.
+    pub level: f64,
 }
 
 /// Hodges and Lehmann's estimate of the centre of ln ratio, as a ratio: the
@@ -143,6 +146,7 @@ pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
         ratio: exp(median),
         low: exp(sorted[rank - 1]),
         high: exp(sorted[sorted.len() - rank]),
+        level: if n < 6 { 1.0 - 0.5f64.powi(n as i32 - 1) } else { 0.95 },
     })
 }
 

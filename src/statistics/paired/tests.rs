@@ -90,4 +90,9 @@ fn bad_pairs_and_margins_are_refused() {
     assert_eq!(equivalence(&[1.0, 1.0], 0.1), Err(PairedError::Degenerate));
     assert_eq!(equivalence(&[1.0], 0.1), Err(PairedError::TooFew(1)));
     assert_eq!(hodges_lehmann(&[1.0]), Err(PairedError::TooFew(1)));
+    // Few ratios reach no 95 %: the smallest and the largest hold the centre
+    // unless all lie on one side of it.
+    let level = |n| hodges_lehmann(&[1.0, 1.1, 1.2, 0.9, 1.3, 0.8][..n]);
+    let levels = [2, 3, 4, 5, 6].map(|n| level(n).unwrap().level);
+    assert_eq!(levels, [0.5, 0.75, 0.875, 0.9375, 0.95]);
 }

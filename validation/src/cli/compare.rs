@@ -99,7 +99,7 @@ fn to_json(args: &Args, pairs: &Pairs, boxplot: Option<&Boxplot>) -> Value {
             "ratio": json::number(c.ratio),
             "low": json::number(c.low),
             "high": json::number(c.high),
-            "interval_level": 0.95,
+            "interval_level": c.level,
         })
     });
     let quantile_type = QuantileType::default();
@@ -167,8 +167,11 @@ fn to_text(args: &Args, pairs: &Pairs, boxplot: Option<&Boxplot>) -> String {
     );
     if let Ok(c) = hodges_lehmann(ratios) {
         text += &format!(
-            "Hodges-Lehmann          {:.6} ({:.6} .. {:.6})\n",
-            c.ratio, c.low, c.high
+            "Hodges-Lehmann          {:.6} ({:.6} .. {:.6}, {} %)\n",
+            c.ratio,
+            c.low,
+            c.high,
+            100.0 * c.level
         );
     }
     let percent = 100.0 * args.margin;

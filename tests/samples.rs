@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
+use rocking::statistics::normal;
 use serde_json::Value;
 
 /// The sample of `fixtures/oracles/lognormal.py` and of sample b of
@@ -188,6 +189,24 @@ fn lilliefors_says_why_it_gives_no_verdict() {
 }
 
 #[test]
+fn large_samples_are_simulated_without_shapiro_and_wilk() {
+    // Evenly spaced normal scores: as normal as a sample can be.
+    let scores = (1..=5001).map(|i| {
+        normal::quantile((f64::from(i) - 0.5) / 5001.0).to_string() + "\n"
+    });
+    let sample = file("large", &scores.collect::<String>());
+    let test = |more: &[&str]| {
+        let args = ["lilliefors", "--sample", &sample, "--json"];
+        json(&[&args[..], more].concat())
+    };
+    let found = test(&["--replicates", "200", "--seed", "1"]);
+    assert_eq!(found["verdict"], "not-rejected");
+    assert_eq!(found["replicates"], 200);
+    assert_eq!(found["shapiro_wilk"], Value::Null);
+    assert!(found["anderson_darling_p_value"].as_f64().unwrap() > 0.99);
+}
+
+#[test]
 fn critical_values_do_not_depend_on_threads() {
     let run = |threads| {
         rocking(&[
@@ -325,6 +344,19 @@ fn bad_input_is_refused_with_its_place() {
         (vec!["quantile", "--sample", &sample, "--type", "10"], "1 to 9"),
         (vec!["quantile", "--sample", &sample, "--at", "-0.1"], "[0, 1]"),
         (vec!["fragility", "--sample", &sample, "--shift", "-1"], "negative"),
+        (
+            [
+                "fragility",
+                "--sample",
+                &sample,
+                "--shift",
+                "min",
+                "--bootstrap",
+                "100",
+            ]
+            .into(),
+            "gives no interval",
+        ),
         (vec!["fragility", "--sample", &sample, "--im50", "2"], "--im50"),
         (vec!["lilliefors", "--sample", &sample, "--n", "9"], "--n"),
         (vec!["lilliefors", "--critical-values", "--n", "3"], "at least 4"),

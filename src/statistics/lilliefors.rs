@@ -44,6 +44,14 @@ pub enum LillieforsError {
         /// Size simulated.
         expected: usize,
     },
+    /// A test holds up to a size.
+    #[error("{found} values: expected at most {expected}")]
+    TooMany {
+        /// Size of the sample.
+        found: usize,
+        /// The largest size.
+        expected: usize,
+    },
     /// Sizes of the table.
     #[error(
         "{0} values: expected 4 to 1000, the sizes of the table; simulate beyond"

@@ -45,6 +45,10 @@ pub struct Calibrated {
 const CHUNK: u64 = 1024;
 
 impl Battery {
+    /// Largest sample that [`simulate`](Self::simulate) takes: Shapiro and
+    /// Wilk's weights hold up to it.
+    pub const MOST_VALUES: usize = super::shapiro_wilk::LARGEST;
+
     /// Simulates the statistics of `replicates` normal samples of n values.
     ///
     /// # Errors
@@ -56,8 +60,9 @@ impl Battery {
         seed: u64,
     ) -> Result<Self, LillieforsError> {
         NullDistribution::check(n, replicates)?;
-        if n > super::shapiro_wilk::LARGEST {
-            return Err(LillieforsError::BeyondTable(n));
+        if n > Self::MOST_VALUES {
+            let expected = Self::MOST_VALUES;
+            return Err(LillieforsError::TooMany { found: n, expected });
         }
         let streams = Streams::new(&format!("normality, {n}"), seed);
         let weights = weights(n);

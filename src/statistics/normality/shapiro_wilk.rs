@@ -25,7 +25,10 @@ pub(super) const LARGEST: usize = 5000;
 pub fn shapiro_wilk(sample: &Sample) -> Result<Test, LillieforsError> {
     let scores = standardised(sample)?;
     if scores.len() > LARGEST {
-        return Err(LillieforsError::BeyondTable(scores.len()));
+        return Err(LillieforsError::TooMany {
+            found: scores.len(),
+            expected: LARGEST,
+        });
     }
     let deficit = deficit(&weights(scores.len()), &scores);
     let statistic = 1.0 - deficit;

@@ -103,14 +103,6 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             args.level
         )));
     }
-    let simulates = args.sample.is_none()
-        || args.replicates.is_some()
-        || args.shift == Some(Shift::Min);
-    if !simulates && (args.seed.is_some() || args.threads.is_some()) {
-        return Err(Failure::input(
-            "--seed and --threads are not used without --replicates: the table answers",
-        ));
-    }
     with_threads(args.threads, || {
         if let Some(path) = &args.write_table {
             write_table(path)
@@ -157,6 +149,14 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
 
 fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     let whole = file.extended()?;
+    let simulates = args.replicates.is_some()
+        || args.shift == Some(Shift::Min)
+        || is_beyond_table(whole.len());
+    if !simulates && (args.seed.is_some() || args.threads.is_some()) {
+        return Err(Failure::input(
+            "--seed and --threads are not used without --replicates: the table answers",
+        ));
+    }
     let shift = args.shift.or(args.log.then_some(Shift::Given(0.0)));
     let (scale, sample) = match shift {
         None => (Scale::Linear, whole),
@@ -184,6 +184,10 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     print(&to_text(&assessment, &others))
 }
 
+fn is_beyond_table(n: usize) -> bool {
+    Table::sizes().last().is_none_or(|&(last, _)| n > last)
+}
+
 /// The null distribution to simulate, if the table is not used, and how the
 /// p-value comes about.
 fn simulated_null(
@@ -200,10 +204,8 @@ fn simulated_null(
         let null = ShiftedNull::smallest_value(values, replicates, seed)?;
         return Ok(("simulation, smallest value as shift", Some(null.null)));
     }
-    let beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
-    let Some(replicates) =
-        args.replicates.or(beyond.then_some(REPLICATES_BEYOND))
-    else {
+    let own = is_beyond_table(n).then_some(REPLICATES_BEYOND);
+    let Some(replicates) = args.replicates.or(own) else {
         return Ok(("table", None));
     };
     let null = NullDistribution::simulate(n, replicates, seed)?;
@@ -231,14 +233,16 @@ impl Other {
 }
 
 /// Anderson-Darling, Cramer-von Mises and Shapiro-Wilk of the tested values:
-/// simulated with --replicates, unless the shift is the sample's own.
+/// simulated with --replicates, unless the shift is the sample's own or the
+/// sample is larger than Shapiro and Wilk's test takes.
 fn others(
     args: &Args,
     assessment: &Assessment,
 ) -> Result<[Option<Other>; 3], Failure> {
     let none = [None, None, None];
     let Some(tested) = &assessment.tested else { return Ok(none) };
-    let given = args.shift != Some(Shift::Min) && tested.len() >= 4;
+    let given = args.shift != Some(Shift::Min)
+        && (4..=Battery::MOST_VALUES).contains(&tested.len());
     if let Some(replicates) = args.replicates.filter(|_| given) {
         let seed = args.seed.unwrap_or(0);
         let battery = Battery::simulate(tested.len(), replicates, seed)?;

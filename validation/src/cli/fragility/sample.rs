@@ -81,6 +81,13 @@ fn sample(values: &[f64]) -> Result<ExtendedSample, FitError> {
 
 pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
+    if args.bootstrap.is_some() && plan.shift == Shift::Min {
+        return Err(Failure::input(
+            "--bootstrap with --shift min: a bootstrap of the smallest value \
+             gives no interval, its 95 % hold the dispersion in one sample \
+             of five; expected a shift that is known, as --shift 1",
+        ));
+    }
     let file = SampleFile::read(path)?;
     let whole = file.extended()?;
     let values = file.values();

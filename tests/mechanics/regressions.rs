@@ -99,7 +99,7 @@ fn regresses_estimates_margins_and_work() {
         }
     }
     let expected: Vec<&str> =
-        include_str!("regressions.txt").lines().collect();
+        include_str!("../pins/regressions.txt").lines().collect();
     assert_eq!(lines, expected);
 }
 
@@ -163,6 +163,7 @@ fn regresses_the_sums_of_many_short_runs() {
         let [a, b, c] = sums.map(|x| format!("{x:.8e}"));
         lines.push(format!("{work:?} {a} {b} {c}"));
     }
-    let expected: Vec<&str> = include_str!("short.txt").lines().collect();
+    let expected: Vec<&str> =
+        include_str!("../pins/short.txt").lines().collect();
     assert_eq!(lines, expected);
 }

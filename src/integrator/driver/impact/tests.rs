@@ -134,6 +134,7 @@ fn regresses_the_bounds_of_the_proof() {
             }
         }
     }
-    let expected: Vec<&str> = include_str!("proof.txt").lines().collect();
+    let expected: Vec<&str> =
+        include_str!("../../../../tests/pins/rest.txt").lines().collect();
     assert_eq!(found, expected, "{}", found.join("\n"));
 }

@@ -133,7 +133,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
             Err(Failed::from(
                 "reports/data/validation.json is stale: see what changed \
                  with `rocking validate --check --out reports`, accept it \
-                 with `rocking validate --out reports`",
+                 with `cargo run --release -- accept`",
             ))
         }
     }));
@@ -146,7 +146,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         } else {
             Err(Failed::from(
                 "reports/data/precision.csv is stale: accept it with \
-                 `rocking validate --out reports`",
+                 `cargo run --release -- accept`",
             ))
         }
     }));

@@ -10,6 +10,8 @@ mod drawn;
 mod endless;
 #[path = "mechanics/engines.rs"]
 mod engines;
+#[path = "pins/hold.rs"]
+mod hold;
 #[path = "properties/mechanics.rs"]
 mod properties;
 #[path = "mechanics/pulses.rs"]

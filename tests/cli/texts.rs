@@ -6,7 +6,8 @@ use insta::{Settings, assert_snapshot};
 use super::diff::sides;
 use super::support::{folder, run};
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
+    "accept",
     "respond",
     "ida",
     "records",

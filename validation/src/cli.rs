@@ -1,5 +1,6 @@
 //! The command line: one file a command, all of them `Args -> Result<(), Failure>`.
 
+mod accept;
 mod validate;
 
 use std::io::{self, Write as _};
@@ -46,6 +47,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Accept(accept::Args),
     Respond(Box<respond::Args>),
     Ida(Box<ida::Args>),
     Records(records::Args),
@@ -204,6 +206,7 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let outcome: Result<(), Failure> = match cli.command {
+        Command::Accept(args) => accept::run(&args),
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
         Command::Records(args) => records::run(&args),

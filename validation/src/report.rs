@@ -6,6 +6,7 @@ pub mod input;
 pub mod ledger;
 pub mod output;
 pub mod page;
+pub mod readme;
 pub mod stale;
 mod summary;
 pub mod timings;

@@ -2,10 +2,15 @@
 //! response of the scalar driver, work included; and what both say of runs
 //! that end before the record does.
 
+#[path = "../../../tests/pins/hold.rs"]
+mod hold;
+
+use hold::hold;
+
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
-use crate::integrator::pool::{Source, Tally, class_of, run};
+use crate::integrator::pool::{Source, class_of, run};
 use crate::integrator::{
     Model, Observe, Overturning, Response, Scene, Solver, WorkLimit, respond,
 };
@@ -45,44 +50,8 @@ fn wave(seed: f64, dt_s: f64) -> NormalisedRecord {
     )
 }
 
-/// Screens that tell less than they could change no bit; they show here. The
-/// counts are as they are: a change of them is to be meant.
-const EIGHT: Tally = Tally {
-    sweeps: 583,
-    batches: [65, 358, 9],
-    solved: 2550,
-    passed: 21,
-    left: 205,
-};
-const NINE: Tally = Tally {
-    sweeps: 594,
-    batches: [32, 347, 8],
-    solved: 2320,
-    passed: 15,
-    left: 389,
-};
-const TEN: Tally = Tally {
-    sweeps: 553,
-    batches: [22, 438, 8],
-    solved: 1818,
-    passed: 16,
-    left: 1143,
-};
-const LONGEST: Tally = Tally {
-    sweeps: 429,
-    batches: [11, 398, 0],
-    solved: 1376,
-    passed: 0,
-    left: 753,
-};
-const LINEARIZED: Tally = Tally {
-    sweeps: 555,
-    batches: [0, 432, 0],
-    solved: 2135,
-    passed: 0,
-    left: 183,
-};
-
+/// Screens that tell less than they could change no bit; they show in the
+/// tallies.
 #[test]
 fn a_pool_gives_the_whole_response_of_single_runs() {
     let Some(isa) = Isa::available().into_iter().rfind(|isa| isa.is_wide())
@@ -91,13 +60,13 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
         return;
     };
     let p = 2.5;
-    let (mut tallies, mut due) = (Vec::new(), Vec::new());
-    for (dt_s, model, class, regressed) in [
-        (0.003, Model::Nonlinear, Class::Eight, EIGHT),
-        (0.006, Model::Nonlinear, Class::Nine, NINE),
-        (0.016, Model::Nonlinear, Class::Ten, TEN),
-        (0.03, Model::Nonlinear, Class::Longest, LONGEST),
-        (0.02, Model::Linearized, Class::Linearized, LINEARIZED),
+    let mut tallies = Vec::new();
+    for (dt_s, model, class) in [
+        (0.003, Model::Nonlinear, Class::Eight),
+        (0.006, Model::Nonlinear, Class::Nine),
+        (0.016, Model::Nonlinear, Class::Ten),
+        (0.03, Model::Nonlinear, Class::Longest),
+        (0.02, Model::Linearized, Class::Linearized),
     ] {
         assert_eq!(class_of(model, p * dt_s, None), Some(class));
         let records = [0.0, 1.0, 2.0].map(|seed| wave(seed, dt_s));
@@ -127,13 +96,12 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
         let mut bench = Bench { left, done: Vec::new() };
         let tally = run(class, isa, &mut bench);
         assert_eq!(bench.done.len(), count);
-        tallies.push(tally);
-        due.push(regressed);
+        tallies.push(format!("{class:?}: {tally:?}"));
         for (scene, found) in &bench.done {
             assert_eq!(*found, peak(scene));
         }
     }
-    assert_eq!(tallies, due);
+    hold("tallies.txt", &tallies);
 }
 
 /// A run that ends early.

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
+use clap::{Parser, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -15,7 +15,8 @@ use super::{Failure, logged, print, with_threads};
 use crate::files::{Folder, is_interrupted};
 use crate::paper::{Arm, RESTITUTION, SuiteKind};
 use crate::report::evidence::{NOT_RUN, Proof};
-use crate::report::{output, stale};
+use crate::report::output::{self, Files};
+use crate::report::stale;
 use crate::study::Study;
 use crate::study::analyses::Plan;
 use crate::study::runs::Setup;
@@ -108,8 +109,20 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     with_threads(args.threads, || in_threads(args))?
 }
 
-fn in_threads(args: &Args) -> Result<(), Failure> {
-    let plan = plan(args)?;
+/// The files of the report that the command writes without options.
+pub(super) fn default_report(proof: &Proof) -> Result<Files, Failure> {
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        args: Args,
+    }
+    let args = Line::try_parse_from(["study"])?.args;
+    let study = computed(&args, &suites(&args)?)?;
+    Ok(output::files(&study, Some(proof))?)
+}
+
+/// The suites that the options name.
+fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
     let processing = args.processing.processing()?;
     let options = args.reading.options(STANDARD_GRAVITY_M_S2);
     let read = |kind, path: &Path| -> Result<StudySuite, Failure> {
@@ -117,21 +130,40 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         args.reading.judge(&suite.remarks)?;
         Ok(suite)
     };
-    let suites = match (&args.ordinary, &args.pulse) {
-        (Some(ordinary), Some(pulse)) => [
+    match (&args.ordinary, &args.pulse) {
+        (Some(ordinary), Some(pulse)) => Ok([
             read(SuiteKind::Ordinary, ordinary)?,
             read(SuiteKind::PulseType, pulse)?,
-        ],
+        ]),
         _ => match args.reading.given().or(args.processing.given()) {
-            None => StudySuite::embedded()?,
-            Some(flag) => {
-                return Err(Failure::input(format!(
-                    "{flag} is not used without --ordinary and --pulse, but \
-                     for the records of a suite"
-                )));
-            }
+            None => Ok(StudySuite::embedded()?),
+            Some(flag) => Err(Failure::input(format!(
+                "{flag} is not used without --ordinary and --pulse, but for \
+                 the records of a suite"
+            ))),
         },
-    };
+    }
+}
+
+/// The study that the options ask for.
+fn computed(args: &Args, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
+    let plan = plan(args)?;
+    // Drawn on a terminal only.
+    let progress = ProgressBar::new(0);
+    if let Ok(style) =
+        ProgressStyle::with_template("{bar:40} {pos}/{len} chains, {eta} left")
+    {
+        progress.set_style(style);
+    }
+    let study =
+        logged(&progress, || Study::run(plan, suites, args.full, &progress))?;
+    progress.finish_and_clear();
+    Ok(study)
+}
+
+fn in_threads(args: &Args) -> Result<(), Failure> {
+    plan(args)?;
+    let suites = suites(args)?;
     if args.check {
         // Refused before minutes are spent.
         std::fs::read_dir(&args.out).map_err(|e| {
@@ -149,16 +181,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
     };
-    // Drawn on a terminal only.
-    let progress = ProgressBar::new(0);
-    if let Ok(style) =
-        ProgressStyle::with_template("{bar:40} {pos}/{len} chains, {eta} left")
-    {
-        progress.set_style(style);
-    }
-    let study =
-        logged(&progress, || Study::run(plan, &suites, args.full, &progress))?;
-    progress.finish_and_clear();
+    let study = computed(args, &suites)?;
     let files = output::files(&study, proof.as_ref())?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
@@ -180,7 +203,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
 }
 
 /// Fails where the report in `out` is not these files.
-fn check(out: &Path, files: &output::Files) -> Result<(), Failure> {
+fn check(out: &Path, files: &Files) -> Result<(), Failure> {
     let name = out.display();
     if is_interrupted(out) {
         return Err(Failure::input(format!(

@@ -160,7 +160,7 @@ fn machine(outcomes: &[Outcome]) -> serde_json::Value {
     json!({ "cases": cases })
 }
 
-fn people(outcomes: &[Outcome]) -> String {
+pub(super) fn people(outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes {
         let _ = writeln!(

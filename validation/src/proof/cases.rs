@@ -44,6 +44,7 @@
 mod attainable;
 mod defaults;
 mod load;
+pub mod pinned;
 #[cfg(test)]
 mod tests;
 mod wrong;

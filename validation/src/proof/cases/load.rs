@@ -9,7 +9,7 @@ use toml::{Table, Value};
 use super::defaults::{Defaults, expand};
 use super::{
     Bound, Case, Cost, Expect, FAMILIES, Family, Kind, Source, Status,
-    Tolerance,
+    Tolerance, pinned,
 };
 
 /// Bytes of a case file, at most.
@@ -137,7 +137,8 @@ struct Entry {
     status: Status,
 }
 
-/// All embedded families, in the order of [`FAMILIES`].
+/// All embedded families, in the order of [`FAMILIES`], with the accepted
+/// work counters as expected values.
 ///
 /// # Errors
 /// [`CaseError`] of the first file refused.
@@ -146,6 +147,7 @@ pub fn load_all() -> Result<Vec<Case>, CaseError> {
     for (family, text) in FAMILIES {
         cases.extend(load_family(family, text)?);
     }
+    pinned::expect_counters(&mut cases, pinned::ACCEPTED);
     Ok(cases)
 }
 

@@ -98,16 +98,27 @@ impl Proof {
     /// [`ProofError`] for a file that is missing or damaged, and for results
     /// of other cases than this program's.
     pub fn read(folder: &Path) -> Result<Self, ProofError> {
+        let text = |name| read(&folder.join(name));
+        Self::from_texts(folder, &text(RESULTS)?, text(DIGITS)?)
+    }
+
+    /// Results from the texts of both files; `folder` is only told.
+    ///
+    /// # Errors
+    /// [`ProofError`] for damaged texts, and for results of other cases than
+    /// this program's.
+    pub fn from_texts(
+        folder: &Path,
+        results: &str,
+        digits: String,
+    ) -> Result<Self, ProofError> {
         let path = folder.join(RESULTS);
-        let text = read(&path)?;
         // Refuses what has another form.
-        diff::Results::from_text(&path, &text)?;
+        diff::Results::from_text(&path, results)?;
         let results: Map<String, Value> =
-            serde_json::from_str(&text).unwrap_or_default();
+            serde_json::from_str(results).unwrap_or_default();
         same_cases(&path, &load_all()?, &results)?;
-        let path = folder.join(DIGITS);
-        let digits = read(&path)?;
-        whole_table(&path, &digits)?;
+        whole_table(&folder.join(DIGITS), &digits)?;
         // The same words wherever the folder lies.
         let place = Path::new(folder.file_name().unwrap_or_default());
         let place = place.join(RESULTS).display().to_string();
@@ -135,6 +146,34 @@ impl Proof {
     #[must_use]
     pub fn passed(&self) -> usize {
         self.results.values().filter(|case| case["verdict"] == "pass").count()
+    }
+
+    /// Number of wrong models that the cases told from the right one.
+    #[must_use]
+    pub fn rejected(&self) -> usize {
+        let all = self.results.values();
+        all.filter_map(|case| Some(case["rejected"].as_object()?.len())).sum()
+    }
+
+    /// Errors of the numbers compared, over their tolerances, in order.
+    fn margins(&self) -> Vec<f64> {
+        let mut margins: Vec<f64> = self
+            .results
+            .values()
+            .filter_map(|case| case["quantities"].as_object())
+            .flat_map(Map::values)
+            .filter(|quantity| quantity["kind"] != "waived")
+            .filter_map(|quantity| quantity["margin"].as_f64())
+            .collect();
+        margins.sort_by(f64::total_cmp);
+        margins
+    }
+
+    /// Share of its tolerance that half of the numbers stay below.
+    #[must_use]
+    pub fn middle_margin(&self) -> f64 {
+        let margins = self.margins();
+        margins.get(margins.len() / 2).copied().unwrap_or(f64::NAN)
     }
 
     /// Significant digits that each precision reaches on the hard cases and
@@ -173,16 +212,6 @@ impl Proof {
 /// stay within the tolerances.
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut margins: Vec<f64> = self
-            .results
-            .values()
-            .filter_map(|case| case["quantities"].as_object())
-            .flat_map(Map::values)
-            .filter(|quantity| quantity["kind"] != "waived")
-            .filter_map(|quantity| quantity["margin"].as_f64())
-            .collect();
-        margins.sort_by(f64::total_cmp);
-        let middle = margins.get(margins.len() / 2).copied();
         write!(
             f,
             "By the results handed in ({}): {} of {} declared cases pass \
@@ -193,8 +222,8 @@ impl fmt::Display for Proof {
             self.place,
             self.passed(),
             self.results.len(),
-            margins.len(),
-            middle.unwrap_or(f64::NAN)
+            self.margins().len(),
+            self.middle_margin()
         )
     }
 }

@@ -1,0 +1,320 @@
+//! `rocking accept`: renews every committed file that holds results of this
+//! program.
+
+use std::env;
+use std::fmt::Write as _;
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use super::{Failure, print, study, validate};
+use crate::diff::{self, Results};
+use crate::files::{Folder, is_interrupted};
+use crate::findings::Findings;
+use crate::proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
+use crate::proof::cases::{Cost, load_all};
+use crate::proof::methods::{self, digits, digits_csv};
+use crate::proof::verdict::{Outcome, run_all, snapshot};
+use crate::report::evidence::Proof;
+use crate::report::output::{FINDINGS, Files};
+use crate::report::readme;
+use crate::report::stale::{StaleError, stale};
+
+/// Renews every committed file that holds results of this program: the pins
+/// in tests/pins, reports/, and the table of results in README.md.
+///
+/// It runs in the root of the repository, by cargo, so that the program is
+/// built from what is there. It runs the tests that hold pins, the declared
+/// cases and the study. Where a case fails, nothing is written. It prints
+/// what the results say differently, then writes the files that change.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    cargo run --release -- accept --check\n  \
+    cargo run --release -- accept")]
+pub struct Args {
+    /// Write nothing, say what would change, and fail where anything would.
+    #[arg(long)]
+    check: bool,
+}
+
+/// Folder of the pins.
+const PINS: &str = "tests/pins";
+/// Folder of the committed report.
+const REPORTS: &str = "reports";
+/// The file with the table of results.
+const README: &str = "README.md";
+/// Results of the declared cases.
+const CASES: &str = "data/validation.json";
+
+/// The tests that hold pins, and the pins that they hold. A test hands over
+/// what it found (`tests/pins/hold.rs`): it alone can compute it, since some
+/// of it is private to the core.
+const HOLDERS: [(&str, &str); 5] = [
+    ("regresses_bits_of_a_thousand_analyses", "golden.txt"),
+    ("regresses_estimates_margins_and_work", "regressions.txt"),
+    ("regresses_the_sums_of_many_short_runs", "short.txt"),
+    ("regresses_the_bounds_of_the_proof", "rest.txt"),
+    ("a_pool_gives_the_whole_response_of_single_runs", "tallies.txt"),
+];
+
+/// How they are run. Both packages: so `cargo test` has built them already.
+const TEST: [&str; 8] = [
+    "test",
+    "--locked",
+    "--lib",
+    "--test",
+    "mechanics",
+    "--test",
+    "gate",
+    "--",
+];
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] outside the root of the repository and for files that cannot
+/// be read or written (status 2); for a test or a case that fails, for files
+/// that belong to no report, and with `--check` for any change (status 1).
+pub fn run(args: &Args) -> Result<(), Failure> {
+    at_root()?;
+    let mut files = Files::new();
+    let mut put = |folder: &str, name: &str, text: Vec<u8>| {
+        files.insert(format!("{folder}/{name}"), text);
+    };
+    for (name, text) in from_tests()? {
+        put(PINS, &name, text);
+    }
+    let (counters, results, precision) = cases()?;
+    put(PINS, "work-counters.csv", counters.into_bytes());
+    let old = text(&format!("{REPORTS}/{CASES}"))?;
+    let mut words = compared(&old, &results);
+    put(REPORTS, CASES, results.clone().into_bytes());
+    put(REPORTS, "data/precision.csv", precision.clone().into_bytes());
+    let proof = Proof::from_texts(Path::new("data"), &results, precision)?;
+    let report = study::default_report(&proof)?;
+    let findings = report.get(FINDINGS).map(|f| String::from_utf8_lossy(f));
+    let findings = Findings::parse(&findings.unwrap_or_default())
+        .map_err(Failure::gate)?;
+    let readme = readme::renewed(&text(README)?, &findings, &proof)?;
+    match stale(Path::new(REPORTS), &report) {
+        Ok(differs) => words += &differs.unwrap_or_default(),
+        Err(StaleError::Diff(error)) => words += &not_compared(&error),
+        Err(error) => return Err(error.into()),
+    }
+    for (name, content) in &report {
+        put(REPORTS, name, content.clone());
+    }
+    files.insert(README.into(), readme.into_bytes());
+    let changed = changed(files, &mut words)?;
+    print(&words)?;
+    let list: Vec<&str> = changed.keys().map(String::as_str).collect();
+    let list = list.join("\n  ");
+    if args.check && !changed.is_empty() {
+        return Err(Failure::gate(format!(
+            "{} files would change:\n  {list}\n`cargo run --release -- \
+             accept` changes them",
+            changed.len()
+        )));
+    }
+    if let Some((last, _)) = changed.last_key_value() {
+        Folder::open(Path::new("."))?.write(&changed, last)?;
+        print(&format!("{} files changed:\n  {list}\n", changed.len()))?;
+    }
+    // What is left are files that no study writes.
+    if let Some(words) = stale(Path::new(REPORTS), &report)? {
+        return Err(Failure::gate(format!(
+            "{words}{REPORTS} holds more than the report: remove the rest"
+        )));
+    }
+    if changed.is_empty() {
+        print("nothing changes: all results are accepted\n")?;
+    }
+    Ok(())
+}
+
+/// Refuses another folder than the root of the repository, and a program
+/// that was not built there just now.
+fn at_root() -> Result<(), Failure> {
+    let there = |path: &str| fs::canonicalize(path).ok();
+    let built = env::var("CARGO_MANIFEST_DIR").ok();
+    let built = built.and_then(|folder| there(&folder));
+    let here = there("validation").filter(|_| Path::new(PINS).is_dir());
+    if here.is_none() || built != here {
+        return Err(Failure::input(
+            "expected `cargo run --release -- accept` in the root of the \
+             repository, so that the program is built from what is there",
+        ));
+    }
+    if is_interrupted(Path::new(".")) {
+        return Err(Failure::input(
+            "files of two runs are here: remove `.rocking-*.part` and \
+             restore what is missing with git, then run this again",
+        ));
+    }
+    Ok(())
+}
+
+/// What the tests that hold pins find, by the names of the pins.
+fn from_tests() -> Result<Files, Failure> {
+    let folder = tempfile::tempdir()?;
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let line: Vec<&str> =
+        TEST.into_iter().chain(HOLDERS.map(|(test, _)| test)).collect();
+    let words = format!("cargo {}", line.join(" "));
+    eprintln!("rocking: {words}");
+    let done = Command::new(&cargo)
+        .args(line)
+        .env("ROCKING_ACCEPT", folder.path())
+        .stderr(Stdio::inherit())
+        .output()?;
+    if !done.status.success() {
+        print(&String::from_utf8_lossy(&done.stdout))?;
+        return Err(Failure::gate(format!("failed: {words}")));
+    }
+    let mut found = Files::new();
+    for (test, pin) in HOLDERS {
+        let text = fs::read(folder.path().join(pin)).map_err(|error| {
+            Failure::gate(format!(
+                "{PINS}/{pin}: {error}: expected the test {test} to find it \
+                 (for the tallies on a machine with AVX2)"
+            ))
+        })?;
+        found.insert(pin.into(), text);
+    }
+    Ok(found)
+}
+
+/// Work counters, results of the declared cases and digits of each
+/// precision, as their files have them.
+fn cases() -> Result<(String, String, String), Failure> {
+    eprintln!("rocking: declared cases");
+    let mut cases = load_all()?;
+    cases.retain(|case| case.cost == Cost::Quick);
+    let counted = cases.iter().filter(|case| case.method == COUNTERS);
+    let counted = counted
+        .map(|case| Ok((case, methods::run(case, None)?.observed)))
+        .collect::<Result<Vec<_>, Failure>>()?;
+    let counters = counters_csv(&counted);
+    expect_counters(&mut cases, &counters);
+    let outcomes = run_all(&cases);
+    let results = snapshot::text(&cases, &outcomes);
+    let refused: Vec<Outcome> = outcomes
+        .into_iter()
+        .filter(|outcome| !outcome.verdict.is_accepted())
+        .collect();
+    if !refused.is_empty() {
+        print(&validate::people(&refused))?;
+        return Err(Failure::gate(format!(
+            "{} of {} cases are not accepted: nothing is written",
+            refused.len(),
+            cases.len()
+        )));
+    }
+    Ok((counters, results, digits_csv(&digits()?)))
+}
+
+/// A file as it is; empty where there is none.
+fn text(path: &str) -> Result<String, Failure> {
+    match fs::read_to_string(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            Ok(String::new())
+        }
+        read => {
+            read.map_err(|error| Failure::input(format!("{path}: {error}")))
+        }
+    }
+}
+
+/// What the results of the declared cases say differently.
+fn compared(old: &str, new: &str) -> String {
+    if old == new || old.is_empty() {
+        return String::new();
+    }
+    let path = Path::new(REPORTS).join(CASES);
+    let attempt = || {
+        let old = Results::from_text(&path, old)?;
+        let new = Results::from_text(&path, new)?;
+        // A declared tolerance is stated for every number.
+        Ok(diff::compare(&old, &new, 0.0)?.text(false) + "\n")
+    };
+    attempt().unwrap_or_else(|error| not_compared(&error))
+}
+
+/// Results of another form are replaced all the same.
+fn not_compared(error: &diff::DiffError) -> String {
+    format!("not compared: {error}\n")
+}
+
+/// Those of the files that are not as they are in the folder; adds to `words`
+/// which lines of the pins change.
+fn changed(files: Files, words: &mut String) -> Result<Files, Failure> {
+    let mut changed = Files::new();
+    for (name, new) in files {
+        let old = match fs::read(&name) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            read => Some(read.map_err(|error| {
+                Failure::input(format!("{name}: {error}"))
+            })?),
+        };
+        if old.as_ref() == Some(&new) {
+            continue;
+        }
+        if !name.starts_with(REPORTS) {
+            let old = old.unwrap_or_default();
+            *words += &lines(&name, &old, &new);
+        }
+        changed.insert(name, new);
+    }
+    Ok(changed)
+}
+
+/// How many lines of a file change, and the first of them.
+fn lines(name: &str, old: &[u8], new: &[u8]) -> String {
+    let texts = [old, new].map(String::from_utf8_lossy);
+    let [old, new] = texts.each_ref().map(|text| text.lines());
+    let (old, new): (Vec<_>, Vec<_>) = (old.collect(), new.collect());
+    let count = old.len().max(new.len());
+    let at = |lines: &[&str], k: usize| {
+        lines.get(k).map_or(String::new(), |line| (*line).to_owned())
+    };
+    let differ: Vec<usize> =
+        (0..count).filter(|&k| at(&old, k) != at(&new, k)).collect();
+    let mut out =
+        format!("{name}: {} of {count} lines differ\n", differ.len());
+    if let Some(&k) = differ.first() {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "  line {}: {}", k + 1, at(&old, k));
+        let _ = writeln!(out, "  now: {}", at(&new, k));
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_changed_line_is_told() {
+        let told = lines("pin", b"a 1\nb 2\nc 3\n", b"a 1\nb 4\nc 5\nd 6\n");
+        let first = "  line 2: b 2\n  now: b 4\n";
+        assert_eq!(told, format!("pin: 3 of 4 lines differ\n{first}"));
+    }
+
+    #[test]
+    fn results_of_another_form_are_told_and_no_obstacle() {
+        let case = |verdict: &str| {
+            let rest = "\"quantities\": {}, \"rejected\": {}";
+            let kind = "\"kind\": \"regression\", \"method\": \"m\"";
+            format!(
+                "{{\"f/x\": {{{kind}, \"oracle\": \"own-output\", \
+                 \"verdict\": \"{verdict}\", {rest}}}}}"
+            )
+        };
+        let (pass, fail) = (case("pass"), case("fail"));
+        assert_eq!(compared(&pass, &pass), "");
+        assert_eq!(compared("", &pass), "");
+        assert!(compared(&fail, &pass).contains("fail"));
+        assert!(compared("{}", &pass).starts_with("not compared: "));
+    }
+}

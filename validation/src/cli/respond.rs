@@ -174,7 +174,7 @@ fn drawing(
         arm: None,
     };
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
-    Ok(figure.thinned().figure(String::new()).svg()?)
+    Ok(figure.thinned().figure(String::new()).svg())
 }
 
 /// Name of an outcome, `unresolved` where it cannot be told.

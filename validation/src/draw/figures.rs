@@ -34,7 +34,7 @@ pub use quantiles::{QuantileGroup, QuantilePanel, Quantiles};
 pub use sketch::BlockSketch;
 pub use tests_along::{Histogram, TestedBlock, TestsAlongDemand};
 
-use crate::draw::{DrawError, Scene};
+use crate::draw::Scene;
 use crate::paper::Arm;
 
 /// The words that go with a figure.
@@ -75,10 +75,8 @@ impl Figure {
     }
 
     /// The drawing.
-    ///
-    /// # Errors
-    /// [`DrawError`] when the SVG grows too large.
-    pub fn svg(&self) -> Result<String, DrawError> {
+    #[must_use]
+    pub fn svg(&self) -> String {
         self.scene.svg()
     }
 }

@@ -29,7 +29,7 @@ pub(super) fn svg(
         )));
     };
     let chart = chart(&listed.motion, processing, gravity_m_s2)?;
-    Ok(chart.thinned().figure(String::new()).svg()?)
+    Ok(chart.thinned().figure(String::new()).svg())
 }
 
 fn chart(

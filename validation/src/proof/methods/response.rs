@@ -8,7 +8,7 @@ use super::references::{
     FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, TRAJECTORIES,
 };
 use super::{Answer, Context, MethodError};
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene, Trace};
+use crate::proof::scene::{Forcing, Model, Overturning, Scene, Trace};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -36,7 +36,7 @@ fn put_impacts(
     );
     answer.put(
         "impact-speeds",
-        impacts().map(|i| i.speed_rad_s / unit_speed).collect(),
+        impacts().map(|i| i.speed_before_rad_s / unit_speed).collect(),
         speeds,
     );
 }
@@ -47,10 +47,10 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let file = &TRAJECTORIES;
     let case = references::trajectory(&entry)?;
     let expected = file.get(case, "expected")?;
-    let scene = references::scene(case, Criterion::HalfPi)?;
+    let scene = references::scene(case, Overturning::HalfPi)?;
     let p = scene.frequency_rad_s;
     let trace = context.engine.respond(&scene)?;
-    let first = Scene { criterion: Criterion::Alpha, ..scene };
+    let first = Scene { overturning: Overturning::Alpha, ..scene };
     let first = context.engine.respond(&first)?;
 
     let mut answer = Answer::default();
@@ -150,7 +150,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for [alpha, p, g] in input.blocks.iter().copied() {
         let block = [alpha, p, g];
-        let scene = references::linear_scene(case, block, Criterion::Alpha)?;
+        let scene = references::linear_scene(case, block, Overturning::Alpha)?;
         let trace = context.engine.respond(&scene)?;
         let mut block = Answer::default();
         put_impacts(
@@ -200,8 +200,8 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let file = &FREE_ROCKING;
     let case = &references::entry(file, input.entry)?;
     let (equation, key) = match input.equation.as_str() {
-        "nonlinear" => (Equation::Nonlinear, "nonlinear"),
-        "linearized" => (Equation::Linearized, "linear"),
+        "nonlinear" => (Model::Nonlinear, "nonlinear"),
+        "linearized" => (Model::Linearized, "linear"),
         other => {
             return Err(MethodError::Input(format!("equation `{other}`")));
         }
@@ -210,14 +210,12 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let p = file.f64(case, "p")?;
     let rotation_rad = file.f64(case, "theta0")?;
     let scene = Scene {
-        slenderness_rad: file.f64(case, "alpha")?,
-        frequency_rad_s: p,
-        restitution: file.f64(case, "eta")?,
-        gravity_m_s2: 9.81,
-        equation,
-        criterion: Criterion::Alpha,
-        forcing: Forcing::Free { rotation_rad },
-        until_s: None,
+        model: equation,
+        ..Scene::new(
+            [file.f64(case, "alpha")?, p, 9.81],
+            file.f64(case, "eta")?,
+            Forcing::Free { rotation_rad },
+        )
     };
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
@@ -260,7 +258,7 @@ pub(super) fn rectangular_pulse(
     let case = &references::entry(file, input.entry)?;
     let p = file.f64(case, "p")?;
     let scene = |criterion| references::rectangular_scene(case, criterion);
-    let trace = context.engine.respond(&scene(Criterion::HalfPi)?)?;
+    let trace = context.engine.respond(&scene(Overturning::HalfPi)?)?;
     let mut answer = Answer::default();
     answer.put("side", vec![trace.first_side], vec![-1.0]);
     answer.put(
@@ -269,7 +267,7 @@ pub(super) fn rectangular_pulse(
         vec![0.0],
     );
     if case["outcome"] == "overturns" {
-        let first = context.engine.respond(&scene(Criterion::Alpha)?)?;
+        let first = context.engine.respond(&scene(Overturning::Alpha)?)?;
         for (name, trace, key) in [
             ("alpha-time-p", &first, "t_theta_eq_alpha"),
             ("half-pi-time-p", &trace, "t_theta_eq_pi_over_2"),

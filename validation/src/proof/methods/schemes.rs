@@ -8,7 +8,7 @@ use super::references::TRAJECTORIES;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
 use crate::proof::naive::{Events, Naive, Rules};
-use crate::proof::scene::{Criterion, Engine as _, Forcing};
+use crate::proof::scene::{Engine as _, Forcing, Overturning};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -63,7 +63,7 @@ fn error(
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Criterion::HalfPi)?;
+        let scene = references::scene(case, Overturning::HalfPi)?;
         let expected = file.get(case, "expected")?;
         let due = file.column(file.list(expected, "impacts")?, "t")?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {

@@ -4,7 +4,7 @@ use crate::draw::figures::{
 };
 use crate::proof::engine::Core;
 use crate::proof::scene::{
-    Criterion, Engine as _, EngineError, Equation, Forcing, Scene,
+    Engine as _, EngineError, Forcing, Model, Overturning, PulseKind, Scene,
 };
 
 /// One-sine pulses: frequency over p and amplitude over the threshold.
@@ -111,25 +111,24 @@ fn departure(
     let p = 2.0;
     let speed = |equation| -> Result<f64, EngineError> {
         let unit = match (equation, over) {
-            (Equation::Nonlinear, Over::TanAlpha) => libm::tan(alpha),
+            (Model::Nonlinear, Over::TanAlpha) => libm::tan(alpha),
             _ => alpha,
         };
         let trace = Core.respond(&Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: 0.92,
-            gravity_m_s2: 1.0,
-            equation,
-            criterion: Criterion::HalfPi,
-            forcing: Forcing::Sine {
-                amplitude_m_s2: amplitude * unit,
-                omega_rad_s: omega * p,
-                half_cycles: 2,
-            },
+            model: equation,
+            overturning: Overturning::HalfPi,
             until_s: Some(20.0),
+            ..Scene::new(
+                [alpha, p, 1.0],
+                0.92,
+                Forcing::Pulse(PulseKind::OneSine {
+                    amplitude: amplitude * unit,
+                    omega_rad_s: omega * p,
+                }),
+            )
         })?;
-        Ok(trace.impacts.first().map_or(f64::NAN, |i| i.speed_rad_s))
+        Ok(trace.impacts.first().map_or(f64::NAN, |i| i.speed_before_rad_s))
     };
-    let linear = speed(Equation::Linearized)?;
-    Ok((speed(Equation::Nonlinear)? / linear - 1.0).abs())
+    let linear = speed(Model::Linearized)?;
+    Ok((speed(Model::Nonlinear)? / linear - 1.0).abs())
 }

@@ -10,7 +10,6 @@ use serde::Deserialize;
 
 use super::{number, refused, rows};
 use crate::proof::cases::WrongModel;
-use crate::proof::methods::closed_forms::extend;
 use crate::proof::methods::{Answer, Context, MethodError};
 
 const EXACT: &str = "fixtures/oracles/lilliefors_exact.csv";
@@ -60,7 +59,7 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
         let slope = (at(rank + span) - at(rank - span)) / (2.0 * span);
         let error = (spread * slope).max(input.error);
         let gap = (at(rank) - exact) / (error + input.error);
-        extend(&mut answer, "standardised-gap", [gap], [0.0]);
+        answer.extend("standardised-gap", [gap], [0.0]);
     }
     let largest = at(count) / Statistic::largest(n);
     answer.observed.insert("largest-of-all".into(), vec![largest]);
@@ -104,7 +103,7 @@ pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
             best.max(d)
         });
         let expected = Statistic::largest(n);
-        extend(&mut answer, "attained", [attained], [expected]);
+        answer.extend("attained", [attained], [expected]);
     }
     answer.observed.insert("largest".into(), formula);
     Ok(answer)
@@ -145,7 +144,7 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
             }
             let both = (own * own + error * error).sqrt() + input.rounding;
             let gap = (ours - value) / both;
-            extend(&mut answer, "standardised-gap", [gap], [0.0]);
+            answer.extend("standardised-gap", [gap], [0.0]);
         }
     }
     for n in [44, 86] {

@@ -52,23 +52,25 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Adds a quantity with what is expected of it.
-    pub fn put(&mut self, name: &str, observed: Vec<f64>, expected: Vec<f64>) {
-        self.observed.insert(name.to_owned(), observed);
-        self.expected.insert(name.to_owned(), expected);
-    }
-
-    /// Adds to the lists of a quantity.
-    pub fn extend(
+    /// Adds to the lists of a quantity: what was observed, and what is
+    /// expected of it.
+    pub fn put(
         &mut self,
         name: &str,
         observed: impl IntoIterator<Item = f64>,
         expected: impl IntoIterator<Item = f64>,
     ) {
-        let list = self.observed.entry(name.to_owned()).or_default();
-        list.extend(observed);
-        let list = self.expected.entry(name.to_owned()).or_default();
-        list.extend(expected);
+        self.see(name, observed);
+        self.expected.entry(name.to_owned()).or_default().extend(expected);
+    }
+
+    /// Adds to what was observed of a quantity whose values the case writes.
+    pub fn see(
+        &mut self,
+        name: &str,
+        observed: impl IntoIterator<Item = f64>,
+    ) {
+        self.observed.entry(name.to_owned()).or_default().extend(observed);
     }
 }
 

@@ -187,25 +187,6 @@ pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
     pulse
 }
 
-/// End of a pulse, s.
-fn pulse_end_s(pulse: PulseKind) -> f64 {
-    match pulse {
-        PulseKind::HalfSine { omega_rad_s, .. } => PI / omega_rad_s,
-        PulseKind::OneSine { omega_rad_s, .. }
-        | PulseKind::OneCosine { omega_rad_s, .. } => TAU / omega_rad_s,
-        PulseKind::Rectangle { duration_s, .. }
-        | PulseKind::Triangle { duration_s, .. } => duration_s,
-        PulseKind::RickerSymmetric { period_s, cycles, .. }
-        | PulseKind::RickerAntisymmetric { period_s, cycles, .. } => {
-            cycles * period_s
-        }
-        PulseKind::MavroeidisPapageorgiou { frequency_hz, gamma, .. } => {
-            gamma / frequency_hz
-        }
-        _ => f64::NAN,
-    }
-}
-
 /// Acceleration of a pulse at `t_s`, in the unit of its amplitude.
 fn pulse_at(pulse: PulseKind, piece: usize, t_s: f64) -> f64 {
     match pulse {
@@ -269,9 +250,28 @@ impl Forcing {
     /// End of the ground motion, s.
     #[must_use]
     pub fn end_s(&self) -> f64 {
+        use PulseKind as P;
         match self {
             Self::Free { .. } => 0.0,
-            Self::Pulse(kind) => pulse_end_s(*kind),
+            Self::Pulse(P::HalfSine { omega_rad_s, .. }) => PI / omega_rad_s,
+            Self::Pulse(
+                P::OneSine { omega_rad_s, .. }
+                | P::OneCosine { omega_rad_s, .. },
+            ) => TAU / omega_rad_s,
+            Self::Pulse(
+                P::Rectangle { duration_s, .. }
+                | P::Triangle { duration_s, .. },
+            ) => *duration_s,
+            Self::Pulse(
+                P::RickerSymmetric { period_s, cycles, .. }
+                | P::RickerAntisymmetric { period_s, cycles, .. },
+            ) => cycles * period_s,
+            Self::Pulse(P::MavroeidisPapageorgiou {
+                frequency_hz,
+                gamma,
+                ..
+            }) => gamma / frequency_hz,
+            Self::Pulse(_) => f64::NAN,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 (acceleration_m_s2.len() - 1) as f64 * dt_s
             }

@@ -70,17 +70,17 @@ fn put_free(
     p: f64,
 ) {
     let impacts = || trace.impacts.iter().take(form.impact_times_p.len());
-    answer.extend(
+    answer.put(
         "impact-times-p",
         impacts().map(|i| i.time_s * p),
         form.impact_times_p.iter().copied(),
     );
-    answer.extend(
+    answer.put(
         "impact-speeds-p",
         impacts().map(|i| i.speed_before_rad_s / p),
         form.impact_speeds_p.iter().copied(),
     );
-    answer.extend(
+    answer.put(
         "rest-time-p",
         trace.rest_s.map(|t| t * p),
         form.settling_p.is_finite().then_some(form.settling_p),
@@ -127,23 +127,23 @@ fn put_pulse(
     [alpha, p, _]: [f64; 3],
 ) {
     let impacts = || trace.impacts.iter().take(form.impacts.len());
-    answer.extend(
+    answer.put(
         "impact-times-p",
         impacts().map(|i| i.time_s * p),
         form.impacts.iter().map(|i| i.0),
     );
-    answer.extend(
+    answer.put(
         "impact-speeds",
         impacts().map(|i| i.speed_before_rad_s / (p * alpha)),
         form.impacts.iter().map(|i| i.1),
     );
-    answer.extend("uplift-time-p", trace.uplift_s.map(|t| t * p), form.uplift);
-    answer.extend(
+    answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), form.uplift);
+    answer.put(
         "alpha-time-p",
         trace.overturned_s.map(|t| t * p),
         form.overturned,
     );
-    answer.extend("side", [trace.first_side], [form.side]);
+    answer.put("side", [trace.first_side], [form.side]);
 }
 
 /// The pulse of this name, for a block with p = 1 rad/s and
@@ -225,7 +225,7 @@ pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
             scene.overturning = Overturning::HalfPi;
             overturns_at_once(context.engine, &scene)
         })?;
-        answer.extend("critical-amplitude", [found], [condition]);
+        answer.put("critical-amplitude", [found], [condition]);
     }
     Ok(answer)
 }
@@ -269,11 +269,11 @@ pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
             let trace = context.engine.respond(&scene)?;
             Ok(trace.overturned_s.is_none())
         })?;
-        answer.extend("fold", [found], [omega]);
+        answer.put("fold", [found], [omega]);
         let pulse = PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
         let scene = linear_scene(pulse, eta, input.block, None);
         let seen = context.state(&scene, scene.forcing.end_s())?;
-        answer.extend(
+        answer.put(
             "rotation-at-pulse-end",
             [seen.rotation_rad.abs() / scene.slenderness_rad],
             [2.0 - 1.0 / (eta * eta)],
@@ -317,11 +317,7 @@ pub(super) fn durations(context: &Context) -> Result<Answer, MethodError> {
                     };
                     overturns_at_once(context.engine, &scene)
                 })?;
-                answer.extend(
-                    "critical-duration-p",
-                    [found * p],
-                    [critical * p],
-                );
+                answer.put("critical-duration-p", [found * p], [critical * p]);
             }
         }
     }

@@ -76,7 +76,7 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
             let ratio = steps[1] as f64 / steps[0] as f64;
             let slope = libm::log(pair[0][k] / pair[1][k]) / libm::log(ratio);
             let due = f64::from(input.order);
-            answer.extend(&format!("order-of-{name}"), [slope], [due]);
+            answer.put(&format!("order-of-{name}"), [slope], [due]);
         }
     }
     Ok(answer)

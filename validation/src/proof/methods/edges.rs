@@ -101,7 +101,7 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
         changes.push(found / input.linear - 1.0);
     }
     let mut answer = Answer::default();
-    answer.observed.insert("change".to_owned(), changes);
+    answer.see("change", changes);
     Ok(answer)
 }
 
@@ -131,7 +131,7 @@ pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
         ("mode-2-by-alpha", Edge::Mode2Alpha),
     ] {
         let found = pulse.edge(context, edge, upper, 1e-5)?;
-        answer.observed.insert(name.to_owned(), vec![found]);
+        answer.see(name, [found]);
     }
     Ok(answer)
 }
@@ -190,7 +190,7 @@ pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
                     1.0,
                 ),
             ] {
-                answer.extend(name, [seen], [due]);
+                answer.put(name, [seen], [due]);
             }
         }
     }

@@ -82,10 +82,10 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
     ratios.sort_by(f64::total_cmp);
     let mut answer = Answer::default();
     let exceeded = ratios.iter().filter(|r| !(**r <= 1.0)).count();
-    answer.put("estimates-exceeded", vec![exceeded as f64], vec![0.0]);
-    answer.put("sure-of-a-wrong-fate", vec![wrong], vec![0.0]);
+    answer.put("estimates-exceeded", [exceeded as f64], [0.0]);
+    answer.put("sure-of-a-wrong-fate", [wrong], [0.0]);
     let mut see = |name: &str, value: f64| {
-        answer.observed.insert(name.to_owned(), vec![value]);
+        answer.see(name, [value]);
     };
     see("peaks-compared", ratios.len() as f64);
     see("fates-left-open", open);

@@ -91,7 +91,7 @@ pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
     let mut see = |name: &str, values: Vec<f64>| {
-        answer.observed.insert(name.to_owned(), values);
+        answer.see(name, values);
     };
     see("peak-ratio", vec![trace.peak_ratio]);
     see("uplifts", vec![trace.uplifts as f64]);
@@ -117,7 +117,7 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
     let (dt_s, record) = references::record(&input.record)?;
     let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let mut answer = Answer::default();
-    answer.extend("impact-in-between", [], []);
+    answer.put("impact-in-between", [], []);
     for (k, letter) in input.letters.chars().enumerate() {
         let level_g = input.first_level_g + 0.01 * k as f64;
         let mut scene = Scene::new(
@@ -139,13 +139,13 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
             }
         };
         let seen = |x: Option<f64>| f64::from(x.is_some());
-        answer.extend("reaches-alpha", [seen(first)], [alpha]);
-        answer.extend("reaches-half-pi", [seen(last)], [half_pi]);
+        answer.put("reaches-alpha", [seen(first)], [alpha]);
+        answer.put("reaches-half-pi", [seen(last)], [half_pi]);
         // A block that comes back rocks on: it meets the base in between.
         if let (Some(first), Some(last)) = (first, last) {
             let back = |t: f64| t > first && t < last;
             let back = trace.impacts.iter().any(|i| back(i.time_s));
-            answer.extend(
+            answer.put(
                 "impact-in-between",
                 [f64::from(back)],
                 [f64::from(letter == 'r')],
@@ -207,7 +207,7 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
     }
     differences.sort_by(f64::total_cmp);
     let at = |share: usize| differences[differences.len() * share / 10];
-    answer.put("median-difference", vec![at(5)], vec![0.0]);
-    answer.put("upper-decile-difference", vec![at(9)], vec![0.0]);
+    answer.put("median-difference", [at(5)], [0.0]);
+    answer.put("upper-decile-difference", [at(9)], [0.0]);
     Ok(answer)
 }

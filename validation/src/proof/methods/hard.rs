@@ -55,14 +55,10 @@ pub(super) fn saddle(context: &Context) -> Result<Answer, MethodError> {
                 };
                 let trace = context.engine.respond(&scene)?;
                 let over = f64::from(trace.overturned_s.is_some());
-                answer.extend("overturned", [over], [falls]);
+                answer.put("overturned", [over], [falls]);
                 if falls == 0.0 {
                     let gap = 1.0 - trace.peak_ratio;
-                    answer.extend(
-                        "gap-over-distance",
-                        [gap / distance],
-                        [1.0],
-                    );
+                    answer.put("gap-over-distance", [gap / distance], [1.0]);
                 }
             }
         }
@@ -121,19 +117,15 @@ pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
     let seen = || trace.impacts.iter().skip(1).take(input.impacts);
     answer.put(
         "impact-times-p",
-        seen().map(|i| i.time_s * p).collect(),
+        seen().map(|i| i.time_s * p),
         form.impact_times_p,
     );
     answer.put(
         "impact-speeds",
-        seen().map(|i| i.speed_before_rad_s / p).collect(),
+        seen().map(|i| i.speed_before_rad_s / p),
         form.impact_speeds_p,
     );
-    answer.put(
-        "rest-time-p",
-        trace.rest_s.iter().map(|t| t * p).collect(),
-        vec![form.settling_p],
-    );
+    answer.put("rest-time-p", trace.rest_s.map(|t| t * p), [form.settling_p]);
     Ok(answer)
 }
 
@@ -167,23 +159,23 @@ pub(super) fn twin(context: &Context) -> Result<Answer, MethodError> {
         let trace = context.engine.respond(&scene)?;
         let listed = || truth.impacts.iter().take(input.impacts);
         let seen = || trace.impacts.iter().take(input.impacts);
-        answer.extend(
+        answer.put(
             "impact-times-p",
             seen().map(|i| i.time_s * p),
             listed().map(|i| i.0.to_f64() * p),
         );
-        answer.extend(
+        answer.put(
             "impact-speeds",
             seen().map(|i| i.speed_before_rad_s),
             listed().map(|i| i.1.to_f64()),
         );
-        answer.extend(
+        answer.put(
             "alpha-time-p",
             trace.overturned_s.map(|t| t * p),
             truth.overturned_s.map(|t| t.to_f64() * p),
         );
         if truth.overturned_s.is_none() {
-            answer.extend(
+            answer.put(
                 "peak-ratio",
                 [trace.peak_ratio],
                 [truth.peak_ratio.to_f64()],

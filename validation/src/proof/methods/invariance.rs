@@ -97,27 +97,23 @@ fn compare(
     let speeds = |trace: &Trace, ratio: f64| -> Vec<f64> {
         trace.impacts.iter().map(|i| i.speed_before_rad_s * ratio).collect()
     };
-    answer.extend(
+    answer.put(
         "impact-times-p",
         times(observed, shift_s),
         times(expected, 0.0),
     );
-    answer.extend(
+    answer.put(
         "impact-speeds",
         speeds(observed, speed_ratio),
         speeds(expected, 1.0),
     );
-    answer.extend("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
-    answer.extend(
+    answer.put("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
+    answer.put(
         "alpha-time-p",
         observed.overturned_s.map(|t| (t - shift_s) * p),
         expected.overturned_s.map(|t| t * p),
     );
-    answer.extend(
-        "side",
-        [observed.first_side * mirror],
-        [expected.first_side],
-    );
+    answer.put("side", [observed.first_side * mirror], [expected.first_side]);
 }
 
 fn twin(
@@ -211,7 +207,7 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     };
     let order = libm::log((changes[1] / changes[0]).abs()) / libm::log(b / a);
     let mut answer = Answer::default();
-    answer.observed.insert("order".to_owned(), vec![order]);
-    answer.observed.insert("change".to_owned(), changes);
+    answer.see("order", [order]);
+    answer.see("change", changes);
     Ok(answer)
 }

@@ -26,12 +26,12 @@ pub(super) fn trajectories(context: &Context) -> Result<Answer, MethodError> {
         let expected = file.get(case, "expected")?;
         for point in file.list(expected, "checkpoints")? {
             let seen = context.state(&scene, file.f64(point, "t")?)?;
-            answer.extend(
+            answer.put(
                 "checkpoint-rotations",
                 [seen.rotation_rad / alpha],
                 [file.f64(point, "theta")? / alpha],
             );
-            answer.extend(
+            answer.put(
                 "checkpoint-velocities",
                 [seen.velocity_rad_s / (p * alpha)],
                 [file.f64(point, "theta_dot")? / (p * alpha)],
@@ -41,14 +41,14 @@ pub(super) fn trajectories(context: &Context) -> Result<Answer, MethodError> {
             let seen = context.state(&scene, file.f64(hop, "t")?)?;
             let peak = file.f64(hop, "abs_theta_over_alpha")?;
             let side = file.f64(hop, "side")?;
-            answer.extend(
+            answer.put(
                 "hop-peaks",
                 [seen.rotation_rad / alpha],
                 [side * peak],
             );
             // At rest for an instant: the peak is where the reference has
             // it.
-            answer.extend(
+            answer.put(
                 "velocity-at-hop-peaks",
                 [seen.velocity_rad_s / (p * alpha)],
                 [0.0],
@@ -89,7 +89,7 @@ pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
             ("growing", "E_plus", z - 1.0 + w),
             ("decaying", "E_minus", z - 1.0 - w),
         ] {
-            answer.extend(name, [value], [file.f64(end, key)?]);
+            answer.put(name, [value], [file.f64(end, key)?]);
         }
     }
     Ok(answer)

@@ -74,7 +74,7 @@ impl Errors {
     fn answer(self) -> Answer {
         let mut answer = Answer::default();
         for (name, error) in self.0 {
-            answer.put(name, vec![error], vec![0.0]);
+            answer.put(name, [error], [0.0]);
         }
         answer
     }

@@ -48,7 +48,7 @@ pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
         let coarse = error(&input, events, divisions, 1)?;
         let fine = error(&input, events, divisions, finer)?;
         let slope = libm::log(coarse / fine) / libm::log(f64::from(finer));
-        answer.observed.insert(format!("order-{name}"), vec![slope]);
+        answer.see(&format!("order-{name}"), [slope]);
     }
     Ok(answer)
 }

@@ -48,7 +48,7 @@ pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
         ratios.push(classic / found);
     }
     let mut answer = Answer::default();
-    answer.observed.insert("classic-over-exact".to_owned(), ratios);
+    answer.see("classic-over-exact", ratios);
     Ok(answer)
 }
 
@@ -97,7 +97,7 @@ pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
             let coarse = critical(input.intervals)?;
             let fine = critical(2 * input.intervals)?;
             let found = fine + (fine - coarse) / 3.0;
-            answer.extend("critical-amplitude", [found], [due]);
+            answer.put("critical-amplitude", [found], [due]);
         }
     }
     Ok(answer)

@@ -137,7 +137,7 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
             ("uplifts", work.uplifts),
             ("rest-scans", work.rest_scans),
         ] {
-            answer.extend(name, [count as f64], []);
+            answer.put(name, [count as f64], []);
             answer.expected.remove(name);
         }
     }

@@ -95,8 +95,8 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
         };
         answer.put(
             &edge.name,
-            vec![edge::edge(range, 1e-12, is_above)?],
-            vec![edge.amplitude],
+            [edge::edge(range, 1e-12, is_above)?],
+            [edge.amplitude],
         );
     }
     Ok(answer)

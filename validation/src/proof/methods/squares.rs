@@ -106,9 +106,9 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         let speeds = speeds.iter().map(|v| v / (p * alpha));
         let listed = due.impacts.iter();
         let list = listed.clone().map(|i| i.0);
-        answer.extend("impact-times-p", times, list);
+        answer.put("impact-times-p", times, list);
         let list = listed.map(|i| i.1 / alpha);
-        answer.extend("impact-speeds", speeds, list);
+        answer.put("impact-speeds", speeds, list);
         let end = input.extrapolated(|intervals| {
             let scene = input.scene(wave, intervals, Overturning::HalfPi);
             let seen = context.state(&scene, end_p / p)?;
@@ -119,7 +119,7 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         })?;
         let State { side, y, w } = due.end;
         let list = [side * y / alpha, side * w / alpha];
-        answer.extend("state-at-end", end, list);
+        answer.put("state-at-end", end, list);
     }
     Ok(answer)
 }
@@ -151,7 +151,7 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
             _ if over => side,
             _ => 0.0,
         };
-        answer.extend("overturned-side", [fate], [due.overturned]);
+        answer.put("overturned-side", [fate], [due.overturned]);
         let speed = input.extrapolated(|intervals| {
             let scene = input.scene(wave, intervals, Overturning::HalfPi);
             let trace = context.engine.respond(&scene)?;
@@ -163,7 +163,7 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
                 .collect())
         })?;
         let due = due.impact.map(|v| v / alpha);
-        answer.extend("impact-speed-after", speed, due);
+        answer.put("impact-speed-after", speed, due);
     }
     Ok(answer)
 }

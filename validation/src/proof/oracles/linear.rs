@@ -4,7 +4,7 @@
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-use crate::proof::scene::PulseKind;
+use crate::proof::scene::{Forcing, PulseKind};
 
 /// What the block does.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -28,30 +28,12 @@ struct Particular {
     v: f64,
 }
 
-fn end(pulse: PulseKind) -> f64 {
-    match pulse {
-        PulseKind::HalfSine { omega_rad_s, .. } => PI / omega_rad_s,
-        PulseKind::OneSine { omega_rad_s, .. }
-        | PulseKind::OneCosine { omega_rad_s, .. } => TAU / omega_rad_s,
-        PulseKind::Rectangle { duration_s, .. }
-        | PulseKind::Triangle { duration_s, .. } => duration_s,
-        PulseKind::RickerSymmetric { period_s, cycles, .. }
-        | PulseKind::RickerAntisymmetric { period_s, cycles, .. } => {
-            cycles * period_s
-        }
-        PulseKind::MavroeidisPapageorgiou { frequency_hz, gamma, .. } => {
-            gamma / frequency_hz
-        }
-        _ => f64::NAN,
-    }
-}
-
 fn kinks(pulse: PulseKind) -> Vec<f64> {
     match pulse {
         PulseKind::Triangle { duration_s, .. } => {
             vec![0.0, 0.5 * duration_s, duration_s]
         }
-        _ => vec![0.0, end(pulse)],
+        _ => vec![0.0, Forcing::Pulse(pulse).end_s()],
     }
 }
 

@@ -89,8 +89,8 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
         let outcomes: Vec<bool> = found.iter().map(|f| f[k]).collect();
         let (ours, gap) =
             rate_gap(&outcomes, *rate, *reference, input.rounding);
-        answer.extend("rate", [ours], [*rate]);
-        answer.extend("standardised-gap", [gap], [0.0]);
+        answer.put("rate", [ours], [*rate]);
+        answer.put("standardised-gap", [gap], [0.0]);
     }
     Ok(answer)
 }
@@ -129,8 +129,8 @@ pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
     let (ours, gap) =
         rate_gap(&outcomes, input.rate, input.reference, input.rounding);
     let mut answer = Answer::default();
-    answer.put("rate", vec![ours], vec![input.rate]);
-    answer.put("standardised-gap", vec![gap], vec![0.0]);
+    answer.put("rate", [ours], [input.rate]);
+    answer.put("standardised-gap", [gap], [0.0]);
     Ok(answer)
 }
 
@@ -318,8 +318,8 @@ pub(crate) fn bias(context: &Context) -> Result<Answer, MethodError> {
         };
         let error = (variance * (1.0 / trials + theirs)).sqrt();
         let gap = gap(sample.mean() - expected, input.rounding, error);
-        answer.put(name, vec![sample.mean()], vec![expected]);
-        answer.extend("standardised-gap", [gap], [0.0]);
+        answer.put(name, [sample.mean()], [expected]);
+        answer.put("standardised-gap", [gap], [0.0]);
     }
     Ok(answer)
 }

@@ -52,6 +52,20 @@ pub struct Heading {
     pub arm: Option<Arm>,
 }
 
+impl Heading {
+    /// The words of a figure.
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        description: impl Into<String>,
+        arm: Option<Arm>,
+    ) -> Self {
+        let (name, title) = (name.into(), title.into());
+        Self { name, title, description: description.into(), arm }
+    }
+}
+
 /// A figure: its words, its shapes and its numbers.
 pub struct Figure {
     /// The words that go with it.

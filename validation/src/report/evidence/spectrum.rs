@@ -130,22 +130,11 @@ fn band(label: &str, rows: &[(f64, f64, f64)]) -> Series {
 
 /// An edge of Eq. 1: grey and without legend, explained in the reading.
 fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
-    Series {
-        label: String::new(),
-        mark: Mark::Dashed,
-        x: x.into(),
-        y: y.collect(),
-        interval: Vec::new(),
-    }
+    Series::new("", Mark::Dashed, x.into(), y.collect())
 }
 
 fn axis(label: &str, scale: Scale, range: (f64, f64)) -> ChartAxis {
-    ChartAxis {
-        label: label.into(),
-        scale,
-        range: Some(range),
-        categories: Vec::new(),
-    }
+    ChartAxis::new(label, scale, Some(range))
 }
 
 /// Overturning spectrum of one-sine pulses, every mode, both criteria and
@@ -206,18 +195,17 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
     let (panel, lowest) = low_frequencies(&with_impact)?;
     panels.push(panel);
     Ok(Chart {
-        heading: Heading {
-            name: "figure-20".into(),
-            title: "Overturning spectrum of one-sine pulses".into(),
-            description: "Amplitude over the uplift threshold against \
+        heading: Heading::new(
+            "figure-20",
+            "Overturning spectrum of one-sine pulses",
+            "Amplitude over the uplift threshold against \
                               frequency over p at which a block overturns, \
                               restitution 0.92: after one impact, without \
                               impact, and in narrow bands after three and \
                               more; by two criteria, in Eq. 2 (regions) and \
-                              in Eq. 1 (dashed)."
-                .into(),
-            arm: None,
-        },
+                              in Eq. 1 (dashed).",
+            None,
+        ),
         panels,
         columns: 3,
     }

@@ -155,7 +155,7 @@ impl Pulse {
     /// The shape and its parameters, in multiples of gravity.
     #[must_use]
     pub fn kind(&self) -> PulseKind {
-        self.kind.with_amplitude(|a| a / self.divisor)
+        self.kind.with_amplitude(self.kind.amplitude() / self.divisor)
     }
 
     /// Amplitude over gravity.
@@ -168,8 +168,8 @@ impl Pulse {
     /// # Errors
     /// [`PulseError::Amplitude`] if the product is not finite.
     pub fn scaled(&self, factor: f64) -> Result<Self, PulseError> {
-        let kind = self.kind().with_amplitude(|a| a * factor);
-        Self::try_new(kind)
+        let kind = self.kind();
+        Self::try_new(kind.with_amplitude(kind.amplitude() * factor))
     }
 
     /// The same pulse scaled to a peak ground acceleration over g; where the

@@ -55,18 +55,6 @@ pub struct RivalFit {
     pub n: usize,
 }
 
-/// Akaike's information criterion 2k - 2 ln L of a model with k parameters.
-#[must_use]
-pub fn aic(log_likelihood: f64, parameters: usize) -> f64 {
-    f64::mul_add(-2.0, log_likelihood, 2.0 * parameters as f64)
-}
-
-/// Bayesian information criterion k ln n - 2 ln L.
-#[must_use]
-pub fn bic(log_likelihood: f64, parameters: usize, n: usize) -> f64 {
-    f64::mul_add(parameters as f64, log(n as f64), -2.0 * log_likelihood)
-}
-
 /// Fits a family above the shift by maximum likelihood to a sample without
 /// censored values.
 ///

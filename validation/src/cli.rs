@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use std::sync::mpsc;
 use std::time::Duration;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 pub mod boxplot;
 pub mod capacities;
@@ -20,7 +20,7 @@ pub mod fragility;
 pub mod ida;
 pub mod lilliefors;
 mod limit;
-pub mod order;
+mod names;
 pub mod processing;
 pub mod quantile;
 pub mod reading;
@@ -201,10 +201,21 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     })
 }
 
+/// The same command, which reads `-1` behind an option as its value.
+fn reading_negatives(command: clap::Command) -> clap::Command {
+    let read = |arg: clap::Arg| {
+        let takes_values = arg.get_action().takes_values();
+        let reads = takes_values && !arg.is_allow_hyphen_values_set();
+        if reads { arg.allow_negative_numbers(true) } else { arg }
+    };
+    command.mut_args(read).mut_subcommands(reading_negatives)
+}
+
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let matches = reading_negatives(Cli::command()).get_matches();
+    let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
         Command::Accept(args) => accept::run(&args),
         Command::Respond(args) => respond::run(&args),

@@ -2,9 +2,9 @@
 //! text, one palette for light, dark, print and grey.
 //!
 //! A [`Scene`] is a list of shapes in pixels, built without failing;
-//! [`Scene::svg`] draws it with plotters through [`svg::Svg`], our own
-//! backend. Layout uses a table of text widths, never the machine's fonts,
-//! so the same scene gives the same bytes everywhere.
+//! [`Scene::svg`] writes them; plotters' coordinate system places each point.
+//! Layout uses a table of text widths, never the machine's fonts, so the same
+//! scene gives the same bytes everywhere.
 
 pub mod axis;
 pub mod colour;
@@ -23,7 +23,7 @@ pub use geometry::{Point, Rect};
 pub use grid::Grid;
 pub use legend::{Entry, Sample};
 pub use panel::{Marker, Panel};
-pub use scene::{Caption, DrawError, Horizontal, Scene, TextLine};
+pub use scene::{Caption, Horizontal, Scene, TextLine};
 
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 
 pub mod arithmetic;
 pub mod cases;
+pub mod edge;
 pub mod engine;
 pub mod methods;
 pub mod naive;

@@ -14,7 +14,6 @@ pub mod timings;
 use rocking::block::BlockError;
 use thiserror::Error;
 
-use crate::draw::DrawError;
 use evidence::EvidenceError;
 use ledger::LedgerError;
 
@@ -31,9 +30,6 @@ pub enum ReportError {
     /// Requirements that cannot be read.
     #[error(transparent)]
     Ledger(#[from] LedgerError),
-    /// A drawing that grew too large.
-    #[error(transparent)]
-    Draw(#[from] DrawError),
     /// A table of timings that cannot be read.
     #[error("timings: {0}")]
     Timings(#[from] csv::Error),

@@ -107,7 +107,7 @@ pub enum PulseError {
 
 impl PulseKind {
     /// The amplitude: an acceleration, or a velocity.
-    pub(super) fn amplitude(self) -> f64 {
+    pub fn amplitude_mut(&mut self) -> &mut f64 {
         match self {
             Self::OneSine { amplitude: a, .. }
             | Self::HalfSine { amplitude: a, .. }
@@ -120,23 +120,14 @@ impl PulseKind {
         }
     }
 
+    /// The amplitude.
+    pub(super) fn amplitude(mut self) -> f64 {
+        *self.amplitude_mut()
+    }
+
     /// The same with another amplitude.
-    pub(super) fn with_amplitude(
-        mut self,
-        change: impl Fn(f64) -> f64,
-    ) -> Self {
-        match &mut self {
-            Self::OneSine { amplitude: a, .. }
-            | Self::HalfSine { amplitude: a, .. }
-            | Self::OneCosine { amplitude: a, .. }
-            | Self::Rectangle { amplitude: a, .. }
-            | Self::Triangle { amplitude: a, .. }
-            | Self::RickerSymmetric { amplitude: a, .. }
-            | Self::RickerAntisymmetric { amplitude: a, .. }
-            | Self::MavroeidisPapageorgiou { velocity: a, .. } => {
-                *a = change(*a);
-            }
-        }
+    pub(super) fn with_amplitude(mut self, amplitude: f64) -> Self {
+        *self.amplitude_mut() = amplitude;
         self
     }
 }

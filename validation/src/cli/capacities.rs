@@ -6,17 +6,19 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
+use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::{
     CapacityError, InversionRule, ResponseCurve, inversion_discrepancy,
 };
 use rocking::statistics::{ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
+use super::names::{CROSSINGS, INTENSITIES, named};
 use super::samples::SAMPLE_OF;
 use super::{Failure, print, print_json};
 use crate::files::Output;
 use crate::json;
+use crate::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
 /// records of an IDA file.
@@ -35,19 +37,14 @@ pub struct Args {
     #[arg(long, value_name = "IM:EDP,..", allow_hyphen_values = true)]
     curve: Option<Vertices>,
     /// Intensity of first overturning of the curve.
-    #[arg(
-        long,
-        value_name = "IM",
-        conflicts_with = "ida",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "IM", conflicts_with = "ida")]
     overturning: Option<f64>,
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     ida: Option<PathBuf>,
     /// Intensity measure, of --ida [default: pga].
-    #[arg(long, conflicts_with = "curve")]
-    im: Option<Measure>,
+    #[arg(long, value_parser = named(INTENSITIES), conflicts_with = "curve")]
+    im: Option<Intensity>,
     /// EDP levels, FIRST:LAST:STEP or separated by commas.
     #[arg(
         long,
@@ -58,16 +55,10 @@ pub struct Args {
     levels: Levels,
     /// Which single capacity is made of several crossings, for the quantiles
     /// over the records of --ida [default: median].
-    #[arg(long, conflicts_with = "curve")]
-    point: Option<Point>,
+    #[arg(long, value_parser = named(CROSSINGS), conflicts_with = "curve")]
+    point: Option<InversionRule>,
     /// EDP level of the sample written to --out.
-    #[arg(
-        long,
-        value_name = "E",
-        requires = "out",
-        conflicts_with = "curve",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "E", requires = "out", conflicts_with = "curve")]
     at: Option<f64>,
     /// Write the records' capacities at --at, one a line, `inf` if censored;
     /// `-` is standard output, and nothing else is printed then.
@@ -147,39 +138,6 @@ impl FromStr for Levels {
     }
 }
 
-/// The intensity measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Measure {
-    /// PGA/(g tan alpha).
-    Pga,
-    /// p PGV/(g tan alpha).
-    Pgv,
-}
-
-/// Which single capacity is made of several crossings.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Point {
-    /// The median crossing.
-    Median,
-    /// The first crossing.
-    First,
-    /// The last crossing.
-    Last,
-    /// The length of intensity below the level.
-    Monotone,
-}
-
-impl From<Point> for InversionRule {
-    fn from(point: Point) -> Self {
-        match point {
-            Point::Median => Self::Median,
-            Point::First => Self::First,
-            Point::Last => Self::Last,
-            Point::Monotone => Self::Monotone,
-        }
-    }
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -250,8 +208,8 @@ fn levels(
 }
 
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
-    let measure = args.im.unwrap_or(Measure::Pga);
-    let rule = InversionRule::from(args.point.unwrap_or(Point::Median));
+    let measure = args.im.unwrap_or(Intensity::Pga);
+    let rule = args.point.unwrap_or(InversionRule::Median);
     let suite = ida::read(path, measure)?;
     if let (Some(level), Some(out)) = (args.at, &args.out) {
         let out = Output::open(out, &[path.to_owned()])?;
@@ -293,13 +251,13 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
 /// The sample file of the records' capacities at a level.
 fn sample(
     suite: &ida::Suite,
-    measure: Measure,
+    measure: Intensity,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
     let measure = match measure {
-        Measure::Pga => "PGA/(g tan alpha)",
-        Measure::Pgv => "p PGV/(g tan alpha)",
+        Intensity::Pga => "PGA/(g tan alpha)",
+        Intensity::Pgv => "p PGV/(g tan alpha)",
     };
     let (alpha_rad, p_rad_s) = &suite.block;
     let setting = &suite.setting;

@@ -31,12 +31,7 @@ pub struct Args {
     b: PathBuf,
     /// Margin of equivalence: ratios between 1/(1 + M) and 1 + M are
     /// equivalent to 1.
-    #[arg(
-        long,
-        value_name = "M",
-        default_value_t = 0.05,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "M", default_value_t = 0.05)]
     margin: f64,
     /// Print JSON.
     #[arg(long)]

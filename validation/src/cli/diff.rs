@@ -25,12 +25,7 @@ pub struct Args {
     new: PathBuf,
     /// Relative change that is significant where a finding states no
     /// interval.
-    #[arg(
-        long,
-        value_name = "SHARE",
-        default_value_t = 0.01,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
     relative: f64,
     /// List every change, also those within their uncertainty; JSON always
     /// does.

@@ -7,8 +7,10 @@ use rocking::excitation::{NormalisedRecord, Pulse, PulseKind};
 use rocking::record::{Accelerogram, read_file};
 
 use super::Failure;
+use super::names::{INTENSITIES, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
+use crate::paper::Intensity;
 use crate::suites::remarks::Remarks;
 
 /// The excitation: a record, a pulse, or none.
@@ -30,80 +32,51 @@ pub struct ExcitationArgs {
     #[arg(long, value_enum, value_name = "KIND", conflicts_with = "free")]
     pulse: Option<PulseName>,
     /// Peak acceleration in m/s2 (all pulses but mavroeidis-papageorgiou).
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "A")]
     amplitude_m_s2: Option<f64>,
     /// Circular frequency in rad/s (one-sine, half-sine, one-cosine).
-    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    #[arg(long, value_name = "W")]
     omega_rad_s: Option<f64>,
     /// Duration in s (rectangle, triangle).
-    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    #[arg(long, value_name = "D")]
     duration_s: Option<f64>,
     /// Period in s (Ricker pulses).
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T")]
     period_s: Option<f64>,
     /// Length in periods (Ricker pulses) [default: 4].
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N")]
     cycles: Option<f64>,
     /// Velocity amplitude in m/s (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "V", allow_negative_numbers = true)]
+    #[arg(long, value_name = "V")]
     velocity_m_s: Option<f64>,
     /// Prevailing frequency in Hz (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "F", allow_negative_numbers = true)]
+    #[arg(long, value_name = "F")]
     frequency_hz: Option<f64>,
     /// Oscillatory character gamma (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "G", allow_negative_numbers = true)]
+    #[arg(long, value_name = "G")]
     gamma: Option<f64>,
     /// Phase in rad (mavroeidis-papageorgiou).
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N")]
     phase_rad: Option<f64>,
     /// No ground motion: released at rest from an initial rotation.
     #[arg(long, requires = "initial_ratio")]
     free: bool,
     /// Initial rotation over alpha, in (0, 1).
-    #[arg(
-        long,
-        value_name = "X",
-        requires = "free",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "X", requires = "free")]
     initial_ratio: Option<f64>,
     /// Factor on every acceleration.
-    #[arg(
-        long,
-        value_name = "F",
-        conflicts_with_all = ["pga", "im", "free"],
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "F", conflicts_with_all = ["pga", "im", "free"])]
     scale: Option<f64>,
     /// Scale to this peak ground acceleration in g.
-    #[arg(
-        long,
-        value_name = "G",
-        conflicts_with_all = ["im", "free"],
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "G", conflicts_with_all = ["im", "free"])]
     pga: Option<f64>,
     /// Scale to this dimensionless intensity.
-    #[arg(
-        long,
-        value_name = "X",
-        conflicts_with = "free",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "X", conflicts_with = "free")]
     im: Option<f64>,
     /// Which intensity: PGA/(g tan alpha) or p PGV/(g tan alpha); g alpha
     /// for Eq. 2 [default: pga].
-    #[arg(long, value_enum, requires = "im")]
-    im_kind: Option<ImKind>,
-}
-
-/// Which intensity measure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ImKind {
-    /// PGA/(g tan alpha).
-    Pga,
-    /// p PGV/(g tan alpha).
-    Pgv,
+    #[arg(long, value_parser = named(INTENSITIES), requires = "im")]
+    im_kind: Option<Intensity>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -212,8 +185,8 @@ impl ExcitationArgs {
         velocity_ratio_s: f64,
     ) -> Option<f64> {
         let by_im = self.im.map(|im| match self.im_kind {
-            Some(ImKind::Pgv) => im * threshold / (p * velocity_ratio_s),
-            Some(ImKind::Pga) | None => im * threshold,
+            Some(Intensity::Pgv) => im * threshold / (p * velocity_ratio_s),
+            Some(Intensity::Pga) | None => im * threshold,
         });
         self.pga.or(by_im)
     }

@@ -6,13 +6,16 @@ mod sample;
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
+use rocking::capacity::InversionRule;
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use serde_json::{Map, Value};
 
-use super::capacities::{Levels, Measure, Point};
+use super::capacities::Levels;
+use super::names::{CROSSINGS, INTENSITIES, named};
 use super::samples::Shift;
 use super::{Failure, print, print_json};
 use crate::json;
+use crate::paper::Intensity;
 
 /// Lognormal fragilities of a sample, or Eqs. 5 to 7 alone.
 ///
@@ -44,11 +47,11 @@ pub struct Args {
     )]
     at: Option<Levels>,
     /// Intensity measure of --ida [default: pga].
-    #[arg(long, requires = "ida")]
-    im: Option<Measure>,
+    #[arg(long, value_parser = named(INTENSITIES), requires = "ida")]
+    im: Option<Intensity>,
     /// Which single capacity is made of several crossings [default: median].
-    #[arg(long, requires = "ida")]
-    point: Option<Point>,
+    #[arg(long, value_parser = named(CROSSINGS), requires = "ida")]
+    point: Option<InversionRule>,
     /// Eqs. 5 to 7 from given numbers.
     #[arg(long)]
     transform: bool,
@@ -65,14 +68,10 @@ pub struct Args {
     #[arg(long, value_name = "TYPE", conflicts_with = "transform")]
     quantile_type: Option<u8>,
     /// Constant c of Eq. 7 [default: 1].
-    #[arg(long, allow_negative_numbers = true)]
+    #[arg(long)]
     c: Option<f64>,
     /// Bootstrap this many samples for intervals.
-    #[arg(
-        long,
-        value_name = "N",
-        conflicts_with_all = ["transform", "ida"]
-    )]
+    #[arg(long, value_name = "N", conflicts_with_all = ["transform", "ida"])]
     bootstrap: Option<usize>,
     /// Repetition of the bootstrap.
     #[arg(
@@ -91,28 +90,17 @@ pub struct Args {
     )]
     threads: Option<usize>,
     /// Unshifted median IM50.
-    #[arg(
-        long,
-        value_name = "X",
-        conflicts_with_all = ["sample", "ida"],
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "X", conflicts_with_all = ["sample", "ida"])]
     im50: Option<f64>,
     /// Unshifted dispersion beta_o.
-    #[arg(
-        long,
-        value_name = "B",
-        conflicts_with_all = ["sample", "ida"],
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "B", conflicts_with_all = ["sample", "ida"])]
     beta: Option<f64>,
     /// Unshifted 16 % quantile IM16.
     #[arg(
         long,
         value_name = "X",
         requires = "im84",
-        conflicts_with_all = ["sample", "ida"],
-        allow_negative_numbers = true
+        conflicts_with_all = ["sample", "ida"]
     )]
     im16: Option<f64>,
     /// Unshifted 84 % quantile IM84.
@@ -120,8 +108,7 @@ pub struct Args {
         long,
         value_name = "X",
         requires = "im16",
-        conflicts_with_all = ["sample", "ida"],
-        allow_negative_numbers = true
+        conflicts_with_all = ["sample", "ida"]
     )]
     im84: Option<f64>,
     /// Print JSON.

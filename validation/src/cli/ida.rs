@@ -11,11 +11,11 @@ use rocking::ida::{
     Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, IdaPoint, REFINEMENT,
     Resurrections,
 };
-use rocking::integrator::WorkLimit;
+use rocking::integrator::{Model, Order, WorkLimit};
 use rocking::record::{Suite, SuiteMember};
 
 use super::limit::{LimitArgs, curve_refused};
-use super::order::OrderName;
+use super::names::{ADJUSTMENTS, ORDERS, name_of, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::respond::outcome_name;
@@ -49,32 +49,26 @@ pub struct Args {
     #[command(flatten)]
     processing: ProcessingArgs,
     /// Step of the levels in PGA, g [default: 0.01].
-    #[arg(
-        long,
-        value_name = "G",
-        conflicts_with = "step_im",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "G", conflicts_with = "step_im")]
     step_g: Option<f64>,
     /// Step of the levels in PGA/(g tan alpha), from 1.
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     step_im: Option<f64>,
     /// Width in IM to which the first overturning is bisected, or `none`
     /// [default: 1e-4].
-    #[arg(long, value_name = "TOL|none", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TOL|none")]
     refine: Option<Refine>,
     /// How intensity is reached.
-    #[arg(long, value_enum, default_value_t = By::RecordScaling)]
-    by: By,
+    #[arg(
+        long,
+        value_parser = named(ADJUSTMENTS),
+        default_value = "record-scaling"
+    )]
+    by: Adjust,
     /// Go on above the first overturning and look where the block stands
     /// again: to this IM, or, without a number, to 3 times the first
     /// overturning.
-    #[arg(
-        long,
-        value_name = "IM",
-        num_args = 0..=1,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "IM", num_args = 0..=1)]
     resurrections_to: Option<Option<f64>>,
     /// Which components of the pairs.
     #[arg(long, value_enum, default_value_t = Component::Study)]
@@ -86,8 +80,8 @@ pub struct Args {
     certify: bool,
     /// Step Eq. 1 at this order of the Taylor polynomial, whatever it leaves
     /// [default: as high as each step needs for double precision].
-    #[arg(long, value_enum, conflicts_with = "certify")]
-    order: Option<OrderName>,
+    #[arg(long, value_parser = named(ORDERS), conflicts_with = "certify")]
+    order: Option<Order>,
     /// Threads [default: all].
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -102,24 +96,6 @@ pub struct Args {
     /// JSON summary for machines.
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum By {
-    /// Scale the record.
-    RecordScaling,
-    /// Keep the record and adjust alpha.
-    SlendernessAdjustment,
-}
-
-impl By {
-    /// The name on the command line.
-    fn name(self) -> &'static str {
-        match self {
-            Self::RecordScaling => "record-scaling",
-            Self::SlendernessAdjustment => "slenderness-adjustment",
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -210,20 +186,22 @@ impl Args {
             None => Resurrections::Multiple(3.0),
         });
         let model = self.model.model();
+        if self.order.is_some() && model == Model::Linearized {
+            return Err(Failure::input(
+                "--order is for Eq. 1; --model linearized has no choice of it",
+            ));
+        }
         Ok(Analysis {
             block,
             restitution: self.model.restitution(&block)?,
             model,
             overturning: self.model.overturning(),
             grid,
-            adjust: match self.by {
-                By::RecordScaling => Adjust::RecordScaling,
-                By::SlendernessAdjustment => Adjust::SlendernessAdjustment,
-            },
+            adjust: self.by,
             refine: self.refine.map_or(Some(REFINEMENT), Refine::width),
             highest_im: HIGHEST_IM,
             resurrections,
-            order: self.order.map(|name| name.order(model)).transpose()?,
+            order: self.order,
             certify: self.certify,
             work_limit: self.limit.limit(WorkLimit::IDA),
         })
@@ -292,7 +270,7 @@ impl Job<'_> {
             eta: analysis.restitution.velocity_ratio().to_string(),
             model: self.args.model.model_name().to_owned(),
             overturn: self.args.model.overturning_name().to_owned(),
-            by: self.args.by.name().to_owned(),
+            by: name_of(ADJUSTMENTS, &self.args.by).to_owned(),
             gravity_m_s2: gravity_m_s2.to_string(),
             processing: self.processing.clone().unwrap_or("none".into()),
             software: SOFTWARE.to_owned(),

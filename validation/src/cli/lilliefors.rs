@@ -65,12 +65,7 @@ pub struct Args {
     )]
     n: Option<u32>,
     /// Level of the test.
-    #[arg(
-        long,
-        default_value_t = 0.05,
-        conflicts_with = "write_table",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, default_value_t = 0.05, conflicts_with = "write_table")]
     level: f64,
     /// Simulate this many samples (default: the table for a sample,
     /// 1000000 for critical values).

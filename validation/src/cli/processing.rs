@@ -12,7 +12,7 @@ pub struct ProcessingArgs {
     demean: bool,
     /// Pass what lies above this corner in Hz: Butterworth of order 4,
     /// forwards and backwards, with 6/corner s of zeros added at both ends.
-    #[arg(long, value_name = "CORNER_HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "CORNER_HZ")]
     high_pass: Option<f64>,
 }
 

@@ -25,8 +25,7 @@ pub struct Args {
         long,
         value_name = "P,..",
         value_delimiter = ',',
-        default_value = "0.16,0.5,0.84",
-        allow_negative_numbers = true
+        default_value = "0.16,0.5,0.84"
     )]
     at: Vec<f64>,
     /// Print JSON.

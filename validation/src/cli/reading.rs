@@ -11,7 +11,7 @@ use crate::suites::remarks::Remarks;
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct ReadArgs {
     /// Sampling interval in s of record files that state none.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     dt: Option<f64>,
     /// Unit of record files that state none: g, m/s2 or cm/s2.
     #[arg(long, value_name = "UNIT", value_parser = unit)]

@@ -35,12 +35,7 @@ pub struct Args {
     #[command(flatten)]
     reading: ReadArgs,
     /// Gravity in m/s2, for records in SI units and for PGV.
-    #[arg(
-        long,
-        value_name = "G",
-        default_value_t = STANDARD_GRAVITY_M_S2,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
     gravity: f64,
     #[command(flatten)]
     processing: ProcessingArgs,

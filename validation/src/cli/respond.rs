@@ -37,7 +37,7 @@ pub struct Args {
     #[command(flatten)]
     excitation: ExcitationArgs,
     /// Stop observing at this time in s.
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     until: Option<f64>,
     /// Write the history theta(t) as CSV.
     #[arg(long, value_name = "FILE.csv")]
@@ -167,14 +167,14 @@ fn drawing(
         until_s: f64::NAN,
         curves: vec![history],
     };
-    let heading = Heading {
-        name: "history".to_owned(),
-        title: "Response history".to_owned(),
-        description: "Rotation over slenderness against time.".to_owned(),
-        arm: None,
-    };
+    let heading = Heading::new(
+        "history",
+        "Response history",
+        "Rotation over slenderness against time.",
+        None,
+    );
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
-    Ok(figure.thinned().figure(String::new()).svg()?)
+    Ok(figure.thinned().figure(String::new()).svg())
 }
 
 /// Name of an outcome, `unresolved` where it cannot be told.

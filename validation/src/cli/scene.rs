@@ -1,12 +1,12 @@
 //! Flags that say what block, what restitution, what model: shared by the
 //! commands that integrate.
 
-use clap::ValueEnum;
 use rocking::block::{Block, Restitution};
 use rocking::integrator::{Model, Overturning};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::Failure;
+use super::names::{MODELS, OVERTURNING, name_of, named};
 
 /// The block, by its parameters or by its size.
 #[derive(clap::Args, Clone, Debug)]
@@ -17,8 +17,7 @@ pub struct BlockArgs {
         value_name = "A",
         requires = "p",
         required_unless_present = "width_m",
-        conflicts_with_all = ["width_m", "height_m"],
-        allow_negative_numbers = true
+        conflicts_with_all = ["width_m", "height_m"]
     )]
     alpha: Option<f64>,
     /// Frequency parameter p in rad/s.
@@ -26,25 +25,14 @@ pub struct BlockArgs {
         long,
         value_name = "P",
         requires = "alpha",
-        conflicts_with_all = ["width_m", "height_m"],
-        allow_negative_numbers = true
+        conflicts_with_all = ["width_m", "height_m"]
     )]
     p: Option<f64>,
     /// Base width 2b in m.
-    #[arg(
-        long,
-        value_name = "2B",
-        requires = "height_m",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "2B", requires = "height_m")]
     width_m: Option<f64>,
     /// Height 2h in m.
-    #[arg(
-        long,
-        value_name = "2H",
-        requires = "width_m",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "2H", requires = "width_m")]
     height_m: Option<f64>,
 }
 
@@ -73,26 +61,16 @@ impl BlockArgs {
 pub struct ModelArgs {
     /// Coefficient of restitution (ratio of angular velocities), or
     /// `housner` for 1 - 1.5 sin^2(alpha).
-    #[arg(
-        long,
-        value_name = "E|housner",
-        default_value = "0.92",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "E|housner", default_value = "0.92")]
     eta: Eta,
     /// Equation of motion: Eq. 1 or Eq. 2.
-    #[arg(long, value_enum, default_value_t = ModelName::Nonlinear)]
-    model: ModelName,
+    #[arg(long, value_parser = named(MODELS), default_value = "nonlinear")]
+    model: Model,
     /// When the block counts as overturned.
-    #[arg(long, value_enum, default_value_t = Criterion::Alpha)]
-    overturn: Criterion,
+    #[arg(long, value_parser = named(OVERTURNING), default_value = "alpha")]
+    overturn: Overturning,
     /// Gravity in m/s2, where sizes or SI records meet it.
-    #[arg(
-        long,
-        value_name = "G",
-        default_value_t = STANDARD_GRAVITY_M_S2,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
     gravity: f64,
 }
 
@@ -131,32 +109,6 @@ impl Eta {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ModelName {
-    /// Eq. 1.
-    Nonlinear,
-    /// Eq. 2.
-    Linearized,
-}
-
-/// When a block counts as overturned.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Criterion {
-    /// |theta| reaches alpha.
-    Alpha,
-    /// |theta| exceeds pi/2.
-    HalfPi,
-}
-
-impl From<Criterion> for Overturning {
-    fn from(criterion: Criterion) -> Self {
-        match criterion {
-            Criterion::Alpha => Self::Alpha,
-            Criterion::HalfPi => Self::HalfPi,
-        }
-    }
-}
-
 impl ModelArgs {
     /// Gravity in m/s2.
     ///
@@ -184,33 +136,24 @@ impl ModelArgs {
     /// Equation of motion.
     #[must_use]
     pub fn model(&self) -> Model {
-        match self.model {
-            ModelName::Nonlinear => Model::Nonlinear,
-            ModelName::Linearized => Model::Linearized,
-        }
+        self.model
     }
 
     /// Overturning criterion.
     #[must_use]
     pub fn overturning(&self) -> Overturning {
-        self.overturn.into()
+        self.overturn
     }
 
     /// The criterion's name on the command line.
     #[must_use]
     pub fn overturning_name(&self) -> &'static str {
-        match self.overturn {
-            Criterion::Alpha => "alpha",
-            Criterion::HalfPi => "half-pi",
-        }
+        name_of(OVERTURNING, &self.overturn)
     }
 
     /// The model's name on the command line.
     #[must_use]
     pub fn model_name(&self) -> &'static str {
-        match self.model {
-            ModelName::Nonlinear => "nonlinear",
-            ModelName::Linearized => "linearized",
-        }
+        name_of(MODELS, &self.model)
     }
 }

@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
 use rocking::block::Restitution;
+use rocking::integrator::Overturning;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
+use super::names::{ARMS, OVERTURNING, named};
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
-use super::scene::Criterion;
 use super::way::WayArgs;
 use super::{Failure, logged, print, with_threads};
 use crate::files::{Folder, is_interrupted};
@@ -45,24 +46,24 @@ pub struct Args {
     #[command(flatten)]
     processing: ProcessingArgs,
     /// Coefficient of restitution, ratio of angular velocities.
-    #[arg(long, default_value_t = RESTITUTION, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = RESTITUTION)]
     eta: f64,
     /// When a block counts as overturned.
-    #[arg(long, value_enum, default_value_t = Criterion::Alpha)]
-    overturn: Criterion,
+    #[arg(long, value_parser = named(OVERTURNING), default_value = "alpha")]
+    overturn: Overturning,
     /// Width in dimensionless intensity to which arms B and C bisect the
     /// first overturning.
-    #[arg(
-        long,
-        value_name = "TOL",
-        default_value_t = 1e-4,
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "TOL", default_value_t = 1e-4)]
     refine: f64,
     /// Arms of the intensity grid: A the paper's 0.01 g, B refined, C the
     /// same dimensionless steps for every block.
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "A,B,C")]
-    arms: Vec<ArmName>,
+    #[arg(
+        long,
+        value_parser = named(ARMS),
+        value_delimiter = ',',
+        default_value = "A,B,C"
+    )]
+    arms: Vec<Arm>,
     /// Other choices (restitution, criterion, component) on all 15 blocks.
     #[arg(long)]
     full: bool,
@@ -87,16 +88,6 @@ pub struct Args {
     /// Print the findings as JSON.
     #[arg(long, conflicts_with = "check")]
     json: bool,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
-enum ArmName {
-    #[value(name = "A")]
-    A,
-    #[value(name = "B")]
-    B,
-    #[value(name = "C")]
-    C,
 }
 
 /// Runs the command.
@@ -236,23 +227,15 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
     let mut arms = args.arms.clone();
     arms.sort();
     arms.dedup();
-    if !arms.iter().any(|arm| *arm != ArmName::B) {
+    if !arms.iter().any(|arm| *arm != Arm::B) {
         return Err(Failure::input(
             "--arms B: expected A or C among them; figures are drawn from \
              those",
         ));
     }
-    let arms = arms
-        .into_iter()
-        .map(|arm| match arm {
-            ArmName::A => Arm::A,
-            ArmName::B => Arm::B,
-            ArmName::C => Arm::C,
-        })
-        .collect();
     let setup = Setup {
         restitution: Restitution::constant(args.eta)?,
-        overturning: args.overturn.into(),
+        overturning: args.overturn,
         tolerance: args.refine,
         way: args.way.way()?,
     };

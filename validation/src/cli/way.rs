@@ -4,25 +4,25 @@ use clap::ValueEnum;
 use rocking::number::dispatch::Isa;
 
 use super::Failure;
+use super::names::{Named, named};
 use crate::curves::Execution;
 
 /// How curves are made; results are the same bits.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct WayArgs {
     /// Instruction set of the lanes.
-    #[arg(long, value_enum, hide = true)]
-    isa: Option<Level>,
+    #[arg(long, value_parser = named(LEVELS), hide = true)]
+    isa: Option<&'static str>,
     /// Chains in lanes, or one analysis at a time.
     #[arg(long, value_enum, hide = true)]
     engine: Option<EngineName>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Level {
-    Avx512,
-    Avx2,
-    Baseline,
-}
+const LEVELS: &[Named<&str>] = &[
+    ("avx512", "avx512", ""),
+    ("avx2", "avx2", ""),
+    ("baseline", "baseline", ""),
+];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum EngineName {
@@ -43,27 +43,18 @@ impl WayArgs {
                 "--isa is for --engine lanes; scalar has no choice of it",
             )),
             (_, None) => Ok(Execution::default()),
-            (_, Some(level)) => level.isa().map(Execution::Lanes),
+            (_, Some(level)) => isa(level).map(Execution::Lanes),
         }
     }
 }
 
-impl Level {
-    fn isa(self) -> Result<Isa, Failure> {
-        let name = match self {
-            Self::Avx512 => "avx512",
-            Self::Avx2 => "avx2",
-            Self::Baseline => "baseline",
-        };
-        let available = Isa::available();
-        let names: Vec<&str> = available.iter().map(|i| i.name()).collect();
-        available.iter().find(|isa| isa.name() == name).copied().ok_or_else(
-            || {
-                Failure::input(format!(
-                    "--isa {name}: not on this machine, expected one of {}",
-                    names.join(", ")
-                ))
-            },
-        )
-    }
+fn isa(name: &str) -> Result<Isa, Failure> {
+    let available = Isa::available();
+    let names: Vec<&str> = available.iter().map(|i| i.name()).collect();
+    available.iter().find(|isa| isa.name() == name).copied().ok_or_else(|| {
+        Failure::input(format!(
+            "--isa {name}: not on this machine, expected one of {}",
+            names.join(", ")
+        ))
+    })
 }

@@ -189,12 +189,6 @@ impl Axis {
         Self { label: label.into(), ..self }
     }
 
-    /// The same without grid lines.
-    #[must_use]
-    pub fn without_grid(self) -> Self {
-        Self { grid: false, ..self }
-    }
-
     /// The same with these ticks in place of its own.
     #[must_use]
     pub fn with_ticks(self, ticks: Vec<Tick>) -> Self {

@@ -24,31 +24,17 @@ impl Ink {
     /// Number of different series inks.
     pub const SERIES: usize = 6;
 
-    /// Number that stands for the ink on its way through plotters.
-    fn code(self) -> u8 {
+    /// Its class in the style sheet.
+    pub(super) fn class(self) -> &'static str {
         match self {
-            Self::Paper => 0,
-            Self::Text => 1,
-            Self::Muted => 2,
-            Self::Grid => 3,
-            Self::Series(k) => 4 + (k % Self::SERIES) as u8,
+            Self::Paper => "p",
+            Self::Text => "t",
+            Self::Muted => "m",
+            Self::Grid => "g",
+            Self::Series(k) => {
+                ["s1", "s2", "s3", "s4", "s5", "s6"][k % Self::SERIES]
+            }
         }
-    }
-}
-
-/// Name of the ink with this code in the style sheet.
-pub(super) fn class(code: u8) -> &'static str {
-    match code {
-        0 => "p",
-        1 => "t",
-        2 => "m",
-        3 => "g",
-        4 => "s1",
-        5 => "s2",
-        6 => "s3",
-        7 => "s4",
-        8 => "s5",
-        _ => "s6",
     }
 }
 
@@ -83,27 +69,16 @@ impl Dash {
         }
     }
 
-    fn code(self) -> u8 {
+    /// SVG's dash array.
+    pub(super) fn array(self) -> Option<&'static str> {
         match self {
-            Self::Solid => 0,
-            Self::Dashed => 1,
-            Self::Dotted => 2,
-            Self::DashDot => 3,
-            Self::Long => 4,
-            Self::Short => 5,
+            Self::Solid => None,
+            Self::Dashed => Some("5 2.5"),
+            Self::Dotted => Some("1.2 1.8"),
+            Self::DashDot => Some("6 2 1.2 2"),
+            Self::Long => Some("10 3"),
+            Self::Short => Some("2.5 1.5"),
         }
-    }
-}
-
-/// SVG's dash array for the code.
-pub(super) fn dash_array(code: u8) -> Option<&'static str> {
-    match code {
-        1 => Some("5 2.5"),
-        2 => Some("1.2 1.8"),
-        3 => Some("6 2 1.2 2"),
-        4 => Some("10 3"),
-        5 => Some("2.5 1.5"),
-        _ => None,
     }
 }
 
@@ -139,14 +114,6 @@ impl Pen {
         let thinner = 0.12 * (k % Ink::SERIES) as f64;
         Self::new(Ink::Series(k), 1.6 - thinner).dash(Dash::of_series(k))
     }
-
-    pub(super) fn code(self) -> [u8; 3] {
-        [self.ink.code(), self.dash.code(), 100]
-    }
-
-    pub(super) fn hundredths(self) -> u32 {
-        (100.0 * self.width_px).round().max(1.0) as u32
-    }
 }
 
 /// An area's ink and opacity.
@@ -169,10 +136,6 @@ impl Fill {
     #[must_use]
     pub const fn tint(ink: Ink, percent: u8) -> Self {
         Self { ink, percent }
-    }
-
-    pub(super) fn code(self) -> [u8; 3] {
-        [self.ink.code(), 0, self.percent.min(100)]
     }
 }
 

@@ -34,7 +34,7 @@ pub use quantiles::{QuantileGroup, QuantilePanel, Quantiles};
 pub use sketch::BlockSketch;
 pub use tests_along::{Histogram, TestedBlock, TestsAlongDemand};
 
-use crate::draw::{DrawError, Scene};
+use crate::draw::Scene;
 use crate::paper::Arm;
 
 /// The words that go with a figure.
@@ -50,6 +50,20 @@ pub struct Heading {
     pub description: String,
     /// Arm of the grid that the numbers come from, where there is one.
     pub arm: Option<Arm>,
+}
+
+impl Heading {
+    /// The words of a figure.
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        title: impl Into<String>,
+        description: impl Into<String>,
+        arm: Option<Arm>,
+    ) -> Self {
+        let (name, title) = (name.into(), title.into());
+        Self { name, title, description: description.into(), arm }
+    }
 }
 
 /// A figure: its words, its shapes and its numbers.
@@ -75,10 +89,8 @@ impl Figure {
     }
 
     /// The drawing.
-    ///
-    /// # Errors
-    /// [`DrawError`] when the SVG grows too large.
-    pub fn svg(&self) -> Result<String, DrawError> {
+    #[must_use]
+    pub fn svg(&self) -> String {
         self.scene.svg()
     }
 }

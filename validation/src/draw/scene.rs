@@ -1,23 +1,9 @@
-//! A list of shapes in pixels, and its drawing by plotters.
-
-use std::convert::Infallible;
-
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
-use plotters::drawing::DrawingAreaErrorKind;
-use plotters::element::{Circle, PathElement, Polygon, Text};
-use plotters::prelude::{Cartesian2d, DrawingArea, IntoDrawingArea as _};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{
-    Color as _, FontDesc, FontFamily, FontStyle, FontTransform,
-    IntoTextStyle as _, RGBColor, ShapeStyle,
-};
-use thiserror::Error;
+//! A list of shapes in pixels.
 
 use super::colour::{Fill, Ink, Pen};
 use super::geometry::{Point, Rect, simplify};
 use super::markup;
-use super::svg::{PER_PX, Svg, TEXT_PX};
+use super::svg::{Svg, TEXT_PX};
 
 /// Bytes of an SVG above which its lines are drawn more coarsely. With many
 /// records it may be larger even so.
@@ -26,21 +12,6 @@ pub const WANTED_BYTES: usize = 150_000;
 /// the next ones, with points on multiples of them, only where the SVG would
 /// be too large.
 pub const TOLERANCES_PX: [f64; 6] = [0.05, 0.1, 0.2, 0.5, 1.0, 2.0];
-
-/// A drawing that could not be made.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum DrawError {
-    /// plotters refused.
-    #[error("drawing {name}: {source}")]
-    Plotters {
-        /// Name of the figure.
-        name: String,
-        /// What plotters said.
-        #[source]
-        source: DrawingAreaErrorKind<Infallible>,
-    },
-}
 
 /// Name and words of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -239,79 +210,33 @@ impl Scene {
     }
 
     /// The SVG.
-    ///
-    /// # Errors
-    /// [`DrawError`] when plotters refuses.
-    pub fn svg(&self) -> Result<String, DrawError> {
+    #[must_use]
+    pub fn svg(&self) -> String {
         let mut out = String::new();
         for tolerance_px in TOLERANCES_PX {
-            out = self.with_tolerance(tolerance_px)?;
+            out = self.with_tolerance(tolerance_px);
             if out.len() <= WANTED_BYTES {
                 break;
             }
         }
-        Ok(out)
+        out
     }
 
-    fn with_tolerance(&self, tolerance_px: f64) -> Result<String, DrawError> {
-        let mut out = String::new();
-        let Caption { name, title, description } = &self.caption;
-        let area = Svg::new(&mut out, self.size_px, name, title, description)
-            .into_drawing_area();
-        self.draw(&area, tolerance_px).map_err(|source| {
-            DrawError::Plotters { name: name.clone(), source }
-        })?;
-        drop(area);
-        Ok(out)
-    }
-
-    fn draw(
-        &self,
-        screen: &DrawingArea<Svg<'_>, Shift>,
-        tolerance_px: f64,
-    ) -> Result<(), DrawingAreaErrorKind<Infallible>> {
-        let (width, height) = self.size_px;
-        let steps = |px: u32| 0..(px as i32 * PER_PX);
-        let area = screen.apply_coord_spec(Cartesian2d::<
-            RangedCoordf64,
-            RangedCoordf64,
-        >::new(
-            0.0..f64::from(width),
-            0.0..f64::from(height),
-            (steps(width), steps(height)),
-        ));
-        let radius = |px: f64| (px * f64::from(PER_PX)).round() as u32;
+    fn with_tolerance(&self, tolerance_px: f64) -> String {
+        let mut svg = Svg::new(self.size_px, &self.caption);
         for shape in &self.shapes {
             match shape {
                 Shape::Line(points, pen) => {
-                    let style = line_style(*pen);
                     let points = simplify(points, tolerance_px);
-                    let points = snap(points, tolerance_px);
-                    area.draw(&PathElement::new(points, style))?;
+                    svg.line(&snap(points, tolerance_px), *pen);
                 }
-                Shape::Area(corners, fill) => {
-                    let style = fill_style(*fill);
-                    area.draw(&Polygon::new(corners.clone(), style))?;
-                }
-                Shape::Dot(at, px, ink) => {
-                    let style = fill_style(Fill::solid(*ink));
-                    area.draw(&Circle::new(*at, radius(*px), style))?;
-                }
-                Shape::Ring(at, px, pen) => {
-                    let style = line_style(*pen);
-                    area.draw(&Circle::new(*at, radius(*px), style))?;
-                }
-                Shape::Text(text) => {
-                    let style = text_style(text, screen);
-                    area.draw(&Text::new(
-                        text.markup.as_str(),
-                        text.at,
-                        style,
-                    ))?;
-                }
+                Shape::Area(corners, fill) => svg.area(corners, *fill),
+                Shape::Dot(at, px, ink) => svg.dot(*at, *px, *ink),
+                Shape::Ring(at, px, pen) => svg.ring(*at, *px, *pen),
+                Shape::Text(text) => svg.text(text),
             }
         }
-        area.present()
+        svg.finish()
     }
 }
 
@@ -326,49 +251,4 @@ fn snap(points: Vec<Point>, tolerance_px: f64) -> Vec<Point> {
 
 fn finite(points: &[Point]) -> bool {
     points.iter().all(|(x, y)| x.is_finite() && y.is_finite())
-}
-
-fn code([r, g, b]: [u8; 3]) -> RGBColor {
-    RGBColor(r, g, b)
-}
-
-fn line_style(pen: Pen) -> ShapeStyle {
-    ShapeStyle {
-        color: code(pen.code()).into(),
-        filled: false,
-        stroke_width: pen.hundredths(),
-    }
-}
-
-fn fill_style(fill: Fill) -> ShapeStyle {
-    ShapeStyle {
-        color: code(fill.code()).into(),
-        filled: true,
-        stroke_width: 0,
-    }
-}
-
-fn text_style<'a>(
-    text: &TextLine,
-    screen: &DrawingArea<Svg<'_>, Shift>,
-) -> plotters::style::TextStyle<'a> {
-    let turn = if text.upwards {
-        FontTransform::Rotate270
-    } else {
-        FontTransform::None
-    };
-    let font =
-        FontDesc::new(FontFamily::SansSerif, text.size_px, FontStyle::Normal)
-            .transform(turn);
-    let across = match text.align {
-        Horizontal::Left => HPos::Left,
-        Horizontal::Centre => HPos::Center,
-        Horizontal::Right => HPos::Right,
-    };
-    let ink = code(Fill::solid(text.ink).code());
-    plotters::style::TextStyle {
-        color: ink.to_backend_color(),
-        ..font.into_text_style(screen)
-    }
-    .pos(Pos::new(across, VPos::Bottom))
 }

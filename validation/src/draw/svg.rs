@@ -1,58 +1,43 @@
-//! A plotters backend that writes SVG in twentieths of a pixel.
+//! The SVG of a figure, written in twentieths of a pixel.
 //!
-//! plotters carries integer coordinates, colours and integer widths. Here a
-//! coordinate counts [`PER_PX`] to the pixel, a width counts hundredths of a
-//! pixel, and a colour's three bytes are the codes of [`super::colour`]:
-//! ink, dash, opacity. The style sheet turns inks into colours. Lines that
-//! follow one another with the same pen become one path.
+//! plotters' coordinate system takes pixels to these steps. The style sheet
+//! turns inks into colours. Lines that follow one another with the same pen
+//! become one path.
 
-use std::convert::Infallible;
 use std::fmt::Write as _;
 
-use plotters_backend::text_anchor::{HPos, VPos};
-use plotters_backend::{
-    BackendColor, BackendCoord, BackendStyle, BackendTextStyle,
-    DrawingBackend, DrawingErrorKind, FontStyle, FontTransform,
-};
+use plotters::coord::CoordTranslate as _;
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::coord::types::RangedCoordf64;
 
-use super::colour::{STYLE, class, dash_array};
+use super::colour::{Fill, Ink, Pen, STYLE};
+use super::geometry::Point;
 use super::markup;
+use super::scene::{Caption, Horizontal, TextLine};
 
 /// Coordinate steps in a pixel.
-pub const PER_PX: i32 = 20;
+const PER_PX: i32 = 20;
 /// Text size that elements have unless they say otherwise, in px.
 pub const TEXT_PX: f64 = 11.0;
 const FONTS: &str =
     "Helvetica,Arial,'Liberation Sans','Nimbus Sans',sans-serif";
 
-type Done = Result<(), DrawingErrorKind<Infallible>>;
-
-/// The backend. What it draws is in the string once plotters has called
-/// [`DrawingBackend::present`].
-#[derive(Debug)]
-pub struct Svg<'a> {
-    out: &'a mut String,
-    size_px: (u32, u32),
+/// An SVG under way.
+pub(super) struct Svg {
+    out: String,
+    coordinates: Cartesian2d<RangedCoordf64, RangedCoordf64>,
     /// Attributes of the path being written, empty if none is.
     open: String,
-    /// Where its pen is.
-    at: BackendCoord,
+    /// Where its pen is, in steps.
+    at: (i32, i32),
 }
 
-impl<'a> Svg<'a> {
-    /// Starts an SVG; `name` is unique on a page, `title` and `description`
-    /// are for those who cannot see it.
-    #[must_use]
-    pub fn new(
-        out: &'a mut String,
-        size_px: (u32, u32),
-        name: &str,
-        title: &str,
-        description: &str,
-    ) -> Self {
-        let (width, height) = size_px;
+impl Svg {
+    /// Starts an SVG of this size.
+    pub(super) fn new((width, height): (u32, u32), caption: &Caption) -> Self {
+        let mut out = String::new();
         let mut id = String::new();
-        markup::write_escaped(&mut id, name);
+        markup::write_escaped(&mut id, &caption.name);
         let _ = write!(
             out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"fig\" \
@@ -62,15 +47,119 @@ impl<'a> Svg<'a> {
              font-family=\"{FONTS}\" font-size=\"{TEXT_PX}\">\n\
              <title id=\"{id}-title\">"
         );
-        markup::write_escaped(out, title);
+        markup::write_escaped(&mut out, &caption.title);
         let _ = write!(out, "</title>\n<desc id=\"{id}-desc\">");
-        markup::write_escaped(out, description);
+        markup::write_escaped(&mut out, &caption.description);
         let _ = write!(
             out,
             "</desc>\n<style>{STYLE}</style>\n\
              <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
         );
-        Self { out, size_px, open: String::new(), at: (0, 0) }
+        let pixels = |px: u32| 0.0..f64::from(px);
+        let steps = |px: u32| 0..px as i32 * PER_PX;
+        let coordinates = Cartesian2d::new(
+            pixels(width),
+            pixels(height),
+            (steps(width), steps(height)),
+        );
+        Self { out, coordinates, open: String::new(), at: (0, 0) }
+    }
+
+    /// The whole text.
+    pub(super) fn finish(mut self) -> String {
+        self.close();
+        self.out.push_str("</svg>\n");
+        self.out
+    }
+
+    /// A polyline; closed if it ends where it starts.
+    pub(super) fn line(&mut self, points: &[Point], pen: Pen) {
+        let points = self.steps(points);
+        if let [first, rest @ ..] = points.as_slice() {
+            self.path(stroke(pen));
+            self.move_to(*first);
+            match rest.split_last() {
+                Some((last, between))
+                    if last == first && !between.is_empty() =>
+                {
+                    self.lines(between);
+                    self.out.push('z');
+                }
+                _ => self.lines(rest),
+            }
+        }
+    }
+
+    /// A filled polygon.
+    pub(super) fn area(&mut self, corners: &[Point], fill: Fill) {
+        let corners = self.steps(corners);
+        if let [first, rest @ ..] = corners.as_slice() {
+            let mut attributes = format!("class=\"{}\"", fill.ink.class());
+            if fill.percent < 100 {
+                let opacity = f64::from(fill.percent) / 100.0;
+                let _ = write!(attributes, " fill-opacity=\"{opacity}\"");
+            }
+            self.path(attributes);
+            self.move_to(*first);
+            self.lines(rest);
+            self.out.push('z');
+        }
+    }
+
+    /// A filled circle: a point of a thick round pen, so that many make one
+    /// path.
+    pub(super) fn dot(&mut self, centre: Point, radius_px: f64, ink: Ink) {
+        let (ink, width) = (ink.class(), 2.0 * whole_steps(radius_px));
+        self.path(format!("class=\"l r {ink}\" stroke-width=\"{width}\""));
+        self.move_to(self.coordinates.translate(&centre));
+        self.out.push_str("h0");
+    }
+
+    /// An open circle.
+    pub(super) fn ring(&mut self, centre: Point, radius_px: f64, pen: Pen) {
+        self.close();
+        let (x, y) = self.coordinates.translate(&centre);
+        let _ = writeln!(
+            self.out,
+            "<circle {} cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+            stroke(pen),
+            px(x),
+            px(y),
+            whole_steps(radius_px),
+        );
+    }
+
+    /// A line of text.
+    pub(super) fn text(&mut self, line: &TextLine) {
+        self.close();
+        let (x, y) = self.coordinates.translate(&line.at);
+        let (x, y) = (px(x), px(y));
+        let _ = write!(self.out, "<text class=\"{}\"", line.ink.class());
+        let _ = if line.upwards {
+            write!(self.out, " transform=\"translate({x} {y}) rotate(-90)\"")
+        } else {
+            write!(self.out, " x=\"{x}\" y=\"{y}\"")
+        };
+        match line.align {
+            Horizontal::Left => {}
+            Horizontal::Centre => {
+                self.out.push_str(" text-anchor=\"middle\"");
+            }
+            Horizontal::Right => self.out.push_str(" text-anchor=\"end\""),
+        }
+        if line.size_px != TEXT_PX {
+            let _ = write!(self.out, " font-size=\"{}\"", line.size_px);
+        }
+        let mut content = String::new();
+        markup::write_tspans(&mut content, &line.markup, line.size_px);
+        if content.contains('<') {
+            self.out.push_str(" xml:space=\"preserve\"");
+        }
+        let _ = writeln!(self.out, ">{content}</text>");
+    }
+
+    fn steps(&self, points: &[Point]) -> Vec<(i32, i32)> {
+        points.iter().map(|p| self.coordinates.translate(p)).collect()
     }
 
     /// Makes sure that a path with these attributes is open.
@@ -89,14 +178,14 @@ impl<'a> Svg<'a> {
         }
     }
 
-    fn move_to(&mut self, to: BackendCoord) {
+    fn move_to(&mut self, to: (i32, i32)) {
         self.out.push('M');
         self.out.push_str(&px(to.0));
-        separated(self.out, &px(to.1));
+        self.next(to.1);
         self.at = to;
     }
 
-    fn lines(&mut self, points: impl Iterator<Item = BackendCoord>) {
+    fn lines(&mut self, points: &[(i32, i32)]) {
         let mut first = true;
         for p in points {
             let (dx, dy) = (p.0 - self.at.0, p.1 - self.at.1);
@@ -107,16 +196,25 @@ impl<'a> Svg<'a> {
                 self.out.push('l');
                 self.out.push_str(&px(dx));
             } else {
-                separated(self.out, &px(dx));
+                self.next(dx);
             }
-            separated(self.out, &px(dy));
+            self.next(dy);
             first = false;
-            self.at = p;
+            self.at = *p;
         }
+    }
+
+    /// Writes a number after another one.
+    fn next(&mut self, steps: i32) {
+        let number = px(steps);
+        if !number.starts_with('-') {
+            self.out.push(' ');
+        }
+        self.out.push_str(&number);
     }
 }
 
-/// A coordinate in px with the fewest characters.
+/// Steps as px with the fewest characters.
 fn px(steps: i32) -> String {
     let hundredths = i64::from(steps) * 100 / i64::from(PER_PX);
     let sign = if hundredths < 0 { "-" } else { "" };
@@ -130,219 +228,19 @@ fn px(steps: i32) -> String {
     }
 }
 
-/// Writes a number after another one.
-fn separated(out: &mut String, number: &str) {
-    if !number.starts_with('-') {
-        out.push(' ');
-    }
-    out.push_str(number);
+/// A length in px, rounded to a whole number of steps.
+fn whole_steps(length_px: f64) -> f64 {
+    let per_px = f64::from(PER_PX);
+    (length_px * per_px).round() / per_px
 }
 
 /// Attributes of a line.
-fn stroke<S: BackendStyle>(style: &S) -> String {
-    let (ink, dash, _) = style.color().rgb;
-    let width = f64::from(style.stroke_width()) / 100.0;
-    let mut out =
-        format!("class=\"l {}\" stroke-width=\"{width}\"", class(ink));
-    if let Some(array) = dash_array(dash) {
+fn stroke(pen: Pen) -> String {
+    let width = (100.0 * pen.width_px).round().max(1.0) / 100.0;
+    let ink = pen.ink.class();
+    let mut out = format!("class=\"l {ink}\" stroke-width=\"{width}\"");
+    if let Some(array) = pen.dash.array() {
         let _ = write!(out, " stroke-dasharray=\"{array}\"");
     }
     out
-}
-
-/// Attributes of an area.
-fn fill<S: BackendStyle>(style: &S) -> String {
-    let (ink, _, percent) = style.color().rgb;
-    let mut out = format!("class=\"{}\"", class(ink));
-    if percent < 100 {
-        let _ =
-            write!(out, " fill-opacity=\"{}\"", f64::from(percent) / 100.0);
-    }
-    out
-}
-
-impl DrawingBackend for Svg<'_> {
-    type ErrorType = Infallible;
-
-    fn get_size(&self) -> (u32, u32) {
-        let per_px = PER_PX.unsigned_abs();
-        (self.size_px.0 * per_px, self.size_px.1 * per_px)
-    }
-
-    fn ensure_prepared(&mut self) -> Done {
-        Ok(())
-    }
-
-    fn present(&mut self) -> Done {
-        self.close();
-        if !self.out.ends_with("</svg>\n") {
-            self.out.push_str("</svg>\n");
-        }
-        Ok(())
-    }
-
-    fn draw_pixel(&mut self, at: BackendCoord, color: BackendColor) -> Done {
-        self.draw_circle(at, 1, &color, true)
-    }
-
-    fn draw_line<S: BackendStyle>(
-        &mut self,
-        from: BackendCoord,
-        to: BackendCoord,
-        style: &S,
-    ) -> Done {
-        self.draw_path([from, to], style)
-    }
-
-    fn draw_rect<S: BackendStyle>(
-        &mut self,
-        (left, top): BackendCoord,
-        (right, bottom): BackendCoord,
-        style: &S,
-        filled: bool,
-    ) -> Done {
-        let corners =
-            [(left, top), (right, top), (right, bottom), (left, bottom)];
-        if filled {
-            self.fill_polygon(corners, style)
-        } else {
-            self.draw_path(corners.into_iter().chain([(left, top)]), style)
-        }
-    }
-
-    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        path: I,
-        style: &S,
-    ) -> Done {
-        let points: Vec<BackendCoord> = path.into_iter().collect();
-        let (Some(first), Some(last)) = (points.first(), points.last()) else {
-            return Ok(());
-        };
-        self.path(stroke(style));
-        self.move_to(*first);
-        let closed = points.len() > 2 && first == last;
-        let until = points.len() - usize::from(closed);
-        self.lines(points[1..until].iter().copied());
-        if closed {
-            self.out.push('z');
-            self.at = *first;
-        }
-        Ok(())
-    }
-
-    /// A filled circle is a point of a thick round pen, so that many make
-    /// one path.
-    fn draw_circle<S: BackendStyle>(
-        &mut self,
-        centre: BackendCoord,
-        radius: u32,
-        style: &S,
-        filled: bool,
-    ) -> Done {
-        let (ink, ..) = style.color().rgb;
-        let radius_px = f64::from(radius) / f64::from(PER_PX);
-        if filled {
-            let width = 2.0 * radius_px;
-            self.path(format!(
-                "class=\"l r {}\" stroke-width=\"{width}\"",
-                class(ink)
-            ));
-            self.move_to(centre);
-            self.out.push_str("h0");
-        } else {
-            self.close();
-            let _ = writeln!(
-                self.out,
-                "<circle {} cx=\"{}\" cy=\"{}\" r=\"{radius_px}\"/>",
-                stroke(style),
-                px(centre.0),
-                px(centre.1),
-            );
-        }
-        Ok(())
-    }
-
-    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
-        &mut self,
-        corners: I,
-        style: &S,
-    ) -> Done {
-        let mut corners = corners.into_iter();
-        let Some(first) = corners.next() else {
-            return Ok(());
-        };
-        self.path(fill(style));
-        self.move_to(first);
-        self.lines(corners);
-        self.out.push('z');
-        Ok(())
-    }
-
-    /// Text in markup; the position is on the baseline for
-    /// [`VPos::Bottom`].
-    fn draw_text<T: BackendTextStyle>(
-        &mut self,
-        text: &str,
-        style: &T,
-        at: BackendCoord,
-    ) -> Done {
-        self.close();
-        let size = style.size();
-        let anchor = style.anchor();
-        let down = match anchor.v_pos {
-            VPos::Bottom => 0.0,
-            VPos::Center => 0.35 * size,
-            VPos::Top => 0.72 * size,
-        };
-        let degrees = match style.transform() {
-            FontTransform::None => 0,
-            FontTransform::Rotate90 => 90,
-            FontTransform::Rotate180 => 180,
-            FontTransform::Rotate270 => -90,
-        };
-        let (x, y) = (px(at.0), px(at.1));
-        let (ink, ..) = style.color().rgb;
-        let _ = write!(self.out, "<text class=\"{}\"", class(ink));
-        if degrees == 0 {
-            let lower = at.1 + (down * f64::from(PER_PX)) as i32;
-            let _ = write!(self.out, " x=\"{x}\" y=\"{}\"", px(lower));
-        } else {
-            let _ = write!(
-                self.out,
-                " transform=\"translate({x} {y}) rotate({degrees})\""
-            );
-            if down != 0.0 {
-                let _ = write!(self.out, " y=\"{down:.2}\"");
-            }
-        }
-        match anchor.h_pos {
-            HPos::Left => {}
-            HPos::Center => self.out.push_str(" text-anchor=\"middle\""),
-            HPos::Right => self.out.push_str(" text-anchor=\"end\""),
-        }
-        if size != TEXT_PX {
-            let _ = write!(self.out, " font-size=\"{size}\"");
-        }
-        if matches!(style.style(), FontStyle::Bold) {
-            self.out.push_str(" font-weight=\"bold\"");
-        }
-        let mut content = String::new();
-        markup::write_tspans(&mut content, text, size);
-        if content.contains('<') {
-            self.out.push_str(" xml:space=\"preserve\"");
-        }
-        let _ = writeln!(self.out, ">{content}</text>");
-        Ok(())
-    }
-
-    fn estimate_text_size<T: BackendTextStyle>(
-        &self,
-        text: &str,
-        style: &T,
-    ) -> Result<(u32, u32), DrawingErrorKind<Infallible>> {
-        let per_px = f64::from(PER_PX);
-        let width = markup::width(text, style.size()) * per_px;
-        Ok((width.ceil() as u32, (style.size() * per_px).ceil() as u32))
-    }
 }

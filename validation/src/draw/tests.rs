@@ -103,7 +103,7 @@ fn writes_sub_pixel_coordinates_and_joins_lines_of_a_pen() {
         Fill::tint(Ink::Grid, 30),
     );
     scene.line(&[(f64::NAN, 10.0), (5.0, 10.0)], pen);
-    let svg = scene.svg().unwrap();
+    let svg = scene.svg();
     let path = "<path class=\"l t\" stroke-width=\"0.7\" \
                 d=\"M1 2l.5 .25 10-.25M0 10l5 0\"/>";
     assert!(svg.contains(path), "{svg}");
@@ -117,7 +117,7 @@ fn writes_scripts_and_italics_as_tspans() {
     let mut scene = scene();
     let at = (50.0, 20.0);
     scene.text(TextLine::new("*p* = 1 s^{−1}", at, Horizontal::Centre));
-    let svg = scene.svg().unwrap();
+    let svg = scene.svg();
     let text = "<text class=\"t\" x=\"50\" y=\"20\" text-anchor=\"middle\" \
                 xml:space=\"preserve\"><tspan font-style=\"italic\">p</tspan> \
                 = 1 s<tspan dy=\"-3.96\" font-size=\"7.92\">−1</tspan></text>";

@@ -5,16 +5,13 @@ mod wide;
 pub use wide::{Arithmetic, WideTrace};
 
 use rocking::block::{Block, Restitution};
-use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
+use rocking::excitation::{Excitation, Pulse, ScaledRecord};
 use rocking::integrator::{
-    self, Model, Observe, Order, Outcome, Overturning, Response, SceneError,
-    Solver,
+    self, Observe, Order, Outcome, Response, SceneError, Solver,
 };
 use rocking::number::Real;
 
-use super::scene::{
-    Criterion, Engine, EngineError, Equation, Forcing, Impact, Scene, Trace,
-};
+use super::scene::{Engine, EngineError, Forcing, Scene, Trace};
 
 /// The code under test.
 pub struct Core;
@@ -41,14 +38,7 @@ impl Engine for Core {
                 _ => None,
             },
             rest_s: response.rest_time_s,
-            impacts: response
-                .impacts
-                .iter()
-                .map(|impact| Impact {
-                    time_s: impact.time_s,
-                    speed_rad_s: impact.speed_before_rad_s,
-                })
-                .collect(),
+            impacts: response.impacts,
         })
     }
 }
@@ -150,103 +140,36 @@ fn with_core_scene<R>(
         Quotient::Rounded => (g, 1.0),
         Quotient::Kept => (1.0, g),
     };
-    let samples = match &scene.forcing {
-        Forcing::Samples { acceleration_m_s2, .. } => {
-            acceleration_m_s2.iter().map(|a| a / unit).collect()
-        }
-        _ => Vec::new(),
-    };
-    let pulse = pulse(scene, unit);
-    let pulse = pulse
-        .map(|kind| Pulse::try_new_si(kind, divisor))
-        .transpose()
-        .map_err(refused)?;
+    let mut forcing = scene.forcing.clone();
+    if !matches!(forcing, Forcing::Free { .. }) {
+        forcing.amplitudes_mut().iter_mut().for_each(|a| *a /= unit);
+    }
     let mut initial_ratio = 0.0;
-    let excitation = match (&scene.forcing, &pulse) {
-        (Forcing::Samples { dt_s, .. }, _) => Excitation::Record(
-            ScaledRecord::try_new_si(&samples, *dt_s, divisor)
+    let pulse;
+    let excitation = match &forcing {
+        Forcing::Samples { dt_s, acceleration_m_s2 } => Excitation::Record(
+            ScaledRecord::try_new_si(acceleration_m_s2, *dt_s, divisor)
                 .map_err(refused)?,
         ),
-        (Forcing::Free { rotation_rad }, _) => {
+        Forcing::Pulse(kind) => {
+            pulse = Pulse::try_new_si(*kind, divisor).map_err(refused)?;
+            Excitation::Pulse(&pulse)
+        }
+        Forcing::Free { rotation_rad } => {
             initial_ratio = rotation_rad.abs() / scene.slenderness_rad;
             Excitation::Free
         }
-        (_, Some(pulse)) => Excitation::Pulse(pulse),
-        _ => Excitation::Free,
     };
     let scene = integrator::Scene {
         block,
         restitution,
-        model: match scene.equation {
-            Equation::Nonlinear => Model::Nonlinear,
-            Equation::Linearized => Model::Linearized,
-        },
-        overturning: match scene.criterion {
-            Criterion::Alpha => Overturning::Alpha,
-            Criterion::HalfPi => Overturning::HalfPi,
-        },
+        model: scene.model,
+        overturning: scene.overturning,
         excitation,
         initial_ratio,
     };
     run(&scene).map_err(|error| match error {
         SceneError::Work { .. } => EngineError::Work(error.to_string()),
         _ => refused(error),
-    })
-}
-
-/// The pulse of a scene, its accelerations over `unit`.
-fn pulse(scene: &Scene, unit: f64) -> Option<PulseKind> {
-    Some(match scene.forcing {
-        Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles } => {
-            let amplitude = amplitude_m_s2 / unit;
-            match half_cycles {
-                1 => PulseKind::HalfSine { amplitude, omega_rad_s },
-                2 => PulseKind::OneSine { amplitude, omega_rad_s },
-                _ => return None,
-            }
-        }
-        Forcing::Cosine { amplitude_m_s2, omega_rad_s } => {
-            PulseKind::OneCosine {
-                amplitude: amplitude_m_s2 / unit,
-                omega_rad_s,
-            }
-        }
-        Forcing::Rectangle { amplitude_m_s2, duration_s } => {
-            PulseKind::Rectangle {
-                amplitude: amplitude_m_s2 / unit,
-                duration_s,
-            }
-        }
-        Forcing::Triangle { amplitude_m_s2, duration_s } => {
-            PulseKind::Triangle {
-                amplitude: amplitude_m_s2 / unit,
-                duration_s,
-            }
-        }
-        Forcing::Ricker {
-            amplitude_m_s2,
-            period_s,
-            cycles,
-            antisymmetric,
-        } => {
-            let amplitude = amplitude_m_s2 / unit;
-            if antisymmetric {
-                PulseKind::RickerAntisymmetric { amplitude, period_s, cycles }
-            } else {
-                PulseKind::RickerSymmetric { amplitude, period_s, cycles }
-            }
-        }
-        Forcing::Mavroeidis {
-            velocity_m_s,
-            frequency_hz,
-            gamma,
-            phase_rad,
-        } => PulseKind::MavroeidisPapageorgiou {
-            velocity: velocity_m_s / unit,
-            frequency_hz,
-            gamma,
-            phase_rad,
-        },
-        Forcing::Free { .. } | Forcing::Samples { .. } => return None,
     })
 }

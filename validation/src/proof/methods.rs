@@ -29,11 +29,12 @@ pub(crate) use references::attainable_float64;
 
 use std::collections::BTreeMap;
 
+use rocking::integrator::{HistoryPoint, Observe};
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
 use crate::proof::cases::{Case, WrongModel};
-use crate::proof::engine::Core;
+use crate::proof::engine::{self, Core};
 use crate::proof::naive::{Naive, Rules};
 use crate::proof::scene::{Engine, EngineError, Scene};
 
@@ -51,10 +52,25 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Adds a quantity with what is expected of it.
-    pub fn put(&mut self, name: &str, observed: Vec<f64>, expected: Vec<f64>) {
-        self.observed.insert(name.to_owned(), observed);
-        self.expected.insert(name.to_owned(), expected);
+    /// Adds to the lists of a quantity: what was observed, and what is
+    /// expected of it.
+    pub fn put(
+        &mut self,
+        name: &str,
+        observed: impl IntoIterator<Item = f64>,
+        expected: impl IntoIterator<Item = f64>,
+    ) {
+        self.see(name, observed);
+        self.expected.entry(name.to_owned()).or_default().extend(expected);
+    }
+
+    /// Adds to what was observed of a quantity whose values the case writes.
+    pub fn see(
+        &mut self,
+        name: &str,
+        observed: impl IntoIterator<Item = f64>,
+    ) {
+        self.observed.entry(name.to_owned()).or_default().extend(observed);
     }
 }
 
@@ -112,6 +128,27 @@ impl Context<'_> {
             wrong.alter(&mut scene);
         }
         scene
+    }
+
+    /// The state of a scene at an instant, by a history of that interval.
+    fn state(
+        &self,
+        scene: &Scene,
+        time_s: f64,
+    ) -> Result<HistoryPoint, MethodError> {
+        let observe = Observe {
+            history_interval_s: Some(time_s),
+            until_s: Some(1.5 * time_s),
+            ..Observe::default()
+        };
+        let response = engine::respond(&self.altered(scene), &observe)?;
+        // A run that has ended before says so by what cannot be compared.
+        let missing = HistoryPoint {
+            time_s,
+            rotation_rad: f64::NAN,
+            velocity_rad_s: f64::NAN,
+        };
+        Ok(response.history.get(1).copied().unwrap_or(missing))
     }
 }
 

@@ -12,7 +12,7 @@ pub use rules::{
 };
 
 use super::scene::{
-    Engine, EngineError, Equation, Forcing, Impact, Scene, Trace,
+    self, Engine, EngineError, Forcing, Impact, Model, Scene, Trace,
 };
 
 /// The naive integrator.
@@ -90,10 +90,7 @@ impl Run<'_> {
     fn threshold(&self) -> f64 {
         let mut other = self.scene.clone();
         if self.rules.threshold == Threshold::Other {
-            other.equation = match other.equation {
-                Equation::Nonlinear => Equation::Linearized,
-                Equation::Linearized => Equation::Nonlinear,
-            };
+            other.model = scene::other(other.model);
         }
         other.threshold_m_s2()
     }
@@ -159,12 +156,12 @@ impl Run<'_> {
         let alpha = self.scene.slenderness_rad;
         let p2 = self.scene.frequency_rad_s * self.scene.frequency_rad_s;
         let pull = side * self.ground(t) / self.scene.gravity_m_s2;
-        match self.scene.equation {
-            Equation::Nonlinear => {
+        match self.scene.model {
+            Model::Nonlinear => {
                 let x = alpha - z;
                 -p2 * (libm::sin(x) + pull * libm::cos(x))
             }
-            Equation::Linearized => p2 * (z - alpha - pull),
+            Model::Linearized => p2 * (z - alpha - pull),
         }
     }
 
@@ -338,7 +335,11 @@ impl Run<'_> {
     fn impact(&mut self, hop: Hop, threshold: f64) -> Option<Hop> {
         let scene = self.scene;
         let speed = hop.w.abs();
-        self.trace.impacts.push(Impact { time_s: self.t, speed_rad_s: speed });
+        self.trace.impacts.push(Impact {
+            time_s: self.t,
+            speed_before_rad_s: speed,
+            error: None,
+        });
         let missed = self.rules.loss == Loss::FirstMissed
             && self.trace.impacts.len() == 1;
         let eta = if missed { 1.0 } else { scene.restitution };
@@ -378,9 +379,9 @@ impl Run<'_> {
     /// speed `w`, under a ground acceleration `pull` times the threshold.
     fn tail(&self, w: f64, side: f64, pull: f64) -> f64 {
         let scene = self.scene;
-        let lever = match scene.equation {
-            Equation::Nonlinear => libm::sin(scene.slenderness_rad),
-            Equation::Linearized => scene.slenderness_rad,
+        let lever = match scene.model {
+            Model::Nonlinear => libm::sin(scene.slenderness_rad),
+            Model::Linearized => scene.slenderness_rad,
         };
         let p = scene.frequency_rad_s;
         let eta = scene.restitution;

@@ -1,4 +1,5 @@
-//! Closed forms, written anew: nothing here is shared with the core.
+//! Closed forms, written anew: no formula here is shared with the core. The
+//! shape of a pulse and its parameters are, which are data alone.
 
 pub mod carlson;
 pub mod free_rocking;

@@ -4,26 +4,11 @@
 //! read the same [`Scene`] and answer with the same [`Trace`].
 
 use std::f64::consts::{PI, TAU};
+use std::slice;
 
+pub use rocking::excitation::PulseKind;
+pub use rocking::integrator::{Impact, Model, Overturning};
 use thiserror::Error;
-
-/// Equation of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Equation {
-    /// Eq. 1.
-    Nonlinear,
-    /// Eq. 2.
-    Linearized,
-}
-
-/// What ends a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Criterion {
-    /// |theta| reaches alpha.
-    Alpha,
-    /// |theta| reaches pi/2.
-    HalfPi,
-}
 
 /// Ground acceleration in m/s2, from t = 0, zero after its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,58 +18,8 @@ pub enum Forcing {
         /// Initial rotation in rad.
         rotation_rad: f64,
     },
-    /// Sine of one or two half periods.
-    Sine {
-        /// Amplitude in m/s2.
-        amplitude_m_s2: f64,
-        /// Circular frequency in rad/s.
-        omega_rad_s: f64,
-        /// Half-sine (1) or one-sine (2).
-        half_cycles: u32,
-    },
-    /// One period of a cosine.
-    Cosine {
-        /// Amplitude in m/s2.
-        amplitude_m_s2: f64,
-        /// Circular frequency in rad/s.
-        omega_rad_s: f64,
-    },
-    /// Constant acceleration.
-    Rectangle {
-        /// Amplitude in m/s2.
-        amplitude_m_s2: f64,
-        /// Duration in s.
-        duration_s: f64,
-    },
-    /// Isosceles triangle.
-    Triangle {
-        /// Amplitude in m/s2.
-        amplitude_m_s2: f64,
-        /// Duration in s.
-        duration_s: f64,
-    },
-    /// Ricker pulse over `cycles` periods, centred.
-    Ricker {
-        /// Amplitude in m/s2.
-        amplitude_m_s2: f64,
-        /// Period in s.
-        period_s: f64,
-        /// Length in periods.
-        cycles: f64,
-        /// (x^2 - 3) x instead of 1 - x^2.
-        antisymmetric: bool,
-    },
-    /// Derivative of the Mavroeidis-Papageorgiou velocity pulse.
-    Mavroeidis {
-        /// Velocity amplitude in m/s.
-        velocity_m_s: f64,
-        /// Frequency in Hz.
-        frequency_hz: f64,
-        /// Oscillatory character.
-        gamma: f64,
-        /// Phase in rad.
-        phase_rad: f64,
-    },
+    /// A pulse, its amplitude in m/s2 or m/s.
+    Pulse(PulseKind),
     /// Equally spaced samples, linear between them.
     Samples {
         /// Interval in s.
@@ -106,22 +41,13 @@ pub struct Scene {
     /// Gravity in m/s2.
     pub gravity_m_s2: f64,
     /// Equation of motion.
-    pub equation: Equation,
+    pub model: Model,
     /// What ends the run.
-    pub criterion: Criterion,
+    pub overturning: Overturning,
     /// Ground acceleration.
     pub forcing: Forcing,
     /// Where the run stops at the latest, s; none: at rest or overturning.
     pub until_s: Option<f64>,
-}
-
-/// One impact.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Impact {
-    /// When, s.
-    pub time_s: f64,
-    /// |theta'| just before it, rad/s.
-    pub speed_rad_s: f64,
 }
 
 /// What an engine saw.
@@ -181,12 +107,32 @@ pub trait Engine: Sync {
 }
 
 impl Scene {
+    /// A block (alpha in rad, p in rad/s, g in m/s2) of a restitution in
+    /// Eq. 1, until it rests or reaches alpha.
+    #[must_use]
+    pub fn new(
+        [slenderness_rad, frequency_rad_s, gravity_m_s2]: [f64; 3],
+        restitution: f64,
+        forcing: Forcing,
+    ) -> Self {
+        Self {
+            slenderness_rad,
+            frequency_rad_s,
+            restitution,
+            gravity_m_s2,
+            model: Model::Nonlinear,
+            overturning: Overturning::Alpha,
+            forcing,
+            until_s: None,
+        }
+    }
+
     /// Uplift threshold in m/s2: g tan(alpha) in Eq. 1, g alpha in Eq. 2.
     #[must_use]
     pub fn threshold_m_s2(&self) -> f64 {
-        let group = match self.equation {
-            Equation::Nonlinear => libm::tan(self.slenderness_rad),
-            Equation::Linearized => self.slenderness_rad,
+        let group = match self.model {
+            Model::Nonlinear => libm::tan(self.slenderness_rad),
+            Model::Linearized => self.slenderness_rad,
         };
         self.gravity_m_s2 * group
     }
@@ -194,9 +140,9 @@ impl Scene {
     /// Rotation that ends the run, rad.
     #[must_use]
     pub fn limit_rad(&self) -> f64 {
-        match self.criterion {
-            Criterion::Alpha => self.slenderness_rad,
-            Criterion::HalfPi => PI / 2.0,
+        match self.overturning {
+            Overturning::Alpha => self.slenderness_rad,
+            Overturning::HalfPi => PI / 2.0,
         }
     }
 }
@@ -208,22 +154,124 @@ pub fn ricker_beta() -> f64 {
     6.0_f64.sqrt() * r.sqrt() * libm::exp(-0.5 * r)
 }
 
+/// The other equation of motion.
+#[must_use]
+pub fn other(model: Model) -> Model {
+    match model {
+        Model::Nonlinear => Model::Linearized,
+        Model::Linearized => Model::Nonlinear,
+    }
+}
+
+/// A pulse of a block with p = 1 rad/s as one with this p, and its
+/// acceleration in another unit.
+#[must_use]
+pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
+    use PulseKind as P;
+    *pulse.amplitude_mut() *= unit;
+    match &mut pulse {
+        P::OneSine { omega_rad_s, .. }
+        | P::HalfSine { omega_rad_s, .. }
+        | P::OneCosine { omega_rad_s, .. } => *omega_rad_s *= p,
+        P::Rectangle { duration_s, .. } | P::Triangle { duration_s, .. } => {
+            *duration_s /= p;
+        }
+        P::RickerSymmetric { period_s, .. }
+        | P::RickerAntisymmetric { period_s, .. } => *period_s /= p,
+        P::MavroeidisPapageorgiou { velocity, frequency_hz, .. } => {
+            *velocity /= p;
+            *frequency_hz *= p;
+        }
+        _ => *pulse.amplitude_mut() = f64::NAN,
+    }
+    pulse
+}
+
+/// Acceleration of a pulse at `t_s`, in the unit of its amplitude.
+fn pulse_at(pulse: PulseKind, piece: usize, t_s: f64) -> f64 {
+    match pulse {
+        PulseKind::OneSine { amplitude, omega_rad_s }
+        | PulseKind::HalfSine { amplitude, omega_rad_s } => {
+            amplitude * libm::sin(omega_rad_s * t_s)
+        }
+        PulseKind::OneCosine { amplitude, omega_rad_s } => {
+            amplitude * libm::cos(omega_rad_s * t_s)
+        }
+        PulseKind::Rectangle { amplitude, .. } => amplitude,
+        PulseKind::Triangle { amplitude, duration_s } => {
+            let half = 0.5 * duration_s;
+            let rise = if piece == 0 { t_s } else { duration_s - t_s };
+            amplitude * rise / half
+        }
+        PulseKind::RickerSymmetric { amplitude, period_s, cycles } => {
+            let u = t_s - 0.5 * cycles * period_s;
+            let x = 2.0_f64.sqrt() * PI * u / period_s;
+            amplitude * (1.0 - x * x) * libm::exp(-0.5 * x * x)
+        }
+        PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } => {
+            let u = t_s - 0.5 * cycles * period_s;
+            let x = TAU * u / (3.0_f64.sqrt() * period_s);
+            let bell = libm::exp(-0.5 * x * x);
+            amplitude * (x * x - 3.0) * x * bell / ricker_beta()
+        }
+        PulseKind::MavroeidisPapageorgiou {
+            velocity,
+            frequency_hz,
+            gamma,
+            phase_rad,
+        } => {
+            let w = TAU * frequency_hz;
+            let u = t_s - 0.5 * gamma / frequency_hz;
+            let up = 1.0 + 1.0 / gamma;
+            let down = 1.0 - 1.0 / gamma;
+            let sum = 0.5 * libm::sin(w * u + phase_rad)
+                + 0.25 * up * libm::sin(w * up * u + phase_rad)
+                + 0.25 * down * libm::sin(w * down * u + phase_rad);
+            -velocity * w * sum
+        }
+        _ => f64::NAN,
+    }
+}
+
 impl Forcing {
+    /// A block at rest, and no ground motion.
+    pub const NONE: Self = Self::Free { rotation_rad: 0.0 };
+
+    /// Numbers in proportion to which the motion is: the rotation, the
+    /// amplitude of a pulse, or the samples.
+    pub fn amplitudes_mut(&mut self) -> &mut [f64] {
+        match self {
+            Self::Free { rotation_rad } => slice::from_mut(rotation_rad),
+            Self::Pulse(kind) => slice::from_mut(kind.amplitude_mut()),
+            Self::Samples { acceleration_m_s2, .. } => acceleration_m_s2,
+        }
+    }
+
     /// End of the ground motion, s.
     #[must_use]
     pub fn end_s(&self) -> f64 {
+        use PulseKind as P;
         match self {
             Self::Free { .. } => 0.0,
-            Self::Sine { omega_rad_s, half_cycles, .. } => {
-                f64::from(*half_cycles) * PI / omega_rad_s
-            }
-            Self::Cosine { omega_rad_s, .. } => TAU / omega_rad_s,
-            Self::Rectangle { duration_s, .. }
-            | Self::Triangle { duration_s, .. } => *duration_s,
-            Self::Ricker { period_s, cycles, .. } => cycles * period_s,
-            Self::Mavroeidis { frequency_hz, gamma, .. } => {
-                gamma / frequency_hz
-            }
+            Self::Pulse(P::HalfSine { omega_rad_s, .. }) => PI / omega_rad_s,
+            Self::Pulse(
+                P::OneSine { omega_rad_s, .. }
+                | P::OneCosine { omega_rad_s, .. },
+            ) => TAU / omega_rad_s,
+            Self::Pulse(
+                P::Rectangle { duration_s, .. }
+                | P::Triangle { duration_s, .. },
+            ) => *duration_s,
+            Self::Pulse(
+                P::RickerSymmetric { period_s, cycles, .. }
+                | P::RickerAntisymmetric { period_s, cycles, .. },
+            ) => cycles * period_s,
+            Self::Pulse(P::MavroeidisPapageorgiou {
+                frequency_hz,
+                gamma,
+                ..
+            }) => gamma / frequency_hz,
+            Self::Pulse(_) => f64::NAN,
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 (acceleration_m_s2.len() - 1) as f64 * dt_s
             }
@@ -234,41 +282,45 @@ impl Forcing {
     /// closed forms say, monotone; from 0 to the end.
     #[must_use]
     pub fn pieces_s(&self) -> Vec<f64> {
+        use PulseKind as P;
         let end = self.end_s();
         let mut at = vec![0.0];
-        match self {
-            Self::Free { .. } | Self::Rectangle { .. } => {}
-            Self::Sine { omega_rad_s, half_cycles, .. } => {
-                for k in 1..2 * half_cycles {
-                    at.push(f64::from(k) * 0.5 * PI / omega_rad_s);
-                }
+        let mut quarters = |count: u32, omega_rad_s: f64| {
+            for k in 1..count {
+                at.push(f64::from(k) * 0.5 * PI / omega_rad_s);
             }
-            Self::Cosine { omega_rad_s, .. } => {
-                for k in 1..4 {
-                    at.push(f64::from(k) * 0.5 * PI / omega_rad_s);
-                }
+        };
+        match *self {
+            Self::Pulse(P::HalfSine { omega_rad_s, .. }) => {
+                quarters(2, omega_rad_s);
             }
-            Self::Triangle { duration_s, .. } => at.push(0.5 * duration_s),
-            Self::Ricker { period_s, antisymmetric, .. } => {
-                let (rate, x) = if *antisymmetric {
-                    let r = 6.0_f64.sqrt();
-                    let rate = TAU / (3.0_f64.sqrt() * period_s);
-                    (rate, [(3.0 + r).sqrt(), (3.0 - r).sqrt()])
-                } else {
-                    let rate = 2.0_f64.sqrt() * PI / period_s;
-                    (rate, [3.0_f64.sqrt(), 0.0])
-                };
-                for x in [-x[0], -x[1], x[1], x[0]] {
-                    at.push(0.5 * end + x / rate);
-                }
+            Self::Pulse(
+                P::OneSine { omega_rad_s, .. }
+                | P::OneCosine { omega_rad_s, .. },
+            ) => quarters(4, omega_rad_s),
+            Self::Pulse(P::Triangle { duration_s, .. }) => {
+                at.push(0.5 * duration_s);
             }
-            Self::Mavroeidis { .. } => {
+            Self::Pulse(P::RickerSymmetric { period_s, .. }) => {
+                let rate = 2.0_f64.sqrt() * PI / period_s;
+                let x = 3.0_f64.sqrt();
+                at.extend([-x, 0.0, x].map(|x| 0.5 * end + x / rate));
+            }
+            Self::Pulse(P::RickerAntisymmetric { period_s, .. }) => {
+                let rate = TAU / (3.0_f64.sqrt() * period_s);
+                let r = 6.0_f64.sqrt();
+                let (far, near) = ((3.0 + r).sqrt(), (3.0 - r).sqrt());
+                let turns = [-far, -near, near, far];
+                at.extend(turns.map(|x| 0.5 * end + x / rate));
+            }
+            Self::Pulse(P::MavroeidisPapageorgiou { .. }) => {
                 at.extend((1..256).map(|k| f64::from(k) / 256.0 * end));
             }
-            Self::Samples { dt_s, acceleration_m_s2 } => {
+            Self::Samples { dt_s, ref acceleration_m_s2 } => {
                 let last = acceleration_m_s2.len() - 1;
                 at.extend((1..last).map(|i| i as f64 * dt_s));
             }
+            Self::Free { .. } | Self::Pulse(_) => {}
         }
         at.push(end);
         at.retain(|t| *t >= 0.0 && *t <= end);
@@ -282,50 +334,7 @@ impl Forcing {
     pub fn at(&self, piece: usize, t_s: f64) -> f64 {
         match self {
             Self::Free { .. } => 0.0,
-            Self::Sine { amplitude_m_s2, omega_rad_s, .. } => {
-                amplitude_m_s2 * libm::sin(omega_rad_s * t_s)
-            }
-            Self::Cosine { amplitude_m_s2, omega_rad_s } => {
-                amplitude_m_s2 * libm::cos(omega_rad_s * t_s)
-            }
-            Self::Rectangle { amplitude_m_s2, .. } => *amplitude_m_s2,
-            Self::Triangle { amplitude_m_s2, duration_s } => {
-                let half = 0.5 * duration_s;
-                let rise = if piece == 0 { t_s } else { duration_s - t_s };
-                amplitude_m_s2 * rise / half
-            }
-            Self::Ricker {
-                amplitude_m_s2,
-                period_s,
-                cycles,
-                antisymmetric,
-            } => {
-                let u = t_s - 0.5 * cycles * period_s;
-                if *antisymmetric {
-                    let x = TAU * u / (3.0_f64.sqrt() * period_s);
-                    let bell = libm::exp(-0.5 * x * x);
-                    amplitude_m_s2 * (x * x - 3.0) * x * bell / ricker_beta()
-                } else {
-                    let x = 2.0_f64.sqrt() * PI * u / period_s;
-                    let bell = libm::exp(-0.5 * x * x);
-                    amplitude_m_s2 * (1.0 - x * x) * bell
-                }
-            }
-            Self::Mavroeidis {
-                velocity_m_s,
-                frequency_hz,
-                gamma,
-                phase_rad,
-            } => {
-                let w = TAU * frequency_hz;
-                let u = t_s - 0.5 * gamma / frequency_hz;
-                let up = 1.0 + 1.0 / gamma;
-                let down = 1.0 - 1.0 / gamma;
-                let sum = 0.5 * libm::sin(w * u + phase_rad)
-                    + 0.25 * up * libm::sin(w * up * u + phase_rad)
-                    + 0.25 * down * libm::sin(w * down * u + phase_rad);
-                -velocity_m_s * w * sum
-            }
+            Self::Pulse(kind) => pulse_at(*kind, piece, t_s),
             Self::Samples { dt_s, acceleration_m_s2 } => {
                 let a = acceleration_m_s2[piece];
                 let b = acceleration_m_s2[piece + 1];

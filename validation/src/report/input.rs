@@ -8,7 +8,6 @@ use super::page::{Finding, ReportInput, ShownFigure};
 use super::summary::summary;
 use super::timings::Timings;
 use super::{ReportError, credibility, ledger};
-use crate::draw::DrawError;
 use crate::draw::figures::Figure;
 use crate::findings::Claim;
 use crate::paper::{BLOCKS, GRAVITY_M_S2};
@@ -31,12 +30,11 @@ pub fn input(
     proof: Option<&Proof>,
 ) -> Result<ReportInput, ReportError> {
     let timings = Timings::kept()?;
-    let drawn = figures.iter().chain(charts).map(shown);
     let mut drawn: Vec<ShownFigure> =
-        drawn.collect::<Result<_, DrawError>>()?;
+        figures.iter().chain(charts).map(shown).collect();
     drawn.push(ShownFigure {
         number: "Speed".into(),
-        ..shown(&timings.figure())?
+        ..shown(&timings.figure())
     });
     let names: Vec<&str> =
         figures.iter().map(|f| f.heading.name.as_str()).collect();
@@ -181,7 +179,7 @@ fn millimetres(length_m: f64) -> String {
     format!("{:.3}", (1e3 * length_m).round() / 1e3)
 }
 
-fn shown(figure: &Figure) -> Result<ShownFigure, DrawError> {
+fn shown(figure: &Figure) -> ShownFigure {
     let heading = &figure.heading;
     let digits: String =
         heading.name.chars().filter(char::is_ascii_digit).collect();
@@ -192,7 +190,7 @@ fn shown(figure: &Figure) -> Result<ShownFigure, DrawError> {
         .arm
         .filter(|_| both)
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
-    Ok(ShownFigure {
+    ShownFigure {
         name: heading.name.clone(),
         number: if number.is_empty() {
             "Beyond the paper".into()
@@ -201,10 +199,10 @@ fn shown(figure: &Figure) -> Result<ShownFigure, DrawError> {
         },
         title: heading.title.clone(),
         reading: figure.reading.clone(),
-        svg: figure.svg()?,
+        svg: figure.svg(),
         csv: figure.csv.clone(),
         csv_path: format!("data/{}.csv", heading.name),
-    })
+    }
 }
 
 fn provenance(results: &Results) -> Vec<(String, String)> {

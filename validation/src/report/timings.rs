@@ -108,13 +108,12 @@ impl Timings {
                 &[&str],
             )| {
                 let of = self.of(tool, method, without);
-                Series {
-                    label: (*label).into(),
-                    mark: Mark::LineAndPoints,
-                    x: of.iter().map(|t| x(t)).collect(),
-                    y: of.iter().map(|t| y(t)).collect(),
-                    interval: Vec::new(),
-                }
+                Series::new(
+                    *label,
+                    Mark::LineAndPoints,
+                    of.iter().map(|t| x(t)).collect(),
+                    of.iter().map(|t| y(t)).collect(),
+                )
             };
             LINES.iter().map(line).filter(|s| !s.x.is_empty()).collect()
         };
@@ -147,28 +146,27 @@ impl Timings {
             panel(
                 "all impacts, by time",
                 logarithmic(time),
-                ChartAxis {
-                    label: "cases with another number of them (%)".into(),
-                    scale: Scale::Linear,
-                    range: Some((-4.0, 104.0)),
-                    categories: Vec::new(),
-                },
+                ChartAxis::new(
+                    "cases with another number of them (%)",
+                    Scale::Linear,
+                    Some((-4.0, 104.0)),
+                ),
                 series(|t| t.ratio, share),
             ),
         ];
         panels.iter_mut().for_each(widen);
         let drawing = Chart {
-            heading: Heading {
-                name: "speed-and-error".into(),
-                title: "Speed and error, this project and other tools".into(),
-                description: format!(
+            heading: Heading::new(
+                "speed-and-error",
+                "Speed and error, this project and other tools",
+                format!(
                     "Error of the peak and of impact times, and share of \
                      analyses with another number of impacts, against \
                      processor time and work. {}",
                     self.measured_on()
                 ),
-                arm: None,
-            },
+                None,
+            ),
             panels,
             columns: 2,
         };
@@ -323,12 +321,7 @@ fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
 }
 
 fn logarithmic(label: &str) -> ChartAxis {
-    ChartAxis {
-        label: label.into(),
-        scale: Scale::Logarithmic,
-        range: None,
-        categories: Vec::new(),
-    }
+    ChartAxis::new(label, Scale::Logarithmic, None)
 }
 
 /// Room for the marks within the axes.

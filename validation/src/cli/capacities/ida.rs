@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use rocking::capacity::{CapacityError, ResponseCurve};
 use thiserror::Error;
 
-use super::Measure;
 use crate::cli::samples::Opened;
 use crate::cli::table::{COLUMNS, SETTING, Setting};
+use crate::paper::Intensity;
 
 /// Why an IDA file was refused.
 #[derive(Debug, Error)]
@@ -128,7 +128,7 @@ struct Row {
 ///
 /// # Errors
 /// [`IdaFileError`] with file and line.
-pub fn read(path: &Path, measure: Measure) -> Result<Suite, IdaFileError> {
+pub fn read(path: &Path, measure: Intensity) -> Result<Suite, IdaFileError> {
     let (rows, common) = rows(path, measure)?;
     let Some(Common { alpha_rad, p_rad_s, setting }) = common else {
         return Err(IdaFileError::Empty { path: path.to_owned() });
@@ -158,7 +158,7 @@ pub fn read(path: &Path, measure: Measure) -> Result<Suite, IdaFileError> {
     }
     let onsets = suite.curves.iter().map(|(_, curve)| curve.onset_im());
     let least = onsets.fold(f64::INFINITY, f64::min);
-    if measure == Measure::Pgv {
+    if measure == Intensity::Pgv {
         suite.im_r = least;
     }
     Ok(suite)
@@ -211,7 +211,7 @@ impl Common {
 
 type Rows = (Vec<Row>, Option<Common>);
 
-fn rows(path: &Path, measure: Measure) -> Result<Rows, IdaFileError> {
+fn rows(path: &Path, measure: Intensity) -> Result<Rows, IdaFileError> {
     let csv_error =
         |source| IdaFileError::Csv { path: path.to_owned(), source };
     let opened = Opened::open(path).map_err(|e| csv_error(e.into()))?;
@@ -224,8 +224,8 @@ fn rows(path: &Path, measure: Measure) -> Result<Rows, IdaFileError> {
         });
     }
     let im_column = match measure {
-        Measure::Pga => 5,
-        Measure::Pgv => 6,
+        Intensity::Pga => 5,
+        Intensity::Pgv => 6,
     };
     let mut rows = Vec::new();
     let mut common: Option<Common> = None;

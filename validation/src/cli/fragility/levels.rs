@@ -9,9 +9,10 @@ use serde_json::json;
 
 use super::Args;
 use super::sample::Plan;
-use crate::cli::capacities::{Measure, Point, ida};
+use crate::cli::capacities::ida;
 use crate::cli::{Failure, print, print_json};
 use crate::json;
+use crate::paper::Intensity;
 
 /// What was found at one level.
 struct Row {
@@ -25,8 +26,8 @@ struct Row {
 
 pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
-    let suite = ida::read(path, args.im.unwrap_or(Measure::Pga))?;
-    let rule = InversionRule::from(args.point.unwrap_or(Point::Median));
+    let suite = ida::read(path, args.im.unwrap_or(Intensity::Pga))?;
+    let rule = args.point.unwrap_or(InversionRule::Median);
     let levels = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
     let mut rows = Vec::new();
     for &edp in levels {

@@ -6,7 +6,7 @@ use rocking::ida::{Certification, HIGHEST_IM, IdaCurve};
 use serde_json::{Value, json};
 
 use super::Job;
-use crate::cli::order::OrderName;
+use crate::cli::names::{ORDERS, name_of};
 use crate::json::{number, optional};
 
 /// Median first overturning intensity, counting the curves that stand as
@@ -58,7 +58,7 @@ impl Job<'_> {
             "highest_im": number(HIGHEST_IM),
             "records": table.len(),
             "study_components": suite.study_rule().to_string(),
-            "order": args.order.map(OrderName::name),
+            "order": args.order.map(|order| name_of(ORDERS, &order)),
             "analyses": counts.analyses,
             "overturned_curves": counts.overturned,
             "median_overturning_im": optional(median_overturning(table)),
@@ -99,7 +99,10 @@ impl Job<'_> {
         }
         row("study components", suite.study_rule().to_string());
         if let Some(order) = args.order {
-            row("order", format!("{}, whatever it leaves", order.name()));
+            row(
+                "order",
+                format!("{}, whatever it leaves", name_of(ORDERS, &order)),
+            );
         }
         row("analyses", counts.analyses.to_string());
         let overturned = format!("{} of {}", counts.overturned, table.len());

@@ -24,7 +24,6 @@ pub(super) struct MeasureArgs {
         long,
         value_name = "S,..",
         value_delimiter = ',',
-        allow_negative_numbers = true,
         requires = "intensity"
     )]
     periods: Option<Vec<f64>>,

@@ -29,7 +29,7 @@ pub(super) fn svg(
         )));
     };
     let chart = chart(&listed.motion, processing, gravity_m_s2)?;
-    Ok(chart.thinned().figure(String::new()).svg()?)
+    Ok(chart.thinned().figure(String::new()).svg())
 }
 
 fn chart(
@@ -48,19 +48,13 @@ fn chart(
         (0..samples.len()).map(|i| i as f64 * dt_s).collect();
     let shown_s = strong(motion);
     let label = markup::escape(&motion.name().replace('_', " "));
-    let series = |x, y| Series {
-        label: label.clone(),
-        mark: Mark::Line,
-        x,
-        y,
-        interval: Vec::new(),
-    };
+    let series = |x, y| Series::new(label.clone(), Mark::Line, x, y);
     let (velocity, displacement) = integrals(motion, gravity_m_s2);
     let history =
         |name: &str, symbol: &str, y: Vec<f64>, peak: String| ChartPanel {
             title: format!("{name}, peak {peak}"),
-            x: axis("*t* (s)", Scale::Linear, Some(shown_s)),
-            y: axis(symbol, Scale::Linear, None),
+            x: ChartAxis::new("*t* (s)", Scale::Linear, Some(shown_s)),
+            y: ChartAxis::new(symbol, Scale::Linear, None),
             series: vec![series(time_s.clone(), y)],
         };
     let spectrum = measures.spectral_acceleration_g;
@@ -87,8 +81,16 @@ fn chart(
         ),
         ChartPanel {
             title: "Response spectrum, 5 % damping".to_owned(),
-            x: axis("*T* (s)", Scale::Logarithmic, Some((first, last))),
-            y: axis("*S*_{a} / *g*", Scale::Linear, Some((0.0, 1.05 * most))),
+            x: ChartAxis::new(
+                "*T* (s)",
+                Scale::Logarithmic,
+                Some((first, last)),
+            ),
+            y: ChartAxis::new(
+                "*S*_{a} / *g*",
+                Scale::Linear,
+                Some((0.0, 1.05 * most)),
+            ),
             series: vec![series(periods_s, spectrum)],
         },
     ];
@@ -97,21 +99,17 @@ fn chart(
         || "as given".to_owned(),
         |words| format!("processed: {words}"),
     );
-    let heading = Heading {
-        name: "record".to_owned(),
-        title: format!("Record {name}"),
-        description: format!(
+    let heading = Heading::new(
+        "record",
+        format!("Record {name}"),
+        format!(
             "Acceleration, velocity and displacement of {name} against time \
              ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
              response spectrum."
         ),
-        arm: None,
-    };
+        None,
+    );
     Ok(Chart { heading, panels, columns: 2 })
-}
-
-fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> ChartAxis {
-    ChartAxis { label: label.to_owned(), scale, range, categories: Vec::new() }
 }
 
 /// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a

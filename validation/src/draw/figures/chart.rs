@@ -52,6 +52,18 @@ pub struct ChartAxis {
     pub categories: Vec<String>,
 }
 
+impl ChartAxis {
+    /// An axis of numbers.
+    #[must_use]
+    pub fn new(
+        label: impl Into<String>,
+        scale: Scale,
+        range: Option<(f64, f64)>,
+    ) -> Self {
+        Self { label: label.into(), scale, range, categories: Vec::new() }
+    }
+}
+
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
@@ -76,6 +88,19 @@ pub struct Series {
     /// Intervals of the ordinates (error bars, or a band with
     /// [`Mark::Line`]); empty: none.
     pub interval: Vec<(f64, f64)>,
+}
+
+impl Series {
+    /// A series without intervals.
+    #[must_use]
+    pub fn new(
+        label: impl Into<String>,
+        mark: Mark,
+        x: Vec<f64>,
+        y: Vec<f64>,
+    ) -> Self {
+        Self { label: label.into(), mark, x, y, interval: Vec::new() }
+    }
 }
 
 /// How a series is drawn.
@@ -116,8 +141,8 @@ impl Chart {
 
     /// The figure, with a sentence that says what one sees in it.
     #[must_use]
-    pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(&self.heading, scene(self), self.csv(), reading)
+    pub fn figure(&self, reading: impl Into<String>) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading.into())
     }
 
     /// `panel,series,x,y,y_low,y_high`.

@@ -2,33 +2,19 @@
 
 use serde::Deserialize;
 
-use super::points::state;
 use super::{Answer, Context, MethodError};
-use crate::proof::oracles::linear::Pulse;
+use crate::proof::edge::{around, edge};
 use crate::proof::oracles::overturning;
 use crate::proof::oracles::rectangular::Rectangular;
 use crate::proof::oracles::{free_rocking, linear};
 use crate::proof::scene::{
-    Criterion, Engine, Equation, Forcing, Scene, Trace,
+    Engine, Forcing, Model, Overturning, PulseKind, Scene, Trace, rescaled,
 };
 
-/// Adds to the lists of a quantity.
-pub(super) fn extend(
-    answer: &mut Answer,
-    name: &str,
-    observed: impl IntoIterator<Item = f64>,
-    expected: impl IntoIterator<Item = f64>,
-) {
-    let list = answer.observed.entry(name.to_owned()).or_default();
-    list.extend(observed);
-    let list = answer.expected.entry(name.to_owned()).or_default();
-    list.extend(expected);
-}
-
-pub(super) fn equation(name: &str) -> Result<Equation, MethodError> {
+pub(super) fn model(name: &str) -> Result<Model, MethodError> {
     match name {
-        "nonlinear" => Ok(Equation::Nonlinear),
-        "linearized" => Ok(Equation::Linearized),
+        "nonlinear" => Ok(Model::Nonlinear),
+        "linearized" => Ok(Model::Linearized),
         other => Err(MethodError::Input(format!("equation `{other}`"))),
     }
 }
@@ -48,7 +34,7 @@ struct FreeInput {
 /// Free rocking of every combination of block, loss and release.
 pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
     let input: FreeInput = context.input()?;
-    let equation = equation(&input.equation)?;
+    let equation = model(&input.equation)?;
     let mut answer = Answer::default();
     for &alpha in &input.slenderness_rad {
         for &p in &input.frequency_rad_s {
@@ -56,19 +42,17 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
                 for &release in &input.release {
                     let rotation_rad = release * alpha;
                     let scene = Scene {
-                        slenderness_rad: alpha,
-                        frequency_rad_s: p,
-                        restitution: eta,
-                        gravity_m_s2: 9.81,
-                        equation,
-                        criterion: Criterion::Alpha,
-                        forcing: Forcing::Free { rotation_rad },
-                        until_s: None,
+                        model: equation,
+                        ..Scene::new(
+                            [alpha, p, 9.81],
+                            eta,
+                            Forcing::Free { rotation_rad },
+                        )
                     };
                     let trace = context.engine.respond(&scene)?;
                     let oracle = match equation {
-                        Equation::Nonlinear => free_rocking::nonlinear,
-                        Equation::Linearized => free_rocking::linearized,
+                        Model::Nonlinear => free_rocking::nonlinear,
+                        Model::Linearized => free_rocking::linearized,
                     };
                     let form = oracle(alpha, eta, rotation_rad, input.impacts);
                     put_free(&mut answer, &trace, &form, p);
@@ -86,20 +70,17 @@ fn put_free(
     p: f64,
 ) {
     let impacts = || trace.impacts.iter().take(form.impact_times_p.len());
-    extend(
-        answer,
+    answer.put(
         "impact-times-p",
         impacts().map(|i| i.time_s * p),
         form.impact_times_p.iter().copied(),
     );
-    extend(
-        answer,
+    answer.put(
         "impact-speeds-p",
-        impacts().map(|i| i.speed_rad_s / p),
+        impacts().map(|i| i.speed_before_rad_s / p),
         form.impact_speeds_p.iter().copied(),
     );
-    extend(
-        answer,
+    answer.put(
         "rest-time-p",
         trace.rest_s.map(|t| t * p),
         form.settling_p.is_finite().then_some(form.settling_p),
@@ -146,103 +127,70 @@ fn put_pulse(
     [alpha, p, _]: [f64; 3],
 ) {
     let impacts = || trace.impacts.iter().take(form.impacts.len());
-    extend(
-        answer,
+    answer.put(
         "impact-times-p",
         impacts().map(|i| i.time_s * p),
         form.impacts.iter().map(|i| i.0),
     );
-    extend(
-        answer,
+    answer.put(
         "impact-speeds",
-        impacts().map(|i| i.speed_rad_s / (p * alpha)),
+        impacts().map(|i| i.speed_before_rad_s / (p * alpha)),
         form.impacts.iter().map(|i| i.1),
     );
-    extend(
-        answer,
-        "uplift-time-p",
-        trace.uplift_s.map(|t| t * p),
-        form.uplift,
-    );
-    extend(
-        answer,
+    answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), form.uplift);
+    answer.put(
         "alpha-time-p",
         trace.overturned_s.map(|t| t * p),
         form.overturned,
     );
-    extend(answer, "side", [trace.first_side], [form.side]);
+    answer.put("side", [trace.first_side], [form.side]);
 }
 
-fn pulse(name: &str, a: f64, scale: f64) -> Result<Pulse, MethodError> {
-    let sine = |half_cycles| Pulse::Sine { a, omega: scale, half_cycles };
+/// The pulse of this name, for a block with p = 1 rad/s and
+/// g alpha = 1 m/s2.
+fn pulse(
+    name: &str,
+    amplitude: f64,
+    scale: f64,
+) -> Result<PulseKind, MethodError> {
+    let (omega_rad_s, duration_s, period_s) = (scale, scale, scale);
+    let cycles = 4.0;
     Ok(match name {
-        "half-sine" => sine(1),
-        "one-sine" => sine(2),
-        "one-cosine" => Pulse::Cosine { a, omega: scale },
-        "rectangle" => Pulse::Rectangle { a, tau: scale },
-        "triangle" => Pulse::Triangle { a, tau: scale },
-        "ricker-symmetric" => Pulse::RickerSymmetric { a, tau: scale },
-        "ricker-antisymmetric" => Pulse::RickerAntisymmetric { a, tau: scale },
-        "mavroeidis-papageorgiou" => Pulse::Mavroeidis {
-            velocity: a,
-            frequency: scale,
+        "half-sine" => PulseKind::HalfSine { amplitude, omega_rad_s },
+        "one-sine" => PulseKind::OneSine { amplitude, omega_rad_s },
+        "one-cosine" => PulseKind::OneCosine { amplitude, omega_rad_s },
+        "rectangle" => PulseKind::Rectangle { amplitude, duration_s },
+        "triangle" => PulseKind::Triangle { amplitude, duration_s },
+        "ricker-symmetric" => {
+            PulseKind::RickerSymmetric { amplitude, period_s, cycles }
+        }
+        "ricker-antisymmetric" => {
+            PulseKind::RickerAntisymmetric { amplitude, period_s, cycles }
+        }
+        "mavroeidis-papageorgiou" => PulseKind::MavroeidisPapageorgiou {
+            velocity: amplitude,
+            frequency_hz: scale,
             gamma: 1.5,
-            phase: 0.25,
+            phase_rad: 0.25,
         },
         other => return Err(MethodError::Input(format!("pulse `{other}`"))),
     })
 }
 
-/// The scene of a dimensionless pulse on a block (alpha, p, g).
+/// A block (alpha, p, g) in Eq. 2 under the pulse that acts on one with
+/// p = 1 rad/s and g alpha = 1 m/s2 as it does on this one.
 pub(super) fn linear_scene(
-    pulse: Pulse,
+    pulse: PulseKind,
     restitution: f64,
-    [alpha, p, g]: [f64; 3],
+    block: [f64; 3],
     until_p: Option<f64>,
 ) -> Scene {
-    let unit = g * alpha;
-    let forcing = match pulse {
-        Pulse::Sine { a, omega, half_cycles } => Forcing::Sine {
-            amplitude_m_s2: a * unit,
-            omega_rad_s: omega * p,
-            half_cycles,
-        },
-        Pulse::Cosine { a, omega } => Forcing::Cosine {
-            amplitude_m_s2: a * unit,
-            omega_rad_s: omega * p,
-        },
-        Pulse::Rectangle { a, tau } => Forcing::Rectangle {
-            amplitude_m_s2: a * unit,
-            duration_s: tau / p,
-        },
-        Pulse::Triangle { a, tau } => {
-            Forcing::Triangle { amplitude_m_s2: a * unit, duration_s: tau / p }
-        }
-        Pulse::RickerSymmetric { a, tau }
-        | Pulse::RickerAntisymmetric { a, tau } => Forcing::Ricker {
-            amplitude_m_s2: a * unit,
-            period_s: tau / p,
-            cycles: 4.0,
-            antisymmetric: matches!(pulse, Pulse::RickerAntisymmetric { .. }),
-        },
-        Pulse::Mavroeidis { velocity, frequency, gamma, phase } => {
-            Forcing::Mavroeidis {
-                velocity_m_s: velocity * unit / p,
-                frequency_hz: frequency * p,
-                gamma,
-                phase_rad: phase,
-            }
-        }
-    };
+    let [alpha, p, g] = block;
+    let forcing = Forcing::Pulse(rescaled(pulse, g * alpha, p));
     Scene {
-        slenderness_rad: alpha,
-        frequency_rad_s: p,
-        restitution,
-        gravity_m_s2: g,
-        equation: Equation::Linearized,
-        criterion: Criterion::Alpha,
-        forcing,
+        model: Model::Linearized,
         until_s: until_p.map(|t| t / p),
+        ..Scene::new([alpha, p, g], restitution, forcing)
     }
 }
 
@@ -274,10 +222,10 @@ pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
             let pulse = pulse(&input.pulse, a, scale)?;
             let until = Some(200.0);
             let mut scene = linear_scene(pulse, 0.92, input.block, until);
-            scene.criterion = Criterion::HalfPi;
+            scene.overturning = Overturning::HalfPi;
             overturns_at_once(context.engine, &scene)
         })?;
-        extend(&mut answer, "critical-amplitude", [found], [condition]);
+        answer.put("critical-amplitude", [found], [condition]);
     }
     Ok(answer)
 }
@@ -296,24 +244,7 @@ pub(super) fn flip(
     near: f64,
     above: impl Fn(f64) -> Result<bool, MethodError>,
 ) -> Result<f64, MethodError> {
-    flip_within(1e-6, near, above)
-}
-
-/// The same within `reach` of `near`.
-pub(super) fn flip_within(
-    reach: f64,
-    near: f64,
-    above: impl Fn(f64) -> Result<bool, MethodError>,
-) -> Result<f64, MethodError> {
-    let (mut low, mut high) = (near * (1.0 - reach), near * (1.0 + reach));
-    if above(low)? || !above(high)? {
-        return Ok(f64::NAN);
-    }
-    while high - low > 1e-13 * high {
-        let mid = 0.5 * (low + high);
-        if above(mid)? { high = mid } else { low = mid }
-    }
-    Ok(0.5 * (low + high))
+    edge(around(near, 1e-6), 1e-13, above)
 }
 
 #[derive(Deserialize)]
@@ -331,18 +262,18 @@ pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
     for &eta in &input.restitution {
         let (omega, a) = overturning::fold(eta);
         let found = flip(omega, |omega| {
-            let pulse = Pulse::Sine { a, omega, half_cycles: 2 };
+            let pulse =
+                PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
             let mut scene = linear_scene(pulse, eta, input.block, Some(200.0));
-            scene.criterion = Criterion::HalfPi;
+            scene.overturning = Overturning::HalfPi;
             let trace = context.engine.respond(&scene)?;
             Ok(trace.overturned_s.is_none())
         })?;
-        extend(&mut answer, "fold", [found], [omega]);
-        let pulse = Pulse::Sine { a, omega, half_cycles: 2 };
+        answer.put("fold", [found], [omega]);
+        let pulse = PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
         let scene = linear_scene(pulse, eta, input.block, None);
-        let seen = state(context, &scene, scene.forcing.end_s())?;
-        extend(
-            &mut answer,
+        let seen = context.state(&scene, scene.forcing.end_s())?;
+        answer.put(
             "rotation-at-pulse-end",
             [seen.rotation_rad.abs() / scene.slenderness_rad],
             [2.0 - 1.0 / (eta * eta)],
@@ -373,26 +304,20 @@ pub(super) fn durations(context: &Context) -> Result<Answer, MethodError> {
                 let critical = form.critical_duration_s();
                 let found = flip(critical, |duration_s| {
                     let scene = Scene {
-                        slenderness_rad: alpha,
-                        frequency_rad_s: p,
-                        restitution: 0.92,
-                        gravity_m_s2: 9.81,
-                        equation: Equation::Nonlinear,
-                        criterion: Criterion::HalfPi,
-                        forcing: Forcing::Rectangle {
-                            amplitude_m_s2: pull * 9.81,
-                            duration_s,
-                        },
+                        overturning: Overturning::HalfPi,
                         until_s: Some(200.0 / p),
+                        ..Scene::new(
+                            [alpha, p, 9.81],
+                            0.92,
+                            Forcing::Pulse(PulseKind::Rectangle {
+                                amplitude: pull * 9.81,
+                                duration_s,
+                            }),
+                        )
                     };
                     overturns_at_once(context.engine, &scene)
                 })?;
-                extend(
-                    &mut answer,
-                    "critical-duration-p",
-                    [found * p],
-                    [critical * p],
-                );
+                answer.put("critical-duration-p", [found * p], [critical * p]);
             }
         }
     }

@@ -3,14 +3,11 @@
 use rocking::integrator::{Order, Response};
 use serde::Deserialize;
 
-use super::closed_forms::extend;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
 use crate::proof::engine;
 use crate::proof::naive::{Events, Naive, Rules};
-use crate::proof::scene::{
-    Criterion, Engine as _, EngineError, Equation, Forcing, Scene,
-};
+use crate::proof::scene::{Engine as _, EngineError, Forcing, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -57,7 +54,7 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
             return Ok::<_, EngineError>([
                 trace.peak_ratio,
                 first.map_or(f64::NAN, |i| i.time_s),
-                first.map_or(f64::NAN, |i| i.speed_rad_s),
+                first.map_or(f64::NAN, |i| i.speed_before_rad_s),
             ]);
         }
         engine::respond_at_order(&scene, order).map(|r| measures(&r))
@@ -79,7 +76,7 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
             let ratio = steps[1] as f64 / steps[0] as f64;
             let slope = libm::log(pair[0][k] / pair[1][k]) / libm::log(ratio);
             let due = f64::from(input.order);
-            extend(&mut answer, &format!("order-of-{name}"), [slope], [due]);
+            answer.put(&format!("order-of-{name}"), [slope], [due]);
         }
     }
     Ok(answer)
@@ -93,19 +90,14 @@ fn divided(input: &Input, division: usize) -> Scene {
         fine.extend((0..division).map(|k| pair[0] + rise * k as f64));
     }
     fine.extend(input.acceleration_m_s2.last());
-    Scene {
-        slenderness_rad: alpha,
-        frequency_rad_s: p,
-        restitution: eta,
-        gravity_m_s2: 9.81,
-        equation: Equation::Nonlinear,
-        criterion: Criterion::Alpha,
-        forcing: Forcing::Samples {
+    Scene::new(
+        [alpha, p, 9.81],
+        eta,
+        Forcing::Samples {
             dt_s: input.dt_s / division as f64,
             acceleration_m_s2: fine,
         },
-        until_s: None,
-    }
+    )
 }
 
 /// Peak, and time and speed of the first impact.

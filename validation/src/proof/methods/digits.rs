@@ -12,7 +12,7 @@ use super::references::TRAJECTORIES;
 use super::{MethodError, fates, hard};
 use crate::proof::cases::{Case, CaseError, load_all};
 use crate::proof::engine::{Arithmetic, WideTrace};
-use crate::proof::scene::{Criterion, Equation, Scene};
+use crate::proof::scene::{Model, Overturning, Scene};
 
 /// Why there is no table.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -121,9 +121,9 @@ fn row(case: &Case) -> Result<Option<Row>, MethodError> {
     }
     Ok(Some(Row {
         id: case.id.clone(),
-        equation: match scene.equation {
-            Equation::Nonlinear => 1,
-            Equation::Linearized => 2,
+        equation: match scene.model {
+            Model::Nonlinear => 1,
+            Model::Linearized => 2,
         },
         has_reference,
         end,
@@ -137,9 +137,9 @@ fn reference(case: &Case) -> Result<(Scene, WideTrace), MethodError> {
     let entry = references::trajectory(entry.unwrap_or_default())?;
     let tangency = case.id.contains("-flip-");
     let (criterion, key) = if tangency {
-        (Criterion::Alpha, "t_first_abs_theta_eq_alpha")
+        (Overturning::Alpha, "t_first_abs_theta_eq_alpha")
     } else {
-        (Criterion::HalfPi, "t_abs_theta_eq_pi_over_2")
+        (Overturning::HalfPi, "t_abs_theta_eq_pi_over_2")
     };
     let file = &TRAJECTORIES;
     let scene = references::scene(entry, criterion)?;

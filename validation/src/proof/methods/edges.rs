@@ -3,10 +3,11 @@
 
 use serde::Deserialize;
 
-use super::closed_forms::{equation, extend};
+use super::closed_forms::model;
 use super::{Answer, Context, MethodError};
+use crate::proof::edge::{self, around};
 use crate::proof::oracles::overturning;
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 /// What flips at an edge.
 #[derive(Clone, Copy, Deserialize)]
@@ -24,7 +25,7 @@ enum Edge {
 
 /// A one-sine pulse on a block.
 struct OneSine {
-    equation: Equation,
+    equation: Model,
     block: [f64; 3],
     omega: f64,
     eta: f64,
@@ -40,23 +41,18 @@ impl OneSine {
     ) -> Result<bool, MethodError> {
         let [alpha, p, g] = self.block;
         let mut scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: self.eta,
-            gravity_m_s2: g,
-            equation: self.equation,
-            criterion: match edge {
-                Edge::Mode2Alpha => Criterion::Alpha,
-                _ => Criterion::HalfPi,
+            model: self.equation,
+            overturning: match edge {
+                Edge::Mode2Alpha => Overturning::Alpha,
+                _ => Overturning::HalfPi,
             },
-            forcing: Forcing::Free { rotation_rad: 0.0 },
             until_s: Some((7.0 / self.omega + 100.0) / p),
+            ..Scene::new([alpha, p, g], self.eta, Forcing::NONE)
         };
-        scene.forcing = Forcing::Sine {
-            amplitude_m_s2: amplitude * scene.threshold_m_s2(),
+        scene.forcing = Forcing::Pulse(PulseKind::OneSine {
+            amplitude: amplitude * scene.threshold_m_s2(),
             omega_rad_s: self.omega * p,
-            half_cycles: 2,
-        };
+        });
         let trace = context.engine.respond(&scene)?;
         let over = trace.overturned_s.is_some();
         Ok(match edge {
@@ -74,21 +70,8 @@ impl OneSine {
         near: f64,
         reach: f64,
     ) -> Result<f64, MethodError> {
-        let (mut low, mut high) = (near * (1.0 - reach), near * (1.0 + reach));
-        if self.is_above(context, edge, low)?
-            || !self.is_above(context, edge, high)?
-        {
-            return Ok(f64::NAN);
-        }
-        while high - low > 1e-12 * high {
-            let mid = 0.5 * (low + high);
-            if self.is_above(context, edge, mid)? {
-                high = mid;
-            } else {
-                low = mid;
-            }
-        }
-        Ok(0.5 * (low + high))
+        let above = |amplitude| self.is_above(context, edge, amplitude);
+        edge::edge(around(near, reach), 1e-12, above)
     }
 }
 
@@ -109,7 +92,7 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     let mut changes = Vec::new();
     for &alpha in &input.slenderness_rad {
         let pulse = OneSine {
-            equation: Equation::Nonlinear,
+            equation: Model::Nonlinear,
             block: [alpha, 2.0, 9.81],
             omega: input.omega_over_p,
             eta: 0.92,
@@ -118,7 +101,7 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
         changes.push(found / input.linear - 1.0);
     }
     let mut answer = Answer::default();
-    answer.observed.insert("change".to_owned(), changes);
+    answer.see("change", changes);
     Ok(answer)
 }
 
@@ -135,7 +118,7 @@ struct BayInput {
 pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
     let input: BayInput = context.input()?;
     let pulse = OneSine {
-        equation: Equation::Linearized,
+        equation: Model::Linearized,
         block: input.block,
         omega: input.omega_over_p,
         eta: input.eta,
@@ -148,7 +131,7 @@ pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
         ("mode-2-by-alpha", Edge::Mode2Alpha),
     ] {
         let found = pulse.edge(context, edge, upper, 1e-5)?;
-        answer.observed.insert(name.to_owned(), vec![found]);
+        answer.see(name, [found]);
     }
     Ok(answer)
 }
@@ -174,24 +157,17 @@ pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
     for &alpha in &input.slenderness_rad {
         for &excess in &input.excess {
             let mut scene = Scene {
-                slenderness_rad: alpha,
-                frequency_rad_s: p,
-                restitution: 0.92,
-                gravity_m_s2: 9.81,
-                equation: equation(&input.equation)?,
-                criterion: Criterion::Alpha,
-                forcing: Forcing::Free { rotation_rad: 0.0 },
-                until_s: None,
+                model: model(&input.equation)?,
+                ..Scene::new([alpha, p, 9.81], 0.92, Forcing::NONE)
             };
             let omega = input.omega_over_p;
-            scene.forcing = Forcing::Sine {
-                amplitude_m_s2: (1.0 + excess) * scene.threshold_m_s2(),
+            scene.forcing = Forcing::Pulse(PulseKind::HalfSine {
+                amplitude: (1.0 + excess) * scene.threshold_m_s2(),
                 omega_rad_s: omega * p,
-                half_cycles: 1,
-            };
-            let k = match scene.equation {
-                Equation::Nonlinear => libm::sin(alpha) / alpha,
-                Equation::Linearized => 1.0,
+            });
+            let k = match scene.model {
+                Model::Nonlinear => libm::sin(alpha) / alpha,
+                Model::Linearized => 1.0,
             };
             let trace = context.engine.respond(&scene)?;
             let crest = 0.5 * std::f64::consts::PI / omega;
@@ -209,12 +185,12 @@ pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
                 ("peak", trace.peak_ratio / peak, 1.0),
                 (
                     "landing-speed",
-                    first.map_or(f64::NAN, |i| i.speed_rad_s)
+                    first.map_or(f64::NAN, |i| i.speed_before_rad_s)
                         / (p * alpha * speed),
                     1.0,
                 ),
             ] {
-                extend(&mut answer, name, [seen], [due]);
+                answer.put(name, [seen], [due]);
             }
         }
     }
@@ -233,16 +209,11 @@ pub(super) fn sizes(context: &Context) -> Result<Answer, MethodError> {
     let input: SizesInput = context.input()?;
     let mut answer = Answer::default();
     for &alpha in &input.slenderness_rad {
-        let scene = context.altered(&Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: input.frequency_rad_s,
-            restitution: 0.92,
-            gravity_m_s2: 9.81,
-            equation: Equation::Nonlinear,
-            criterion: Criterion::Alpha,
-            forcing: Forcing::Free { rotation_rad: 0.0 },
-            until_s: None,
-        });
+        let scene = context.altered(&Scene::new(
+            [alpha, input.frequency_rad_s, 9.81],
+            0.92,
+            Forcing::NONE,
+        ));
         let refused =
             |e: rocking::block::BlockError| MethodError::Input(e.to_string());
         let block = rocking::block::Block::try_new(

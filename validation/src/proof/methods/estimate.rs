@@ -13,7 +13,7 @@ use super::{Answer, Context, MethodError};
 use crate::proof::arithmetic::decimal;
 use crate::proof::cases::WrongModel;
 use crate::proof::engine::{Arithmetic, WideTrace};
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{Forcing, Model, Overturning, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -82,10 +82,10 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
     ratios.sort_by(f64::total_cmp);
     let mut answer = Answer::default();
     let exceeded = ratios.iter().filter(|r| !(**r <= 1.0)).count();
-    answer.put("estimates-exceeded", vec![exceeded as f64], vec![0.0]);
-    answer.put("sure-of-a-wrong-fate", vec![wrong], vec![0.0]);
+    answer.put("estimates-exceeded", [exceeded as f64], [0.0]);
+    answer.put("sure-of-a-wrong-fate", [wrong], [0.0]);
     let mut see = |name: &str, value: f64| {
-        answer.observed.insert(name.to_owned(), vec![value]);
+        answer.see(name, [value]);
     };
     see("peaks-compared", ratios.len() as f64);
     see("fates-left-open", open);
@@ -125,8 +125,8 @@ fn against_references(
     for case in file.list(&all, "cases")? {
         let expected = file.get(case, "expected")?;
         for (criterion, key) in [
-            (Criterion::Alpha, "first_reaches_alpha"),
-            (Criterion::HalfPi, "overturned_pi_over_2"),
+            (Overturning::Alpha, "first_reaches_alpha"),
+            (Overturning::HalfPi, "overturned_pi_over_2"),
         ] {
             let scene = references::scene(case, criterion)?;
             let run = WideTrace::run(&scene, arithmetic)?;
@@ -168,22 +168,13 @@ fn drawn(streams: &Streams, index: u64) -> Scene {
         })
         .collect();
     let mut scene = Scene {
-        slenderness_rad: alpha,
-        frequency_rad_s: p,
-        restitution: eta,
-        gravity_m_s2: 9.81,
-        equation: if linear {
-            Equation::Linearized
+        model: if linear { Model::Linearized } else { Model::Nonlinear },
+        overturning: if uniform(0.0, 1.0) < 0.3 {
+            Overturning::HalfPi
         } else {
-            Equation::Nonlinear
+            Overturning::Alpha
         },
-        criterion: if uniform(0.0, 1.0) < 0.3 {
-            Criterion::HalfPi
-        } else {
-            Criterion::Alpha
-        },
-        forcing: Forcing::Free { rotation_rad: 0.0 },
-        until_s: None,
+        ..Scene::new([alpha, p, 9.81], eta, Forcing::NONE)
     };
     let peak = samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let factor = intensity * scene.threshold_m_s2() / peak;

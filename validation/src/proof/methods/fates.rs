@@ -2,13 +2,15 @@
 
 use serde::Deserialize;
 
-use super::closed_forms::{equation, extend};
+use super::closed_forms::model;
 use super::references;
 use super::wrong::scale;
 use super::{Answer, Context, MethodError, input_of};
 use crate::proof::cases::Case;
 use crate::proof::engine::Core;
-use crate::proof::scene::{Criterion, Engine as _, Equation, Forcing, Scene};
+use crate::proof::scene::{
+    Engine as _, Forcing, Model, Overturning, PulseKind, Scene,
+};
 use crate::suites::synthesis;
 
 #[derive(Deserialize)]
@@ -62,11 +64,10 @@ impl Samples {
 pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
     let input: SceneInput = input_of(case)?;
     let forcing = match (&input.half_sine, &input.record) {
-        (Some(sine), None) => Forcing::Sine {
-            amplitude_m_s2: sine.amplitude_m_s2,
+        (Some(sine), None) => Forcing::Pulse(PulseKind::HalfSine {
+            amplitude: sine.amplitude_m_s2,
             omega_rad_s: sine.omega_rad_s,
-            half_cycles: 1,
-        },
+        }),
         (None, Some(record)) => record.forcing()?,
         _ => {
             let text = "one of `half_sine` and `record`".to_owned();
@@ -74,14 +75,13 @@ pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
         }
     };
     Ok(Scene {
-        slenderness_rad: input.slenderness_rad,
-        frequency_rad_s: input.frequency_rad_s,
-        restitution: input.restitution,
-        gravity_m_s2: 9.81,
-        equation: equation(&input.equation)?,
-        criterion: Criterion::Alpha,
-        forcing,
+        model: model(&input.equation)?,
         until_s: input.until_s,
+        ..Scene::new(
+            [input.slenderness_rad, input.frequency_rad_s, 9.81],
+            input.restitution,
+            forcing,
+        )
     })
 }
 
@@ -91,7 +91,7 @@ pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
     let mut see = |name: &str, values: Vec<f64>| {
-        answer.observed.insert(name.to_owned(), values);
+        answer.see(name, values);
     };
     see("peak-ratio", vec![trace.peak_ratio]);
     see("uplifts", vec![trace.uplifts as f64]);
@@ -117,25 +117,17 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
     let (dt_s, record) = references::record(&input.record)?;
     let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let mut answer = Answer::default();
-    extend(&mut answer, "impact-in-between", [], []);
+    answer.put("impact-in-between", [], []);
     for (k, letter) in input.letters.chars().enumerate() {
         let level_g = input.first_level_g + 0.01 * k as f64;
-        let mut scene = Scene {
-            slenderness_rad: input.slenderness_rad,
-            frequency_rad_s: input.frequency_rad_s,
-            restitution: 0.92,
-            gravity_m_s2: 9.81,
-            equation: Equation::Nonlinear,
-            criterion: Criterion::Alpha,
-            forcing: Forcing::Samples {
-                dt_s,
-                acceleration_m_s2: record.clone(),
-            },
-            until_s: None,
-        };
+        let mut scene = Scene::new(
+            [input.slenderness_rad, input.frequency_rad_s, 9.81],
+            0.92,
+            Forcing::Samples { dt_s, acceleration_m_s2: record.clone() },
+        );
         scale(&mut scene.forcing, level_g * 9.81 / peak);
         let first = context.engine.respond(&scene)?.overturned_s;
-        scene.criterion = Criterion::HalfPi;
+        scene.overturning = Overturning::HalfPi;
         let trace = context.engine.respond(&scene)?;
         let last = trace.overturned_s;
         let (alpha, half_pi) = match letter {
@@ -147,14 +139,13 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
             }
         };
         let seen = |x: Option<f64>| f64::from(x.is_some());
-        extend(&mut answer, "reaches-alpha", [seen(first)], [alpha]);
-        extend(&mut answer, "reaches-half-pi", [seen(last)], [half_pi]);
+        answer.put("reaches-alpha", [seen(first)], [alpha]);
+        answer.put("reaches-half-pi", [seen(last)], [half_pi]);
         // A block that comes back rocks on: it meets the base in between.
         if let (Some(first), Some(last)) = (first, last) {
             let back = |t: f64| t > first && t < last;
             let back = trace.impacts.iter().any(|i| back(i.time_s));
-            extend(
-                &mut answer,
+            answer.put(
                 "impact-in-between",
                 [f64::from(back)],
                 [f64::from(letter == 'r')],
@@ -192,21 +183,19 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
             let alpha = input.slenderness_rad;
             let factor = im * alpha / record.pga_g();
             let scene = |slenderness_rad: f64, factor: f64| Scene {
-                slenderness_rad,
-                frequency_rad_s: input.frequency_rad_s,
-                restitution: 0.92,
-                gravity_m_s2: 1.0,
-                equation: Equation::Linearized,
-                criterion: Criterion::Alpha,
-                forcing: Forcing::Samples {
-                    dt_s: record.dt_s(),
-                    acceleration_m_s2: record
-                        .samples_g()
-                        .iter()
-                        .map(|a| a * factor)
-                        .collect(),
-                },
-                until_s: None,
+                model: Model::Linearized,
+                ..Scene::new(
+                    [slenderness_rad, input.frequency_rad_s, 1.0],
+                    0.92,
+                    Forcing::Samples {
+                        dt_s: record.dt_s(),
+                        acceleration_m_s2: record
+                            .samples_g()
+                            .iter()
+                            .map(|a| a * factor)
+                            .collect(),
+                    },
+                )
             };
             // A slenderness above pi/2 is none.
             let adjusted = record.pga_g() / im;
@@ -218,7 +207,7 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
     }
     differences.sort_by(f64::total_cmp);
     let at = |share: usize| differences[differences.len() * share / 10];
-    answer.put("median-difference", vec![at(5)], vec![0.0]);
-    answer.put("upper-decile-difference", vec![at(9)], vec![0.0]);
+    answer.put("median-difference", [at(5)], [0.0]);
+    answer.put("upper-decile-difference", [at(9)], [0.0]);
     Ok(answer)
 }

@@ -4,7 +4,7 @@
 use rocking::number::Real as _;
 use serde::Deserialize;
 
-use super::closed_forms::{equation, extend};
+use super::closed_forms::model;
 use super::fates::Samples;
 use super::references;
 use super::wrong::scale;
@@ -13,7 +13,7 @@ use crate::proof::cases::Case;
 use crate::proof::engine::{Arithmetic, WideTrace};
 use crate::proof::oracles::free_rocking;
 use crate::proof::oracles::rectangular::Rectangular;
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{Forcing, Model, PulseKind, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -43,29 +43,22 @@ pub(super) fn saddle(context: &Context) -> Result<Answer, MethodError> {
             for (sign, falls) in [(-1.0, 0.0), (1.0, 1.0)] {
                 let duration_s = form.duration_to_energy_s(sign * depth);
                 let scene = Scene {
-                    slenderness_rad: alpha,
-                    frequency_rad_s: p,
-                    restitution: 0.92,
-                    gravity_m_s2: 9.81,
-                    equation: Equation::Nonlinear,
-                    criterion: Criterion::Alpha,
-                    forcing: Forcing::Rectangle {
-                        amplitude_m_s2: pull * 9.81,
-                        duration_s,
-                    },
                     until_s: Some(100.0 / p),
+                    ..Scene::new(
+                        [alpha, p, 9.81],
+                        0.92,
+                        Forcing::Pulse(PulseKind::Rectangle {
+                            amplitude: pull * 9.81,
+                            duration_s,
+                        }),
+                    )
                 };
                 let trace = context.engine.respond(&scene)?;
                 let over = f64::from(trace.overturned_s.is_some());
-                extend(&mut answer, "overturned", [over], [falls]);
+                answer.put("overturned", [over], [falls]);
                 if falls == 0.0 {
                     let gap = 1.0 - trace.peak_ratio;
-                    extend(
-                        &mut answer,
-                        "gap-over-distance",
-                        [gap / distance],
-                        [1.0],
-                    );
+                    answer.put("gap-over-distance", [gap / distance], [1.0]);
                 }
             }
         }
@@ -90,17 +83,11 @@ struct ChatterInput {
 /// every time, speed and the end of the series are known in closed form.
 pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
     let input: ChatterInput = context.input()?;
-    let equation = equation(&input.equation)?;
+    let equation = model(&input.equation)?;
     let (p, alpha) = (input.frequency_rad_s, input.slenderness_rad);
     let mut scene = Scene {
-        slenderness_rad: alpha,
-        frequency_rad_s: p,
-        restitution: input.restitution,
-        gravity_m_s2: 9.81,
-        equation,
-        criterion: Criterion::Alpha,
-        forcing: Forcing::Free { rotation_rad: 0.0 },
-        until_s: None,
+        model: equation,
+        ..Scene::new([alpha, p, 9.81], input.restitution, Forcing::NONE)
     };
     let threshold = scene.threshold_m_s2();
     let steady = input.intensity * threshold;
@@ -120,29 +107,25 @@ pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
         return Err(MethodError::Input(text.to_owned()));
     }
     let form = free_rocking::chatter(
-        equation == Equation::Nonlinear,
+        equation == Model::Nonlinear,
         alpha,
         input.restitution,
         steady / 9.81,
-        (first.time_s * p, first.speed_rad_s / p),
+        (first.time_s * p, first.speed_before_rad_s / p),
         input.impacts,
     );
     let seen = || trace.impacts.iter().skip(1).take(input.impacts);
     answer.put(
         "impact-times-p",
-        seen().map(|i| i.time_s * p).collect(),
+        seen().map(|i| i.time_s * p),
         form.impact_times_p,
     );
     answer.put(
         "impact-speeds",
-        seen().map(|i| i.speed_rad_s / p).collect(),
+        seen().map(|i| i.speed_before_rad_s / p),
         form.impact_speeds_p,
     );
-    answer.put(
-        "rest-time-p",
-        trace.rest_s.iter().map(|t| t * p).collect(),
-        vec![form.settling_p],
-    );
+    answer.put("rest-time-p", trace.rest_s.map(|t| t * p), [form.settling_p]);
     Ok(answer)
 }
 
@@ -176,27 +159,23 @@ pub(super) fn twin(context: &Context) -> Result<Answer, MethodError> {
         let trace = context.engine.respond(&scene)?;
         let listed = || truth.impacts.iter().take(input.impacts);
         let seen = || trace.impacts.iter().take(input.impacts);
-        extend(
-            &mut answer,
+        answer.put(
             "impact-times-p",
             seen().map(|i| i.time_s * p),
             listed().map(|i| i.0.to_f64() * p),
         );
-        extend(
-            &mut answer,
+        answer.put(
             "impact-speeds",
-            seen().map(|i| i.speed_rad_s),
+            seen().map(|i| i.speed_before_rad_s),
             listed().map(|i| i.1.to_f64()),
         );
-        extend(
-            &mut answer,
+        answer.put(
             "alpha-time-p",
             trace.overturned_s.map(|t| t * p),
             truth.overturned_s.map(|t| t.to_f64() * p),
         );
         if truth.overturned_s.is_none() {
-            extend(
-                &mut answer,
+            answer.put(
                 "peak-ratio",
                 [trace.peak_ratio],
                 [truth.peak_ratio.to_f64()],
@@ -215,14 +194,12 @@ pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
 
 fn twins(input: &TwinInput) -> Result<Vec<Scene>, MethodError> {
     let mut scene = Scene {
-        slenderness_rad: input.slenderness_rad,
-        frequency_rad_s: input.frequency_rad_s,
-        restitution: input.restitution,
-        gravity_m_s2: 9.81,
-        equation: equation(&input.equation)?,
-        criterion: Criterion::Alpha,
-        forcing: Forcing::Free { rotation_rad: 0.0 },
-        until_s: None,
+        model: model(&input.equation)?,
+        ..Scene::new(
+            [input.slenderness_rad, input.frequency_rad_s, 9.81],
+            input.restitution,
+            Forcing::NONE,
+        )
     };
     scene.forcing = match (&input.named, &input.record) {
         (Some((name, intensity)), None) => {

@@ -185,7 +185,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
                 None => row[2].replace('_', "-"),
             };
             let expected = parse(row[3])?;
-            answer.observed.entry(name.clone()).or_default().push(own);
+            answer.see(&name, [own]);
             answer.expected.entry(name).or_default().push(expected);
         }
     }

@@ -3,14 +3,12 @@
 
 use serde::Deserialize;
 
-use super::closed_forms::{equation, extend};
+use super::closed_forms::model;
 use super::references;
 use super::wrong::scale;
 use super::{Answer, Context, MethodError};
 use crate::proof::engine::Core;
-use crate::proof::scene::{
-    Criterion, Engine, Equation, Forcing, Scene, Trace,
-};
+use crate::proof::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -57,17 +55,12 @@ pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for [alpha, p, eta] in input.blocks.iter().copied() {
         let mut scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: eta,
-            gravity_m_s2: 9.81,
-            equation: equation(&input.equation)?,
-            criterion: Criterion::Alpha,
-            forcing: Forcing::Samples {
-                dt_s,
-                acceleration_m_s2: record.clone(),
-            },
-            until_s: None,
+            model: model(&input.equation)?,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                eta,
+                Forcing::Samples { dt_s, acceleration_m_s2: record.clone() },
+            )
         };
         let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let factor = input.intensity * scene.threshold_m_s2() / peak;
@@ -102,33 +95,25 @@ fn compare(
         trace.impacts.iter().map(|i| (i.time_s - back) * p).collect()
     };
     let speeds = |trace: &Trace, ratio: f64| -> Vec<f64> {
-        trace.impacts.iter().map(|i| i.speed_rad_s * ratio).collect()
+        trace.impacts.iter().map(|i| i.speed_before_rad_s * ratio).collect()
     };
-    extend(
-        answer,
+    answer.put(
         "impact-times-p",
         times(observed, shift_s),
         times(expected, 0.0),
     );
-    extend(
-        answer,
+    answer.put(
         "impact-speeds",
         speeds(observed, speed_ratio),
         speeds(expected, 1.0),
     );
-    extend(answer, "peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
-    extend(
-        answer,
+    answer.put("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
+    answer.put(
         "alpha-time-p",
         observed.overturned_s.map(|t| (t - shift_s) * p),
         expected.overturned_s.map(|t| t * p),
     );
-    extend(
-        answer,
-        "side",
-        [observed.first_side * mirror],
-        [expected.first_side],
-    );
+    answer.put("side", [observed.first_side * mirror], [expected.first_side]);
 }
 
 fn twin(
@@ -190,34 +175,31 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     let p = input.frequency_rad_s;
     let first_speed = |alpha: f64, equation| -> Result<f64, MethodError> {
         let over = match (equation, input.over.as_str()) {
-            (Equation::Linearized, _) | (_, "g-alpha") => alpha,
+            (Model::Linearized, _) | (_, "g-alpha") => alpha,
             (_, "g-tan-alpha") => libm::tan(alpha),
             (_, other) => {
                 return Err(MethodError::Input(format!("over `{other}`")));
             }
         };
         let scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: 0.92,
-            gravity_m_s2: 9.81,
-            equation,
-            criterion: Criterion::Alpha,
-            forcing: Forcing::Sine {
-                amplitude_m_s2: input.amplitude * 9.81 * over,
-                omega_rad_s: input.omega_over_p * p,
-                half_cycles: 2,
-            },
-            until_s: None,
+            model: equation,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                0.92,
+                Forcing::Pulse(PulseKind::OneSine {
+                    amplitude: input.amplitude * 9.81 * over,
+                    omega_rad_s: input.omega_over_p * p,
+                }),
+            )
         };
         let trace = context.engine.respond(&scene)?;
         let impact = trace.impacts.first();
-        Ok(impact.map_or(f64::NAN, |i| i.speed_rad_s / (p * alpha)))
+        Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
     };
     let mut changes = Vec::new();
     for &alpha in &input.slenderness_rad {
-        let linear = first_speed(alpha, Equation::Linearized)?;
-        let speed = first_speed(alpha, Equation::Nonlinear)?;
+        let linear = first_speed(alpha, Model::Linearized)?;
+        let speed = first_speed(alpha, Model::Nonlinear)?;
         changes.push(speed / linear - 1.0);
     }
     let [a, b, ..] = input.slenderness_rad.as_slice() else {
@@ -225,7 +207,7 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     };
     let order = libm::log((changes[1] / changes[0]).abs()) / libm::log(b / a);
     let mut answer = Answer::default();
-    answer.observed.insert("order".to_owned(), vec![order]);
-    answer.observed.insert("change".to_owned(), changes);
+    answer.see("order", [order]);
+    answer.see("change", changes);
     Ok(answer)
 }

@@ -1,36 +1,12 @@
 //! States along a trajectory: checkpoints, the turning point of every hop,
 //! and the end of a pulse.
 
-use rocking::integrator::{HistoryPoint, Observe};
 use serde::Deserialize;
 
-use super::closed_forms::extend;
 use super::references;
 use super::references::{LINEAR_PULSES, TRAJECTORIES};
 use super::{Answer, Context, MethodError};
-use crate::proof::engine;
-use crate::proof::scene::{Criterion, Scene};
-
-/// The state at an instant, by a history of that interval.
-pub(super) fn state(
-    context: &Context,
-    scene: &Scene,
-    time_s: f64,
-) -> Result<HistoryPoint, MethodError> {
-    let observe = Observe {
-        history_interval_s: Some(time_s),
-        until_s: Some(1.5 * time_s),
-        ..Observe::default()
-    };
-    let response = engine::respond(&context.altered(scene), &observe)?;
-    // A run that has ended before says so by what cannot be compared.
-    let missing = HistoryPoint {
-        time_s,
-        rotation_rad: f64::NAN,
-        velocity_rad_s: f64::NAN,
-    };
-    Ok(response.history.get(1).copied().unwrap_or(missing))
-}
+use crate::proof::scene::Overturning;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,38 +21,34 @@ pub(super) fn trajectories(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Criterion::HalfPi)?;
+        let scene = references::scene(case, Overturning::HalfPi)?;
         let (alpha, p) = (scene.slenderness_rad, scene.frequency_rad_s);
         let expected = file.get(case, "expected")?;
         for point in file.list(expected, "checkpoints")? {
-            let seen = state(context, &scene, file.f64(point, "t")?)?;
-            extend(
-                &mut answer,
+            let seen = context.state(&scene, file.f64(point, "t")?)?;
+            answer.put(
                 "checkpoint-rotations",
                 [seen.rotation_rad / alpha],
                 [file.f64(point, "theta")? / alpha],
             );
-            extend(
-                &mut answer,
+            answer.put(
                 "checkpoint-velocities",
                 [seen.velocity_rad_s / (p * alpha)],
                 [file.f64(point, "theta_dot")? / (p * alpha)],
             );
         }
         for hop in file.list(expected, "peak_of_hop_before_impact")? {
-            let seen = state(context, &scene, file.f64(hop, "t")?)?;
+            let seen = context.state(&scene, file.f64(hop, "t")?)?;
             let peak = file.f64(hop, "abs_theta_over_alpha")?;
             let side = file.f64(hop, "side")?;
-            extend(
-                &mut answer,
+            answer.put(
                 "hop-peaks",
                 [seen.rotation_rad / alpha],
                 [side * peak],
             );
             // At rest for an instant: the peak is where the reference has
             // it.
-            extend(
-                &mut answer,
+            answer.put(
                 "velocity-at-hop-peaks",
                 [seen.velocity_rad_s / (p * alpha)],
                 [0.0],
@@ -107,8 +79,9 @@ pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
         if end.is_null() {
             continue;
         }
-        let scene = references::linear_scene(case, block, Criterion::HalfPi)?;
-        let seen = state(context, &scene, scene.forcing.end_s())?;
+        let scene =
+            references::linear_scene(case, block, Overturning::HalfPi)?;
+        let seen = context.state(&scene, scene.forcing.end_s())?;
         let side = seen.rotation_rad.signum();
         let z = side * seen.rotation_rad / alpha;
         let w = side * seen.velocity_rad_s / (p * alpha);
@@ -116,7 +89,7 @@ pub(super) fn pulse_ends(context: &Context) -> Result<Answer, MethodError> {
             ("growing", "E_plus", z - 1.0 + w),
             ("decaying", "E_minus", z - 1.0 - w),
         ] {
-            extend(&mut answer, name, [value], [file.f64(end, key)?]);
+            answer.put(name, [value], [file.f64(end, key)?]);
         }
     }
     Ok(answer)

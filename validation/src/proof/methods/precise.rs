@@ -8,14 +8,14 @@ use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::closed_forms::equation;
+use super::closed_forms::model;
 use super::references;
 use super::references::{LINEAR_PULSES, RECT_PULSE, TRAJECTORIES};
 use super::{Answer, Context, MethodError};
 use crate::proof::arithmetic::decimal;
 use crate::proof::cases::WrongModel;
 use crate::proof::engine::{Arithmetic, WideTrace};
-use crate::proof::scene::{Criterion, Forcing, Scene};
+use crate::proof::scene::{Forcing, Overturning, Scene};
 
 /// Largest error of each quantity; infinite where something is missing.
 #[derive(Default)]
@@ -74,7 +74,7 @@ impl Errors {
     fn answer(self) -> Answer {
         let mut answer = Answer::default();
         for (name, error) in self.0 {
-            answer.put(name, vec![error], vec![0.0]);
+            answer.put(name, [error], [0.0]);
         }
         answer
     }
@@ -100,7 +100,7 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let Entry { entry } = context.input()?;
     let case = references::trajectory(&entry)?;
     let mut errors = Errors::default();
-    for criterion in [Criterion::HalfPi, Criterion::Alpha] {
+    for criterion in [Overturning::HalfPi, Overturning::Alpha] {
         let scene = references::scene(case, criterion)?;
         let trace = run(context, &scene)?;
         put_trajectory(&mut errors, case, &scene, &trace)?;
@@ -117,13 +117,13 @@ fn put_trajectory(
     let file = &TRAJECTORIES;
     let p = scene.frequency_rad_s;
     let expected = file.get(case, "expected")?;
-    let (name, flag, key) = match scene.criterion {
-        Criterion::Alpha => (
+    let (name, flag, key) = match scene.overturning {
+        Overturning::Alpha => (
             "error-of-alpha-time-p",
             "first_reaches_alpha",
             "t_first_abs_theta_eq_alpha",
         ),
-        Criterion::HalfPi => (
+        Overturning::HalfPi => (
             "error-of-half-pi-time-p",
             "overturned_pi_over_2",
             "t_abs_theta_eq_pi_over_2",
@@ -194,7 +194,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
             return Err(MethodError::Input(text));
         }
         let block = [alpha, p, g];
-        let scene = references::linear_scene(case, block, Criterion::Alpha)?;
+        let scene = references::linear_scene(case, block, Overturning::Alpha)?;
         let trace = run(context, &scene)?;
         let (time, speed) = (1.0 / p, p * alpha);
         let rescaled =
@@ -276,14 +276,12 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     for ([alpha, eta, ratio], row) in &rows {
         let alpha: f64 = number(alpha)?;
         let scene = Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: number(eta)?,
-            gravity_m_s2: 9.81,
-            equation: equation(&input.equation)?,
-            criterion: Criterion::Alpha,
-            forcing: Forcing::Free { rotation_rad: alpha * number(ratio)? },
-            until_s: None,
+            model: model(&input.equation)?,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                number(eta)?,
+                Forcing::Free { rotation_rad: alpha * number(ratio)? },
+            )
         };
         let trace = run(context, &scene)?;
         let unit = DoubleDouble::from_f64(p);
@@ -319,12 +317,14 @@ pub(super) fn rectangular_pulse(
     let case = &references::entry(file, entry)?;
     let p = file.f64(case, "p")?;
     let mut errors = Errors::default();
-    for criterion in [Criterion::HalfPi, Criterion::Alpha] {
+    for criterion in [Overturning::HalfPi, Overturning::Alpha] {
         let scene = references::rectangular_scene(case, criterion)?;
         let trace = run(context, &scene)?;
         let (name, key) = match criterion {
-            Criterion::Alpha => ("error-of-alpha-time-p", "t_theta_eq_alpha"),
-            Criterion::HalfPi => {
+            Overturning::Alpha => {
+                ("error-of-alpha-time-p", "t_theta_eq_alpha")
+            }
+            Overturning::HalfPi => {
                 ("error-of-half-pi-time-p", "t_theta_eq_pi_over_2")
             }
         };

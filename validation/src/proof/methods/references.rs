@@ -8,7 +8,9 @@ use serde_json::Value;
 
 use super::MethodError;
 use crate::proof::arithmetic::decimal;
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{
+    Forcing, Model, Overturning, PulseKind, Scene, rescaled,
+};
 
 /// An embedded file.
 pub(super) struct Reference {
@@ -129,82 +131,112 @@ pub(super) fn entry(
 pub(super) fn linear_scene(
     case: &Value,
     [alpha, p, g]: [f64; 3],
-    criterion: Criterion,
+    criterion: Overturning,
 ) -> Result<Scene, MethodError> {
+    let file = &LINEAR_PULSES;
+    let fields = Fields {
+        kind: "pulse",
+        amplitude: "A",
+        omega: "Omega",
+        duration: "tau_d",
+        period: "tau_p",
+        cycles: None,
+    };
+    let pulse = pulse(file, case, &fields)?
+        .ok_or_else(|| file.lacks(format!("pulse {}", case["pulse"])))?;
     Ok(Scene {
-        slenderness_rad: alpha,
-        frequency_rad_s: p,
-        restitution: LINEAR_PULSES.f64(case, "eta")?,
-        gravity_m_s2: g,
-        equation: Equation::Linearized,
-        criterion,
-        forcing: scaled(case, g * alpha, p)?,
-        until_s: None,
+        model: Model::Linearized,
+        overturning: criterion,
+        ..Scene::new(
+            [alpha, p, g],
+            file.f64(case, "eta")?,
+            Forcing::Pulse(rescaled(pulse, g * alpha, p)),
+        )
     })
 }
 
-/// Its pulse, in a unit of acceleration and for a frequency p.
-fn scaled(case: &Value, unit: f64, p: f64) -> Result<Forcing, MethodError> {
-    let file = &LINEAR_PULSES;
-    let get = |key| file.f64(case, key);
-    let amplitude_m_s2 =
-        if case["A"].is_null() { 0.0 } else { get("A")? * unit };
-    let rate = |key| Ok::<f64, MethodError>(get(key)? * p);
-    let time = |key| Ok::<f64, MethodError>(get(key)? / p);
-    Ok(match file.get(case, "pulse")?.as_str() {
-        Some("one_sine") => Forcing::Sine {
-            amplitude_m_s2,
-            omega_rad_s: rate("Omega")?,
-            half_cycles: 2,
-        },
-        Some("half_sine") => Forcing::Sine {
-            amplitude_m_s2,
-            omega_rad_s: rate("Omega")?,
-            half_cycles: 1,
-        },
+/// What the fields of a pulse are called in a file.
+struct Fields {
+    kind: &'static str,
+    amplitude: &'static str,
+    omega: &'static str,
+    duration: &'static str,
+    period: &'static str,
+    /// Of a Ricker pulse's length in periods; 4 where there is none.
+    cycles: Option<&'static str>,
+}
+
+/// The pulse of an entry; none where its kind is not that of a pulse.
+fn pulse(
+    file: &Reference,
+    value: &Value,
+    fields: &Fields,
+) -> Result<Option<PulseKind>, MethodError> {
+    let get = |key| file.f64(value, key);
+    let amplitude = match value.get(fields.amplitude) {
+        None | Some(Value::Null) => 0.0,
+        Some(_) => get(fields.amplitude)?,
+    };
+    let cycles = || fields.cycles.map_or(Ok(4.0), get);
+    Ok(Some(match file.get(value, fields.kind)?.as_str() {
+        Some("one_sine") => {
+            let omega_rad_s = get(fields.omega)?;
+            PulseKind::OneSine { amplitude, omega_rad_s }
+        }
+        Some("half_sine") => {
+            let omega_rad_s = get(fields.omega)?;
+            PulseKind::HalfSine { amplitude, omega_rad_s }
+        }
         Some("one_cosine") => {
-            Forcing::Cosine { amplitude_m_s2, omega_rad_s: rate("Omega")? }
+            let omega_rad_s = get(fields.omega)?;
+            PulseKind::OneCosine { amplitude, omega_rad_s }
         }
         Some("rectangular") => {
-            Forcing::Rectangle { amplitude_m_s2, duration_s: time("tau_d")? }
+            let duration_s = get(fields.duration)?;
+            PulseKind::Rectangle { amplitude, duration_s }
         }
         Some("triangular") => {
-            Forcing::Triangle { amplitude_m_s2, duration_s: time("tau_d")? }
+            let duration_s = get(fields.duration)?;
+            PulseKind::Triangle { amplitude, duration_s }
         }
-        Some(kind @ ("ricker_sym" | "ricker_anti")) => Forcing::Ricker {
-            amplitude_m_s2,
-            period_s: time("tau_p")?,
-            cycles: 4.0,
-            antisymmetric: kind == "ricker_anti",
-        },
-        Some("mavroeidis") => Forcing::Mavroeidis {
-            velocity_m_s: get("A_v")? * unit / p,
-            frequency_hz: rate("f_p")?,
+        Some("ricker_sym") => {
+            let (period_s, cycles) = (get(fields.period)?, cycles()?);
+            PulseKind::RickerSymmetric { amplitude, period_s, cycles }
+        }
+        Some("ricker_anti") => {
+            let (period_s, cycles) = (get(fields.period)?, cycles()?);
+            PulseKind::RickerAntisymmetric { amplitude, period_s, cycles }
+        }
+        Some("mavroeidis") => PulseKind::MavroeidisPapageorgiou {
+            velocity: get("A_v")?,
+            frequency_hz: get("f_p")?,
             gamma: get("gamma")?,
             phase_rad: get("nu")?,
         },
-        kind => return Err(file.lacks(format!("pulse {kind:?}"))),
-    })
+        _ => return Ok(None),
+    }))
 }
 
 /// The block and pulse of an entry of `rect_pulse.json`.
 pub(super) fn rectangular_scene(
     case: &Value,
-    criterion: Criterion,
+    criterion: Overturning,
 ) -> Result<Scene, MethodError> {
     let file = &RECT_PULSE;
     Ok(Scene {
-        slenderness_rad: file.f64(case, "alpha")?,
-        frequency_rad_s: file.f64(case, "p")?,
-        restitution: file.f64(case, "eta")?,
-        gravity_m_s2: file.f64(&file.read()?, "g")?,
-        equation: Equation::Nonlinear,
-        criterion,
-        forcing: Forcing::Rectangle {
-            amplitude_m_s2: file.f64(case, "a0")?,
-            duration_s: file.f64(case, "td")?,
-        },
-        until_s: None,
+        overturning: criterion,
+        ..Scene::new(
+            [
+                file.f64(case, "alpha")?,
+                file.f64(case, "p")?,
+                file.f64(&file.read()?, "g")?,
+            ],
+            file.f64(case, "eta")?,
+            Forcing::Pulse(PulseKind::Rectangle {
+                amplitude: file.f64(case, "a0")?,
+                duration_s: file.f64(case, "td")?,
+            }),
+        )
     })
 }
 
@@ -234,65 +266,45 @@ pub(crate) fn attainable_float64(
 /// The scene of a trajectory.
 pub(super) fn scene(
     case: &Value,
-    criterion: Criterion,
+    criterion: Overturning,
 ) -> Result<Scene, MethodError> {
     let file = &TRAJECTORIES;
     let equation = match case["model"].as_str() {
-        Some("nonlinear") => Equation::Nonlinear,
-        Some("linear") => Equation::Linearized,
+        Some("nonlinear") => Model::Nonlinear,
+        Some("linear") => Model::Linearized,
         _ => return Err(file.lacks("model neither nonlinear nor linear")),
     };
     Ok(Scene {
-        slenderness_rad: file.f64(case, "alpha")?,
-        frequency_rad_s: file.f64(case, "p")?,
-        restitution: file.f64(case, "eta")?,
-        gravity_m_s2: file.f64(case, "g")?,
-        equation,
-        criterion,
-        forcing: forcing(file.get(case, "forcing")?)?,
-        until_s: None,
+        model: equation,
+        overturning: criterion,
+        ..Scene::new(
+            [
+                file.f64(case, "alpha")?,
+                file.f64(case, "p")?,
+                file.f64(case, "g")?,
+            ],
+            file.f64(case, "eta")?,
+            forcing(file.get(case, "forcing")?)?,
+        )
     })
 }
 
 fn forcing(value: &Value) -> Result<Forcing, MethodError> {
     let file = &TRAJECTORIES;
-    let get = |key| file.f64(value, key);
-    let sine = |half_cycles| {
-        Ok(Forcing::Sine {
-            amplitude_m_s2: get("a_p")?,
-            omega_rad_s: get("omega")?,
-            half_cycles,
-        })
+    let fields = Fields {
+        kind: "kind",
+        amplitude: "a_p",
+        omega: "omega",
+        duration: "t_d",
+        period: "T_p",
+        cycles: Some("n_Tp"),
     };
-    let ricker = |antisymmetric| {
-        Ok(Forcing::Ricker {
-            amplitude_m_s2: get("a_p")?,
-            period_s: get("T_p")?,
-            cycles: get("n_Tp")?,
-            antisymmetric,
-        })
-    };
+    if let Some(pulse) = pulse(file, value, &fields)? {
+        return Ok(Forcing::Pulse(pulse));
+    }
     match file.get(value, "kind")?.as_str() {
-        Some("one_sine") => sine(2),
-        Some("half_sine") => sine(1),
-        Some("one_cosine") => Ok(Forcing::Cosine {
-            amplitude_m_s2: get("a_p")?,
-            omega_rad_s: get("omega")?,
-        }),
-        Some("rectangular") => Ok(Forcing::Rectangle {
-            amplitude_m_s2: get("a_p")?,
-            duration_s: get("t_d")?,
-        }),
-        Some("ricker_sym") => ricker(false),
-        Some("ricker_anti") => ricker(true),
-        Some("mavroeidis") => Ok(Forcing::Mavroeidis {
-            velocity_m_s: get("A_v")?,
-            frequency_hz: get("f_p")?,
-            gamma: get("gamma")?,
-            phase_rad: get("nu")?,
-        }),
         Some("sampled") => Ok(Forcing::Samples {
-            dt_s: get("dt")?,
+            dt_s: file.f64(value, "dt")?,
             acceleration_m_s2: samples(value)?,
         }),
         kind => Err(file.lacks(format!("forcing of kind {kind:?}"))),

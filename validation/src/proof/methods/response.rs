@@ -8,7 +8,7 @@ use super::references::{
     FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, TRAJECTORIES,
 };
 use super::{Answer, Context, MethodError};
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene, Trace};
+use crate::proof::scene::{Forcing, Model, Overturning, Scene, Trace};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -29,14 +29,10 @@ fn put_impacts(
     let (times, speeds) = listed;
     let count = times.len();
     let impacts = || trace.impacts.iter().take(count);
-    answer.put(
-        "impact-times-p",
-        impacts().map(|i| i.time_s * rate).collect(),
-        times,
-    );
+    answer.put("impact-times-p", impacts().map(|i| i.time_s * rate), times);
     answer.put(
         "impact-speeds",
-        impacts().map(|i| i.speed_rad_s / unit_speed).collect(),
+        impacts().map(|i| i.speed_before_rad_s / unit_speed),
         speeds,
     );
 }
@@ -47,10 +43,10 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let file = &TRAJECTORIES;
     let case = references::trajectory(&entry)?;
     let expected = file.get(case, "expected")?;
-    let scene = references::scene(case, Criterion::HalfPi)?;
+    let scene = references::scene(case, Overturning::HalfPi)?;
     let p = scene.frequency_rad_s;
     let trace = context.engine.respond(&scene)?;
-    let first = Scene { criterion: Criterion::Alpha, ..scene };
+    let first = Scene { overturning: Overturning::Alpha, ..scene };
     let first = context.engine.respond(&first)?;
 
     let mut answer = Answer::default();
@@ -60,17 +56,17 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let uplifts = file.list(expected, "uplifts")?;
     answer.put(
         "uplift-time-p",
-        trace.uplift_s.iter().map(|t| t * p).collect(),
-        times(uplifts)?.into_iter().take(1).collect(),
+        trace.uplift_s.map(|t| t * p),
+        times(uplifts)?.into_iter().take(1),
     );
     answer.put(
         "uplifts",
-        vec![trace.uplifts as f64],
-        vec![file.f64(expected, "n_uplifts")?],
+        [trace.uplifts as f64],
+        [file.f64(expected, "n_uplifts")?],
     );
     let side = uplifts.first().map(|u| file.f64(u, "side"));
     let side = side.transpose()?.unwrap_or(0.0);
-    answer.put("side", vec![trace.first_side], vec![side]);
+    answer.put("side", [trace.first_side], [side]);
     let impacts = file.list(expected, "impacts")?;
     let speeds = file.column(impacts, "theta_dot_before")?;
     put_impacts(
@@ -84,21 +80,21 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     let rest = rests.last().map(|t| file.number(t)).transpose()?;
     answer.put(
         "rest-time-p",
-        trace.rest_s.iter().map(|t| t * p).collect(),
-        rest.iter().map(|t| t * p).collect(),
+        trace.rest_s.map(|t| t * p),
+        rest.map(|t| t * p),
     );
     let overturns = expected["overturned_pi_over_2"] == true;
     if !overturns {
         answer.put(
             "peak-ratio",
-            vec![trace.peak_ratio],
-            vec![file.f64(expected, "peak_abs_theta_over_alpha")?],
+            [trace.peak_ratio],
+            [file.f64(expected, "peak_abs_theta_over_alpha")?],
         );
         let peak = file.optional(expected, "t_peak")?;
         answer.put(
             "peak-time-p",
-            trace.peak_time_s.iter().map(|t| t * p).collect(),
-            peak.iter().map(|t| t * p).collect(),
+            trace.peak_time_s.map(|t| t * p),
+            peak.map(|t| t * p),
         );
     }
     let fate = [
@@ -109,8 +105,8 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
         let time = file.optional(expected, key)?;
         answer.put(
             name,
-            trace.overturned_s.iter().map(|t| t * p).collect(),
-            time.iter().map(|t| t * p).collect(),
+            trace.overturned_s.map(|t| t * p),
+            time.map(|t| t * p),
         );
     }
     Ok(answer)
@@ -150,7 +146,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for [alpha, p, g] in input.blocks.iter().copied() {
         let block = [alpha, p, g];
-        let scene = references::linear_scene(case, block, Criterion::Alpha)?;
+        let scene = references::linear_scene(case, block, Overturning::Alpha)?;
         let trace = context.engine.respond(&scene)?;
         let mut block = Answer::default();
         put_impacts(
@@ -160,19 +156,15 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
             p,
             p * alpha,
         );
-        block.put("side", vec![trace.first_side], vec![side]);
-        block.put(
-            "uplift-time-p",
-            trace.uplift_s.iter().map(|t| t * p).collect(),
-            vec![uplift],
-        );
+        block.put("side", [trace.first_side], [side]);
+        block.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [uplift]);
         block.put(
             "alpha-time-p",
-            trace.overturned_s.iter().map(|t| t * p).collect(),
-            over.into_iter().collect(),
+            trace.overturned_s.map(|t| t * p),
+            over.into_iter(),
         );
         if case["expected"]["verdict"] == "returns" {
-            block.put("peak-ratio", vec![trace.peak_ratio], vec![listed]);
+            block.put("peak-ratio", [trace.peak_ratio], [listed]);
         }
         // One list per quantity over all blocks.
         for (from, to) in [
@@ -200,8 +192,8 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let file = &FREE_ROCKING;
     let case = &references::entry(file, input.entry)?;
     let (equation, key) = match input.equation.as_str() {
-        "nonlinear" => (Equation::Nonlinear, "nonlinear"),
-        "linearized" => (Equation::Linearized, "linear"),
+        "nonlinear" => (Model::Nonlinear, "nonlinear"),
+        "linearized" => (Model::Linearized, "linear"),
         other => {
             return Err(MethodError::Input(format!("equation `{other}`")));
         }
@@ -210,14 +202,12 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let p = file.f64(case, "p")?;
     let rotation_rad = file.f64(case, "theta0")?;
     let scene = Scene {
-        slenderness_rad: file.f64(case, "alpha")?,
-        frequency_rad_s: p,
-        restitution: file.f64(case, "eta")?,
-        gravity_m_s2: 9.81,
-        equation,
-        criterion: Criterion::Alpha,
-        forcing: Forcing::Free { rotation_rad },
-        until_s: None,
+        model: equation,
+        ..Scene::new(
+            [file.f64(case, "alpha")?, p, 9.81],
+            file.f64(case, "eta")?,
+            Forcing::Free { rotation_rad },
+        )
     };
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
@@ -235,13 +225,13 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     );
     answer.put(
         "peak-ratio",
-        vec![trace.peak_ratio],
-        vec![rotation_rad / scene.slenderness_rad],
+        [trace.peak_ratio],
+        [rotation_rad / scene.slenderness_rad],
     );
     answer.put(
         "rest-time-p",
-        trace.rest_s.iter().map(|t| t * p).collect(),
-        vec![file.f64(expected, "settling_time")? * p],
+        trace.rest_s.map(|t| t * p),
+        [file.f64(expected, "settling_time")? * p],
     );
     Ok(answer)
 }
@@ -260,24 +250,20 @@ pub(super) fn rectangular_pulse(
     let case = &references::entry(file, input.entry)?;
     let p = file.f64(case, "p")?;
     let scene = |criterion| references::rectangular_scene(case, criterion);
-    let trace = context.engine.respond(&scene(Criterion::HalfPi)?)?;
+    let trace = context.engine.respond(&scene(Overturning::HalfPi)?)?;
     let mut answer = Answer::default();
-    answer.put("side", vec![trace.first_side], vec![-1.0]);
-    answer.put(
-        "uplift-time-p",
-        trace.uplift_s.iter().map(|t| t * p).collect(),
-        vec![0.0],
-    );
+    answer.put("side", [trace.first_side], [-1.0]);
+    answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [0.0]);
     if case["outcome"] == "overturns" {
-        let first = context.engine.respond(&scene(Criterion::Alpha)?)?;
+        let first = context.engine.respond(&scene(Overturning::Alpha)?)?;
         for (name, trace, key) in [
             ("alpha-time-p", &first, "t_theta_eq_alpha"),
             ("half-pi-time-p", &trace, "t_theta_eq_pi_over_2"),
         ] {
             answer.put(
                 name,
-                trace.overturned_s.iter().map(|t| t * p).collect(),
-                vec![file.f64(case, key)? * p],
+                trace.overturned_s.map(|t| t * p),
+                [file.f64(case, key)? * p],
             );
         }
         return Ok(answer);
@@ -289,19 +275,19 @@ pub(super) fn rectangular_pulse(
     put_impacts(&mut answer, &trace, (times, speeds), p, 1.0);
     answer.put(
         "peak-ratio",
-        vec![trace.peak_ratio],
-        vec![file.f64(case, "peak_over_alpha")?],
+        [trace.peak_ratio],
+        [file.f64(case, "peak_over_alpha")?],
     );
     answer.put(
         "peak-time-p",
-        trace.peak_time_s.iter().map(|t| t * p).collect(),
-        vec![file.f64(case, "t_peak")? * p],
+        trace.peak_time_s.map(|t| t * p),
+        [file.f64(case, "t_peak")? * p],
     );
     if !case["settling_time"].is_null() {
         answer.put(
             "rest-time-p",
-            trace.rest_s.iter().map(|t| t * p).collect(),
-            vec![file.f64(case, "settling_time")? * p],
+            trace.rest_s.map(|t| t * p),
+            [file.f64(case, "settling_time")? * p],
         );
     }
     Ok(answer)

@@ -8,7 +8,7 @@ use super::references::TRAJECTORIES;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
 use crate::proof::naive::{Events, Naive, Rules};
-use crate::proof::scene::{Criterion, Engine as _, Forcing};
+use crate::proof::scene::{Engine as _, Forcing, Overturning};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,7 +48,7 @@ pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
         let coarse = error(&input, events, divisions, 1)?;
         let fine = error(&input, events, divisions, finer)?;
         let slope = libm::log(coarse / fine) / libm::log(f64::from(finer));
-        answer.observed.insert(format!("order-{name}"), vec![slope]);
+        answer.see(&format!("order-{name}"), [slope]);
     }
     Ok(answer)
 }
@@ -63,7 +63,7 @@ fn error(
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Criterion::HalfPi)?;
+        let scene = references::scene(case, Overturning::HalfPi)?;
         let expected = file.get(case, "expected")?;
         let due = file.column(file.list(expected, "impacts")?, "t")?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {

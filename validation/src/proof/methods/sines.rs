@@ -5,14 +5,12 @@ use std::f64::consts::PI;
 
 use serde::Deserialize;
 
-use super::closed_forms::{
-    extend, flip, flip_within, linear_scene, overturns_at_once,
-};
+use super::closed_forms::{flip, linear_scene, overturns_at_once};
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
-use crate::proof::oracles::linear::Pulse;
+use crate::proof::edge::{around, edge};
 use crate::proof::oracles::overturning::sine_without_impact;
-use crate::proof::scene::{Criterion, Forcing};
+use crate::proof::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 /// Least amplitude at which a sine that never ends overturns without impact:
 /// Housner's for the half sine, and the limit of many half cycles.
@@ -40,16 +38,17 @@ pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
             _ => sine_without_impact(1, omega),
         };
         let found = flip(condition, |a| {
-            let pulse = Pulse::Sine { a, omega, half_cycles: 1 };
+            let pulse =
+                PulseKind::HalfSine { amplitude: a, omega_rad_s: omega };
             let until = Some(200.0);
             let mut scene = linear_scene(pulse, 0.92, input.block, until);
-            scene.criterion = Criterion::HalfPi;
+            scene.overturning = Overturning::HalfPi;
             overturns_at_once(context.engine, &scene)
         })?;
         ratios.push(classic / found);
     }
     let mut answer = Answer::default();
-    answer.observed.insert("classic-over-exact".to_owned(), ratios);
+    answer.see("classic-over-exact", ratios);
     Ok(answer)
 }
 
@@ -79,31 +78,37 @@ pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
                 _ => exact,
             };
             let critical = |intervals: u32| {
-                flip_within(1e-3, exact, |a| {
-                    let pulse = Pulse::Sine { a, omega, half_cycles };
-                    let block = input.block;
-                    let mut scene =
-                        linear_scene(pulse, 0.92, block, Some(200.0));
-                    scene.criterion = Criterion::HalfPi;
-                    scene.forcing = broken(&scene.forcing, intervals);
+                edge(around(exact, 1e-3), 1e-13, |a| {
+                    let [alpha, p, g] = input.block;
+                    let sine = (a * (g * alpha), omega * p, half_cycles);
+                    let scene = Scene {
+                        model: Model::Linearized,
+                        overturning: Overturning::HalfPi,
+                        until_s: Some(200.0 / p),
+                        ..Scene::new(
+                            input.block,
+                            0.92,
+                            broken(sine, intervals),
+                        )
+                    };
                     overturns_at_once(context.engine, &scene)
                 })
             };
             let coarse = critical(input.intervals)?;
             let fine = critical(2 * input.intervals)?;
             let found = fine + (fine - coarse) / 3.0;
-            extend(&mut answer, "critical-amplitude", [found], [due]);
+            answer.put("critical-amplitude", [found], [due]);
         }
     }
     Ok(answer)
 }
 
-/// A sine as a broken line with so many intervals a half period.
-fn broken(forcing: &Forcing, intervals: u32) -> Forcing {
-    let Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles } = *forcing
-    else {
-        return forcing.clone();
-    };
+/// A sine (amplitude in m/s2, rad/s, half periods) as a broken line with so
+/// many intervals a half period.
+fn broken(
+    (amplitude_m_s2, omega_rad_s, half_cycles): (f64, f64, u32),
+    intervals: u32,
+) -> Forcing {
     let sample = |k: u32| {
         // Exact zeros where a half period ends.
         let (whole, part) = (k / intervals, k % intervals);

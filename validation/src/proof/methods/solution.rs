@@ -4,12 +4,12 @@
 use rocking::integrator::Observe;
 use serde::Deserialize;
 
-use super::closed_forms::{equation, extend};
+use super::closed_forms::model;
 use super::references;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
 use crate::proof::engine;
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{Forcing, Model, Overturning, Scene, other};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -31,25 +31,21 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
     let input: EnergyInput = context.input()?;
     let law = match context.wrong {
         Some(WrongModel::EnergyOfTheOtherEquation) => {
-            match equation(&input.equation)? {
-                Equation::Nonlinear => Equation::Linearized,
-                Equation::Linearized => Equation::Nonlinear,
-            }
+            other(model(&input.equation)?)
         }
-        _ => equation(&input.equation)?,
+        _ => model(&input.equation)?,
     };
     let mut worst = Vec::new();
     for &alpha in &input.slenderness_rad {
         for &p in &input.frequency_rad_s {
             let mut scene = Scene {
-                slenderness_rad: alpha,
-                frequency_rad_s: p,
-                restitution: input.restitution,
-                gravity_m_s2: 9.81,
-                equation: equation(&input.equation)?,
-                criterion: Criterion::Alpha,
-                forcing: Forcing::Free { rotation_rad: 0.0 },
+                model: model(&input.equation)?,
                 until_s: Some((input.duration_p + 12.0) / p),
+                ..Scene::new(
+                    [alpha, p, 9.81],
+                    input.restitution,
+                    Forcing::NONE,
+                )
             };
             // A record of a rectangle and then of zeros: the block flies
             // through intervals of silence, step by step.
@@ -109,12 +105,12 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
 
 /// Energy above the base: w^2/2 + 2 sin(u/2) sin(alpha - u/2), or
 /// w^2/2 + u (alpha - u/2).
-fn level(equation: Equation, alpha: f64, u: f64, w: f64) -> f64 {
+fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
     let potential = match equation {
-        Equation::Nonlinear => {
+        Model::Nonlinear => {
             2.0 * libm::sin(0.5 * u) * libm::sin(alpha - 0.5 * u)
         }
-        Equation::Linearized => u * (alpha - 0.5 * u),
+        Model::Linearized => u * (alpha - 0.5 * u),
     };
     0.5 * w * w + potential
 }
@@ -131,7 +127,7 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Criterion::Alpha)?;
+        let scene = references::scene(case, Overturning::Alpha)?;
         let scene = context.altered(&scene);
         let work = engine::respond(&scene, &Observe::default())?.work;
         for (name, count) in [
@@ -141,7 +137,7 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
             ("uplifts", work.uplifts),
             ("rest-scans", work.rest_scans),
         ] {
-            extend(&mut answer, name, [count as f64], []);
+            answer.put(name, [count as f64], []);
             answer.expected.remove(name);
         }
     }

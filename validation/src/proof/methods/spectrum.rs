@@ -6,7 +6,8 @@ use serde_json::Value;
 use super::references::SPECTRUM;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::edge::{self, around};
+use crate::proof::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -33,7 +34,7 @@ enum Flip {
 struct Edge {
     name: String,
     amplitude: f64,
-    criterion: Criterion,
+    criterion: Overturning,
     flip: Flip,
 }
 
@@ -57,27 +58,27 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
         let mut criterion = edge.criterion;
         if context.wrong == Some(WrongModel::OtherCriterion) {
             criterion = match criterion {
-                Criterion::Alpha => Criterion::HalfPi,
-                Criterion::HalfPi => Criterion::Alpha,
+                Overturning::Alpha => Overturning::HalfPi,
+                Overturning::HalfPi => Overturning::Alpha,
             };
         }
         let is_above = |amplitude: f64| -> Result<bool, MethodError> {
             let [alpha, p, g] = input.block;
             let scene = Scene {
-                slenderness_rad: alpha,
-                frequency_rad_s: p,
-                restitution: input.eta,
-                gravity_m_s2: g,
-                equation: Equation::Linearized,
-                criterion,
-                forcing: Forcing::Sine {
-                    amplitude_m_s2: amplitude * g * alpha,
-                    omega_rad_s: input.omega_over_p * p,
-                    half_cycles: 2,
-                },
+                model: Model::Linearized,
+                overturning: criterion,
+
                 // The saddle holds a block for 28/p at most when the
                 // amplitude is 1e-12 from the edge.
                 until_s: Some((7.0 / input.omega_over_p + 100.0) / p),
+                ..Scene::new(
+                    [alpha, p, g],
+                    input.eta,
+                    Forcing::Pulse(PulseKind::OneSine {
+                        amplitude: amplitude * g * alpha,
+                        omega_rad_s: input.omega_over_p * p,
+                    }),
+                )
             };
             let trace = context.engine.respond(&scene)?;
             let over = trace.overturned_s.is_some();
@@ -87,35 +88,18 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
                 Flip::Stands => !over,
             })
         };
-        let (low, high) = if context.wrong == Some(WrongModel::PlainBisection)
-        {
-            (1.0, 3.0 * edges[0].amplitude)
+        let range = if context.wrong == Some(WrongModel::PlainBisection) {
+            [1.0, 3.0 * edges[0].amplitude]
         } else {
-            (edge.amplitude * (1.0 - 1e-6), edge.amplitude * (1.0 + 1e-6))
+            around(edge.amplitude, 1e-6)
         };
         answer.put(
             &edge.name,
-            vec![bisect(low, high, is_above)?],
-            vec![edge.amplitude],
+            [edge::edge(range, 1e-12, is_above)?],
+            [edge.amplitude],
         );
     }
     Ok(answer)
-}
-
-/// The flip between `low` and `high`; not a number without one.
-fn bisect(
-    mut low: f64,
-    mut high: f64,
-    above: impl Fn(f64) -> Result<bool, MethodError>,
-) -> Result<f64, MethodError> {
-    if above(low)? || !above(high)? {
-        return Ok(f64::NAN);
-    }
-    while high - low > 1e-12 * high {
-        let mid = 0.5 * (low + high);
-        if above(mid)? { high = mid } else { low = mid }
-    }
-    Ok(0.5 * (low + high))
 }
 
 fn table(row: &Value, eta: f64) -> Result<Vec<Edge>, MethodError> {
@@ -124,7 +108,7 @@ fn table(row: &Value, eta: f64) -> Result<Vec<Edge>, MethodError> {
     let mut add = |name: &str, amplitude, criterion, flip| {
         edges.push(Edge { name: name.to_owned(), amplitude, criterion, flip });
     };
-    let divergence = Criterion::HalfPi;
+    let divergence = Overturning::HalfPi;
     add(
         "mode-2",
         file.f64(row, "mode2_lower")?,
@@ -132,7 +116,7 @@ fn table(row: &Value, eta: f64) -> Result<Vec<Edge>, MethodError> {
         Flip::WithoutImpact,
     );
     let first_sign = file.f64(row, "mode2_lower_alpha_criterion")?;
-    add("mode-2-alpha", first_sign, Criterion::Alpha, Flip::WithoutImpact);
+    add("mode-2-alpha", first_sign, Overturning::Alpha, Flip::WithoutImpact);
     if let Some(lower) = file.optional(row, "mode1_lower")? {
         add("mode-1-lower", lower, divergence, Flip::Overturns);
     }

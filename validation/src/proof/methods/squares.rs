@@ -3,12 +3,10 @@
 
 use serde::Deserialize;
 
-use super::closed_forms::extend;
-use super::points::state;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
 use crate::proof::oracles::square::{SquareWave, State};
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{Forcing, Overturning, Scene};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -41,7 +39,7 @@ impl Input {
         &self,
         stretches: &[(f64, usize)],
         intervals: usize,
-        criterion: Criterion,
+        criterion: Overturning,
     ) -> Scene {
         let [alpha, p, eta] = self.block;
         let unit = 9.81 * libm::tan(alpha);
@@ -56,17 +54,15 @@ impl Input {
             samples.resize(more, level * unit);
         }
         Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: eta,
-            gravity_m_s2: 9.81,
-            equation: Equation::Nonlinear,
-            criterion,
-            forcing: Forcing::Samples {
-                dt_s: self.unit_p / (intervals as f64 * p),
-                acceleration_m_s2: samples,
-            },
-            until_s: None,
+            overturning: criterion,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                eta,
+                Forcing::Samples {
+                    dt_s: self.unit_p / (intervals as f64 * p),
+                    acceleration_m_s2: samples,
+                },
+            )
         }
     }
 
@@ -97,10 +93,12 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         let count = due.impacts.len();
         let seen = |of: fn(f64, f64) -> f64| {
             input.extrapolated(|intervals| {
-                let scene = input.scene(wave, intervals, Criterion::HalfPi);
+                let scene = input.scene(wave, intervals, Overturning::HalfPi);
                 let trace = context.engine.respond(&scene)?;
                 let impacts = trace.impacts.iter().take(count);
-                Ok(impacts.map(|i| of(i.time_s, i.speed_rad_s)).collect())
+                Ok(impacts
+                    .map(|i| of(i.time_s, i.speed_before_rad_s))
+                    .collect())
             })
         };
         let times = seen(|t, _| t)?.iter().map(|t| t * p).collect::<Vec<_>>();
@@ -108,12 +106,12 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         let speeds = speeds.iter().map(|v| v / (p * alpha));
         let listed = due.impacts.iter();
         let list = listed.clone().map(|i| i.0);
-        extend(&mut answer, "impact-times-p", times, list);
+        answer.put("impact-times-p", times, list);
         let list = listed.map(|i| i.1 / alpha);
-        extend(&mut answer, "impact-speeds", speeds, list);
+        answer.put("impact-speeds", speeds, list);
         let end = input.extrapolated(|intervals| {
-            let scene = input.scene(wave, intervals, Criterion::HalfPi);
-            let seen = state(context, &scene, end_p / p)?;
+            let scene = input.scene(wave, intervals, Overturning::HalfPi);
+            let seen = context.state(&scene, end_p / p)?;
             Ok(vec![
                 seen.rotation_rad / alpha,
                 seen.velocity_rad_s / (p * alpha),
@@ -121,7 +119,7 @@ pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
         })?;
         let State { side, y, w } = due.end;
         let list = [side * y / alpha, side * w / alpha];
-        extend(&mut answer, "state-at-end", end, list);
+        answer.put("state-at-end", end, list);
     }
     Ok(answer)
 }
@@ -138,7 +136,7 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
         let end = motion.end;
         let due = form.ending(end);
         let end_s = form.stretches.iter().map(|s| s.1).sum::<f64>() / p;
-        let scene = input.scene(wave, input.intervals, Criterion::HalfPi);
+        let scene = input.scene(wave, input.intervals, Overturning::HalfPi);
         let trace = context.engine.respond(&scene)?;
         let before = motion.impacts.len();
         // Sides change at each impact.
@@ -153,19 +151,19 @@ pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
             _ if over => side,
             _ => 0.0,
         };
-        extend(&mut answer, "overturned-side", [fate], [due.overturned]);
+        answer.put("overturned-side", [fate], [due.overturned]);
         let speed = input.extrapolated(|intervals| {
-            let scene = input.scene(wave, intervals, Criterion::HalfPi);
+            let scene = input.scene(wave, intervals, Overturning::HalfPi);
             let trace = context.engine.respond(&scene)?;
             let after = trace.impacts.get(before);
             Ok(after
                 .filter(|impact| impact.time_s > end_s)
-                .map(|impact| impact.speed_rad_s / (p * alpha))
+                .map(|impact| impact.speed_before_rad_s / (p * alpha))
                 .into_iter()
                 .collect())
         })?;
         let due = due.impact.map(|v| v / alpha);
-        extend(&mut answer, "impact-speed-after", speed, due);
+        answer.put("impact-speed-after", speed, due);
     }
     Ok(answer)
 }

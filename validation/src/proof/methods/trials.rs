@@ -61,7 +61,7 @@ pub(super) fn certificate(context: &Context) -> Result<Answer, MethodError> {
         ("wrong-and-clear", summary.wrong_and_clear),
         ("estimates-exceeded", summary.exceeded),
     ] {
-        answer.put(name, vec![count as f64], vec![0.0]);
+        answer.put(name, [count as f64], [0.0]);
     }
     let counts = [
         ("runs", summary.runs as f64),
@@ -71,7 +71,7 @@ pub(super) fn certificate(context: &Context) -> Result<Answer, MethodError> {
     ];
     let ratios = SHARES.map(|(name, share)| (name, summary.ratio(share)));
     for (name, value) in counts.into_iter().chain(ratios) {
-        answer.observed.insert(name.to_owned(), vec![value]);
+        answer.see(name, [value]);
     }
     Ok(answer)
 }

@@ -121,11 +121,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
                 what: format!("no `{name}` of `{}`", input.motion),
             })?;
         let expected = row[2..].iter().filter_map(|x| x.parse().ok());
-        answer.put(
-            &name.replace('_', "-"),
-            found.iter().map(value).collect(),
-            expected.collect(),
-        );
+        answer.put(&name.replace('_', "-"), found.iter().map(value), expected);
     }
     let late = context.wrong == Some(WrongModel::LatePulsesKept);
     let chosen = if late {
@@ -134,10 +130,10 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         pulse(&found)
     };
     let is = f64::from(u8::from(chosen.is_some()));
-    answer.observed.insert("pulse-like".into(), vec![is]);
+    answer.see("pulse-like", [is]);
     if let Some(shown) = chosen.or(found.first()) {
         let known = shown.period_s * input.frequency_hz;
-        answer.observed.insert("period-over-known".into(), vec![known]);
+        answer.see("period-over-known", [known]);
     }
     Ok(answer)
 }

@@ -4,9 +4,7 @@ use crate::proof::cases::WrongModel;
 use crate::proof::naive::{
     Events, Hold, Loss, Naive, Pushback, Rest, Rules, Threshold,
 };
-use crate::proof::scene::{
-    Engine, EngineError, Equation, Forcing, Scene, Trace,
-};
+use crate::proof::scene::{Engine, EngineError, Forcing, Scene, Trace, other};
 
 impl WrongModel {
     /// Rules of the naive integrator, where it carries out the mistake.
@@ -44,12 +42,7 @@ impl WrongModel {
         match self {
             Self::GroundSign => scale(&mut scene.forcing, -1.0),
             Self::EtaSquared => scene.restitution *= scene.restitution,
-            Self::OtherEquation => {
-                scene.equation = match scene.equation {
-                    Equation::Nonlinear => Equation::Linearized,
-                    Equation::Linearized => Equation::Nonlinear,
-                };
-            }
+            Self::OtherEquation => scene.model = other(scene.model),
             Self::POnePercentHigh => scene.frequency_rad_s *= 1.01,
             Self::POnePercentLow => scene.frequency_rad_s *= 0.99,
             Self::AlphaOnePercentLow => scene.slenderness_rad *= 0.99,
@@ -111,20 +104,11 @@ impl Engine for Changed<'_> {
     }
 }
 
-/// Multiplies the ground motion.
+/// Multiplies the ground motion; a release changes sides alone.
 pub(super) fn scale(forcing: &mut Forcing, factor: f64) {
-    match forcing {
-        Forcing::Free { rotation_rad } => *rotation_rad *= factor.signum(),
-        Forcing::Sine { amplitude_m_s2, .. }
-        | Forcing::Cosine { amplitude_m_s2, .. }
-        | Forcing::Rectangle { amplitude_m_s2, .. }
-        | Forcing::Triangle { amplitude_m_s2, .. }
-        | Forcing::Ricker { amplitude_m_s2, .. } => *amplitude_m_s2 *= factor,
-        Forcing::Mavroeidis { velocity_m_s, .. } => *velocity_m_s *= factor,
-        Forcing::Samples { acceleration_m_s2, .. } => {
-            for a in acceleration_m_s2 {
-                *a *= factor;
-            }
-        }
-    }
+    let factor = match forcing {
+        Forcing::Free { .. } => factor.signum(),
+        _ => factor,
+    };
+    forcing.amplitudes_mut().iter_mut().for_each(|a| *a *= factor);
 }

@@ -1,67 +1,10 @@
 //! Eq. 2 under an analytic pulse: closed form between events, in p t,
-//! theta/alpha and a/(g alpha).
+//! theta/alpha and a/(g alpha). A pulse is that of a block with p = 1 rad/s
+//! and g alpha = 1 m/s2.
 
 use std::f64::consts::{PI, SQRT_2, TAU};
 
-/// A pulse in dimensionless form; `a` is the amplitude over g alpha.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pulse {
-    /// `half_cycles` half periods of a sin(omega tau).
-    Sine {
-        /// Amplitude.
-        a: f64,
-        /// Frequency over p.
-        omega: f64,
-        /// Half periods.
-        half_cycles: u32,
-    },
-    /// One period of a cos(omega tau).
-    Cosine {
-        /// Amplitude.
-        a: f64,
-        /// Frequency over p.
-        omega: f64,
-    },
-    /// Constant.
-    Rectangle {
-        /// Amplitude.
-        a: f64,
-        /// Duration.
-        tau: f64,
-    },
-    /// Isosceles triangle.
-    Triangle {
-        /// Amplitude.
-        a: f64,
-        /// Duration.
-        tau: f64,
-    },
-    /// Symmetric Ricker pulse over four periods.
-    RickerSymmetric {
-        /// Amplitude.
-        a: f64,
-        /// Period.
-        tau: f64,
-    },
-    /// Antisymmetric Ricker pulse over four periods.
-    RickerAntisymmetric {
-        /// Amplitude.
-        a: f64,
-        /// Period.
-        tau: f64,
-    },
-    /// Mavroeidis-Papageorgiou pulse.
-    Mavroeidis {
-        /// Velocity amplitude over g alpha / p.
-        velocity: f64,
-        /// Frequency in cycles per unit of p t.
-        frequency: f64,
-        /// Oscillatory character.
-        gamma: f64,
-        /// Phase in rad.
-        phase: f64,
-    },
-}
+use crate::proof::scene::{Forcing, PulseKind};
 
 /// What the block does.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -85,81 +28,82 @@ struct Particular {
     v: f64,
 }
 
-impl Pulse {
-    fn end(self) -> f64 {
-        match self {
-            Self::Sine { omega, half_cycles, .. } => {
-                f64::from(half_cycles) * PI / omega
-            }
-            Self::Cosine { omega, .. } => TAU / omega,
-            Self::Rectangle { tau, .. } | Self::Triangle { tau, .. } => tau,
-            Self::RickerSymmetric { tau, .. }
-            | Self::RickerAntisymmetric { tau, .. } => 4.0 * tau,
-            Self::Mavroeidis { frequency, gamma, .. } => gamma / frequency,
+fn kinks(pulse: PulseKind) -> Vec<f64> {
+    match pulse {
+        PulseKind::Triangle { duration_s, .. } => {
+            vec![0.0, 0.5 * duration_s, duration_s]
         }
+        _ => vec![0.0, Forcing::Pulse(pulse).end_s()],
     }
+}
 
-    fn kinks(self) -> Vec<f64> {
-        match self {
-            Self::Triangle { tau, .. } => vec![0.0, 0.5 * tau, tau],
-            _ => vec![0.0, self.end()],
+/// At `t` of the smooth stretch `piece`.
+fn at(pulse: PulseKind, piece: usize, t: f64) -> Particular {
+    match pulse {
+        PulseKind::OneSine { amplitude, omega_rad_s }
+        | PulseKind::HalfSine { amplitude, omega_rad_s } => {
+            sine(amplitude, omega_rad_s, 0.0, t)
         }
-    }
-
-    /// At `t` of the smooth stretch `piece`.
-    fn at(self, piece: usize, t: f64) -> Particular {
-        match self {
-            Self::Sine { a, omega, .. } => sine(a, omega, 0.0, t),
-            Self::Cosine { a, omega } => sine(a, omega, 0.5 * PI, t),
-            Self::Rectangle { a, .. } => Particular { a, p: a, v: 0.0 },
-            Self::Triangle { a, tau } => {
-                let slope = 2.0 * a / tau;
-                if piece == 0 {
-                    Particular { a: slope * t, p: slope * t, v: slope }
-                } else {
-                    let value = slope * (tau - t);
-                    Particular { a: value, p: value, v: -slope }
-                }
-            }
-            Self::RickerSymmetric { a, tau } => {
-                let rate = SQRT_2 * PI / tau;
-                let bell = Bell::at(rate, t - 2.0 * tau);
-                let scale = a / (rate * rate);
-                Particular {
-                    a: -scale * bell.second,
-                    p: scale * (bell.value + bell.w),
-                    v: scale * (bell.first + bell.w_first),
-                }
-            }
-            Self::RickerAntisymmetric { a, tau } => {
-                let rate = TAU / (3.0_f64.sqrt() * tau);
-                let bell = Bell::at(rate, t - 2.0 * tau);
-                let r = 3.0 - 6.0_f64.sqrt();
-                let beta = 6.0_f64.sqrt() * r.sqrt() * libm::exp(-0.5 * r);
-                let scale = a / (beta * rate * rate * rate);
-                // w'' = w + G.
-                Particular {
-                    a: -scale * bell.third,
-                    p: scale * (bell.first + bell.w_first),
-                    v: scale * (bell.second + bell.w + bell.value),
-                }
-            }
-            Self::Mavroeidis { velocity, frequency, gamma, phase } => {
-                let w = TAU * frequency;
-                let u = t - 0.5 * gamma / frequency;
-                let mut sum = Particular { a: 0.0, p: 0.0, v: 0.0 };
-                let (up, down) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
-                for (share, rate) in
-                    [(0.5, 1.0), (0.25 * up, up), (0.25 * down, down)]
-                {
-                    let part = sine(-velocity * w * share, w * rate, phase, u);
-                    sum.a += part.a;
-                    sum.p += part.p;
-                    sum.v += part.v;
-                }
-                sum
+        PulseKind::OneCosine { amplitude, omega_rad_s } => {
+            sine(amplitude, omega_rad_s, 0.5 * PI, t)
+        }
+        PulseKind::Rectangle { amplitude: a, .. } => {
+            Particular { a, p: a, v: 0.0 }
+        }
+        PulseKind::Triangle { amplitude, duration_s } => {
+            let slope = 2.0 * amplitude / duration_s;
+            if piece == 0 {
+                Particular { a: slope * t, p: slope * t, v: slope }
+            } else {
+                let value = slope * (duration_s - t);
+                Particular { a: value, p: value, v: -slope }
             }
         }
+        PulseKind::RickerSymmetric { amplitude, period_s, cycles } => {
+            let rate = SQRT_2 * PI / period_s;
+            let bell = Bell::at(rate, t - 0.5 * cycles * period_s);
+            let scale = amplitude / (rate * rate);
+            Particular {
+                a: -scale * bell.second,
+                p: scale * (bell.value + bell.w),
+                v: scale * (bell.first + bell.w_first),
+            }
+        }
+        PulseKind::RickerAntisymmetric { amplitude, period_s, cycles } => {
+            let rate = TAU / (3.0_f64.sqrt() * period_s);
+            let bell = Bell::at(rate, t - 0.5 * cycles * period_s);
+            let r = 3.0 - 6.0_f64.sqrt();
+            let beta = 6.0_f64.sqrt() * r.sqrt() * libm::exp(-0.5 * r);
+            let scale = amplitude / (beta * rate * rate * rate);
+            // w'' = w + G.
+            Particular {
+                a: -scale * bell.third,
+                p: scale * (bell.first + bell.w_first),
+                v: scale * (bell.second + bell.w + bell.value),
+            }
+        }
+        PulseKind::MavroeidisPapageorgiou {
+            velocity,
+            frequency_hz,
+            gamma,
+            phase_rad,
+        } => {
+            let w = TAU * frequency_hz;
+            let u = t - 0.5 * gamma / frequency_hz;
+            let mut sum = Particular { a: 0.0, p: 0.0, v: 0.0 };
+            let (up, down) = (1.0 + 1.0 / gamma, 1.0 - 1.0 / gamma);
+            for (share, rate) in
+                [(0.5, 1.0), (0.25 * up, up), (0.25 * down, down)]
+            {
+                let scale = -velocity * w * share;
+                let part = sine(scale, w * rate, phase_rad, u);
+                sum.a += part.a;
+                sum.p += part.p;
+                sum.v += part.v;
+            }
+            sum
+        }
+        _ => Particular { a: f64::NAN, p: f64::NAN, v: f64::NAN },
     }
 }
 
@@ -206,7 +150,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// A hop on one smooth piece: z = |theta|/alpha from `start` on.
 struct Hop {
-    pulse: Option<(Pulse, usize)>,
+    pulse: Option<(PulseKind, usize)>,
     side: f64,
     start: f64,
     growing: f64,
@@ -215,7 +159,7 @@ struct Hop {
 
 impl Hop {
     fn new(
-        pulse: Option<(Pulse, usize)>,
+        pulse: Option<(PulseKind, usize)>,
         side: f64,
         t: f64,
         (z, w): (f64, f64),
@@ -250,22 +194,22 @@ impl Hop {
     }
 }
 
-fn particular(pulse: Option<(Pulse, usize)>, t: f64) -> Particular {
+fn particular(pulse: Option<(PulseKind, usize)>, t: f64) -> Particular {
     pulse.map_or(Particular { a: 0.0, p: 0.0, v: 0.0 }, |(pulse, piece)| {
-        pulse.at(piece, t)
+        at(pulse, piece, t)
     })
 }
 
 /// Response from rest, with at most `impacts` impacts.
 #[must_use]
-pub fn respond(pulse: Pulse, eta: f64, impacts: usize) -> Response {
+pub fn respond(pulse: PulseKind, eta: f64, impacts: usize) -> Response {
     let mut response = Response::default();
-    let kinks = pulse.kinks();
+    let kinks = kinks(pulse);
     // Uplift: the first |A| > 1.
     let Some((piece, uplift)) = uplift(pulse, &kinks) else {
         return response;
     };
-    let side = -pulse.at(piece, inside(uplift, &kinks, piece)).a.signum();
+    let side = -at(pulse, piece, inside(uplift, &kinks, piece)).a.signum();
     response.uplift = Some(uplift);
     response.side = side;
     let (mut t, mut z, mut w, mut side) = (uplift, 0.0, 0.0, side);
@@ -347,10 +291,10 @@ fn inside(t: f64, kinks: &[f64], piece: usize) -> f64 {
     t + 1e-9 * (kinks[piece + 1] - kinks[piece])
 }
 
-fn uplift(pulse: Pulse, kinks: &[f64]) -> Option<(usize, f64)> {
+fn uplift(pulse: PulseKind, kinks: &[f64]) -> Option<(usize, f64)> {
     for (piece, ends) in kinks.windows(2).enumerate() {
         let (start, end) = (ends[0], ends[1]);
-        let over = |t: f64| pulse.at(piece, t).a.abs() - 1.0;
+        let over = |t: f64| at(pulse, piece, t).a.abs() - 1.0;
         if over(start) > 0.0 {
             return Some((piece, start));
         }

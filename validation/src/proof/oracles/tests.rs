@@ -1,5 +1,6 @@
 //! The oracles against references of 40 digits.
 
+use rocking::excitation::PulseKind;
 use serde_json::Value;
 
 use super::{free_rocking, linear, overturning, rectangular, square};
@@ -57,36 +58,46 @@ fn validates_free_rocking() {
 
 #[test]
 fn validates_pulses_in_the_linear_equation() {
-    use linear::Pulse;
     let all = file(include_str!(
         "../../../../fixtures/references/linear_pulses.json"
     ));
     for case in list(&all["cases"]) {
         let get = |key: &str| number(&case[key]);
-        let sine = |half_cycles| Pulse::Sine {
-            a: get("A"),
-            omega: get("Omega"),
-            half_cycles,
-        };
+        let amplitude = case["A"].as_str().map_or(0.0, |_| get("A"));
+        let omega_rad_s = || number(&case["Omega"]);
+        let duration_s = || number(&case["tau_d"]);
+        let (period_s, cycles) = (|| number(&case["tau_p"]), 4.0);
         let pulse = match case["pulse"].as_str().expect("a name") {
-            "one_sine" => sine(2),
-            "half_sine" => sine(1),
-            "one_cosine" => Pulse::Cosine { a: get("A"), omega: get("Omega") },
+            "one_sine" => {
+                PulseKind::OneSine { amplitude, omega_rad_s: omega_rad_s() }
+            }
+            "half_sine" => {
+                PulseKind::HalfSine { amplitude, omega_rad_s: omega_rad_s() }
+            }
+            "one_cosine" => {
+                PulseKind::OneCosine { amplitude, omega_rad_s: omega_rad_s() }
+            }
             "rectangular" => {
-                Pulse::Rectangle { a: get("A"), tau: get("tau_d") }
+                PulseKind::Rectangle { amplitude, duration_s: duration_s() }
             }
-            "triangular" => Pulse::Triangle { a: get("A"), tau: get("tau_d") },
-            "ricker_sym" => {
-                Pulse::RickerSymmetric { a: get("A"), tau: get("tau_p") }
+            "triangular" => {
+                PulseKind::Triangle { amplitude, duration_s: duration_s() }
             }
-            "ricker_anti" => {
-                Pulse::RickerAntisymmetric { a: get("A"), tau: get("tau_p") }
-            }
-            "mavroeidis" => Pulse::Mavroeidis {
+            "ricker_sym" => PulseKind::RickerSymmetric {
+                amplitude,
+                period_s: period_s(),
+                cycles,
+            },
+            "ricker_anti" => PulseKind::RickerAntisymmetric {
+                amplitude,
+                period_s: period_s(),
+                cycles,
+            },
+            "mavroeidis" => PulseKind::MavroeidisPapageorgiou {
                 velocity: get("A_v"),
-                frequency: get("f_p"),
+                frequency_hz: get("f_p"),
                 gamma: get("gamma"),
-                phase: get("nu"),
+                phase_rad: get("nu"),
             },
             other => panic!("pulse {other}"),
         };

@@ -91,7 +91,7 @@ fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
         k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
         k => under_pulse(draw, k),
     };
-    let size = amplitude(&scene.forcing);
+    let size = amplitude(&scene);
     let at = |amplitude: f64| scaled(&scene, size, amplitude);
     let search =
         Search { at, see: overturns, turns: differ, first: usize::MAX };
@@ -270,19 +270,9 @@ fn few(draw: &mut Draw, most: usize) -> i64 {
 }
 
 /// Amplitude of the ground motion; of samples the peak.
-fn amplitude(forcing: &Forcing) -> f64 {
-    match forcing {
-        Forcing::Free { rotation_rad: a }
-        | Forcing::Sine { amplitude_m_s2: a, .. }
-        | Forcing::Cosine { amplitude_m_s2: a, .. }
-        | Forcing::Rectangle { amplitude_m_s2: a, .. }
-        | Forcing::Triangle { amplitude_m_s2: a, .. }
-        | Forcing::Ricker { amplitude_m_s2: a, .. }
-        | Forcing::Mavroeidis { velocity_m_s: a, .. } => a.abs(),
-        Forcing::Samples { acceleration_m_s2, .. } => {
-            acceleration_m_s2.iter().fold(0.0, |a, x| a.max(x.abs()))
-        }
-    }
+fn amplitude(scene: &Scene) -> f64 {
+    let mut forcing = scene.forcing.clone();
+    forcing.amplitudes_mut().iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
 /// The scene with another amplitude than its own.
@@ -290,17 +280,6 @@ fn scaled(scene: &Scene, own: f64, amplitude: f64) -> Scene {
     let mut scene = scene.clone();
     // A pulse's quotient is 1 or -1: its amplitude takes every double.
     let change = |a: &mut f64| *a = *a / own * amplitude;
-    match &mut scene.forcing {
-        Forcing::Free { rotation_rad: a }
-        | Forcing::Sine { amplitude_m_s2: a, .. }
-        | Forcing::Cosine { amplitude_m_s2: a, .. }
-        | Forcing::Rectangle { amplitude_m_s2: a, .. }
-        | Forcing::Triangle { amplitude_m_s2: a, .. }
-        | Forcing::Ricker { amplitude_m_s2: a, .. }
-        | Forcing::Mavroeidis { velocity_m_s: a, .. } => change(a),
-        Forcing::Samples { acceleration_m_s2, .. } => {
-            acceleration_m_s2.iter_mut().for_each(change);
-        }
-    }
+    scene.forcing.amplitudes_mut().iter_mut().for_each(change);
     scene
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::draw::Draw;
 use super::records::Kind;
-use crate::proof::scene::{Criterion, Equation, Forcing, Scene};
+use crate::proof::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 /// Samples of a record, at most, but for the few long ones.
 const COMMON: usize = 2000;
@@ -112,18 +112,21 @@ fn block(draw: &mut Draw, ranges: &Ranges) -> Scene {
     let linear = draw.chance(0.3);
     let half_pi = draw.chance(0.3);
     Scene {
-        slenderness_rad: draw.uniform(ranges.alpha[0], ranges.alpha[1]),
-        frequency_rad_s: draw.log(ranges.p[0], ranges.p[1]),
-        restitution: 1.0,
-        gravity_m_s2: 1.0,
-        equation: if linear {
-            Equation::Linearized
+        model: if linear { Model::Linearized } else { Model::Nonlinear },
+        overturning: if half_pi {
+            Overturning::HalfPi
         } else {
-            Equation::Nonlinear
+            Overturning::Alpha
         },
-        criterion: if half_pi { Criterion::HalfPi } else { Criterion::Alpha },
-        forcing: Forcing::Free { rotation_rad: 0.0 },
-        until_s: None,
+        ..Scene::new(
+            [
+                draw.uniform(ranges.alpha[0], ranges.alpha[1]),
+                draw.log(ranges.p[0], ranges.p[1]),
+                1.0,
+            ],
+            1.0,
+            Forcing::NONE,
+        )
     }
 }
 
@@ -182,54 +185,37 @@ fn shaped(
     which: usize,
 ) -> &'static str {
     let intensity = draw.log(ranges.intensity[0], ranges.intensity[1]);
-    let amplitude_m_s2 = intensity * scene.threshold_m_s2() * draw.sign();
+    let amplitude = intensity * scene.threshold_m_s2() * draw.sign();
     let in_p = draw.log(ranges.period[0], ranges.period[1]);
     let period_s = in_p / scene.frequency_rad_s;
-    let omega_rad_s = TAU / period_s;
+    let (omega_rad_s, duration_s) = (TAU / period_s, period_s);
     let most = (LONGEST_PULSE / in_p).max(1.0);
-    let (name, forcing) = match which {
-        0 => {
-            let half_cycles = 2;
-            let kind =
-                Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles };
-            ("one-sine", kind)
-        }
-        1 => {
-            let half_cycles = 1;
-            let kind =
-                Forcing::Sine { amplitude_m_s2, omega_rad_s, half_cycles };
-            ("half-sine", kind)
-        }
-        2 => ("one-cosine", Forcing::Cosine { amplitude_m_s2, omega_rad_s }),
-        3 => {
-            let duration_s = period_s;
-            ("rectangle", Forcing::Rectangle { amplitude_m_s2, duration_s })
-        }
-        4 => {
-            let duration_s = period_s;
-            ("triangle", Forcing::Triangle { amplitude_m_s2, duration_s })
-        }
+    let (name, kind) = match which {
+        0 => ("one-sine", PulseKind::OneSine { amplitude, omega_rad_s }),
+        1 => ("half-sine", PulseKind::HalfSine { amplitude, omega_rad_s }),
+        2 => ("one-cosine", PulseKind::OneCosine { amplitude, omega_rad_s }),
+        3 => ("rectangle", PulseKind::Rectangle { amplitude, duration_s }),
+        4 => ("triangle", PulseKind::Triangle { amplitude, duration_s }),
         5 | 6 => {
-            let antisymmetric = which == 6;
             let cycles = draw.log(ranges.cycles[0], ranges.cycles[1]);
             let cycles = cycles.min(most);
-            let name = if antisymmetric {
-                "antisymmetric Ricker"
+            if which == 5 {
+                let kind =
+                    PulseKind::RickerSymmetric { amplitude, period_s, cycles };
+                ("symmetric Ricker", kind)
             } else {
-                "symmetric Ricker"
-            };
-            let kind = Forcing::Ricker {
-                amplitude_m_s2,
-                period_s,
-                cycles,
-                antisymmetric,
-            };
-            (name, kind)
+                let kind = PulseKind::RickerAntisymmetric {
+                    amplitude,
+                    period_s,
+                    cycles,
+                };
+                ("antisymmetric Ricker", kind)
+            }
         }
         7 => {
             let gamma = draw.log(ranges.gamma[0], ranges.gamma[1]).min(most);
-            let kind = Forcing::Mavroeidis {
-                velocity_m_s: amplitude_m_s2 / omega_rad_s,
+            let kind = PulseKind::MavroeidisPapageorgiou {
+                velocity: amplitude / omega_rad_s,
                 frequency_hz: 1.0 / period_s,
                 gamma,
                 phase_rad: draw.uniform(0.0, TAU),
@@ -246,9 +232,10 @@ fn shaped(
             // Below 1 after any rounding.
             let ratio = ratio.min(1.0 - 1e-14);
             let rotation_rad = scene.slenderness_rad * ratio;
-            ("free", Forcing::Free { rotation_rad })
+            scene.forcing = Forcing::Free { rotation_rad };
+            return "free";
         }
     };
-    scene.forcing = forcing;
+    scene.forcing = Forcing::Pulse(kind);
     name
 }

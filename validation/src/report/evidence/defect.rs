@@ -4,7 +4,7 @@ use crate::draw::figures::{
 };
 use crate::proof::engine::Core;
 use crate::proof::scene::{
-    Criterion, Engine as _, EngineError, Equation, Forcing, Scene,
+    Engine as _, EngineError, Forcing, Model, Overturning, PulseKind, Scene,
 };
 
 /// One-sine pulses: frequency over p and amplitude over the threshold.
@@ -44,22 +44,20 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
                 .collect::<Result<Vec<f64>, EngineError>>()?;
             // Slope over the first octave.
             slopes.push(libm::log2(y[2] / y[0]));
-            series.push(Series {
-                label: format!("*ω*/*p* = {omega}, *A* = {amplitude}"),
-                mark: Mark::LineAndPoints,
+            series.push(Series::new(
+                format!("*ω*/*p* = {omega}, *A* = {amplitude}"),
+                Mark::LineAndPoints,
                 x,
                 y,
-                interval: Vec::new(),
-            });
+            ));
         }
         let ends = [0.0125, 0.4];
-        series.push(Series {
-            label: "slope 2".into(),
-            mark: Mark::Dashed,
-            x: ends.into(),
-            y: ends.map(|alpha| 0.02 * alpha * alpha).into(),
-            interval: Vec::new(),
-        });
+        series.push(Series::new(
+            "slope 2",
+            Mark::Dashed,
+            ends.into(),
+            ends.map(|alpha| 0.02 * alpha * alpha).into(),
+        ));
         panels.push(ChartPanel {
             title: title.into(),
             x: axis("slenderness *α* (rad)", (0.01, 0.5)),
@@ -69,19 +67,17 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
     }
     let (low, high) = crate::words::range(slopes.into_iter());
     Ok(Chart {
-        heading: Heading {
-            name: "figure-19".into(),
-            title: "Departure of Eq. 1 from similarity as the \
-                        slenderness grows"
-                .into(),
-            description: "Relative change of the first impact speed \
+        heading: Heading::new(
+            "figure-19",
+            "Departure of Eq. 1 from similarity as the \
+                        slenderness grows",
+            "Relative change of the first impact speed \
                               over p alpha under four one-sine pulses, \
                               against the slenderness, on logarithmic axes, \
                               for two normalizations of the amplitude; a \
-                              dashed line has slope 2."
-                .into(),
-            arm: None,
-        },
+                              dashed line has slope 2.",
+            None,
+        ),
         panels,
         columns: 2,
     }
@@ -93,12 +89,7 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
 }
 
 fn axis(label: &str, range: (f64, f64)) -> ChartAxis {
-    ChartAxis {
-        label: label.into(),
-        scale: Scale::Logarithmic,
-        range: Some(range),
-        categories: Vec::new(),
-    }
+    ChartAxis::new(label, Scale::Logarithmic, Some(range))
 }
 
 /// |X(alpha)/X_linear - 1| of the first impact speed over p alpha.
@@ -111,25 +102,24 @@ fn departure(
     let p = 2.0;
     let speed = |equation| -> Result<f64, EngineError> {
         let unit = match (equation, over) {
-            (Equation::Nonlinear, Over::TanAlpha) => libm::tan(alpha),
+            (Model::Nonlinear, Over::TanAlpha) => libm::tan(alpha),
             _ => alpha,
         };
         let trace = Core.respond(&Scene {
-            slenderness_rad: alpha,
-            frequency_rad_s: p,
-            restitution: 0.92,
-            gravity_m_s2: 1.0,
-            equation,
-            criterion: Criterion::HalfPi,
-            forcing: Forcing::Sine {
-                amplitude_m_s2: amplitude * unit,
-                omega_rad_s: omega * p,
-                half_cycles: 2,
-            },
+            model: equation,
+            overturning: Overturning::HalfPi,
             until_s: Some(20.0),
+            ..Scene::new(
+                [alpha, p, 1.0],
+                0.92,
+                Forcing::Pulse(PulseKind::OneSine {
+                    amplitude: amplitude * unit,
+                    omega_rad_s: omega * p,
+                }),
+            )
         })?;
-        Ok(trace.impacts.first().map_or(f64::NAN, |i| i.speed_rad_s))
+        Ok(trace.impacts.first().map_or(f64::NAN, |i| i.speed_before_rad_s))
     };
-    let linear = speed(Equation::Linearized)?;
-    Ok((speed(Equation::Nonlinear)? / linear - 1.0).abs())
+    let linear = speed(Model::Linearized)?;
+    Ok((speed(Model::Nonlinear)? / linear - 1.0).abs())
 }

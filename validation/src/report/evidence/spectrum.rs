@@ -4,10 +4,11 @@ use super::EvidenceError;
 use crate::draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
+use crate::proof::edge::edge;
 use crate::proof::engine::Core;
 use crate::proof::oracles::overturning;
 use crate::proof::scene::{
-    Criterion, Engine as _, EngineError, Equation, Forcing, Scene,
+    Engine as _, EngineError, Forcing, Model, Overturning, PulseKind, Scene,
 };
 
 /// Restitution of the figure.
@@ -23,45 +24,23 @@ const LOWEST: f64 = 0.4;
 
 /// Whether a one-sine pulse overturns, and after how many impacts.
 fn fate(
-    equation: Equation,
-    criterion: Criterion,
+    equation: Model,
+    criterion: Overturning,
     omega: f64,
     amplitude: f64,
 ) -> Result<Option<usize>, EngineError> {
     let mut scene = Scene {
-        slenderness_rad: STOCKY_RAD,
-        frequency_rad_s: 1.0,
-        restitution: ETA,
-        gravity_m_s2: 1.0,
-        equation,
-        criterion,
-        forcing: Forcing::Free { rotation_rad: 0.0 },
+        model: equation,
+        overturning: criterion,
         until_s: Some(7.0 / omega + 60.0),
+        ..Scene::new([STOCKY_RAD, 1.0, 1.0], ETA, Forcing::NONE)
     };
-    scene.forcing = Forcing::Sine {
-        amplitude_m_s2: amplitude * scene.threshold_m_s2(),
+    scene.forcing = Forcing::Pulse(PulseKind::OneSine {
+        amplitude: amplitude * scene.threshold_m_s2(),
         omega_rad_s: omega,
-        half_cycles: 2,
-    };
+    });
     let trace = Core.respond(&scene)?;
     Ok(trace.overturned_s.map(|_| trace.impacts.len()))
-}
-
-/// The edge between `low`, where `above` is false, and `high`, where it is
-/// true; not a number where they are alike or no interval.
-fn edge(
-    mut low: f64,
-    mut high: f64,
-    above: impl Fn(f64) -> Result<bool, EngineError>,
-) -> Result<f64, EngineError> {
-    if !(low < high) || above(low)? || !above(high)? {
-        return Ok(f64::NAN);
-    }
-    while high - low > 1e-6 * high {
-        let mid = 0.5 * (low + high);
-        if above(mid)? { high = mid } else { low = mid }
-    }
-    Ok(0.5 * (low + high))
 }
 
 /// Edges at one frequency.
@@ -77,8 +56,8 @@ struct Edges {
 }
 
 fn edges(omega: f64) -> Result<Edges, EngineError> {
-    let (two, one) = (Equation::Linearized, Equation::Nonlinear);
-    let (far, near) = (Criterion::HalfPi, Criterion::Alpha);
+    let (two, one) = (Model::Linearized, Model::Nonlinear);
+    let (far, near) = (Overturning::HalfPi, Overturning::Alpha);
     let after_one =
         |equation| move |a| Ok(fate(equation, far, omega, a)? == Some(1));
     let without_impact = |equation, criterion| {
@@ -87,11 +66,12 @@ fn edges(omega: f64) -> Result<Edges, EngineError> {
     let without = overturning::sine_without_impact(2, omega);
     let upper = overturning::mode_1_upper(omega, ETA).unwrap_or(f64::NAN);
     let inside = upper * (1.0 - 1e-7);
-    let lower = edge(1.0, inside, after_one(two))?;
-    let without_by_alpha = edge(1.0, without, without_impact(two, near))?;
+    let lower = edge([1.0, inside], 1e-6, after_one(two))?;
+    let without_by_alpha =
+        edge([1.0, without], 1e-6, without_impact(two, near))?;
     // In Eq. 1 the edges are a few percent off.
     let around = |x: f64, above: &dyn Fn(f64) -> Result<bool, EngineError>| {
-        edge(1.0 + 0.9 * (x - 1.0), 1.0 + 1.2 * (x - 1.0), above)
+        edge([1.0 + 0.9 * (x - 1.0), 1.0 + 1.2 * (x - 1.0)], 1e-6, above)
     };
     Ok(Edges {
         omega,
@@ -111,7 +91,7 @@ fn edges(omega: f64) -> Result<Edges, EngineError> {
 /// number of impacts, lower and upper edge.
 fn bands(omega: f64, top: f64) -> Result<Vec<(usize, f64, f64)>, EngineError> {
     let count =
-        |a: f64| fate(Equation::Linearized, Criterion::HalfPi, omega, a);
+        |a: f64| fate(Model::Linearized, Overturning::HalfPi, omega, a);
     let step = 4e-4;
     let (mut found, mut open) = (Vec::new(), None);
     let mut before: Option<usize> = None;
@@ -121,11 +101,14 @@ fn bands(omega: f64, top: f64) -> Result<Vec<(usize, f64, f64)>, EngineError> {
         let now = count(next)?.filter(|n| *n >= 3);
         if now != before {
             if let (Some(n), Some(low)) = (before, open) {
-                let high = edge(a, next, |x| Ok(count(x)? != Some(n)))?;
+                let high =
+                    edge([a, next], 1e-6, |x| Ok(count(x)? != Some(n)))?;
                 found.push((n, low, high));
             }
             open = match now {
-                Some(n) => Some(edge(a, next, |x| Ok(count(x)? == Some(n)))?),
+                Some(n) => {
+                    Some(edge([a, next], 1e-6, |x| Ok(count(x)? == Some(n)))?)
+                }
                 None => None,
             };
             before = now;
@@ -147,22 +130,11 @@ fn band(label: &str, rows: &[(f64, f64, f64)]) -> Series {
 
 /// An edge of Eq. 1: grey and without legend, explained in the reading.
 fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
-    Series {
-        label: String::new(),
-        mark: Mark::Dashed,
-        x: x.into(),
-        y: y.collect(),
-        interval: Vec::new(),
-    }
+    Series::new("", Mark::Dashed, x.into(), y.collect())
 }
 
 fn axis(label: &str, scale: Scale, range: (f64, f64)) -> ChartAxis {
-    ChartAxis {
-        label: label.into(),
-        scale,
-        range: Some(range),
-        categories: Vec::new(),
-    }
+    ChartAxis::new(label, scale, Some(range))
 }
 
 /// Overturning spectrum of one-sine pulses, every mode, both criteria and
@@ -195,12 +167,12 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
     with_impact.push((fold, at_fold, at_fold));
     let mut panels = Vec::new();
     for (title, criterion) in [
-        ("|*θ*| > *π*/2", Criterion::HalfPi),
-        ("|*θ*| ≥ *α*", Criterion::Alpha),
+        ("|*θ*| > *π*/2", Overturning::HalfPi),
+        ("|*θ*| ≥ *α*", Overturning::Alpha),
     ] {
         let (without, stocky): (fn(&Edges) -> f64, usize) = match criterion {
-            Criterion::HalfPi => (|e| e.without, 1),
-            Criterion::Alpha => (|e| e.without_by_alpha, 2),
+            Overturning::HalfPi => (|e| e.without, 1),
+            Overturning::Alpha => (|e| e.without_by_alpha, 2),
         };
         let rows: Vec<_> =
             all.iter().map(|e| (e.omega, without(e), TOP)).collect();
@@ -223,18 +195,17 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
     let (panel, lowest) = low_frequencies(&with_impact)?;
     panels.push(panel);
     Ok(Chart {
-        heading: Heading {
-            name: "figure-20".into(),
-            title: "Overturning spectrum of one-sine pulses".into(),
-            description: "Amplitude over the uplift threshold against \
+        heading: Heading::new(
+            "figure-20",
+            "Overturning spectrum of one-sine pulses",
+            "Amplitude over the uplift threshold against \
                               frequency over p at which a block overturns, \
                               restitution 0.92: after one impact, without \
                               impact, and in narrow bands after three and \
                               more; by two criteria, in Eq. 2 (regions) and \
-                              in Eq. 1 (dashed)."
-                .into(),
-            arm: None,
-        },
+                              in Eq. 1 (dashed).",
+            None,
+        ),
         panels,
         columns: 3,
     }

@@ -81,15 +81,14 @@ pub(super) fn inverted(
     }
     let (pga, pgv) = (onsets[0], onsets[1]);
     Ok(Capacities {
-        heading: Heading {
-            name: name(11, None),
-            title: "Intensity given demand, original and shifted".into(),
-            description: "A curve for each record of the intensity that \
+        heading: Heading::new(
+            name(11, None),
+            "Intensity given demand, original and shifted",
+            "A curve for each record of the intensity that \
                               reaches a demand, by median point; PGA and \
-                              PGV, as inverted and above IM_R."
-                .into(),
-            arm: Some(arm),
-        },
+                              PGV, as inverted and above IM_R.",
+            Some(arm),
+        ),
         alpha_rad: SLENDERNESSES_RAD[3],
         p_rad_s: FREQUENCIES_RAD_S[0],
         panels,
@@ -148,19 +147,18 @@ pub(super) fn shares(
     }
     let measure = if number == 12 { "PGA" } else { "PGV" };
     Ok(AcceptedShares {
-        heading: Heading {
-            name: name(number, None),
-            title: format!(
+        heading: Heading::new(
+            name(number, None),
+            format!(
                 "Share of demand levels at which lognormality is \
                      accepted, {measure}"
             ),
-            description: "Percent of 200 demand levels accepted by \
+            "Percent of 200 demand levels accepted by \
                               Lilliefors' test at 5 %, for 15 blocks; \
                               original and shifted samples, ordinary and \
-                              pulse-type."
-                .into(),
-            arm: None,
-        },
+                              pulse-type.",
+            None,
+        ),
         intensity,
         expected: 1.0 - LEVEL,
         panels,
@@ -200,16 +198,15 @@ pub(super) fn along(
         });
     }
     Ok(TestsAlongDemand {
-        heading: Heading {
-            name: name(13, Some(arm)),
-            title: "Lilliefors' test along the demand, p = 3".into(),
-            description: "Test statistic over its critical value along \
+        heading: Heading::new(
+            name(13, Some(arm)),
+            "Lilliefors' test along the demand, p = 3",
+            "Test statistic over its critical value along \
                               the demand, and histograms of the logarithm \
                               of the capacity at demand 0.50, original and \
-                              shifted; alpha = 0.05 and 0.20."
-                .into(),
-            arm: Some(arm),
-        },
+                              shifted; alpha = 0.05 and 0.20.",
+            Some(arm),
+        ),
         intensity: Intensity::Pga,
         edp,
         blocks,

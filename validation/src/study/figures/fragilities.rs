@@ -128,15 +128,14 @@ pub(super) fn thresholds(
         }
     };
     Ok(Fragilities {
-        heading: Heading {
-            name: name(number, None),
-            title: title.into(),
-            description: "Empirical fragilities at three demands with \
+        heading: Heading::new(
+            name(number, None),
+            title,
+            "Empirical fragilities at three demands with \
                               two fitted ones each; PGA and PGV; p = 3, \
-                              alpha = 0.20."
-                .into(),
-            arm: Some(arm),
-        },
+                              alpha = 0.20.",
+            Some(arm),
+        ),
         panels,
     }
     .figure(format!(
@@ -180,14 +179,13 @@ pub(super) fn constants(
         });
     }
     Ok(ByConstant {
-        heading: Heading {
-            name: name(18, None),
-            title: "The constant c of Eq. 7".into(),
-            description: "USFL7 for four constants against the SSFL, \
-                              demand 0.15, PGA; untrimmed and trimmed."
-                .into(),
-            arm: Some(arm),
-        },
+        heading: Heading::new(
+            name(18, None),
+            "The constant c of Eq. 7",
+            "USFL7 for four constants against the SSFL, \
+                              demand 0.15, PGA; untrimmed and trimmed.",
+            Some(arm),
+        ),
         intensity: Intensity::Pga,
         edp,
         panels,

@@ -32,17 +32,15 @@ pub(super) fn slendernesses(
     })?;
     let words = overturning_in_words(&panels);
     Ok(Quantiles {
-        heading: Heading {
-            name: name(8, Some(arm)),
-            title: "16/50/84 % demand given intensity, five \
-                        slendernesses"
-                .into(),
-            description: "Three quantile curves for each slenderness, \
+        heading: Heading::new(
+            name(8, Some(arm)),
+            "16/50/84 % demand given intensity, five \
+                        slendernesses",
+            "Three quantile curves for each slenderness, \
                               one panel a frequency parameter; a curve ends \
-                              where its quantile is overturned."
-                .into(),
-            arm: Some(arm),
-        },
+                              where its quantile is overturned.",
+            Some(arm),
+        ),
         intensity: Intensity::Pga,
         panels,
         columns: 3,
@@ -71,17 +69,15 @@ pub(super) fn adjusted(
     })?;
     let words = overturning_in_words(&panels);
     Ok(Quantiles {
-        heading: Heading {
-            name: name(10, Some(arm)),
-            title: "16/50/84 % demand given intensity: scaled records \
-                        and adjusted slenderness"
-                .into(),
-            description: "Three quantile curves for each procedure, one \
+        heading: Heading::new(
+            name(10, Some(arm)),
+            "16/50/84 % demand given intensity: scaled records \
+                        and adjusted slenderness",
+            "Three quantile curves for each procedure, one \
                               panel a frequency parameter; alpha = 0.10 for \
-                              the scaled records."
-                .into(),
-            arm: Some(arm),
-        },
+                              the scaled records.",
+            Some(arm),
+        ),
         intensity: Intensity::Pga,
         panels,
         columns: 3,

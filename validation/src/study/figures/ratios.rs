@@ -40,19 +40,16 @@ pub(super) fn slendernesses(
     let reading = medians_in_words(&panels);
     Ok(Some(
         Boxplots {
-            heading: Heading {
-                name: name(number, Some(arm)),
-                title: format!(
-                    "Paired ratios of demands to alpha = 0.10, {p}"
-                ),
-                description: "Notched boxplots of the ratio of peak rotation \
+            heading: Heading::new(
+                name(number, Some(arm)),
+                format!("Paired ratios of demands to alpha = 0.10, {p}"),
+                "Notched boxplots of the ratio of peak rotation \
                               over slenderness to that of the block with \
                               alpha = 0.10 under the same record, by stripe \
                               of intensity; the share of usable ratios \
-                              stands at the right."
-                    .into(),
-                arm: Some(arm),
-            },
+                              stands at the right.",
+                Some(arm),
+            ),
             ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
             stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
@@ -83,16 +80,15 @@ pub(super) fn adjusted(
     let reading = medians_in_words(&panels);
     Ok(Some(
         Boxplots {
-            heading: Heading {
-                name: name(9, Some(arm)),
-                title: "Slenderness adjustment against record scaling".into(),
-                description: "Notched boxplots of the ratio of demands: \
+            heading: Heading::new(
+                name(9, Some(arm)),
+                "Slenderness adjustment against record scaling",
+                "Notched boxplots of the ratio of demands: \
                               unscaled record on a block of adjusted \
                               slenderness over scaled record on the block \
-                              with alpha = 0.10, by stripe of intensity."
-                    .into(),
-                arm: Some(arm),
-            },
+                              with alpha = 0.10, by stripe of intensity.",
+                Some(arm),
+            ),
             ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),
             stripes: StripeKind::Intensity(Intensity::Pga),
             panels,

@@ -15,16 +15,15 @@ use crate::study::analyses::{
 
 pub(super) fn sketch() -> Figure {
     BlockSketch {
-        heading: Heading {
-            name: name(1, None),
-            title: "The rocking block".into(),
-            description: "A rectangular block of width 2b and height 2h, \
+        heading: Heading::new(
+            name(1, None),
+            "The rocking block",
+            "A rectangular block of width 2b and height 2h, \
                               rotated about one base corner; R is half its \
                               diagonal and alpha the angle between diagonal \
-                              and side."
-                .into(),
-            arm: None,
-        },
+                              and side.",
+            None,
+        ),
         alpha_rad: 0.35,
         rotation_rad: 0.15,
     }
@@ -69,15 +68,14 @@ pub(super) fn histories(
         suite.kind
     );
     Histories {
-        heading: Heading {
-            name: name(number, None),
+        heading: Heading::new(
+            name(number, None),
             title,
-            description: "Rotation over slenderness against time, five \
+            "Rotation over slenderness against time, five \
                               slendernesses in each panel; rows by frequency \
-                              parameter, columns by record."
-                .into(),
-            arm: Some(arm),
-        },
+                              parameter, columns by record.",
+            Some(arm),
+        ),
         panels,
         columns: 3,
     }
@@ -173,19 +171,18 @@ pub(super) fn curves(
         })
         .collect();
     Ok(IdaCurves {
-        heading: Heading {
-            name: name(number, None),
-            title: format!(
+        heading: Heading::new(
+            name(number, None),
+            format!(
                 "IDA curves of three {} motions, five slendernesses",
                 suite.kind
             ),
-            description: "Peak rotation over slenderness against \
+            "Peak rotation over slenderness against \
                               dimensionless intensity up to first \
                               overturning; rows by frequency parameter, \
-                              columns by record."
-                .into(),
-            arm: Some(arm),
-        },
+                              columns by record.",
+            Some(arm),
+        ),
         intensity: Intensity::Pga,
         panels,
         columns: 3,

@@ -260,38 +260,37 @@ fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
         })
         .collect();
     Chart {
-        heading: Heading {
-            name: "figure-grid".into(),
-            title: "Rejections and the grid of 0.01 g".into(),
-            description: "Share of demand levels at which the shifted \
+        heading: Heading::new(
+            "figure-grid",
+            "Rejections and the grid of 0.01 g",
+            "Share of demand levels at which the shifted \
                               sample is rejected, by slenderness, in three \
                               arms of the grid; ordinary and pulse-type \
-                              records, PGA."
-                .into(),
-            arm: None,
-        },
+                              records, PGA.",
+            None,
+        ),
         panels,
         columns: 3,
     }
     .figure(
         "Rejected share of the demand levels, shifted PGA, in \
                   three arms of the grid; dashed: what the grid of 0.01 g \
-                  alone does to a shifted lognormal sample at overturning."
-            .into(),
+                  alone does to a shifted lognormal sample at overturning.",
     )
 }
 
 /// One frequency parameter: the first rows are its blocks.
 fn panel(title: String, rows: &[Row]) -> ChartPanel {
-    let line = |label: &str, mark, of: &dyn Fn(&Row) -> f64| Series {
-        label: label.into(),
-        mark,
-        x: SLENDERNESSES_RAD.to_vec(),
-        y: rows[..SLENDERNESSES_RAD.len()]
-            .iter()
-            .map(|row| 100.0 * of(row))
-            .collect(),
-        interval: Vec::new(),
+    let line = |label: &str, mark, of: &dyn Fn(&Row) -> f64| {
+        Series::new(
+            label,
+            mark,
+            SLENDERNESSES_RAD.to_vec(),
+            rows[..SLENDERNESSES_RAD.len()]
+                .iter()
+                .map(|row| 100.0 * of(row))
+                .collect(),
+        )
     };
     let mut series: Vec<Series> = ARMS
         .iter()
@@ -304,11 +303,8 @@ fn panel(title: String, rows: &[Row]) -> ChartPanel {
         .collect();
     let words = "the grid alone, at overturning";
     series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
-    let axis = |label: &str, range| ChartAxis {
-        label: label.into(),
-        scale: AxisScale::Linear,
-        range: Some(range),
-        categories: Vec::new(),
+    let axis = |label: &str, range| {
+        ChartAxis::new(label, AxisScale::Linear, Some(range))
     };
     ChartPanel {
         title,

@@ -194,40 +194,32 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             .collect();
         ChartPanel {
             title: format!("{kind} records"),
-            x: ChartAxis {
-                label: "*θ̃*".into(),
-                scale: Scale::Linear,
-                range: Some((0.0, 1.0)),
-                categories: Vec::new(),
-            },
-            y: ChartAxis {
-                label: "critical value over the table's".into(),
-                scale: Scale::Linear,
-                range: None,
-                categories: Vec::new(),
-            },
+            x: ChartAxis::new("*θ̃*", Scale::Linear, Some((0.0, 1.0))),
+            y: ChartAxis::new(
+                "critical value over the table's",
+                Scale::Linear,
+                None,
+            ),
             series,
         }
     };
     Chart {
-        heading: Heading {
-            name: "figure-null".into(),
-            title: "Critical values with the shift estimated anew".into(),
-            description: "Critical value of Lilliefors' test at 5 % \
+        heading: Heading::new(
+            "figure-null",
+            "Critical values with the shift estimated anew",
+            "Critical value of Lilliefors' test at 5 % \
                               with the shift estimated in every draw, over \
                               the tabulated one, along the demand; shifted \
-                              PGV, ordinary and pulse-type records."
-                .into(),
-            arm: Some(arm),
-        },
+                              PGV, ordinary and pulse-type records.",
+            Some(arm),
+        ),
         panels: vec![panel("ordinary"), panel("pulse-type")],
         columns: 2,
     }
     .figure(
         "Critical value at 5 % with IM_R estimated anew, over that \
                   of the table: median and range over five slendernesses. \
-                  From 2000 replicates, with a standard error of 1.6 %."
-            .into(),
+                  From 2000 replicates, with a standard error of 1.6 %.",
     )
 }
 

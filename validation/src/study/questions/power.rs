@@ -121,50 +121,47 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
         .zip(all)
         .map(|(n, rates)| ChartPanel {
             title: format!("{n} records"),
-            x: ChartAxis {
-                label: "excess median over the shift".into(),
-                scale: Scale::Logarithmic,
-                range: Some((0.2, 10.0)),
-                categories: Vec::new(),
-            },
-            y: ChartAxis {
-                label: "rejected samples (%)".into(),
-                scale: Scale::Linear,
-                range: Some((0.0, 100.0)),
-                categories: Vec::new(),
-            },
+            x: ChartAxis::new(
+                "excess median over the shift",
+                Scale::Logarithmic,
+                Some((0.2, 10.0)),
+            ),
+            y: ChartAxis::new(
+                "rejected samples (%)",
+                Scale::Linear,
+                Some((0.0, 100.0)),
+            ),
             series: TESTS
                 .iter()
                 .enumerate()
-                .map(|(k, test)| Series {
-                    label: (*test).into(),
-                    mark: Mark::LineAndPoints,
-                    x: EXCESSES.to_vec(),
-                    y: rates.iter().map(|r| 100.0 * r[k]).collect(),
-                    interval: Vec::new(),
+                .map(|(k, test)| {
+                    Series::new(
+                        *test,
+                        Mark::LineAndPoints,
+                        EXCESSES.to_vec(),
+                        rates.iter().map(|r| 100.0 * r[k]).collect(),
+                    )
                 })
                 .collect(),
         })
         .collect();
     Chart {
-        heading: Heading {
-            name: "figure-power".into(),
-            title: "Power of four tests of lognormality".into(),
-            description: "Share of simulated shifted-lognormal samples \
+        heading: Heading::new(
+            "figure-power",
+            "Power of four tests of lognormality",
+            "Share of simulated shifted-lognormal samples \
                               that tests of the unshifted logarithms reject \
                               at 5 %, against the excess median, for the \
-                              sizes of both suites."
-                .into(),
-            arm: None,
-        },
+                              sizes of both suites.",
+            None,
+        ),
         panels,
         columns: 2,
     }
     .figure(
         "Rejected share of samples that are lognormal above 1, \
                   tested as if they were lognormal: Lilliefors sees least, \
-                  and fewer records see less."
-            .into(),
+                  and fewer records see less.",
     )
 }
 

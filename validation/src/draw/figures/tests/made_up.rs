@@ -15,12 +15,12 @@ pub const ALPHAS: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
 pub const FREQUENCIES: [f64; 3] = [1.0, 3.0, 4.0];
 
 pub fn heading(name: &str, arm: Option<Arm>) -> Heading {
-    Heading {
-        name: name.into(),
-        title: format!("{name}: made up"),
-        description: "Made-up numbers & <marks>.".into(),
+    Heading::new(
+        name,
+        format!("{name}: made up"),
+        "Made-up numbers & <marks>.",
         arm,
-    }
+    )
 }
 
 /// Between 0 and 1, without a pattern.

@@ -23,7 +23,6 @@ use serde::Deserialize;
 use super::refused;
 use super::truths::Truth;
 use crate::proof::cases::WrongModel;
-use crate::proof::methods::closed_forms::extend;
 use crate::proof::methods::{Answer, Context, MethodError};
 
 /// Deviation in standard errors, half a printed unit taken off.
@@ -91,8 +90,8 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
         let outcomes: Vec<bool> = found.iter().map(|f| f[k]).collect();
         let (ours, gap) =
             rate_gap(&outcomes, *rate, *reference, input.rounding);
-        extend(&mut answer, "rate", [ours], [*rate]);
-        extend(&mut answer, "standardised-gap", [gap], [0.0]);
+        answer.put("rate", [ours], [*rate]);
+        answer.put("standardised-gap", [gap], [0.0]);
     }
     Ok(answer)
 }
@@ -130,8 +129,8 @@ pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
     let (ours, gap) =
         rate_gap(&outcomes, input.rate, input.reference, input.rounding);
     let mut answer = Answer::default();
-    answer.put("rate", vec![ours], vec![input.rate]);
-    answer.put("standardised-gap", vec![gap], vec![0.0]);
+    answer.put("rate", [ours], [input.rate]);
+    answer.put("standardised-gap", [gap], [0.0]);
     Ok(answer)
 }
 
@@ -326,8 +325,8 @@ pub(crate) fn bias(context: &Context) -> Result<Answer, MethodError> {
         };
         let error = (variance * (1.0 / trials + theirs)).sqrt();
         let gap = gap(sample.mean() - expected, input.rounding, error);
-        answer.put(name, vec![sample.mean()], vec![expected]);
-        extend(&mut answer, "standardised-gap", [gap], [0.0]);
+        answer.put(name, [sample.mean()], [expected]);
+        answer.put("standardised-gap", [gap], [0.0]);
     }
     Ok(answer)
 }

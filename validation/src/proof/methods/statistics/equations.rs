@@ -6,7 +6,6 @@ use serde::Deserialize;
 
 use super::{number, refused, rows};
 use crate::proof::cases::WrongModel;
-use crate::proof::methods::closed_forms::extend;
 use crate::proof::methods::{Answer, Context, MethodError};
 
 const FILE: &str = "fixtures/oracles/fragility.csv";
@@ -41,15 +40,15 @@ pub(crate) fn transforms(context: &Context) -> Result<Answer, MethodError> {
             Some(WrongModel::DeltaMethod) => beta * median / (median - shift),
             _ => eq7(median, beta, shift, c).map_err(refused)?,
         };
-        extend(&mut answer, "eq7", [value], [expected]);
+        answer.put("eq7", [value], [expected]);
         // The median and quantiles of a shifted lognormal with this excess.
         let excess = median - shift;
         let low = shift + excess * exp(-expected);
         let high = shift + excess * exp(expected);
         let mu = eq5(median, shift).map_err(refused)?;
-        extend(&mut answer, "eq5", [mu], [log(excess)]);
+        answer.put("eq5", [mu], [log(excess)]);
         let six = eq6(low, high, shift).map_err(refused)?;
-        extend(&mut answer, "eq6", [six], [expected]);
+        answer.put("eq6", [six], [expected]);
         let end = c_max(median, beta, shift).map_err(refused)?;
         // Just below its end Eq. 7 is large, at it there is none.
         if end.is_finite() {
@@ -58,7 +57,7 @@ pub(crate) fn transforms(context: &Context) -> Result<Answer, MethodError> {
                 _ => eq7(median, beta, shift, end),
             };
             let refused = f64::from(u8::from(beyond.is_err()));
-            extend(&mut answer, "refused-at-its-end", [refused], [1.0]);
+            answer.put("refused-at-its-end", [refused], [1.0]);
         }
     }
     Ok(answer)

@@ -14,7 +14,6 @@ use serde::Deserialize;
 
 use super::{number, refused, rows};
 use crate::proof::cases::WrongModel;
-use crate::proof::methods::closed_forms::extend;
 use crate::proof::methods::{Answer, Context, MethodError};
 
 const LOGNORMAL: &str = "fixtures/oracles/lognormal.csv";
@@ -71,7 +70,7 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
                 ("scale", fit.scale, row[3]),
                 ("log-likelihood", fit.log_likelihood, row[4]),
             ] {
-                extend(&mut answer, name, [own], [number(RIVALS, text)?]);
+                answer.put(name, [own], [number(RIVALS, text)?]);
             }
         }
         return Ok(answer);
@@ -107,7 +106,7 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
             ("kolmogorov", own.kolmogorov_distance(&sample), row[6]),
             ("area", area, row[7]),
         ] {
-            extend(&mut answer, name, [own], [number(LOGNORMAL, text)?]);
+            answer.put(name, [own], [number(LOGNORMAL, text)?]);
         }
     }
     Ok(answer)
@@ -142,7 +141,7 @@ pub(crate) fn quantiles(context: &Context) -> Result<Answer, MethodError> {
             let p = number(QUANTILES, row[2])?;
             let own = quantile_type.of(&sample, p).map_err(refused)?;
             let expected = number(QUANTILES, row[3])?;
-            extend(&mut answer, "quantile", [own], [expected]);
+            answer.put("quantile", [own], [expected]);
         }
     }
     Ok(answer)
@@ -183,7 +182,7 @@ pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
         ("shapiro-wilk", s.statistic, rows[0][7]),
         ("shapiro-wilk-p", s.p_value, rows[0][8]),
     ] {
-        answer.put(name, vec![own], vec![number(NORMALITY, text)?]);
+        answer.put(name, [own], [number(NORMALITY, text)?]);
     }
     Ok(answer)
 }
@@ -229,7 +228,7 @@ pub(crate) fn paired(context: &Context) -> Result<Answer, MethodError> {
             what: format!("no `{name}`"),
         })?;
         let expected = number(PAIRED, row[2])?;
-        answer.put(&name.replace('_', "-"), vec![own], vec![expected]);
+        answer.put(&name.replace('_', "-"), [own], [expected]);
     }
     Ok(answer)
 }

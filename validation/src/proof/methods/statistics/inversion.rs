@@ -31,7 +31,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
         ResponseCurve::try_new(&vertices, overturning).map_err(refused)?;
     let mut answer = Answer::default();
     let mut put = |name: &str, value: f64| {
-        answer.observed.entry(name.into()).or_default().push(value);
+        answer.see(name, [value]);
     };
     for level in input.levels {
         // Strictly above instead of at or above.

@@ -10,7 +10,6 @@ use serde::Deserialize;
 
 use super::{number, refused, rows};
 use crate::proof::cases::WrongModel;
-use crate::proof::methods::closed_forms::extend;
 use crate::proof::methods::{Answer, Context, MethodError};
 
 const EXACT: &str = "fixtures/oracles/lilliefors_exact.csv";
@@ -60,10 +59,10 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
         let slope = (at(rank + span) - at(rank - span)) / (2.0 * span);
         let error = (spread * slope).max(input.error);
         let gap = (at(rank) - exact) / (error + input.error);
-        extend(&mut answer, "standardised-gap", [gap], [0.0]);
+        answer.put("standardised-gap", [gap], [0.0]);
     }
     let largest = at(count) / Statistic::largest(n);
-    answer.observed.insert("largest-of-all".into(), vec![largest]);
+    answer.see("largest-of-all", [largest]);
     Ok(answer)
 }
 
@@ -104,9 +103,9 @@ pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
             best.max(d)
         });
         let expected = Statistic::largest(n);
-        extend(&mut answer, "attained", [attained], [expected]);
+        answer.put("attained", [attained], [expected]);
     }
-    answer.observed.insert("largest".into(), formula);
+    answer.see("largest", formula);
     Ok(answer)
 }
 
@@ -145,7 +144,7 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
             }
             let both = (own * own + error * error).sqrt() + input.rounding;
             let gap = (ours - value) / both;
-            extend(&mut answer, "standardised-gap", [gap], [0.0]);
+            answer.put("standardised-gap", [gap], [0.0]);
         }
     }
     for n in [44, 86] {
@@ -200,8 +199,8 @@ pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
         });
     }
     let mut answer = Answer::default();
-    answer.observed.insert("true-level".into(), levels);
-    answer.observed.insert("interpolated-in-n-at-86".into(), by_interpolation);
+    answer.see("true-level", levels);
+    answer.see("interpolated-in-n-at-86", by_interpolation);
     Ok(answer)
 }
 
@@ -258,8 +257,8 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
         misfits.push(misfit);
     }
     let mut answer = Answer::default();
-    answer.observed.insert("c0".into(), constants);
-    answer.observed.insert("mean-square-misfit".into(), misfits);
+    answer.see("c0", constants);
+    answer.see("mean-square-misfit", misfits);
     Ok(answer)
 }
 
@@ -282,6 +281,6 @@ pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
         worst = worst.max((a - b).abs());
     }
     let mut answer = Answer::default();
-    answer.put("largest-difference", vec![worst], vec![0.0]);
+    answer.put("largest-difference", [worst], [0.0]);
     Ok(answer)
 }

@@ -45,7 +45,7 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
     };
     let mut answer = Answer::default();
     let expected = vec![number(FILE, mean)?];
-    answer.put("mean", vec![sample.mean()], expected);
+    answer.put("mean", [sample.mean()], expected);
     let observed = vec![(squares / divisor).sqrt()];
     let expected = vec![number(FILE, deviation)?];
     answer.put("standard-deviation", observed, expected);

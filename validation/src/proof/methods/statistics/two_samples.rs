@@ -38,7 +38,7 @@ pub(crate) fn two_samples(context: &Context) -> Result<Answer, MethodError> {
             };
             for (name, own) in [("distance", found.statistic), ("p-value", p)]
             {
-                answer.observed.entry(name.into()).or_default().push(own);
+                answer.see(name, [own]);
             }
         }
     }

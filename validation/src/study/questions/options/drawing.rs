@@ -20,12 +20,8 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
                 .find(|s| s.recipe == recipe && s.intensity == intensity);
             found.map_or(f64::NAN, |s| s.ks)
         };
-        let series = |label: &str, mark, y: Vec<f64>| Series {
-            label: label.into(),
-            mark,
-            x: CONSTANTS.to_vec(),
-            y,
-            interval: Vec::new(),
+        let series = |label: &str, mark, y: Vec<f64>| {
+            Series::new(label, mark, CONSTANTS.to_vec(), y)
         };
         let flat = |label: &str, recipe| {
             series(label, Mark::Line, vec![ks(recipe); CONSTANTS.len()])
@@ -39,18 +35,16 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
         let (fitted, sample) = (Centre::FittedMedian, Centre::SampleMedian);
         ChartPanel {
             title: intensity.name().to_uppercase(),
-            x: ChartAxis {
-                label: "*c* of Eq. 7".into(),
-                scale: Scale::Linear,
-                range: Some((0.2, 1.05)),
-                categories: Vec::new(),
-            },
-            y: ChartAxis {
-                label: "median Kolmogorov distance".into(),
-                scale: Scale::Linear,
-                range: None,
-                categories: Vec::new(),
-            },
+            x: ChartAxis::new(
+                "*c* of Eq. 7",
+                Scale::Linear,
+                Some((0.2, 1.05)),
+            ),
+            y: ChartAxis::new(
+                "median Kolmogorov distance",
+                Scale::Linear,
+                None,
+            ),
             series: vec![
                 flat("unshifted", Recipe::Unshifted(MLE)),
                 flat("Option 1", Recipe::Shifted(MLE)),
@@ -66,23 +60,21 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
         }
     };
     Chart {
-        heading: Heading {
-            name: "figure-options".into(),
-            title: "Options 1, 2 and 3 compared".into(),
-            description: "Median over 15 blocks and three demands of \
+        heading: Heading::new(
+            "figure-options",
+            "Options 1, 2 and 3 compared",
+            "Median over 15 blocks and three demands of \
                               the Kolmogorov distance to the empirical \
                               fragility, against the constant of Eq. 7, for \
-                              each option; PGA and PGV, ordinary records."
-                .into(),
-            arm: Some(arm),
-        },
+                              each option; PGA and PGV, ordinary records.",
+            Some(arm),
+        ),
         panels: vec![panel(Intensity::Pga), panel(Intensity::Pgv)],
         columns: 2,
     }
     .figure(
         "Median over 15 blocks and demands 0.15, 0.35 and 1.00 of \
                   the Kolmogorov distance to the empirical fragility, of \
-                  the blocks where the option is defined."
-            .into(),
+                  the blocks where the option is defined.",
     )
 }

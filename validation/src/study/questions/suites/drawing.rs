@@ -11,19 +11,9 @@ use crate::study::analyses::SPECTRUM_PERIODS_S;
 /// Demands at which capacities are drawn.
 const SHOWN: [f64; 2] = [0.15, 1.0];
 
-fn axis(label: &str, scale: Scale, range: Option<(f64, f64)>) -> ChartAxis {
-    ChartAxis { label: label.into(), scale, range, categories: Vec::new() }
-}
-
 /// Equality, as a grey line.
 fn one(range: (f64, f64)) -> Series {
-    Series {
-        label: String::new(),
-        mark: Mark::Dashed,
-        x: vec![range.0, range.1],
-        y: vec![1.0, 1.0],
-        interval: Vec::new(),
-    }
+    Series::new("", Mark::Dashed, vec![range.0, range.1], vec![1.0, 1.0])
 }
 
 /// Ratios of the motions' measures, and spectra of both.
@@ -32,25 +22,23 @@ pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
     Chart {
-        heading: Heading {
-            name: "figure-suites".into(),
-            title: "Embedded motions beside recorded ones".into(),
-            description: "Above, the ratio of the embedded to the \
+        heading: Heading::new(
+            "figure-suites",
+            "Embedded motions beside recorded ones",
+            "Above, the ratio of the embedded to the \
                               recorded median of eight measures with its 95 \
                               % interval; below, median and 16 to 84 % of \
                               the response spectra at 5 % damping; ordinary \
-                              and pulse-type suites."
-                .into(),
-            arm: None,
-        },
+                              and pulse-type suites.",
+            None,
+        ),
         panels,
         columns: 2,
     }
     .figure(
         "Where a bar does not reach the dashed line the embedded \
                   median differs from the recorded one; bands are 16 to 84 \
-                  % of the motions."
-            .into(),
+                  % of the motions.",
     )
 }
 
@@ -71,7 +59,11 @@ fn ratios(rows: &[Row], kind: &str) -> ChartPanel {
             range: None,
             categories: MOTIONS.map(|(_, label)| label.into()).into(),
         },
-        y: axis("embedded / recorded", Scale::Logarithmic, Some((0.25, 4.0))),
+        y: ChartAxis::new(
+            "embedded / recorded",
+            Scale::Logarithmic,
+            Some((0.25, 4.0)),
+        ),
         series: vec![
             one((0.5, MOTIONS.len() as f64 + 0.5)),
             Series {
@@ -109,8 +101,16 @@ fn spectra(rows: &[Row], kind: &str) -> ChartPanel {
     };
     ChartPanel {
         title: format!("{kind}: spectra"),
-        x: axis("period *T* (s)", Scale::Logarithmic, Some((0.05, 5.0))),
-        y: axis("*S*_{a} (g)", Scale::Logarithmic, Some((0.01, 3.0))),
+        x: ChartAxis::new(
+            "period *T* (s)",
+            Scale::Logarithmic,
+            Some((0.05, 5.0)),
+        ),
+        y: ChartAxis::new(
+            "*S*_{a} (g)",
+            Scale::Logarithmic,
+            Some((0.01, 3.0)),
+        ),
         series: vec![
             series("recorded, median and 16 to 84 %", false),
             series("embedded, median and 16 to 84 %", true),
@@ -129,24 +129,22 @@ pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
         }
     }
     Chart {
-        heading: Heading {
-            name: "figure-suites-capacities".into(),
-            title: "Capacities under embedded and recorded motions".into(),
-            description: "Ratio of the embedded to the recorded median \
+        heading: Heading::new(
+            "figure-suites-capacities",
+            "Capacities under embedded and recorded motions",
+            "Ratio of the embedded to the recorded median \
                               capacity with its 95 % interval, block by \
                               block, at demands 0.15 and 1.00, for PGA and \
-                              PGV, ordinary and pulse-type suites."
-                .into(),
-            arm: None,
-        },
+                              PGV, ordinary and pulse-type suites.",
+            None,
+        ),
         panels,
         columns: 2,
     }
     .figure(
         "Ratio of median capacities, embedded over recorded; a bar \
                   that does not reach the dashed line is a difference of \
-                  the suites that records alone don't explain."
-            .into(),
+                  the suites that records alone don't explain.",
     )
 }
 
@@ -187,8 +185,12 @@ fn blocks(
             "{kind}, *θ̃* = {edp:.2}, {}",
             intensity.name().to_uppercase()
         ),
-        x: axis("*α* (rad)", Scale::Linear, Some((0.02, 0.28))),
-        y: axis("embedded / recorded", Scale::Logarithmic, Some((0.4, 2.5))),
+        x: ChartAxis::new("*α* (rad)", Scale::Linear, Some((0.02, 0.28))),
+        y: ChartAxis::new(
+            "embedded / recorded",
+            Scale::Logarithmic,
+            Some((0.4, 2.5)),
+        ),
         series,
     }
 }

@@ -159,25 +159,22 @@ pub fn by_constant() -> ByConstant {
 }
 
 fn axis(label: &str, scale: Scale) -> ChartAxis {
-    ChartAxis { label: label.into(), scale, range: None, categories: vec![] }
+    ChartAxis::new(label, scale, None)
 }
 
 pub fn chart() -> Chart {
     let series = |k: usize| {
         let n = 8;
-        Series {
-            label: ["Taylor 8", "DOP853", "RK4", "ode45"][k].into(),
-            mark: Mark::LineAndPoints,
-            x: (0..n)
-                .map(|i| libm::pow(10.0, -2.0 - 1.4 * i as f64))
-                .collect(),
-            y: (0..n)
+        Series::new(
+            ["Taylor 8", "DOP853", "RK4", "ode45"][k],
+            Mark::LineAndPoints,
+            (0..n).map(|i| libm::pow(10.0, -2.0 - 1.4 * i as f64)).collect(),
+            (0..n)
                 .map(|i| {
                     libm::pow(10.0, -6.0 + 0.4 * k as f64 + 0.2 * i as f64)
                 })
                 .collect(),
-            interval: vec![],
-        }
+        )
     };
     let power = |k: usize| Series {
         label: ["Taylor 8", "DOP853"][k].into(),

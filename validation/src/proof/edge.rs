@@ -1,0 +1,27 @@
+//! Where a fate flips.
+
+/// Where a predicate turns true between `low` and `high`, to this share of
+/// its place; not a number where it does not.
+///
+/// # Errors
+/// What the predicate gives.
+pub fn edge<E>(
+    [mut low, mut high]: [f64; 2],
+    tolerance: f64,
+    above: impl Fn(f64) -> Result<bool, E>,
+) -> Result<f64, E> {
+    if !(low < high) || above(low)? || !above(high)? {
+        return Ok(f64::NAN);
+    }
+    while high - low > tolerance * high {
+        let mid = 0.5 * (low + high);
+        if above(mid)? { high = mid } else { low = mid }
+    }
+    Ok(0.5 * (low + high))
+}
+
+/// The range of all within this share of a number.
+#[must_use]
+pub fn around(near: f64, reach: f64) -> [f64; 2] {
+    [near * (1.0 - reach), near * (1.0 + reach)]
+}

@@ -373,7 +373,8 @@ fn the_harness_stands_on_the_public_core() {
         if holds(&tokens, &["include", "!"]) || text.contains(&sources) {
             problems.push(format!("{path}: reads sources of the core"));
         }
-        // Oracles share nothing with the core; their tests may meet it.
+        // Oracles compute nothing with the core; their tests may meet it. A
+        // pulse's kind and parameters reach them through `proof::scene`.
         if path.starts_with("validation/src/proof/oracles")
             && !path.ends_with("tests.rs")
             && holds(&tokens, &["rocking", "::"])

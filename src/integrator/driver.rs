@@ -140,10 +140,8 @@ pub(crate) enum Stage<N> {
     Landed(Flight<N>),
 }
 
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     #[inline(always)]
     pub fn new(dynamics: Dynamics<N>, forcing: G, isa: Isa) -> Self {

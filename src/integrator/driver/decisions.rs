@@ -37,10 +37,8 @@ impl<N: Real> Tracked<N> {
     }
 }
 
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     /// Carries the errors over the part (0, `x`) of a step from a place, and
     /// notes what is decided in flight: that the block does not touch its

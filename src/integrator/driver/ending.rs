@@ -8,10 +8,8 @@ use crate::integrator::taylor::{Series, value};
 use crate::integrator::{HistoryPoint, Outcome, Response, Side};
 use crate::number::Real;
 
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     /// The observation stops in flight: the rotation there counts.
     pub(super) fn stop(&mut self, motion: Motion<N>) {

@@ -20,10 +20,8 @@ pub(super) enum Event<N> {
     Impact(N),
     Overturning(N),
 }
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     /// First impact or overturning, in parts of the step: in (0, 1].
     #[inline(always)]

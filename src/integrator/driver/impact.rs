@@ -40,10 +40,8 @@ fn positive<N: Real>(x: N) -> Option<N> {
     (x > N::zero()).then_some(x)
 }
 
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     /// The impact at a step's place, `speed` before it; rest if it ends
     /// there.

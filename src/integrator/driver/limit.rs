@@ -26,10 +26,8 @@ impl<N: Real> Tracked<N> {
     }
 }
 
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     /// Impacts left before the run is refused.
     #[inline(always)]

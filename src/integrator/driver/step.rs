@@ -26,10 +26,8 @@ pub(super) enum Advance<N> {
     Ended(Flight<N>),
 }
 
-impl<N, G, const F: usize, const HARD: usize> Driver<N, G, F, HARD>
-where
-    N: Real,
-    G: Forcing<N, F>,
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
 {
     /// One step: to its end, or to the first event in it.
     #[inline(always)]

@@ -1,4 +1,8 @@
-//! What a declared case puts before an engine, in the harness' own words.
+//! What a declared case puts before an engine.
+//!
+//! The equation, the criterion and the kind of a pulse are the core's types,
+//! which are data alone. What a pulse's acceleration is, and where it ends,
+//! is computed here anew.
 //!
 //! Engines (the core behind its public interface, the naive integrator) all
 //! read the same [`Scene`] and answer with the same [`Trace`].
@@ -163,8 +167,8 @@ pub fn other(model: Model) -> Model {
     }
 }
 
-/// A pulse of a block with p = 1 rad/s as one with this p, and its
-/// acceleration in another unit.
+/// A pulse on a block with p = 1 rad/s, as it acts on one with this p; its
+/// acceleration is multiplied by `unit`.
 #[must_use]
 pub fn rescaled(mut pulse: PulseKind, unit: f64, p: f64) -> PulseKind {
     use PulseKind as P;

@@ -86,8 +86,8 @@ pub struct Growth {
 /// size 0.
 #[must_use]
 pub fn growth(none: &Point, before: &Point, after: &Point) -> Growth {
-    let sizes = (after.size as f64 / before.size as f64).ln();
-    let exponent = |from: f64, to: f64| (to / from).ln() / sizes;
+    let sizes = libm::log(after.size as f64 / before.size as f64);
+    let exponent = |from: f64, to: f64| libm::log(to / from) / sizes;
     let beyond =
         |point: &Point| Some(point.peak_memory_mib? - none.peak_memory_mib?);
     let memory = beyond(before).zip(beyond(after));
@@ -200,7 +200,7 @@ fn spread(count: usize) -> Result<Vec<Block>, SpeedError> {
     (1..=count)
         .map(|k| {
             let alpha = 0.25f64.mul_add(turn(k, 1.0 / PLASTIC), 0.05);
-            let p = 4.0f64.mul_add(turn(k, PLASTIC.powi(-2)), 1.0);
+            let p = 4.0f64.mul_add(turn(k, 1.0 / (PLASTIC * PLASTIC)), 1.0);
             Ok(Block::try_new(alpha, p)?)
         })
         .collect()

@@ -148,32 +148,18 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
         let block = [alpha, p, g];
         let scene = references::linear_scene(case, block, Overturning::Alpha)?;
         let trace = context.engine.respond(&scene)?;
-        let mut block = Answer::default();
         put_impacts(
-            &mut block,
+            &mut answer,
             &trace,
             (times.clone(), speeds.clone()),
             p,
             p * alpha,
         );
-        block.put("side", [trace.first_side], [side]);
-        block.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [uplift]);
-        block.put(
-            "alpha-time-p",
-            trace.overturned_s.map(|t| t * p),
-            over.into_iter(),
-        );
+        answer.put("side", [trace.first_side], [side]);
+        answer.put("uplift-time-p", trace.uplift_s.map(|t| t * p), [uplift]);
+        answer.put("alpha-time-p", trace.overturned_s.map(|t| t * p), over);
         if case["expected"]["verdict"] == "returns" {
-            block.put("peak-ratio", [trace.peak_ratio], [listed]);
-        }
-        // One list per quantity over all blocks.
-        for (from, to) in [
-            (block.observed, &mut answer.observed),
-            (block.expected, &mut answer.expected),
-        ] {
-            for (name, values) in from {
-                to.entry(name).or_default().extend(values);
-            }
+            answer.put("peak-ratio", [trace.peak_ratio], [listed]);
         }
     }
     Ok(answer)

@@ -115,7 +115,7 @@ fn results_of_cases_that_are_missing_damaged_or_of_others() {
 
 /// What of the committed report costs no study: suites, declared cases,
 /// Table 1 and the figures of closed forms. `.ci/run` holds every byte of the
-/// report, by `rocking accept --check` of the release build.
+/// report, by `rocking study --out reports --check` of the release build.
 #[test]
 fn the_committed_report_is_of_this_program_where_that_is_cheap() {
     let reports = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../reports");

@@ -46,6 +46,8 @@ const REPORTS: &str = "reports";
 const README: &str = "README.md";
 /// Results of the declared cases.
 const CASES: &str = "data/validation.json";
+/// Digits that each precision reaches.
+const DIGITS: &str = "data/precision.csv";
 
 /// The tests that hold pins, and the pins that they hold. A test hands over
 /// what it found (`tests/pins/hold.rs`): it alone can compute it, since some
@@ -90,7 +92,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let old = text(&format!("{REPORTS}/{CASES}"))?;
     let mut words = compared(&old, &results);
     put(REPORTS, CASES, results.clone().into_bytes());
-    put(REPORTS, "data/precision.csv", precision.clone().into_bytes());
+    put(REPORTS, DIGITS, precision.clone().into_bytes());
     let proof = Proof::from_texts(Path::new("data"), &results, precision)?;
     let report = study::default_report(&proof)?;
     let findings = report.get(FINDINGS).map(|f| String::from_utf8_lossy(f));
@@ -247,7 +249,7 @@ fn not_compared(error: &diff::DiffError) -> String {
 }
 
 /// Those of the files that are not as they are in the folder; adds to `words`
-/// which lines of the pins change.
+/// which lines change where nothing else tells.
 fn changed(files: Files, words: &mut String) -> Result<Files, Failure> {
     let mut changed = Files::new();
     for (name, new) in files {
@@ -260,7 +262,7 @@ fn changed(files: Files, words: &mut String) -> Result<Files, Failure> {
         if old.as_ref() == Some(&new) {
             continue;
         }
-        if !name.starts_with(REPORTS) {
+        if !name.starts_with(REPORTS) || name.ends_with(DIGITS) {
             let old = old.unwrap_or_default();
             *words += &lines(&name, &old, &new);
         }

@@ -1,3 +1,4 @@
+#[allow(clippy::duplicate_mod, reason = "also in ida/tests")]
 #[path = "../../../../tests/pins/hold.rs"]
 mod hold;
 

@@ -146,7 +146,7 @@ pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
         ratio: exp(median),
         low: exp(sorted[rank - 1]),
         high: exp(sorted[sorted.len() - rank]),
-        level: if n < 6 { 1.0 - 0.5f64.powi(n as i32 - 1) } else { 0.95 },
+        level: if n < 6 { 1.0 - 1.0 / f64::from(1 << (n - 1)) } else { 0.95 },
     })
 }
 

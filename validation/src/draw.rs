@@ -16,6 +16,7 @@ pub mod markup;
 pub mod panel;
 pub mod scene;
 pub mod svg;
+pub mod text;
 
 pub use axis::Axis;
 pub use colour::{Dash, Fill, Ink, Pen};
@@ -23,7 +24,8 @@ pub use geometry::{Point, Rect};
 pub use grid::Grid;
 pub use legend::{Entry, Sample};
 pub use panel::{Marker, Panel};
-pub use scene::{Caption, Horizontal, Scene, TextLine};
+pub use scene::Scene;
+pub use text::{Caption, Horizontal, TextLine};
 
 #[cfg(test)]
 mod tests;

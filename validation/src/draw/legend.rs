@@ -3,8 +3,9 @@
 use super::colour::{Fill, Ink, Pen};
 use super::markup;
 use super::panel::Marker;
-use super::scene::{Horizontal, Scene, TextLine};
-use super::svg::TEXT_PX;
+use super::scene::Scene;
+use super::text::TEXT_PX;
+use super::text::{Horizontal, TextLine};
 
 const SAMPLE_PX: f64 = 26.0;
 const GAP_PX: f64 = 6.0;

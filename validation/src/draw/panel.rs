@@ -4,8 +4,9 @@ use super::axis::Axis;
 use super::colour::{Fill, Ink, Pen};
 use super::geometry::{Point, Rect, clip};
 use super::markup;
-use super::scene::{Horizontal, Scene, TextLine};
-use super::svg::TEXT_PX;
+use super::scene::Scene;
+use super::text::TEXT_PX;
+use super::text::{Horizontal, TextLine};
 
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;

@@ -13,12 +13,10 @@ use plotters::coord::types::RangedCoordf64;
 use super::colour::{Fill, Ink, Pen, STYLE};
 use super::geometry::Point;
 use super::markup;
-use super::scene::{Caption, Horizontal, TextLine};
+use super::text::{Caption, Horizontal, TEXT_PX, TextLine};
 
 /// Coordinate steps in a pixel.
 const PER_PX: i32 = 20;
-/// Text size that elements have unless they say otherwise, in px.
-pub const TEXT_PX: f64 = 11.0;
 const FONTS: &str =
     "Helvetica,Arial,'Liberation Sans','Nimbus Sans',sans-serif";
 

@@ -8,6 +8,8 @@
 //! intensity is [`Lognormal::cdf`].
 
 pub mod options;
+pub mod points;
+pub mod risk;
 
 use libm::{exp, expm1, log, log1p};
 use thiserror::Error;

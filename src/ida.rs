@@ -14,6 +14,7 @@ mod levels;
 use std::fmt;
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
 
 use thiserror::Error;
 
@@ -234,11 +235,15 @@ pub struct Batch<'a> {
     /// Called after each curve, from any thread. `Break` ends the work: the
     /// curves under way are given up, and [`IdaError::Stopped`] is returned.
     pub progress: &'a (dyn Fn() -> ControlFlow<()> + Sync),
+    /// Once it is true the work ends as by `Break`, after the analyses under
+    /// way: for callers whose curves are long.
+    pub stop: Option<&'a AtomicBool>,
 }
 
 impl Default for Batch<'_> {
     fn default() -> Self {
-        Self { isa: Isa::best(), progress: &|| ControlFlow::Continue(()) }
+        let progress = &|| ControlFlow::Continue(());
+        Self { isa: Isa::best(), progress, stop: None }
     }
 }
 
@@ -253,7 +258,7 @@ impl fmt::Debug for Batch<'_> {
 ///
 /// # Errors
 /// The first error in the order of analyses and records;
-/// [`IdaError::Stopped`] where `batch.progress` asked for it.
+/// [`IdaError::Stopped`] where `batch.progress` or `batch.stop` asked for it.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -270,6 +275,9 @@ impl fmt::Debug for Batch<'_> {
 /// let all = curves(&records, &analyses, &Batch::default())?;
 /// assert!(all[0][0].overturning.is_some());
 /// let stop = Batch { progress: &|| ControlFlow::Break(()), ..Batch::default() };
+/// assert_eq!(curves(&records, &analyses, &stop), Err(IdaError::Stopped));
+/// let set = std::sync::atomic::AtomicBool::new(true);
+/// let stop = Batch { stop: Some(&set), ..Batch::default() };
 /// assert_eq!(curves(&records, &analyses, &stop), Err(IdaError::Stopped));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -7,6 +7,7 @@
 pub mod acceptance;
 pub mod bootstrap;
 pub mod boxplot;
+pub mod choice;
 pub mod lilliefors;
 pub mod lognormal;
 pub mod multiple;
@@ -14,6 +15,8 @@ pub mod normal;
 pub mod normality;
 pub mod paired;
 pub mod quantile;
+pub mod regression;
+pub mod resampling;
 pub mod rivals;
 pub mod sample;
 pub mod two_sample;

@@ -11,8 +11,9 @@ pub enum Capacity {
     Reached(f64),
     /// The level was not reached up to the last intensity run.
     Censored {
-        /// The last intensity run.
-        last_im: f64,
+        /// The capacity lies above this: the last intensity run, or by
+        /// [`InversionRule::Monotone`] the length below the level up to it.
+        above: f64,
     },
 }
 
@@ -89,10 +90,18 @@ impl Crossings {
             }
         };
         if im.is_finite() {
-            Capacity::Reached(im)
-        } else {
-            Capacity::Censored { last_im: self.last_im }
+            return Capacity::Reached(im);
         }
+        let above = match rule {
+            InversionRule::Monotone => {
+                let pairs = c[..c.len() - 1].as_chunks::<2>().0;
+                pairs
+                    .iter()
+                    .fold(self.last_im, |sum, [up, down]| sum - (down - up))
+            }
+            _ => self.last_im,
+        };
+        Capacity::Censored { above }
     }
 }
 

@@ -89,7 +89,8 @@ impl Watch<'_> {
     }
 
     fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Relaxed)
+        let set = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
+        set(&self.stopped) || self.batch.stop.is_some_and(set)
     }
 }
 

@@ -70,6 +70,46 @@ impl AcceptedShare {
         }
     }
 
+    /// Tests the values of many levels, all of one size, against a critical
+    /// value; a level with a value that is not finite, or whose values do not
+    /// vary, is not applicable.
+    ///
+    /// The same D as [`Assessment`] has, to 1e-9, many times as fast: for
+    /// simulations.
+    ///
+    /// ```
+    /// use rocking::statistics::acceptance::AcceptedShare;
+    /// let level: Vec<f64> = (0..20).map(f64::from).collect();
+    /// let found = AcceptedShare::of_values(&[level], 0.1919);
+    /// assert_eq!((found.tested, found.accepted), (1, 1));
+    /// ```
+    ///
+    /// # Panics
+    /// If the levels have different sizes.
+    #[must_use]
+    pub fn of_values(levels: &[Vec<f64>], critical_value: f64) -> Self {
+        let finite = |level: &&Vec<f64>| level.iter().all(|x| x.is_finite());
+        let usable: Vec<&Vec<f64>> = levels.iter().filter(finite).collect();
+        let (mut tested, mut accepted) = (0, 0);
+        if let Some(first) = usable.first() {
+            let mut scratch = Scratch::new(first.len());
+            for group in usable.chunks(LANES) {
+                for lane in 0..LANES {
+                    // Lanes beyond the last level repeat it.
+                    let level = group[lane.min(group.len() - 1)];
+                    scratch.values.copy_from_slice(level);
+                    scratch.put(lane);
+                }
+                let found = scratch.statistics();
+                for d in found[..group.len()].iter().filter(|d| !d.is_nan()) {
+                    tested += 1;
+                    accepted += usize::from(*d <= critical_value);
+                }
+            }
+        }
+        Self { tested, accepted, not_applicable: levels.len() - tested }
+    }
+
     /// Accepted over tested; none if no level was tested.
     #[must_use]
     pub fn share(&self) -> Option<f64> {
@@ -95,11 +135,11 @@ impl NullBand {
     /// Gaussian-score bootstrap. `levels` holds, for each level, the values
     /// tested (logarithms, say) in the same order of records.
     ///
-    /// With S the n x K matrix of standardised values and G an n x n matrix
-    /// of independent N(0, 1), the rows of G S/sqrt(n - 1) are independent
-    /// and normal with the levels' observed correlation, exactly N(0, 1) at
-    /// each level. Replicate i draws G from stream i of the family of that
-    /// name and seed.
+    /// With R = L L^T the correlations between the K levels, a record of a
+    /// replicate has the values L z of K independent standard normals z: the
+    /// levels are normal with the observed correlations, record by record
+    /// independent, exactly N(0, 1) at each level. Replicate i draws its
+    /// normals from stream i of the family of that name and seed.
     ///
     /// ```
     /// use rocking::statistics::acceptance::NullBand;
@@ -122,21 +162,29 @@ impl NullBand {
         seed: u64,
     ) -> Result<Self, AcceptanceError> {
         let scores = scores(levels)?;
-        let (n, count) = (scores.nrows(), scores.ncols());
-        let correlations = scores.tr_mul(&scores);
-        let effective_levels =
-            (count * count) as f64 / correlations.norm_squared();
+        let (n, count) = (scores[0].len(), scores.len());
+        let correlations = correlations(&scores);
+        let squares = correlations.iter().flatten();
+        let norm = squares.fold(0.0, |sum, r| f64::mul_add(*r, *r, sum));
+        let effective_levels = (count * count) as f64 / norm;
+        let root = root(&scores);
         let streams = Streams::new(name, seed);
         let rows: Vec<(f64, f64)> = (0..replicates)
             .into_par_iter()
             .map(|index| {
                 let mut stream = streams.stream(index);
-                let weights = DMatrix::from_row_iterator(
-                    n,
-                    n,
-                    (0..n * n).map(|_| standard_normal(&mut stream)),
-                );
-                let drawn = weights * &scores;
+                let mut drawn = vec![vec![0.0; n]; count];
+                for record in 0..n {
+                    let own: Vec<f64> = (0..count)
+                        .map(|_| standard_normal(&mut stream))
+                        .collect();
+                    for (level, row) in drawn.iter_mut().zip(&root) {
+                        let terms = row.iter().zip(&own);
+                        level[record] = terms.fold(0.0, |sum, (l, z)| {
+                            f64::mul_add(*l, *z, sum)
+                        });
+                    }
+                }
                 let mut scratch = Scratch::new(n);
                 let (mut accepted, mut ratios) = (0.0, 0.0);
                 for first in (0..count).step_by(LANES) {
@@ -144,8 +192,7 @@ impl NullBand {
                     for lane in 0..LANES {
                         // Lanes beyond the last level repeat it.
                         let level = first + lane.min(used - 1);
-                        let level = drawn.column(level);
-                        scratch.values.copy_from_slice(level.as_slice());
+                        scratch.values.copy_from_slice(&drawn[level]);
                         scratch.put(lane);
                     }
                     for d in &scratch.statistics()[..used] {
@@ -185,9 +232,9 @@ impl NullBand {
 
 /// Standardised values: a row a record, a column of length 1 a level, so
 /// that G S is standard normal.
-fn scores(levels: &[Vec<f64>]) -> Result<DMatrix<f64>, AcceptanceError> {
+fn scores(levels: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, AcceptanceError> {
     let n = levels.first().ok_or(AcceptanceError::Empty)?.len();
-    let mut scores = DMatrix::zeros(n, levels.len());
+    let mut scores = Vec::with_capacity(levels.len());
     for (k, values) in levels.iter().enumerate() {
         let level = k + 1;
         if values.len() != n {
@@ -200,11 +247,28 @@ fn scores(levels: &[Vec<f64>]) -> Result<DMatrix<f64>, AcceptanceError> {
         standardised(&sample)
             .map_err(|source| AcceptanceError::Scores { level, source })?;
         let (centre, norm) = (mean(values), sum_of_squares(values).sqrt());
-        for (i, value) in values.iter().enumerate() {
-            scores[(i, k)] = (value - centre) / norm;
-        }
+        scores.push(values.iter().map(|x| (x - centre) / norm).collect());
     }
     Ok(scores)
+}
+
+/// Correlations between the levels.
+fn correlations(scores: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let of = |a: &[f64], b: &[f64]| {
+        a.iter().zip(b).fold(0.0, |sum, (x, y)| f64::mul_add(*x, *y, sum))
+    };
+    let row = |a: &Vec<f64>| scores.iter().map(|b| of(a, b)).collect();
+    scores.iter().map(row).collect()
+}
+
+/// The lower triangle L with L L^T the correlations of the levels, row by
+/// row: the transpose of R in scores = Q R.
+fn root(scores: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let (n, count) = (scores[0].len(), scores.len());
+    let r = DMatrix::from_fn(n, count, |i, k| scores[k][i]).qr().unpack_r();
+    let used = |k: usize| 0..=k.min(r.nrows() - 1);
+    let row = |k: usize| used(k).map(|j| r[(j, k)]).collect();
+    (0..count).map(row).collect()
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
 //! The lognormal distribution, with or without a shift, and its fits.
 
 mod censored;
+mod counts;
 mod fit;
 mod profile;
 
-use libm::{exp, log};
+use libm::{exp, expm1, log};
 use thiserror::Error;
 
+pub use counts::{CountsFit, Stripe, fit_counts};
 pub use fit::{
     FitError, FitMethod, LognormalFit, fit, fit_intervals, shifted_finite,
 };
@@ -94,6 +96,68 @@ impl Lognormal {
     #[must_use]
     pub fn median(&self) -> f64 {
         self.shift + exp(self.log_mean)
+    }
+
+    /// The mean r + exp(mu + beta^2/2), of x itself, not of its logarithm.
+    ///
+    /// In the unit of x.
+    ///
+    /// ```
+    /// use rocking::statistics::Lognormal;
+    /// let x = Lognormal::try_new(1.0, 0.0, 0.5)?;
+    /// assert!((x.mean() - 2.133_148_453_066_826).abs() < 1e-15);
+    /// # Ok::<(), rocking::statistics::lognormal::LognormalError>(())
+    /// ```
+    ///
+    /// Johnson, Kotz and Balakrishnan, Continuous Univariate Distributions,
+    /// volume 1, Eq. 14.8a.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        let half_square = 0.5 * self.dispersion * self.dispersion;
+        self.shift + exp(self.log_mean + half_square)
+    }
+
+    /// The standard deviation exp(mu + beta^2/2) sqrt(exp(beta^2) - 1), of x
+    /// itself, not of its logarithm.
+    ///
+    /// In the unit of x; the shift does not enter.
+    ///
+    /// ```
+    /// use rocking::statistics::Lognormal;
+    /// let x = Lognormal::try_new(1.0, 0.0, 0.5)?;
+    /// let expected = 0.603_900_533_210_881_2;
+    /// assert!((x.standard_deviation() - expected).abs() < 1e-15);
+    /// # Ok::<(), rocking::statistics::lognormal::LognormalError>(())
+    /// ```
+    ///
+    /// Johnson, Kotz and Balakrishnan, Continuous Univariate Distributions,
+    /// volume 1, Eq. 14.8b.
+    #[must_use]
+    pub fn standard_deviation(&self) -> f64 {
+        let square = self.dispersion * self.dispersion;
+        exp(0.5f64.mul_add(square, self.log_mean)) * expm1(square).sqrt()
+    }
+
+    /// The distribution of c x: shift c r, logarithmic mean mu + ln c, the
+    /// same dispersion.
+    ///
+    /// `factor` c > 0, such as the intensity in g that makes one unit of a
+    /// dimensionless intensity.
+    ///
+    /// ```
+    /// use rocking::statistics::Lognormal;
+    /// let x = Lognormal::try_new(1.0, 0.0, 0.5)?;
+    /// let half = x.scaled(0.5)?;
+    /// assert_eq!((half.shift(), half.median()), (0.5, 1.0));
+    /// assert_eq!(half.dispersion(), 0.5);
+    /// # Ok::<(), rocking::statistics::lognormal::LognormalError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`LognormalError`] unless c is positive and finite.
+    pub fn scaled(&self, factor: f64) -> Result<Self, LognormalError> {
+        let log_mean = self.log_mean + log(factor);
+        Self::try_new(factor * self.shift, log_mean, self.dispersion)
     }
 
     /// The standardised logarithm (ln(x - r) - mu)/beta; minus infinity up

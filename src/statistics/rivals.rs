@@ -4,9 +4,14 @@
 //! maximum likelihood, with log-likelihoods in x that can be compared with
 //! [`Lognormal::log_likelihood`](super::Lognormal::log_likelihood).
 
+mod extreme;
+mod incomplete;
+
 use std::fmt;
 
-use libm::{exp, lgamma, log};
+use libm::{exp, expm1, lgamma, log};
+
+pub use extreme::{ExtremeValue, fit_extreme_value};
 
 use super::lognormal::{FitError, shifted_finite};
 use super::sample::{mean, sum_of_squares};
@@ -53,6 +58,28 @@ pub struct RivalFit {
     pub log_likelihood: f64,
     /// Size of the sample.
     pub n: usize,
+}
+
+impl RivalFit {
+    /// F and 1 - F at x - shift.
+    #[must_use]
+    pub fn both(&self, excess: f64) -> (f64, f64) {
+        if !(excess > 0.0) {
+            return (0.0, 1.0);
+        }
+        let ratio = excess / self.scale;
+        match self.family {
+            Family::Weibull => {
+                let exponent = exp(self.shape * log(ratio));
+                (-expm1(-exponent), exp(-exponent))
+            }
+            Family::Frechet => {
+                let exponent = exp(-self.shape * log(ratio));
+                (exp(-exponent), -expm1(-exponent))
+            }
+            Family::Gamma => incomplete::incomplete_gamma(self.shape, ratio),
+        }
+    }
 }
 
 /// Fits a family above the shift by maximum likelihood to a sample without

@@ -256,9 +256,9 @@ impl<'a> Group<'a> {
         clear.select(ahead, here).store(&mut self.here);
         clear.select(V::zero(), offset).store(&mut self.offset);
         clear.count(&mut self.next);
-        let stopped = active.but_not(clear);
+        let lanes = self.active & !clear.bits();
         self.active = clear.bits();
-        Parked { lanes: stopped.bits(), hard: stopped.and(free).bits() }
+        Parked { lanes, hard: lanes & free.bits() }
     }
 
     /// Lanes in which a step under forcing `f`, which ends at `ahead`, to

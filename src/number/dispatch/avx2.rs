@@ -123,10 +123,12 @@ impl Simd for Pair {
 
     #[inline(always)]
     fn store(self, to: &mut Lanes) {
-        let place = to.0.as_mut_ptr();
+        // Volatile: a selection stored where it was loaded would else become a
+        // masked store, which takes many cycles on some processors.
+        let place: *mut __m256d = to.0.as_mut_ptr().cast();
         level!({
-            _mm256_storeu_pd(place, self.0);
-            _mm256_storeu_pd(place.add(4), self.1);
+            place.write_volatile(self.0);
+            place.add(1).write_volatile(self.1);
         });
     }
 

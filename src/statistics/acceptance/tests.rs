@@ -50,3 +50,55 @@ fn bad_levels_are_refused() {
     let error = refused(&[normals(10, 0), vec![1.0; 10]]);
     assert!(matches!(error, AcceptanceError::Scores { level: 2, .. }));
 }
+
+#[test]
+fn many_levels_at_once_are_decided_as_one_by_one() {
+    let streams = Streams::new("many levels", 0);
+    let mut levels: Vec<Vec<f64>> = (0..101)
+        .map(|index| {
+            let mut stream = streams.stream(index);
+            (0..77)
+                .map(|_| {
+                    let z = standard_normal(&mut stream);
+                    z + 0.15 * z * z
+                })
+                .collect()
+        })
+        .collect();
+    levels[40][3] = f64::INFINITY;
+    let table = crate::statistics::lilliefors::Table::embedded();
+    let (critical, _) = table.critical_value(77, 0.05).unwrap();
+    let found = AcceptedShare::of_values(&levels, critical);
+    let accepted = levels
+        .iter()
+        .filter_map(|level| Sample::try_new(level).ok())
+        .filter(|level| {
+            let statistic =
+                crate::statistics::lilliefors::Statistic::try_new(level);
+            statistic.unwrap().d <= critical
+        })
+        .count();
+    assert_eq!((found.tested, found.not_applicable), (100, 1));
+    assert_eq!(found.accepted, accepted);
+    // The levels are a mixture of both decisions.
+    assert!((20..80).contains(&accepted), "{accepted}");
+    assert_eq!(AcceptedShare::of_values(&[], critical).tested, 0);
+}
+
+#[test]
+fn a_triangle_gives_its_correlations_back() {
+    let levels: Vec<_> = (0..6).map(|k| normals(30, k)).collect();
+    // The last level is the first once more.
+    let levels = [&levels[..], &levels[..1]].concat();
+    let scores = scores(&levels).unwrap();
+    let expected = correlations(&scores);
+    let root = root(&scores);
+    for (j, row) in root.iter().enumerate() {
+        for (k, other) in root.iter().enumerate() {
+            let terms = row.iter().zip(other);
+            let found = terms.fold(0.0, |sum, (a, b)| sum + a * b);
+            assert!((found - expected[j][k]).abs() < 1e-12, "{j} {k}");
+        }
+    }
+    assert!(root[6][6].abs() < 1e-12);
+}

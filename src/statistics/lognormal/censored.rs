@@ -136,3 +136,106 @@ pub(super) fn maximise(
     }
     Err(FitError::NotConverged(STEPS))
 }
+
+/// Half of the 95 % quantile of chi-squared with one degree of freedom.
+pub(super) const DROP: f64 = 1.920_729_410_347_062;
+/// Limits farther off than this, in logarithms, are none.
+const FARTHEST: f64 = 30.0;
+
+/// Limits of the 95 % likelihood interval of the mean and of the standard
+/// deviation at whose maximum the log-likelihood is `top`; none where the
+/// profile does not fall by 1.92.
+///
+/// In (1/sigma, mu/sigma), where the log-likelihood is concave, a standard
+/// deviation is a line and a mean a ray, so that either profile falls on both
+/// sides of its maximum.
+pub(super) fn profile_limits(
+    observations: &[Observation],
+    (mean, deviation, top): (f64, f64, f64),
+) -> [(Option<f64>, Option<f64>); 2] {
+    let of_mean = |mu: f64| {
+        let start = 1.0 / (deviation + (mu - mean).abs());
+        highest(observations, start, |a| (a, mu * a), (1.0, mu))
+    };
+    let of_ln_deviation = |ln: f64| {
+        let a = exp(-ln);
+        highest(observations, mean * a, |b| (a, b), (0.0, 1.0))
+    };
+    let limit = top - DROP;
+    let end = |from: f64, mut step: f64, value: &dyn Fn(f64) -> f64| {
+        let mut inside = from;
+        while (inside + step - from).abs() < FARTHEST {
+            let next = inside + step;
+            if value(next) < limit {
+                return Some(halve(value, limit, inside, next));
+            }
+            (inside, step) = (next, 1.5 * step);
+        }
+        None
+    };
+    let step = 0.1 * deviation;
+    let ln = log(deviation);
+    let low = end(ln, -0.1, &of_ln_deviation).map(exp);
+    let high = end(ln, 0.1, &of_ln_deviation).map(exp);
+    [(end(mean, -step, &of_mean), end(mean, step, &of_mean)), (low, high)]
+}
+
+/// The highest log-likelihood on a line through (1/sigma, mu/sigma), by
+/// Newton's method from `start` with a halved step.
+fn highest(
+    observations: &[Observation],
+    start: f64,
+    place: impl Fn(f64) -> (f64, f64),
+    (along_a, along_b): (f64, f64),
+) -> f64 {
+    let at = |t: f64| {
+        let (a, b) = place(t);
+        Point::at(observations, a, b)
+    };
+    let mut t = start;
+    let mut here = at(t);
+    for _ in 0..STEPS {
+        let slope = along_a * here.gradient[0] + along_b * here.gradient[1];
+        let [aa, ab, bb] = here.curvature;
+        let bend = along_a * along_a * aa
+            + 2.0 * along_a * along_b * ab
+            + along_b * along_b * bb;
+        let mut step = -slope / bend;
+        if !(step.abs() > 1e-10 * t.abs()) {
+            break;
+        }
+        loop {
+            let next = t + step;
+            if place(next).0 > 0.0 {
+                let point = at(next);
+                if point.value >= here.value {
+                    (t, here) = (next, point);
+                    break;
+                }
+            }
+            step *= 0.5;
+            if !(step.abs() > 1e-10 * t.abs()) {
+                return here.value;
+            }
+        }
+    }
+    here.value
+}
+
+/// Where a profile passes `limit` between a place above it and one below.
+fn halve(
+    value: &dyn Fn(f64) -> f64,
+    limit: f64,
+    mut inside: f64,
+    mut outside: f64,
+) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (inside + outside);
+        if value(middle) < limit {
+            outside = middle;
+        } else {
+            inside = middle;
+        }
+    }
+    0.5 * (inside + outside)
+}

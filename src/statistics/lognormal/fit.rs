@@ -87,7 +87,7 @@ pub enum FitError {
     Degenerate,
     /// An interval holds its value.
     #[error(
-        "interval {number}, from {low} to {high}: expected low < high, above the shift"
+        "interval {number}, from {low} to {high}: expected low <= high, above the shift"
     )]
     Interval {
         /// Place of the interval, from 1.
@@ -97,6 +97,25 @@ pub enum FitError {
         /// Its upper end.
         high: f64,
     },
+    /// A stripe counts records above no intensity, or more than it has.
+    #[error(
+        "stripe {number}, {exceeded} of {n} at {im}: expected at most all of at least one, at a finite intensity above the shift"
+    )]
+    Stripe {
+        /// Place of the stripe, from 1.
+        number: usize,
+        /// Its intensity.
+        im: f64,
+        /// Records that exceeded the level.
+        exceeded: u32,
+        /// Records run.
+        n: u32,
+    },
+    /// One intensity parts all stripes without from all with exceedance.
+    #[error(
+        "every stripe up to some intensity has no exceedance and every one from there on only exceedances: the counts tell no dispersion"
+    )]
+    Parted,
     /// The likelihood rises up to the sample's smallest value.
     #[error(
         "the likelihood has no maximum over the shift below the smallest value"
@@ -206,12 +225,17 @@ pub fn fit(
 }
 
 /// Fits a lognormal distribution above the shift by maximum likelihood to
-/// values known by intervals (low, high]: sum of ln[F(high) - F(low)].
+/// values known by intervals (low, high]: sum of ln[F(high) - F(low)], with
+/// ln f(x) for a value known exactly, whose interval is (x, x).
 ///
 /// What a scan of a grid tells about an overturning intensity, without
-/// taking an end or the middle for it. `low` up to the shift means "below
-/// high"; `high` may be infinite. The log-likelihood is that of the
-/// intervals.
+/// taking an end or the middle for it; and capacities of records that were
+/// not run beyond a limit of their own, (limit, infinity). `low` up to the
+/// shift means "below high". An interval from the shift or below it to
+/// infinity says nothing: it is left out, and `n - n_kept` counts those.
+/// The log-likelihood is that of the intervals, in x (R:
+/// `survival::survreg(Surv(low, high, type = "interval2") ~ 1, dist =
+/// "lognormal")`).
 ///
 /// ```
 /// use rocking::statistics::lognormal::fit_intervals;
@@ -223,8 +247,9 @@ pub fn fit(
 /// ```
 ///
 /// # Errors
-/// [`FitError`] for an interval that is empty or not above the shift, or
-/// where all intervals have a point in common.
+/// [`FitError`] for an interval that is empty or not above the shift, fewer
+/// than two that say something, or where all of those have a point in
+/// common.
 pub fn fit_intervals(
     intervals: &[(f64, f64)],
     shift: f64,
@@ -232,39 +257,51 @@ pub fn fit_intervals(
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
     }
-    let n = intervals.len();
-    if n < 2 {
-        return Err(FitError::TooFew(n));
-    }
     let logarithm = |x: f64| {
         if x <= shift { f64::NEG_INFINITY } else { log(x - shift) }
     };
     let (mut known, mut middles) = (Vec::new(), Vec::new());
+    let (mut highest_low, mut lowest_high) = (0.0_f64, f64::INFINITY);
+    let mut jacobian = 0.0;
     for (i, &(low, high)) in intervals.iter().enumerate() {
-        if !(low < high && high > shift) {
+        let exact = low == high && high.is_finite();
+        if !((low < high || exact) && high > shift) {
             return Err(FitError::Interval { number: i + 1, low, high });
         }
+        if low <= shift && high == f64::INFINITY {
+            continue;
+        }
+        (highest_low, lowest_high) =
+            (highest_low.max(low), lowest_high.min(high));
         let (low, high) = (logarithm(low), logarithm(high));
-        known.push(Interval(low, high));
+        if exact {
+            jacobian += low;
+            known.push(Exact(low));
+        } else {
+            known.push(Interval(low, high));
+        }
         middles.push(match (low.is_finite(), high.is_finite()) {
             (true, true) => 0.5 * (low + high),
             (true, false) => low,
             _ => high,
         });
     }
-    let ends = |f: fn(f64, f64) -> f64, pick: fn(&(f64, f64)) -> f64| {
-        intervals.iter().map(pick).reduce(f).unwrap_or(f64::NAN)
-    };
-    // A point in all of them would be a maximum with no dispersion.
-    if ends(f64::max, |i| i.0) < ends(f64::min, |i| i.1) {
+    let n_kept = known.len();
+    if n_kept < 2 {
+        return Err(FitError::TooFew(n_kept));
+    }
+    // A point in or at the end of all of them would be a maximum with no
+    // dispersion.
+    if highest_low <= lowest_high {
         return Err(FitError::Degenerate);
     }
-    let spread = (sum_of_squares(&middles) / n as f64).sqrt();
+    let spread = (sum_of_squares(&middles) / n_kept as f64).sqrt();
     let (log_mean, dispersion, value) =
         maximise(&known, mean(&middles), spread.max(1e-3))?;
     let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
-    let log_likelihood = Some(value);
-    Ok(LognormalFit { distribution, n, n_kept: n, log_likelihood })
+    let log_likelihood = Some(value - jacobian);
+    let n = intervals.len();
+    Ok(LognormalFit { distribution, n, n_kept, log_likelihood })
 }
 
 /// ln(x - shift) of the finite values, ascending.

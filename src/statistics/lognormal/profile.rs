@@ -2,11 +2,10 @@
 
 use libm::{exp, log};
 
+use super::censored::DROP;
 use super::{FitError, FitMethod, LognormalFit, fit};
 use crate::statistics::ExtendedSample;
 
-/// Half of the 95 % quantile of chi-squared with one degree of freedom.
-const DROP: f64 = 1.920_729_410_347_062;
 /// Places at which the profile is looked at, by ln(smallest - shift).
 const PLACES: usize = 400;
 /// The shift comes this close to the smallest value, relative to it.

@@ -111,3 +111,90 @@ fn the_distribution_is_consistent_with_itself() {
     let slope = (fragility.cdf(2.001) - fragility.cdf(1.999)) / 0.002;
     assert!((slope / exp(fragility.ln_pdf(2.0)) - 1.0).abs() < 1e-5);
 }
+
+const CENSORED: &str = include_str!("../../../fixtures/oracles/censored.csv");
+/// The sample of `fixtures/oracles/censored.py`: exact values, limits.
+const EXACT: [f64; 17] = [
+    1.05, 1.12, 1.2, 1.21, 1.33, 1.41, 1.5, 1.52, 1.6, 1.75, 1.8, 1.93, 2.2,
+    2.4, 2.45, 3.1, 3.8,
+];
+const LIMITS: [f64; 6] = [1.25, 1.7, 2.0, 4.0, 3.0, 0.9];
+
+/// Cells of a row of the oracle, NaN where one is no number.
+fn censored(name: &str) -> Vec<f64> {
+    let mut rows = CENSORED.lines().map(|line| line.split(','));
+    let row = rows.find_map(|mut row| (row.next()? == name).then_some(row));
+    let cells = row.unwrap().map(|cell| cell.parse().unwrap_or(f64::NAN));
+    cells.collect()
+}
+
+#[test]
+fn values_censored_at_limits_of_their_own_agree_with_scipy_and_mpmath() {
+    let exact = EXACT.map(|x| (x, x));
+    let cells = [&exact[..], &LIMITS.map(|x| (x, f64::INFINITY))].concat();
+    for shift in [0.0, 1.0] {
+        let expected = censored(&format!("own-limits-{shift}"));
+        let fit = fit_intervals(&cells, shift).unwrap();
+        // The limit 0.9 says nothing of what lies above 1.
+        assert_eq!(fit.n, 23);
+        assert_eq!(fit.n_kept as f64, expected[0]);
+        let near = |ours: f64, theirs: f64| {
+            assert!((ours / theirs - 1.0).abs() < 1e-12, "{ours} {theirs}");
+        };
+        near(fit.distribution.log_mean(), expected[1]);
+        near(fit.distribution.dispersion(), expected[2]);
+        near(fit.log_likelihood.unwrap(), expected[3]);
+        // One limit for all, the largest value, is another model.
+        let last = LIMITS.map(|_| (3.8, f64::INFINITY));
+        let common = [&exact[..], &last].concat();
+        let common = fit_intervals(&common, shift).unwrap().distribution;
+        assert!(common.dispersion() / expected[2] > 1.1);
+    }
+}
+
+#[test]
+fn counts_agree_with_statsmodels_and_mpmath() {
+    let stripes = |ims: &[f64], k: &[u32], n: &[u32]| {
+        let all = ims.iter().zip(k).zip(n);
+        let all = all.map(|((&im, &exceeded), &n)| Stripe { im, exceeded, n });
+        fit_counts(&all.collect::<Vec<_>>(), 0.0).unwrap()
+    };
+    let ims = [0.2, 0.3, 0.4, 0.6, 0.7, 0.8, 0.9, 1.0];
+    let baker = stripes(&ims, &[0, 0, 0, 4, 6, 13, 12, 16], &[40; 8]);
+    let three = stripes(&[1.0, 1.5, 2.0], &[0, 2, 2], &[59, 50, 44]);
+    for (name, ours) in [("baker", baker), ("three", three)] {
+        let expected = censored(name);
+        let fitted = ours.fit.distribution;
+        let open = |x: Option<f64>| x.unwrap_or(f64::NAN);
+        let found = [
+            ours.fit.n as f64,
+            fitted.median(),
+            fitted.dispersion(),
+            ours.fit.log_likelihood.unwrap(),
+            open(ours.median.0),
+            open(ours.median.1),
+            open(ours.dispersion.0),
+            open(ours.dispersion.1),
+        ];
+        for (a, b) in found.iter().zip(&expected) {
+            let same = (a / b - 1.0).abs() < 1e-9 || a.is_nan() && b.is_nan();
+            assert!(same, "{name}: {found:?} {expected:?}");
+        }
+    }
+}
+
+#[test]
+fn counts_that_tell_no_dispersion_are_refused() {
+    let stripe = |im, exceeded| Stripe { im, exceeded, n: 9 };
+    let refused = |stripes: &[Stripe]| fit_counts(stripes, 1.0).unwrap_err();
+    assert_eq!(refused(&[stripe(1.5, 0), stripe(2.0, 9)]), FitError::Parted);
+    assert_eq!(refused(&[stripe(1.5, 3)]), FitError::Parted);
+    assert_eq!(refused(&[]), FitError::Parted);
+    // More exceed where less shakes.
+    let falling = refused(&[stripe(1.5, 5), stripe(2.0, 2)]);
+    assert!(matches!(falling, FitError::NotConverged(_)), "{falling}");
+    for wrong in [stripe(1.0, 3), stripe(2.0, 10), stripe(f64::NAN, 3)] {
+        let error = refused(&[stripe(1.5, 3), wrong]);
+        assert!(matches!(error, FitError::Stripe { number: 2, .. }));
+    }
+}

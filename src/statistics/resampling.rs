@@ -1,0 +1,441 @@
+//! Inference from resampled records: intervals of many measures at once,
+//! and of measures that ties spoil.
+//!
+//! A replicate is a *multiplicity* for each record: how often the replicate
+//! holds that record. A measure is a function of the multiplicities, so that
+//! blocks, stripes and intensity measures that share records stay paired.
+//! [`Bootstrap`] draws with replacement;
+//! [`Subsampling`] draws without, for tests of distribution, which ties
+//! break. [`simultaneous`] gives one band for all cells of a comparison.
+
+use rayon::prelude::*;
+
+use super::bootstrap::{Bootstrap, Estimate, estimate};
+use super::{QuantileType, Sample};
+use crate::streams::{Streams, below};
+
+/// How often a draw of `places` holds each of `n` records.
+///
+/// ```
+/// use rocking::statistics::resampling::multiplicities;
+/// assert_eq!(multiplicities(&[2, 0, 2], 3), [1, 0, 2]);
+/// ```
+#[must_use]
+pub fn multiplicities(places: &[usize], n: usize) -> Vec<u32> {
+    let mut counts = vec![0; n];
+    for place in places {
+        counts[*place] += 1;
+    }
+    counts
+}
+
+impl Bootstrap {
+    /// The multiplicities of one draw.
+    ///
+    /// ```
+    /// use rocking::statistics::bootstrap::Bootstrap;
+    /// let counts = Bootstrap::new("doc", 0, 5, 10).multiplicities(3);
+    /// assert_eq!(counts.iter().sum::<u32>(), 5);
+    /// ```
+    #[must_use]
+    pub fn multiplicities(&self, index: u64) -> Vec<u32> {
+        let places = self.draw(index);
+        multiplicities(&places, places.len())
+    }
+}
+
+/// Draws of some of n records without replacement.
+///
+/// Draw i is a shuffle by stream i of the family of that name and seed.
+#[derive(Clone, Debug)]
+pub struct Subsampling {
+    streams: Streams,
+    n: usize,
+    size: usize,
+}
+
+impl Subsampling {
+    /// Subsamples of `size` out of `n` records; of all n where `size` is
+    /// larger.
+    #[must_use]
+    pub fn new(name: &str, seed: u64, n: usize, size: usize) -> Self {
+        Self { streams: Streams::new(name, seed), n, size: size.min(n) }
+    }
+
+    /// The multiplicities of one draw: `size` ones, the rest 0.
+    ///
+    /// ```
+    /// use rocking::statistics::resampling::Subsampling;
+    /// let counts = Subsampling::new("doc", 0, 5, 3).multiplicities(0);
+    /// assert_eq!(counts.iter().filter(|count| **count == 1).count(), 3);
+    /// ```
+    #[must_use]
+    pub fn multiplicities(&self, index: u64) -> Vec<u32> {
+        let mut stream = self.streams.stream(index);
+        let mut places: Vec<usize> = (0..self.n).collect();
+        for i in 0..self.size {
+            let j = i + below(&mut stream, self.n - i);
+            places.swap(i, j);
+        }
+        multiplicities(&places[..self.size], self.n)
+    }
+
+    /// The interval of a measure from its values over subsamples, at a
+    /// level: with the quantiles q of type 7 of the values' deviations from
+    /// their mean and f = sqrt(size/(n - size)), from `point` - f q(high) to
+    /// `point` - f q(low), and at least as wide as the range of
+    /// `without_one`, the measure without each record in turn: what one
+    /// record carries across a limit is not known. `without_one` may be
+    /// empty.
+    ///
+    /// Without replacement, a mean over `size` of n records varies by
+    /// s^2 (1/size - 1/n), a mean over n records by s^2/n: f is the root of
+    /// the ratio. None where [`estimate`] gives none. Politis and Romano,
+    /// Ann. Statist. 22 (1994) 2031; with size near n the delete-d jackknife
+    /// of Shao and Wu, Ann. Statist. 17 (1989) 1176.
+    #[must_use]
+    pub fn interval(
+        &self,
+        point: f64,
+        values: &[f64],
+        without_one: &[f64],
+        level: f64,
+    ) -> Option<Estimate> {
+        let plain = estimate(point, values, level)?;
+        let finite: Vec<f64> =
+            values.iter().copied().filter(|x| x.is_finite()).collect();
+        let sum = finite.iter().fold(0.0, |sum, x| sum + x);
+        let centre = sum / finite.len() as f64;
+        let (n, size) = (self.n as f64, self.size as f64);
+        let factor = (size / (n - size)).sqrt();
+        if !factor.is_finite() {
+            return None;
+        }
+        let mut low = point - factor * (plain.high - centre);
+        let mut high = point - factor * (plain.low - centre);
+        for x in without_one {
+            if *x < low {
+                low = *x;
+            }
+            if *x > high {
+                high = *x;
+            }
+        }
+        let standard_error = factor * plain.standard_error;
+        Some(Estimate { standard_error, low, high, ..plain })
+    }
+}
+
+/// Intervals of many measures that hold all true values at once with
+/// probability `level`: `points[k]` -+ c s_k.
+///
+/// `replicates[b][k]` is measure k of replicate b, s_k the standard deviation
+/// over the replicates, and c the quantile of type 7 at `level` of
+/// `max_k |replicates[b][k] - points[k]|/s_k` (Romano and Wolf, Econometrica
+/// 73 (2005) 1237, single step). A measure that no replicate moves has its
+/// point as interval. A replicate in which a measure is not finite leaves
+/// that measure out; a measure that is not finite in one of ten replicates,
+/// or whose point is not finite, has no interval.
+///
+/// ```
+/// use rocking::statistics::bootstrap::Bootstrap;
+/// use rocking::statistics::resampling::simultaneous;
+/// let x = [1.0, 2.0, 4.0, 7.0, 16.0];
+/// let means = |places: &[usize]| {
+///     let sum: f64 = places.iter().map(|&i| x[i]).sum();
+///     vec![sum / 5.0, 2.0 * sum / 5.0]
+/// };
+/// let replicates = Bootstrap::new("doc", 0, 5, 500).map(means);
+/// let band = simultaneous(&[6.0, 12.0], &replicates, 0.95);
+/// let (low, high) = band[0].expect("an interval");
+/// assert!(low < 6.0 && 6.0 < high);
+/// ```
+#[must_use]
+pub fn simultaneous(
+    points: &[f64],
+    replicates: &[Vec<f64>],
+    level: f64,
+) -> Vec<Option<(f64, f64)>> {
+    let spreads: Vec<Option<f64>> = (0..points.len())
+        .into_par_iter()
+        .map(|k| spread(points[k], replicates, k))
+        .collect();
+    let farthest: Vec<f64> = replicates
+        .par_iter()
+        .map(|replicate| {
+            let mut most = 0.0;
+            for ((x, point), spread) in
+                replicate.iter().zip(points).zip(&spreads)
+            {
+                let Some(spread) = spread.filter(|s| *s > 0.0) else {
+                    continue;
+                };
+                let distance = (x - point).abs() / spread;
+                if distance.is_finite() && distance > most {
+                    most = distance;
+                }
+            }
+            most
+        })
+        .collect();
+    let critical = quantile_7(&farthest, level);
+    let around = |(point, spread): (&f64, &Option<f64>)| {
+        let half = critical? * (*spread)?;
+        Some((point - half, point + half))
+    };
+    points.iter().zip(&spreads).map(around).collect()
+}
+
+/// Standard deviation of measure `k` over the replicates in which it is
+/// finite; none where too many are not.
+fn spread(point: f64, replicates: &[Vec<f64>], k: usize) -> Option<f64> {
+    let values: Vec<f64> =
+        replicates.iter().map(|r| r[k]).filter(|x| x.is_finite()).collect();
+    let enough = 10 * values.len() > 9 * replicates.len();
+    if !(point.is_finite() && enough && values.len() > 1) {
+        return None;
+    }
+    let sample = Sample::try_new(&values).ok()?;
+    Some((sample.sum_of_squares() / (values.len() as f64 - 1.0)).sqrt())
+}
+
+fn quantile_7(values: &[f64], p: f64) -> Option<f64> {
+    let sample = Sample::try_new(values).ok()?;
+    QuantileType::try_new(7).ok()?.of(&sample, p).ok()
+}
+
+/// The share of cells that lie in a region, with the interval that follows
+/// from a band of simultaneous intervals: from the share of those whose whole
+/// interval is `inside` to that of those whose interval is not wholly
+/// `outside`.
+///
+/// Where the band holds all true values at once, the true share lies in this
+/// interval; its level is the band's at least. A cell without an interval is
+/// neither inside nor outside.
+///
+/// ```
+/// use rocking::statistics::resampling::share_inside;
+/// let band = [Some((0.9, 1.1)), Some((1.3, 1.6)), Some((1.1, 1.4)), None];
+/// let inside = |low, high| low > 0.8 && high < 1.2;
+/// let outside = |low, high| low > 1.2 || high < 0.8;
+/// assert_eq!(share_inside(&band, inside, outside), (0.25, 0.75));
+/// ```
+#[must_use]
+pub fn share_inside(
+    band: &[Option<(f64, f64)>],
+    inside: impl Fn(f64, f64) -> bool,
+    outside: impl Fn(f64, f64) -> bool,
+) -> (f64, f64) {
+    let total = band.len() as f64;
+    let count = |of: &dyn Fn(f64, f64) -> bool| {
+        let known = band.iter().flatten();
+        known.filter(|(low, high)| of(*low, *high)).count() as f64
+    };
+    (count(&inside) / total, 1.0 - count(&outside) / total)
+}
+
+/// A sample in ascending order, each value with its record: quantiles of a
+/// replicate without sorting again. Infinite values are capacities that were
+/// never reached.
+///
+/// ```
+/// use rocking::statistics::resampling::Ranked;
+/// let ranked = Ranked::new(&[4.0, 1.0, 2.0]);
+/// assert_eq!(ranked.median(&[1, 1, 1]), 2.0);
+/// // The first record twice, the second not at all.
+/// assert_eq!(ranked.median(&[2, 0, 1]), 4.0);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Ranked(Vec<(f64, usize)>);
+
+impl Ranked {
+    /// The values by record; NaN is none.
+    #[must_use]
+    pub fn new(values: &[f64]) -> Self {
+        let mut sorted: Vec<(f64, usize)> = values
+            .iter()
+            .enumerate()
+            .filter(|(_, x)| !x.is_nan())
+            .map(|(record, x)| (*x, record))
+            .collect();
+        sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Self(sorted)
+    }
+
+    /// Each value with its record, ascending.
+    pub fn each(&self) -> impl Iterator<Item = (f64, usize)> + '_ {
+        self.0.iter().copied()
+    }
+
+    /// Number of records with a value.
+    #[must_use]
+    pub fn records(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The values of a replicate, ascending, each as often as its record.
+    #[must_use]
+    pub fn drawn(&self, counts: &[u32]) -> Vec<f64> {
+        let mut out = Vec::with_capacity(self.0.len());
+        for (x, record) in &self.0 {
+            for _ in 0..counts[*record] {
+                out.push(*x);
+            }
+        }
+        out
+    }
+
+    /// Quantile of type 5 of a replicate: infinite where an infinite value
+    /// has weight, NaN where there is no value.
+    #[must_use]
+    pub fn quantile(&self, counts: &[u32], p: f64) -> f64 {
+        let n: u32 = self.0.iter().map(|(_, record)| counts[*record]).sum();
+        if n == 0 {
+            return f64::NAN;
+        }
+        let position = f64::from(n) * p + 0.5;
+        let fuzz = 4.0 * f64::EPSILON * position;
+        let rank = (position + fuzz).floor();
+        let weight = position - rank;
+        let last = f64::from(n);
+        let low = self.at(counts, rank.clamp(1.0, last));
+        if weight <= fuzz {
+            return low;
+        }
+        let high = self.at(counts, (rank + 1.0).clamp(1.0, last));
+        if low == high || high == f64::INFINITY {
+            return high;
+        }
+        f64::mul_add(weight, high, (1.0 - weight) * low)
+    }
+
+    /// The value of a rank, from 1.
+    fn at(&self, counts: &[u32], rank: f64) -> f64 {
+        let mut passed = 0.0;
+        for (x, record) in &self.0 {
+            passed += f64::from(counts[*record]);
+            if passed >= rank {
+                return *x;
+            }
+        }
+        f64::NAN
+    }
+
+    /// Median of a replicate.
+    #[must_use]
+    pub fn median(&self, counts: &[u32]) -> f64 {
+        self.quantile(counts, 0.5)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::statistics::{ExtendedSample, normal};
+
+    #[test]
+    fn a_band_of_independent_measures_has_sidak_s_width() {
+        // 20 independent means of 400 values each: the maximum of 20 normal
+        // scores, (1 + 0.95^(1/20))/2 quantile (Sidak, JASA 62 (1967) 626).
+        let (n, cells) = (400, 20);
+        let values: Vec<f64> = (0..n * cells)
+            .map(|i| libm::sin(12.9898 * i as f64) * 43_758.547 % 1.0)
+            .collect();
+        let mean = |counts: &[u32], k: usize| {
+            let own = &values[k * n..(k + 1) * n];
+            let sum = own
+                .iter()
+                .zip(counts)
+                .fold(0.0, |sum, (x, c)| f64::mul_add(*x, f64::from(*c), sum));
+            sum / n as f64
+        };
+        let draws: Vec<Bootstrap> = (0..cells)
+            .map(|k| Bootstrap::new(&format!("sidak/{k}"), 0, n, 4000))
+            .collect();
+        let replicates: Vec<Vec<f64>> = (0..4000)
+            .map(|b| {
+                (0..cells)
+                    .map(|k| mean(&draws[k].multiplicities(b), k))
+                    .collect()
+            })
+            .collect();
+        let points: Vec<f64> =
+            (0..cells).map(|k| mean(&vec![1; n], k)).collect();
+        let band = simultaneous(&points, &replicates, 0.95);
+        let expected =
+            normal::quantile(0.5 + 0.5 * libm::pow(0.95, 1.0 / cells as f64));
+        for (k, ends) in band.iter().enumerate() {
+            let (low, high) = ends.unwrap();
+            let deviation = spread(points[k], &replicates, k).unwrap();
+            let half = 0.5 * (high - low) / deviation;
+            // 4000 replicates tell the 95 % point of the maximum to 0.04.
+            assert!((half - expected).abs() < 0.1, "{half} {expected}");
+        }
+    }
+
+    #[test]
+    fn an_interval_holds_what_each_record_does() {
+        let draws = Subsampling::new("test", 0, 20, 18);
+        let values = [0.9, 1.0, 1.1, 1.0];
+        let plain = draws.interval(1.0, &values, &[], 0.95).unwrap();
+        let wide = draws.interval(1.0, &values, &[-3.0, 1.0], 0.95).unwrap();
+        assert_eq!((wide.low, wide.high), (-3.0, plain.high));
+    }
+
+    #[test]
+    fn a_measure_that_cannot_move_keeps_its_point() {
+        let replicates = vec![vec![1.0, 0.0], vec![1.0, 2.0]];
+        let band = simultaneous(&[1.0, 1.0], &replicates, 0.95);
+        assert_eq!(band[0], Some((1.0, 1.0)));
+        let replicates = vec![vec![f64::NAN, 0.0], vec![1.0, 2.0]];
+        let band = simultaneous(&[1.0, 1.0], &replicates, 0.95);
+        assert_eq!(band[0], None);
+    }
+
+    #[test]
+    fn subsamples_of_a_mean_have_its_standard_error() {
+        let n = 60;
+        let values: Vec<f64> = (0..n).map(|i| (i * i) as f64).collect();
+        let mean = |counts: &[u32]| {
+            let used: u32 = counts.iter().sum();
+            let sum = values
+                .iter()
+                .zip(counts)
+                .fold(0.0, |sum, (x, c)| f64::mul_add(*x, f64::from(*c), sum));
+            sum / f64::from(used)
+        };
+        let sample = Sample::try_new(&values).unwrap();
+        let variance = sample.sum_of_squares() / (n as f64 - 1.0);
+        let expected = (variance / n as f64).sqrt();
+        for size in [30, 54] {
+            let draws = Subsampling::new("test", 0, n, size);
+            let found: Vec<f64> =
+                (0..8000).map(|i| mean(&draws.multiplicities(i))).collect();
+            let interval =
+                draws.interval(sample.mean(), &found, &[], 0.95).unwrap();
+            // Four standard errors of a deviation of 8000 values.
+            let error = interval.standard_error / expected - 1.0;
+            assert!(error.abs() < 4.0 / 16_000.0_f64.sqrt(), "{error}");
+            let half = 0.5 * (interval.high - interval.low);
+            assert!((half / (1.96 * expected) - 1.0).abs() < 0.04);
+        }
+        let all = Subsampling::new("test", 0, n, n);
+        assert!(all.interval(1.0, &[1.0, 2.0], &[], 0.95).is_none());
+    }
+
+    #[test]
+    fn quantiles_of_a_replicate_are_those_of_its_values() {
+        let values = [3.0, 1.0, f64::INFINITY, 2.0, f64::NAN, 8.0, 5.0];
+        let ranked = Ranked::new(&values);
+        for counts in [[1; 7], [2, 0, 1, 3, 4, 0, 1], [0, 1, 3, 0, 0, 1, 0]] {
+            let drawn = ranked.drawn(&counts);
+            let sample = ExtendedSample::try_new(&drawn).unwrap();
+            for p in [0.0, 0.16, 0.25, 0.5, 0.84, 0.9, 1.0] {
+                let expected =
+                    QuantileType::default().of_extended(&sample, p).unwrap();
+                assert_eq!(ranked.quantile(&counts, p), expected, "{p}");
+            }
+        }
+        assert!(ranked.median(&[0; 7]).is_nan());
+    }
+}

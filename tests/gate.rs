@@ -5,12 +5,16 @@
 
 #[path = "cli.rs"]
 mod cli;
+#[path = "exchange.rs"]
+mod exchange;
 #[path = "house.rs"]
 mod house;
 #[path = "page.rs"]
 mod page;
 #[path = "properties.rs"]
 mod properties;
+#[path = "ranking.rs"]
+mod ranking;
 #[path = "readers.rs"]
 mod readers;
 #[path = "records.rs"]

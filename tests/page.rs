@@ -4,17 +4,22 @@
 
 #[path = "page/browser.rs"]
 mod browser;
+#[path = "page/print.rs"]
+mod print;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use browser::Browser;
+use print::Printed;
+use rocking_validation::findings::Findings;
+use rocking_validation::proof::cases::{Cost, load_all};
 use serde_json::Value;
 
 const CHECKS: &str = include_str!("page/checks.js");
 
-/// Widths of a phone, a narrow window and a desk, in px.
-const WIDTHS_PX: [u32; 3] = [360, 500, 1400];
+/// Widths of a phone, a tablet and a desk, in px.
+const WIDTHS_PX: [u32; 3] = [360, 820, 1400];
 
 const SCHEMES: [&str; 2] = ["light", "dark"];
 
@@ -92,6 +97,65 @@ fn the_committed_page_is_whole_and_readable() {
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// The visible words of all elements that a selector names.
+fn words(browser: &mut Browser, selector: &str) -> Vec<String> {
+    lines(&browser.evaluate(&format!(
+        "[...document.querySelectorAll('{selector}')].map((element) => {{ \
+         const words = element.cloneNode(true); \
+         words.querySelectorAll('.unseen').forEach((own) => own.remove()); \
+         return words.textContent; }})"
+    )))
+}
+
+#[test]
+fn every_claim_case_and_caption_is_on_paper() {
+    let Some(mut browser) = started("paper") else { return };
+    let page = root().join("reports/index.html");
+    let binary = browser::find().expect("a browser");
+    let Some(printed) = Printed::of(&binary, &page) else {
+        eprintln!("not run: no pdftotext");
+        return;
+    };
+    let text = fs::read_to_string(root().join("reports/data/findings.json"));
+    let findings = Findings::parse(&text.expect("findings")).expect("form");
+    let mut missing = Vec::new();
+    for claim in &findings.claims {
+        if !printed.has(&claim.quote) {
+            missing.push(format!("claim {}: {}", claim.id, claim.quote));
+        }
+    }
+    for case in load_all().expect("cases") {
+        if case.cost == Cost::Quick && !printed.has(&case.id) {
+            missing.push(format!("case {}", case.id));
+        }
+    }
+    browser.open(&page, 1400, "light");
+    for selector in ["caption", "figcaption", "th", "td"] {
+        let all = words(&mut browser, selector);
+        assert!(all.len() > 20, "{selector}");
+        for text in all.iter().filter(|text| !printed.has_end(text)) {
+            missing.push(format!("{selector}: {text}"));
+        }
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+    let last = format!("Page {0} of {0}", printed.pages);
+    assert!(printed.has(&last), "{last}");
+}
+
+#[test]
+fn what_is_cut_off_paper_is_missed() {
+    let Some(binary) = browser::find() else { return };
+    let body = "<h2>Part</h2><p>On paper.</p><p style=\"width: 90rem; \
+                text-align: right\">beyond the edge</p>\
+                <details><summary>s</summary><p>folded away</p></details>";
+    let style = "@page { size: A4 } body { overflow: hidden; width: 30rem }";
+    let page = small("paper", style, body);
+    let Some(printed) = Printed::of(&binary, &page) else { return };
+    assert!(printed.has("On paper."));
+    assert!(!printed.has("beyond the edge"));
+    assert!(!printed.has("folded away"));
 }
 
 /// A page with `body`, sound but for what is in it.

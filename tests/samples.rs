@@ -90,6 +90,31 @@ fn fragility_agrees_with_scipy_and_mpmath() {
 }
 
 #[test]
+fn a_free_shift_agrees_with_mpmath_and_brings_its_interval() {
+    let csv = include_str!("../fixtures/oracles/rivals.csv");
+    let expected = oracle(csv, &["profile"]);
+    let sample = file("free-shift.txt", SAMPLE);
+    let args = ["fragility", "--sample", &sample, "--shift", "free"];
+    let out = json(&[&args[..], &["--json"]].concat());
+    // The place of a maximum is known to the root of the rounding.
+    close(&out["shift"], expected[0], 1e-7);
+    close(&out["shift_low"], expected[1], 1e-9);
+    close(&out["shift_high"], expected[2], 1e-9);
+    close(&out["log_likelihood"], expected[3], 1e-13);
+    for (more, words) in [
+        (&["--bootstrap", "9"][..], "interval of the shift"),
+        (&["--method", "moment"], "expected --method mle"),
+    ] {
+        assert!(refused(&[&args[..], more].concat()).contains(words));
+    }
+    let left = file("no-shift.txt", "1\n4\n6\n7\n7.5\n7.9\n");
+    let said = refused(&["fragility", "--sample", &left, "--shift", "free"]);
+    assert!(said.contains("no maximum over the shift"), "{said}");
+    let said = refused(&["lilliefors", "--sample", &left, "--shift", "free"]);
+    assert!(said.contains("fragility --compare"), "{said}");
+}
+
+#[test]
 fn fragility_tells_intervals_in_rows_and_the_unit() {
     let sample = file("intervals.txt", SAMPLE);
     let args = [

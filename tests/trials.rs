@@ -13,9 +13,16 @@ use rocking::record::{Processing, ReadOptions};
 use rocking_validation::paper::BLOCKS;
 use rocking_validation::paper::SuiteKind;
 use rocking_validation::proof::trials::{
-    Judgement, Reading, Stratum, Summary, Survey, findings, trial,
+    Judgement, Reading, Stratum, findings, trial,
 };
 use rocking_validation::suites::StudySuite;
+
+#[path = "trials/suites.rs"]
+mod suites;
+#[path = "trials/words.rs"]
+mod words;
+
+use suites::Survey;
 
 /// Scenes that are looked at where the environment chooses none.
 const DEFAULT: &str = "ordinary:0:8";
@@ -52,7 +59,7 @@ fn no_clear_run_is_wrong() {
         let judgement = Judgement::of(finding, Reading::Whole);
         let near = matches!(judgement, Judgement::Within(r) if r >= NEAR);
         if judgement.is_bad() || near || found.len() <= FEW {
-            println!("{judgement:?}: {finding}");
+            println!("{judgement:?}: {}", words::finding(finding));
             let address = finding.name.split([':', ' ']).nth(1);
             let index = address.and_then(|index| index.parse().ok());
             let scene = index.map(|index| trial(stratum, index));
@@ -63,7 +70,7 @@ fn no_clear_run_is_wrong() {
         }
         bad += usize::from(judgement.is_bad());
     }
-    println!("{}", Summary::of(&found, Reading::Whole));
+    println!("{}", words::summary(&found));
     assert_eq!(bad, 0, "of {} scenes, {text}", found.len());
 }
 
@@ -86,7 +93,8 @@ fn a_second_top_near_the_saddle_has_its_error() {
     let found = findings(Stratum::Extreme, &[11_776, 13_679, 15_535]).unwrap();
     for finding in &found {
         let judgement = Judgement::of(finding, Reading::Whole);
-        assert!(!judgement.is_bad(), "{judgement:?}: {finding}");
+        let words = words::finding(finding);
+        assert!(!judgement.is_bad(), "{judgement:?}: {words}");
     }
     // Every one was outside its estimate by a factor of 200 or more.
     assert_eq!(found.len(), 3);

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::support::{folder, json, refused_for, run};
 
 const FINDINGS: &str = r#"{
-  "schema": 2,
+  "schema": 3,
   "version": "0.1.0",
   "settings": {
     "arms": ["C"], "eta": 0.92, "overturning": "alpha", "refinement_im": 0.0001
@@ -16,20 +16,37 @@ const FINDINGS: &str = r#"{
   "suites": [],
   "claims": [
     {
-      "id": "ratios-ordinary-c", "name": "ratios",
+      "id": "ratios", "kind": "finding", "theme": "statistics",
       "section": { "number": 4, "shown": { "figure": 7 } },
-      "quote": "The same", "suites": ["ordinary"], "blocks": "p = 3 and 4",
-      "arm": "C", "measure": "median paired ratio",
-      "measured": { "value": 1.0, "low": 0.98, "high": 1.02 },
-      "margin": "all within 5 % of 1", "verdict": "confirmed", "note": ""
+      "quote": "The same.", "measure": "median paired ratio",
+      "blocks": "p = 3 and 4", "quantifier": "one",
+      "region": { "within": [0.95, 1.05] }, "reason": "5 %",
+      "criterion": "", "case": "", "note": "",
+      "results": [
+        {
+          "suite": "ordinary", "arm": "C",
+          "value": 1.0, "low": 0.98, "high": 1.02, "unit": "1",
+          "by_criterion": null, "by_equivalence": "confirmed",
+          "at": "p = 3", "interval": "percentile", "cells": null,
+          "deciding_cell": null, "details": [], "records_needed": null
+        }
+      ]
     },
     {
-      "id": "energy-loss-none", "name": "energy-loss",
+      "id": "energy-loss", "kind": "identity", "theme": "choices",
       "section": { "number": 3, "shown": "text" },
-      "quote": "15.36%", "suites": [], "blocks": "all 15",
-      "arm": null, "measure": "1 - eta^2",
-      "measured": { "value": 0.1536, "low": null, "high": null },
-      "margin": "15.36 % to four digits", "verdict": "confirmed", "note": ""
+      "quote": "15.36%.", "measure": "1 - eta^2", "blocks": "all 15",
+      "quantifier": null, "region": null, "reason": "",
+      "criterion": "", "case": "block-geometry/restitution", "note": "",
+      "results": [
+        {
+          "suite": "none", "arm": null,
+          "value": 0.1536, "low": null, "high": null, "unit": "1",
+          "by_criterion": null, "by_equivalence": null,
+          "at": "", "interval": null, "cells": null,
+          "deciding_cell": null, "details": [], "records_needed": null
+        }
+      ]
     }
   ],
   "tables": [
@@ -166,7 +183,7 @@ fn a_number_within_its_interval_does_not_matter() {
 #[test]
 fn verdicts_come_first_and_settings_before_them() {
     let changes = [
-        ("\"verdict\": \"confirmed\"", "\"verdict\": \"inconclusive\""),
+        ("\"confirmed\"", "\"inconclusive\""),
         ("\"eta\": 0.92", "\"eta\": 0.919"),
         ("2.31,", "2.45,"),
         ("0.1536", "0.155439"),
@@ -178,10 +195,10 @@ fn verdicts_come_first_and_settings_before_them() {
     assert_eq!(status, 1);
     let lines = [
         "    eta: 0.92 to 0.919\n",
-        "    ratios-ordinary-c, \"The same\": confirmed to inconclusive\n",
+        "    ratios, ordinary, arm C, \"The same.\": confirmed to inconclusive\n",
         "    case free-rocking/one: pass to fail\n",
         "    case free-rocking/one: peak: 0.5 to 0.6, +20 %, ",
-        "    energy-loss-none: 1 - eta^2, all 15: 0.154 to 0.155, +1.2 %, \
+        "    energy-loss: 1 - eta^2, none: 0.154 to 0.155, +1.2 %, \
          no interval stated\n",
     ];
     let at: Vec<usize> = lines
@@ -199,7 +216,7 @@ fn verdicts_come_first_and_settings_before_them() {
 
 #[test]
 fn what_appeared_or_vanished_is_named() {
-    let renamed = [("energy-loss-none", "energy-none")];
+    let renamed = [("energy-loss", "energy")];
     let cases = [("free-rocking/two", "free-rocking/three")];
     let place = sides("presence", &renamed, &cases);
     let (status, out, error) = run(&place, "diff old new");
@@ -208,8 +225,8 @@ fn what_appeared_or_vanished_is_named() {
     let (_, lists) = out.split_once("\nAppeared\n").unwrap();
     let (appeared, vanished) = lists.split_once("\nVanished\n").unwrap();
     for (list, names) in [
-        (appeared, ["claim energy-none", "case free-rocking/three"]),
-        (vanished, ["claim energy-loss-none", "case free-rocking/two"]),
+        (appeared, ["claim energy", "case free-rocking/three"]),
+        (vanished, ["claim energy-loss", "case free-rocking/two"]),
     ] {
         for name in names {
             assert!(list.contains(name), "{name}: {out}");
@@ -242,7 +259,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("list.json", "[1]", "found a list, expected findings"),
         ("other.json", "{\"a\": 1}", "found the keys `a`"),
         ("twice.json", "{\"claims\": [], \"claims\": []}", "stands twice"),
-        ("first.json", "{\"claims\": []}", "schema 1, expected schema 2"),
+        ("first.json", "{\"claims\": []}", "schema 1, expected schema 3"),
     ];
     for (name, text, _) in files {
         fs::write(place.join(name), text).unwrap();
@@ -257,9 +274,9 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("0.98,", "1.03,", "expected rising numbers"),
         ("0.98,", "null,", "expected rising numbers"),
         ("\"value\": 1.0", "\"value\": \"one\"", "found \"one\""),
-        ("\"value\": 1.0,", "", "missing field `value` at line 14"),
+        ("\"value\": 1.0,", "", "missing field `value` at line 23"),
         ("\"p_rad_s\": 1.0", "\"p_rad_s\": 3.0", "twice"),
-        ("energy-loss-none", "ratios-ordinary-c", "twice"),
+        ("energy-loss", "ratios", "twice"),
     ];
     for (from, to, words) in flawed {
         assert!(FINDINGS.contains(from));

@@ -14,23 +14,30 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 pub mod boxplot;
 pub mod capacities;
 pub mod compare;
+pub mod completions;
 pub mod diff;
 pub mod excitation;
 pub mod fragility;
 pub mod ida;
 pub mod lilliefors;
 mod limit;
+pub mod man;
+pub mod measure;
 mod names;
 pub mod processing;
 pub mod quantile;
+pub mod rank;
 pub mod reading;
 pub mod records;
 pub mod respond;
+pub mod risk;
 pub mod samples;
 pub mod scene;
 pub mod speed;
+pub mod stripes;
 pub mod study;
 pub mod suite;
+pub mod sweep;
 pub mod table;
 pub mod way;
 
@@ -54,13 +61,19 @@ enum Command {
     Boxplot(boxplot::Args),
     Capacities(capacities::Args),
     Compare(compare::Args),
+    Completions(completions::Args),
     Diff(diff::Args),
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
+    Man(man::Args),
     Quantile(quantile::Args),
+    Rank(Box<rank::Args>),
+    Risk(risk::Args),
     Speed(speed::Args),
+    Stripes(stripes::Args),
     Study(study::Args),
     Suite(suite::Args),
+    Sweep(sweep::Args),
     /// Runs the declared cases and writes or checks their results.
     Validate(validate::Args),
 }
@@ -211,10 +224,15 @@ fn reading_negatives(command: clap::Command) -> clap::Command {
     command.mut_args(read).mut_subcommands(reading_negatives)
 }
 
+/// The whole command line.
+fn command() -> clap::Command {
+    reading_negatives(Cli::command())
+}
+
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
-    let matches = reading_negatives(Cli::command()).get_matches();
+    let matches = command().get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
         Command::Accept(args) => accept::run(&args),
@@ -224,13 +242,19 @@ pub fn run() -> ExitCode {
         Command::Boxplot(args) => boxplot::run(&args),
         Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Completions(args) => completions::run(&args, command()),
         Command::Diff(args) => diff::run(&args),
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
+        Command::Man(args) => man::run(&args, command()),
         Command::Quantile(args) => quantile::run(&args),
+        Command::Rank(args) => rank::run(&args),
+        Command::Risk(args) => risk::run(&args),
         Command::Speed(args) => speed::run(&args),
+        Command::Stripes(args) => stripes::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Suite(args) => suite::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
         Command::Validate(args) => validate::run(&args),
     };
     match outcome {

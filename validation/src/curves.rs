@@ -40,7 +40,8 @@ impl Execution {
                 done();
                 ControlFlow::Continue(())
             };
-            return curves(records, analyses, &Batch { isa, progress });
+            let batch = Batch { isa, progress, ..Batch::default() };
+            return curves(records, analyses, &batch);
         }
         analyses
             .iter()

@@ -4,17 +4,24 @@
 //! The file is one object of [`Findings`]. Numbers have nine significant
 //! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
 
+mod claims;
+
 use std::fmt;
 
 use rocking::block::Block;
 use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
-use crate::paper::{Arm, Intensity, Section, SuiteKind, Verdict};
+use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
+
+pub use claims::{
+    CellCounts, Claim, ClaimResult, Detail, Interval, Kind, Quantifier,
+    Region, Tested, Theme,
+};
 
 /// Version of the file's shape. It rises with every change of a field or of
 /// its meaning.
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 
 /// Everything that a study found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,6 +73,8 @@ pub struct Suite {
     pub records: usize,
     /// SHA-256 over the records.
     pub sha256: String,
+    /// The records, each by its name and the hash of its samples.
+    pub list: Vec<RecordName>,
     /// Records whose histories are shown.
     pub shown_alone: Vec<String>,
     /// Remarks on records, where there are some.
@@ -80,6 +89,16 @@ pub struct Suite {
     /// Largest shift of an overturning quantile if all open fates flipped.
     #[serde(with = "nine")]
     pub largest_shift_if_flipped: f64,
+}
+
+/// A record of a suite: enough to find it again, and no sample of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordName {
+    /// Name of the record and of its component.
+    pub name: String,
+    /// SHA-256 over the component's interval and samples.
+    pub sha256: String,
 }
 
 /// First overturnings that were told again in wider precision.
@@ -115,49 +134,6 @@ impl Measured {
     #[must_use]
     pub fn exact(value: f64) -> Self {
         Self { value, interval: None }
-    }
-
-    fn ends(&self) -> (f64, f64) {
-        self.interval.unwrap_or((self.value, self.value))
-    }
-
-    /// Claim: between `low` and `high`, ends included.
-    #[must_use]
-    pub fn within(&self, low: f64, high: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if a >= low && b <= high {
-            Verdict::Confirmed
-        } else if b < low || a > high {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-
-    /// Claim: above `limit`.
-    #[must_use]
-    pub fn above(&self, limit: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if a > limit {
-            Verdict::Confirmed
-        } else if b <= limit {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
-    }
-
-    /// Claim: below `limit`.
-    #[must_use]
-    pub fn below(&self, limit: f64) -> Verdict {
-        let (a, b) = self.ends();
-        if b < limit {
-            Verdict::Confirmed
-        } else if a >= limit {
-            Verdict::NotConfirmed
-        } else {
-            Verdict::Inconclusive
-        }
     }
 }
 
@@ -208,62 +184,6 @@ impl TryFrom<Written> for Measured {
         };
         Ok(Self { value, interval })
     }
-}
-
-/// One claim of the paper, measured.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Claim {
-    /// Unique name, of name, suites and arm: `stage-3-median-p1-ordinary-c`.
-    pub id: String,
-    /// Name of what is claimed: `stage-3-median-p1`.
-    pub name: String,
-    /// Section of the paper, with the table or the figures.
-    pub section: Section,
-    /// The paper's words.
-    pub quote: String,
-    /// Suites measured; none where no records are needed.
-    pub suites: Vec<SuiteKind>,
-    /// Blocks measured.
-    pub blocks: String,
-    /// Arm of the grid, where there is one.
-    pub arm: Option<Arm>,
-    /// What is measured.
-    pub measure: String,
-    /// What came out.
-    pub measured: Measured,
-    /// What counts as confirmed, decided beforehand.
-    pub margin: String,
-    /// What follows.
-    pub verdict: Verdict,
-    /// What else a reader must know; may be empty.
-    pub note: String,
-}
-
-impl Claim {
-    /// The suites in a word: `none`, `both`, or the one.
-    #[must_use]
-    pub fn suite_name(&self) -> &'static str {
-        suites_name(&self.suites)
-    }
-}
-
-/// Suites in a word: `none`, `both`, or the one.
-fn suites_name(suites: &[SuiteKind]) -> &'static str {
-    match suites {
-        [] => "none",
-        [one] => one.name(),
-        _ => "both",
-    }
-}
-
-/// What makes a claim's name unique: the suites and the arm.
-#[must_use]
-pub fn suffix(suites: &[SuiteKind], arm: Option<Arm>) -> String {
-    let arm = arm.map_or(String::new(), |arm| {
-        format!("-{}", arm.letter().to_lowercase())
-    });
-    format!("-{}{arm}", suites_name(suites))
 }
 
 /// What a table is about.
@@ -366,6 +286,12 @@ pub enum Unit {
     /// A number of things.
     #[serde(rename = "count")]
     Count,
+    /// A part of a whole, from 0 to 1.
+    #[serde(rename = "share")]
+    Share,
+    /// A probability, or a difference of two.
+    #[serde(rename = "probability")]
+    Probability,
 }
 
 /// One place, and what was measured there.
@@ -492,7 +418,28 @@ impl Findings {
                 found.schema
             ));
         }
-        serde_json::from_str(text).map_err(|e| e.to_string())
+        let findings: Self =
+            serde_json::from_str(text).map_err(|e| e.to_string())?;
+        for claim in &findings.claims {
+            for ClaimResult { low, high, .. } in &claim.results {
+                if !(low <= high || low.is_nan() && high.is_nan()) {
+                    return Err(format!(
+                        "claim {}: low {low}, high {high}: expected rising \
+                         numbers, or neither",
+                        claim.id
+                    ));
+                }
+            }
+        }
+        Ok(findings)
+    }
+
+    /// Number of results with this verdict, of all findings, suites and
+    /// arms.
+    #[must_use]
+    pub fn count(&self, verdict: Verdict) -> usize {
+        let results = self.claims.iter().flat_map(|claim| &claim.results);
+        results.filter(|r| r.by_equivalence == Some(verdict)).count()
     }
 
     /// The table of a topic, if there is one.
@@ -555,26 +502,5 @@ mod tests {
         let text = format!(r#"{{"schema": {}}}"#, SCHEMA + 1);
         let error = Findings::parse(&text).unwrap_err();
         assert!(error.contains("different schemas"), "{error}");
-    }
-
-    #[test]
-    fn verdicts_need_the_whole_interval() {
-        let m = |value, a, b| Measured { value, interval: Some((a, b)) };
-        use Verdict::{Confirmed, Inconclusive, NotConfirmed};
-        assert_eq!(m(1.0, 0.97, 1.03).within(0.95, 1.05), Confirmed);
-        assert_eq!(m(1.0, 0.90, 1.03).within(0.95, 1.05), Inconclusive);
-        assert_eq!(m(1.2, 1.10, 1.30).within(0.95, 1.05), NotConfirmed);
-        assert_eq!(m(0.2, 0.1, 0.3).above(0.0), Confirmed);
-        assert_eq!(m(0.2, -0.1, 0.3).above(0.0), Inconclusive);
-        assert_eq!(m(0.2, 0.1, 0.3).below(0.1), NotConfirmed);
-        assert_eq!(Measured::exact(0.1536).within(0.15, 0.16), Confirmed);
-    }
-
-    #[test]
-    fn missing_data_never_confirm() {
-        let m = Measured::exact(f64::NAN);
-        assert_eq!(m.within(0.0, 1.0), Verdict::Inconclusive);
-        assert_eq!(m.above(0.0), Verdict::Inconclusive);
-        assert_eq!(m.below(0.0), Verdict::Inconclusive);
     }
 }

@@ -1,34 +1,15 @@
-//! JSON numbers: those of the command line, which every reader holds as
-//! numbers, and those of the data files, which tell infinity.
+//! Numbers of the data files in JSON, which tell infinity. The command line
+//! prints `null` for what is infinite or not a number, as `json!` does.
 
 use serde_json::Value;
 
 use crate::words;
 
-/// A number as the command line prints it: shortest digits that read back to
-/// the same double, `null` where it is infinite or not a number.
-#[must_use]
-pub fn number(x: f64) -> Value {
-    serde_json::Number::from_f64(x).map_or(Value::Null, Value::Number)
-}
-
-/// A number that may be missing.
-#[must_use]
-pub fn optional(x: Option<f64>) -> Value {
-    x.map_or(Value::Null, number)
-}
-
-/// A list of numbers.
-#[must_use]
-pub fn numbers(values: &[f64]) -> Value {
-    Value::Array(values.iter().copied().map(number).collect())
-}
-
 /// A number as data files hold it: `"inf"` or `"-inf"` for infinities,
 /// `null` for NaN.
 #[must_use]
 pub fn extended(x: f64) -> Value {
-    match number(x) {
+    match Value::from(x) {
         Value::Null if x == f64::INFINITY => Value::from("inf"),
         Value::Null if x == f64::NEG_INFINITY => Value::from("-inf"),
         finite => finite,

@@ -3,13 +3,14 @@
 //! Everything here stands on the core's public interface alone. It is built
 //! in stages, each of which uses those below it alone: [`cli`], [`report`],
 //! [`diff`], [`speed`], [`study`], [`draw`], [`proof`]; at the bottom
-//! [`suites`], [`paper`], [`curves`], [`table`], [`files`], [`json`] and
-//! [`words`].
+//! [`exchange`], [`suites`], [`paper`], [`curves`], [`table`], [`files`],
+//! [`json`] and [`words`].
 
 pub mod cli;
 pub mod curves;
 pub mod diff;
 pub mod draw;
+pub mod exchange;
 pub mod files;
 pub mod findings;
 pub mod json;
@@ -19,5 +20,6 @@ pub mod report;
 pub mod speed;
 pub mod study;
 pub mod suites;
+pub mod sweep;
 pub mod table;
 pub mod words;

@@ -7,6 +7,8 @@ use std::fmt;
 use rocking::block::Block;
 use serde::{Deserialize, Serialize};
 
+use crate::words::named;
+
 /// Frequency parameters of the paper's blocks, in rad/s.
 pub const FREQUENCIES_RAD_S: [f64; 3] = [1.0, 3.0, 4.0];
 
@@ -72,28 +74,19 @@ pub fn demand_index(demand: f64) -> usize {
     ((demand * 200.0).round() as usize).saturating_sub(1)
 }
 
-/// One of the paper's two suites of records.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SuiteKind {
-    /// Far-field records without pulses.
-    Ordinary,
-    /// Near-fault records with a pulse in the velocity.
-    PulseType,
+named! {
+    /// One of the paper's two suites of records.
+    pub enum SuiteKind {
+        /// Far-field records without pulses.
+        Ordinary = "ordinary",
+        /// Near-fault records with a pulse in the velocity.
+        PulseType = "pulse-type",
+    }
 }
 
 impl SuiteKind {
     /// Both of them.
     pub const BOTH: [Self; 2] = [Self::Ordinary, Self::PulseType];
-
-    /// The name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ordinary => "ordinary",
-            Self::PulseType => "pulse-type",
-        }
-    }
 }
 
 impl fmt::Display for SuiteKind {
@@ -146,37 +139,17 @@ impl Arm {
     }
 }
 
-/// Dimensionless intensity measure.
-#[derive(
-    Debug,
-    Clone,
-    Copy,
-    PartialEq,
-    Eq,
-    PartialOrd,
-    Ord,
-    Hash,
-    Serialize,
-    Deserialize,
-)]
-#[serde(rename_all = "lowercase")]
-pub enum Intensity {
-    /// PGA/(g tan alpha).
-    Pga,
-    /// p PGV/(g tan alpha).
-    Pgv,
+named! {
+    /// Dimensionless intensity measure.
+    pub enum Intensity {
+        /// PGA/(g tan alpha).
+        Pga = "pga",
+        /// p PGV/(g tan alpha).
+        Pgv = "pgv",
+    }
 }
 
 impl Intensity {
-    /// Plain name for tables: `pga` or `pgv`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pga => "pga",
-            Self::Pgv => "pgv",
-        }
-    }
-
     /// The measure as the paper writes it.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -245,35 +218,15 @@ impl fmt::Display for Section {
     }
 }
 
-/// What a measure says about a claim.
-#[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
-)]
-pub enum Verdict {
-    /// The whole interval lies where the claim says.
-    #[serde(rename = "confirmed")]
-    Confirmed,
-    /// The whole interval lies where the claim does not.
-    #[serde(rename = "not confirmed")]
-    NotConfirmed,
-    /// The interval lies on both sides, or there are no data.
-    #[serde(rename = "inconclusive")]
-    Inconclusive,
-}
-
-impl Verdict {
-    /// All of them, in the order of a count.
-    pub const ALL: [Self; 3] =
-        [Self::Confirmed, Self::NotConfirmed, Self::Inconclusive];
-
-    /// The words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Confirmed => "confirmed",
-            Self::NotConfirmed => "not confirmed",
-            Self::Inconclusive => "inconclusive",
-        }
+named! {
+    /// What a measure says about a claim.
+    pub enum Verdict {
+        /// The whole interval lies where the claim says.
+        Confirmed = "confirmed",
+        /// The whole interval lies where the claim does not.
+        NotConfirmed = "not confirmed",
+        /// The interval lies on both sides, or there are no data.
+        Inconclusive = "inconclusive",
     }
 }
 

@@ -1,14 +1,18 @@
 //! The report of a study: its page, and the files beside it.
 
+mod answers;
 pub mod credibility;
 pub mod evidence;
+pub mod findings;
+pub mod head;
 pub mod input;
 pub mod ledger;
+mod method;
 pub mod output;
 pub mod page;
+pub mod quantity;
 pub mod readme;
 pub mod stale;
-mod summary;
 pub mod timings;
 
 use rocking::block::BlockError;
@@ -30,6 +34,9 @@ pub enum ReportError {
     /// Requirements that cannot be read.
     #[error(transparent)]
     Ledger(#[from] LedgerError),
+    /// The committed findings of the recorded suites cannot be read.
+    #[error("{0}")]
+    Recorded(String),
     /// A table of timings that cannot be read.
     #[error("timings: {0}")]
     Timings(#[from] csv::Error),

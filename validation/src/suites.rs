@@ -172,19 +172,35 @@ impl StudySuite {
         })
     }
 
+    /// The study components: names, and SHA-256 over interval and samples.
+    #[must_use]
+    pub fn list(&self) -> Vec<(String, String)> {
+        let one = |motion: &Motion| {
+            let sum = hash(&motion.study, Sha256::new()).finalize();
+            (motion.study.name().to_owned(), hex(&sum))
+        };
+        self.motions.iter().map(one).collect()
+    }
+
     /// SHA-256 over names, sampling intervals and samples of the study
     /// components, so that results can be told apart by their input.
     #[must_use]
     pub fn sha256(&self) -> String {
-        let mut hash = Sha256::new();
+        let mut sum = Sha256::new();
         for Motion { study, .. } in &self.motions {
-            hash.update(study.name().as_bytes());
-            hash.update([0]);
-            hash.update(study.dt_s().to_le_bytes());
-            for a in study.samples_g() {
-                hash.update(a.to_le_bytes());
-            }
+            sum.update(study.name().as_bytes());
+            sum.update([0]);
+            sum = hash(study, sum);
         }
-        hex(&hash.finalize())
+        hex(&sum.finalize())
     }
+}
+
+/// Sampling interval and samples, added to a hash.
+fn hash(record: &rocking::record::Accelerogram, mut sum: Sha256) -> Sha256 {
+    sum.update(record.dt_s().to_le_bytes());
+    for a in record.samples_g() {
+        sum.update(a.to_le_bytes());
+    }
+    sum
 }

@@ -14,7 +14,13 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with its header line.
+    /// A table with this header line, whose cells need no quotes.
+    #[must_use]
+    pub fn headed(line: &str) -> Self {
+        Self::new(&line.split(',').collect::<Vec<_>>())
+    }
+
+    /// A table with the cells of its header line.
     #[must_use]
     pub fn new(header: &[&str]) -> Self {
         let mut csv = csv::WriterBuilder::new();

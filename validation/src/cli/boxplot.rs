@@ -8,7 +8,6 @@ use serde_json::{Value, json};
 
 use super::samples::SampleFile;
 use super::{Failure, print, print_json};
-use crate::json;
 
 /// Quartiles, whiskers, outliers and McGill's notch of a sample, with the
 /// exact order-statistic interval of its median.
@@ -46,17 +45,17 @@ pub fn to_json(boxplot: &Boxplot, quantile_type: QuantileType) -> Value {
     json!({
         "n": boxplot.n,
         "quantile_type": quantile_type.number(),
-        "q1": json::number(boxplot.q1),
-        "median": json::number(boxplot.median),
-        "q3": json::number(boxplot.q3),
-        "notch_low": json::number(boxplot.notch_low),
-        "notch_high": json::number(boxplot.notch_high),
-        "whisker_low": json::number(boxplot.whisker_low),
-        "whisker_high": json::number(boxplot.whisker_high),
-        "outliers": json::numbers(&boxplot.outliers),
-        "median_low": json::optional(interval.map(|i| i.low)),
-        "median_high": json::optional(interval.map(|i| i.high)),
-        "median_coverage": json::optional(interval.map(|i| i.coverage)),
+        "q1": boxplot.q1,
+        "median": boxplot.median,
+        "q3": boxplot.q3,
+        "notch_low": boxplot.notch_low,
+        "notch_high": boxplot.notch_high,
+        "whisker_low": boxplot.whisker_low,
+        "whisker_high": boxplot.whisker_high,
+        "outliers": &boxplot.outliers,
+        "median_low": interval.map(|i| i.low),
+        "median_high": interval.map(|i| i.high),
+        "median_coverage": interval.map(|i| i.coverage),
     })
 }
 

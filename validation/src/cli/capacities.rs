@@ -8,16 +8,17 @@ use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::{
-    CapacityError, InversionRule, ResponseCurve, inversion_discrepancy,
+    Capacity, CapacityError, InversionRule, ResponseCurve,
+    inversion_discrepancy,
 };
 use rocking::statistics::{ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
-use super::names::{CROSSINGS, INTENSITIES, named};
+use super::measure::{GroundArgs, Measure};
+use super::names::{CROSSINGS, named};
 use super::samples::SAMPLE_OF;
 use super::{Failure, print, print_json};
 use crate::files::Output;
-use crate::json;
 use crate::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
@@ -29,6 +30,7 @@ use crate::paper::Intensity;
 #[derive(ClapArgs)]
 #[command(after_help = "Examples:\n  \
     rocking capacities --ida ida.csv --levels 0.3,0.5,1\n  \
+    rocking capacities --ida ida.csv --im avgsa:0.5,1,2 --suite SUITE\n  \
     rocking capacities --ida ida.csv --at 1 --out capacities.txt")]
 #[command(group = ArgGroup::new("source").required(true)
     .args(["curve", "ida"]))]
@@ -42,9 +44,15 @@ pub struct Args {
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     ida: Option<PathBuf>,
-    /// Intensity measure, of --ida [default: pga].
-    #[arg(long, value_parser = named(INTENSITIES), conflicts_with = "curve")]
-    im: Option<Intensity>,
+    /// Intensity measure, of --ida: pga, which is PGA/(g tan alpha), pgv,
+    /// which is p PGV/(g tan alpha); and with --suite pgd, arias, cav, sa:T,
+    /// avgsa:T1,T2,.. (geometric mean, periods in s, 5 % damping) or
+    /// column:NAME (of --attributes or the index, proportional to the
+    /// acceleration) [default: pga].
+    #[arg(long, value_name = "MEASURE", conflicts_with = "curve")]
+    im: Option<Measure>,
+    #[command(flatten)]
+    ground: GroundArgs,
     /// EDP levels, FIRST:LAST:STEP or separated by commas.
     #[arg(
         long,
@@ -60,7 +68,8 @@ pub struct Args {
     /// EDP level of the sample written to --out.
     #[arg(long, value_name = "E", requires = "out", conflicts_with = "curve")]
     at: Option<f64>,
-    /// Write the records' capacities at --at, one a line, `inf` if censored;
+    /// Write the records' capacities at --at, one a line, `>3.2` if censored
+    /// at 3.2, the last intensity run;
     /// `-` is standard output, and nothing else is printed then.
     #[arg(
         long,
@@ -156,8 +165,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
     if args.json {
         let out = json!({
-            "im_r": json::number(curve.onset_im()),
-            "levels": levels(curve, &args.levels.0)?,
+            "im_r": json!(curve.onset_im()),
+            "levels": levels(curve, &args.levels.0, |im| im)?,
         });
         return print_json(out);
     }
@@ -191,16 +200,21 @@ const RULES: [InversionRule; 4] = [
 fn levels(
     curve: &ResponseCurve,
     levels: &[f64],
+    told: impl Fn(f64) -> f64,
 ) -> Result<Vec<Value>, CapacityError> {
     let row = |&level: &f64| {
         let crossings = curve.crossings(level)?;
         let mut row = json!({
-            "edp": json::number(level),
-            "crossings": json::numbers(crossings.all()),
+            "edp": json!(level),
+            "crossings": crossings
+                .all()
+                .iter()
+                .map(|im| json!(told(*im)))
+                .collect::<Vec<_>>(),
         });
         for rule in RULES {
             let im = crossings.capacity(rule).im();
-            row[rule.to_string()] = json::number(im);
+            row[rule.to_string()] = json!(told(im));
         }
         Ok(row)
     };
@@ -208,11 +222,12 @@ fn levels(
 }
 
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
-    let measure = args.im.unwrap_or(Intensity::Pga);
+    let measure = args.im.as_ref().unwrap_or(&Measure::Pga);
     let rule = args.point.unwrap_or(InversionRule::Median);
-    let suite = ida::read(path, measure)?;
+    let suite = suite(args, path, measure)?;
     if let (Some(level), Some(out)) = (args.at, &args.out) {
-        let out = Output::open(out, &[path.to_owned()])?;
+        let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
+        let out = Output::open(out, &inputs)?;
         let is_standard = out.is_standard();
         out.write(sample(&suite, measure, level, rule)?)?;
         if is_standard {
@@ -230,7 +245,7 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
         "{} records, IM_R {:.6}, {rule} crossing\n\
          {:>8} {:>10} {:>10} {:>10} {:>9}\n",
         suite.curves.len(),
-        suite.im_r,
+        suite.told(suite.im_r),
         "EDP",
         "16 %",
         "50 %",
@@ -248,17 +263,37 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     print(&text)
 }
 
+/// The curves of a table against a measure.
+fn suite(
+    args: &Args,
+    path: &Path,
+    measure: &Measure,
+) -> Result<ida::Suite, Failure> {
+    if measure.is_in_table() {
+        if args.ground.is_given() {
+            return Err(Failure::input(format!(
+                "--suite is not used for {measure}, which the table holds"
+            )));
+        }
+        let by = match measure {
+            Measure::Pgv => Intensity::Pgv,
+            _ => Intensity::Pga,
+        };
+        return Ok(ida::read(path, by)?);
+    }
+    let suite = ida::read(path, Intensity::Pga)?;
+    let ground = args.ground.ground(&suite, std::slice::from_ref(measure))?;
+    let factors = ground.at_uplift(measure)?;
+    Ok(suite.against(&factors, measure.is_squared())?)
+}
+
 /// The sample file of the records' capacities at a level.
 fn sample(
     suite: &ida::Suite,
-    measure: Intensity,
+    measure: &Measure,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
-    let measure = match measure {
-        Intensity::Pga => "PGA/(g tan alpha)",
-        Intensity::Pgv => "p PGV/(g tan alpha)",
-    };
     let (alpha_rad, p_rad_s) = &suite.block;
     let setting = &suite.setting;
     let mut text = format!(
@@ -275,8 +310,15 @@ fn sample(
         setting.software,
     );
     for (record, curve) in &suite.curves {
-        let im = curve.capacity(level, rule)?.im();
-        writeln!(text, "{im} # {record}")?;
+        match curve.capacity(level, rule)? {
+            Capacity::Reached(im) => {
+                writeln!(text, "{} # {record}", suite.told(im))?;
+            }
+            Capacity::Censored { above } => {
+                let above = suite.told(above);
+                writeln!(text, ">{above} # {record}")?;
+            }
+        }
     }
     Ok(text)
 }
@@ -296,7 +338,7 @@ fn quantiles(
 ) -> Result<Quantiles, Failure> {
     let mut ims = Vec::new();
     for (_, curve) in &suite.curves {
-        ims.push(curve.capacity(level, rule)?.im());
+        ims.push(suite.told(curve.capacity(level, rule)?.im()));
     }
     let sample = ExtendedSample::try_new(&ims)?;
     let at = |p| QuantileType::default().of_extended(&sample, p);
@@ -315,25 +357,27 @@ fn json(
 ) -> Result<Value, Failure> {
     let mut records = Vec::new();
     for (record, curve) in &suite.curves {
+        let overturning = curve.overturning_im().map(|im| suite.told(im));
         records.push(json!({
             "record": record,
-            "onset_im": json::number(curve.onset_im()),
-            "overturning_im": json::optional(curve.overturning_im()),
-            "levels": levels(curve, &args.levels.0)?,
+            "onset_im": json!(suite.told(curve.onset_im())),
+            "overturning_im": json!(overturning),
+            "levels": levels(curve, &args.levels.0, |im| suite.told(im))?,
         }));
     }
     let summary = |(level, q): &(f64, Quantiles)| {
         json!({
-            "edp": json::number(*level),
-            "im16": json::number(q.values[0]),
-            "im50": json::number(q.values[1]),
-            "im84": json::number(q.values[2]),
+            "edp": json!(*level),
+            "im16": json!(q.values[0]),
+            "im50": json!(q.values[1]),
+            "im84": json!(q.values[2]),
             "censored": q.censored,
-            "stripe_discrepancy": json::number(q.discrepancy),
+            "stripe_discrepancy": json!(q.discrepancy),
         })
     };
     Ok(json!({
-        "im_r": json::number(suite.im_r),
+        "im_r": json!(suite.told(suite.im_r)),
+        "im": args.im.as_ref().unwrap_or(&Measure::Pga).to_string(),
         "n": suite.curves.len(),
         "point": rule.to_string(),
         "quantile_type": 5,

@@ -12,7 +12,6 @@ use serde_json::{Value, json};
 
 use super::samples::SampleFile;
 use super::{Failure, boxplot, print, print_json};
-use crate::json;
 
 /// Paired ratios a/b of two samples: counts, boxplot, tests of a centre at 1
 /// and of equivalence to it. Values are paired by the names of their records,
@@ -70,30 +69,30 @@ fn to_json(args: &Args, pairs: &Pairs, boxplot: Option<&Boxplot>) -> Value {
     let reason = |e: PairedError| json!({ "reason": e.to_string() });
     let mean = equivalence(ratios, args.margin).map_or_else(reason, |t| {
         json!({
-            "geometric_mean": json::number(t.geometric_mean),
-            "low": json::number(t.low),
-            "high": json::number(t.high),
+            "geometric_mean": t.geometric_mean,
+            "low": t.low,
+            "high": t.high,
             "interval_level": 0.9,
-            "p_lower": json::number(t.p_lower),
-            "p_upper": json::number(t.p_upper),
-            "p_value": json::number(t.p_value),
+            "p_lower": t.p_lower,
+            "p_upper": t.p_upper,
+            "p_value": t.p_value,
             "equivalent": t.p_value < 0.05,
         })
     });
     let median =
         sign_equivalence(ratios, args.margin).map_or_else(reason, |t| {
             json!({
-                "p_lower": json::number(t.p_lower),
-                "p_upper": json::number(t.p_upper),
-                "p_value": json::number(t.p_value),
+                "p_lower": t.p_lower,
+                "p_upper": t.p_upper,
+                "p_value": t.p_value,
                 "equivalent": t.p_value < 0.05,
             })
         });
     let centre = hodges_lehmann(ratios).map_or_else(reason, |c| {
         json!({
-            "ratio": json::number(c.ratio),
-            "low": json::number(c.low),
-            "high": json::number(c.high),
+            "ratio": c.ratio,
+            "low": c.low,
+            "high": c.high,
             "interval_level": c.level,
         })
     });
@@ -101,7 +100,7 @@ fn to_json(args: &Args, pairs: &Pairs, boxplot: Option<&Boxplot>) -> Value {
     json!({
         "n": pairs.n,
         "usable": ratios.len(),
-        "share": json::number(pairs.share()),
+        "share": pairs.share(),
         "only_a_infinite": pairs.only_a_infinite,
         "only_b_infinite": pairs.only_b_infinite,
         "both_infinite": pairs.both_infinite,
@@ -113,16 +112,16 @@ fn to_json(args: &Args, pairs: &Pairs, boxplot: Option<&Boxplot>) -> Value {
             "above": sign.above,
             "below": sign.below,
             "equal": sign.equal,
-            "p_value": json::number(sign.p_value),
+            "p_value": sign.p_value,
         },
         "hodges_lehmann": centre,
         "mcnemar": {
             "only_a": mcnemar.above,
             "only_b": mcnemar.below,
-            "p_value": json::number(mcnemar.p_value),
+            "p_value": mcnemar.p_value,
         },
         "equivalence": {
-            "margin": json::number(args.margin),
+            "margin": args.margin,
             "level": 0.05,
             "mean": mean,
             "median": median,

@@ -1,20 +1,26 @@
 //! `rocking fragility`: lognormal fits of a sample and Eqs. 5 to 7.
 
+mod blocks;
+mod compare;
+mod counts;
+mod export;
 mod levels;
+mod limits;
 mod sample;
+
+pub(super) use counts::COLUMNS as COUNTS;
 
 use std::path::PathBuf;
 
 use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
 use rocking::capacity::InversionRule;
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 use super::capacities::Levels;
 use super::names::{CROSSINGS, INTENSITIES, named};
 use super::samples::Shift;
 use super::{Failure, print, print_json};
-use crate::json;
 use crate::paper::Intensity;
 
 /// Lognormal fragilities of a sample, or Eqs. 5 to 7 alone.
@@ -26,18 +32,48 @@ use crate::paper::Intensity;
 /// the unit of the sample.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("mode").required(true)
-    .args(["sample", "ida", "transform"]))]
+    .args(["sample", "ida", "counts", "transform", "blocks"]).multiple(true))]
+#[command(group = ArgGroup::new("draws").args(["bootstrap", "compare"]))]
 #[command(after_help = "Examples:\n  \
     rocking fragility --ida ida.csv --at 0.3,0.5,1 --shift 1\n  \
     rocking fragility --sample capacities.txt --shift 1 --bootstrap 1000\n  \
-    rocking fragility --transform --shift 1 --im50 2.5 --beta 0.4")]
+    rocking fragility --sample capacities.txt --shift free\n  \
+    rocking fragility --sample capacities.txt --compare\n  \
+    rocking fragility --counts counts.csv\n  \
+    rocking fragility --transform --shift 1 --im50 2.5 --beta 0.4\n  \
+    rocking fragility --sample capacities.txt --shift 1 --im pga \\\n      \
+    --alpha 0.15 --p 3 --export nrml --out block.xml\n  \
+    rocking fragility --blocks blocks.csv --shift 1 --export pelicun \\\n      \
+    --out fragility.csv")]
 pub struct Args {
-    /// Sample file: one value a line, `inf` for a censored one, `#` comments.
-    #[arg(long, value_name = "FILE")]
+    /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
+    /// for one censored at a limit that is not told, `#` comments; `-` is
+    /// standard input.
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["ida", "transform", "counts"]
+    )]
     sample: Option<PathBuf>,
-    /// Table of `rocking ida`: fits of the capacities at the levels --at.
-    #[arg(long, value_name = "FILE", requires = "at")]
+    /// Table of `rocking ida`: fits of the capacities at the levels --at;
+    /// `-` is standard input.
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "at",
+        conflicts_with = "transform"
+    )]
     ida: Option<PathBuf>,
+    /// Table of counts, columns im,exceeded,n: how many of n records exceeded
+    /// a level, or overturned, at each intensity. Maximum likelihood of
+    /// binomial counts, with likelihood intervals (95 %) that take the
+    /// stripes as independent.
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        conflicts_with_all = ["method", "quantile_type", "c", "bootstrap"]
+    )]
+    counts: Option<PathBuf>,
     /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
     #[arg(
         long,
@@ -46,8 +82,13 @@ pub struct Args {
         allow_hyphen_values = true
     )]
     at: Option<Levels>,
-    /// Intensity measure of --ida [default: pga].
-    #[arg(long, value_parser = named(INTENSITIES), requires = "ida")]
+    /// Intensity measure, of --ida [default: pga] or of a sample that does
+    /// not say it.
+    #[arg(
+        long,
+        value_parser = named(INTENSITIES),
+        conflicts_with = "transform"
+    )]
     im: Option<Intensity>,
     /// Which single capacity is made of several crossings [default: median].
     #[arg(long, value_parser = named(CROSSINGS), requires = "ida")]
@@ -58,8 +99,10 @@ pub struct Args {
     /// Shift IM_R, not negative; `min` takes the smallest value of the
     /// sample and leaves it out of the fit. The smallest value lies above the
     /// shift of the truth, so that `min` overstates the dispersion: 0.88 for
-    /// 0.60 with 86 values; it takes no --bootstrap.
-    #[arg(long, value_name = "X|min", allow_hyphen_values = true)]
+    /// 0.60 with 86 values; it takes no --bootstrap. `free` takes the shift
+    /// that maximises the likelihood, with its likelihood interval (95 %); it
+    /// is refused where there is none below the smallest value.
+    #[arg(long, value_name = "X|min|free", allow_hyphen_values = true)]
     shift: Option<Shift>,
     /// How the lognormal distribution is fitted [default: mle].
     #[arg(long, conflicts_with = "transform")]
@@ -73,11 +116,26 @@ pub struct Args {
     /// Bootstrap this many samples for intervals.
     #[arg(long, value_name = "N", conflicts_with_all = ["transform", "ida"])]
     bootstrap: Option<usize>,
+    /// Compare lognormal, shifted lognormal (its shift fitted too), Weibull,
+    /// gamma and generalized extreme value distributions, fitted by maximum
+    /// likelihood: AIC, BIC, and the p-values of D and A2 with the parameters
+    /// fitted, from N samples of each fit. Lognormal, Weibull and gamma lie
+    /// above --shift.
+    #[arg(
+        long,
+        value_name = "N",
+        num_args = 0..=1,
+        default_missing_value = "1000",
+        requires = "sample",
+        conflicts_with_all = ["method", "quantile_type", "c", "bootstrap"],
+        value_parser = clap::value_parser!(u64).range(1..=1_000_000)
+    )]
+    compare: Option<u64>,
     /// Repetition of the bootstrap.
     #[arg(
         long,
         value_name = "S",
-        requires = "bootstrap",
+        requires = "draws",
         conflicts_with = "transform"
     )]
     seed: Option<u64>,
@@ -85,22 +143,30 @@ pub struct Args {
     #[arg(
         long,
         value_name = "N",
-        requires = "bootstrap",
+        requires = "draws",
         conflicts_with = "transform"
     )]
     threads: Option<usize>,
     /// Unshifted median IM50.
-    #[arg(long, value_name = "X", conflicts_with_all = ["sample", "ida"])]
+    #[arg(
+        long,
+        value_name = "X",
+        conflicts_with_all = ["sample", "ida", "counts"]
+    )]
     im50: Option<f64>,
     /// Unshifted dispersion beta_o.
-    #[arg(long, value_name = "B", conflicts_with_all = ["sample", "ida"])]
+    #[arg(
+        long,
+        value_name = "B",
+        conflicts_with_all = ["sample", "ida", "counts"]
+    )]
     beta: Option<f64>,
     /// Unshifted 16 % quantile IM16.
     #[arg(
         long,
         value_name = "X",
         requires = "im84",
-        conflicts_with_all = ["sample", "ida"]
+        conflicts_with_all = ["sample", "ida", "counts"]
     )]
     im16: Option<f64>,
     /// Unshifted 84 % quantile IM84.
@@ -108,9 +174,11 @@ pub struct Args {
         long,
         value_name = "X",
         requires = "im16",
-        conflicts_with_all = ["sample", "ida"]
+        conflicts_with_all = ["sample", "ida", "counts"]
     )]
     im84: Option<f64>,
+    #[command(flatten)]
+    export: export::ExportArgs,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -119,7 +187,7 @@ pub struct Args {
 /// How a lognormal distribution is fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Method {
-    /// Maximum likelihood (divisor n).
+    /// Maximum likelihood (divisor n); values `>LIMIT` enter by their limits.
     Mle,
     /// Mean and standard deviation of the logarithms (divisor n - 1).
     Moment,
@@ -128,7 +196,8 @@ enum Method {
     /// Median and half the logarithm of the ratio of the 84 and 16 %
     /// quantiles.
     Quantile,
-    /// Maximum likelihood, values above the 95 % quantile right-censored.
+    /// Maximum likelihood, values above the 95 % quantile and infinite ones
+    /// right-censored at the largest value left, values `>LIMIT` at theirs.
     Censored,
 }
 
@@ -137,6 +206,15 @@ enum Method {
 /// # Errors
 /// [`Failure`] for input that is refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(format) = args.export.format()? {
+        return export::run(args, format);
+    }
+    if let Some(path) = &args.counts {
+        return counts::run(args, path);
+    }
+    if let (Some(path), Some(replicates)) = (&args.sample, args.compare) {
+        return compare::run(args, path, replicates);
+    }
     match (&args.sample, &args.ida) {
         (Some(path), _) => sample::run(args, path),
         (None, Some(path)) => levels::run(args, path),
@@ -153,7 +231,7 @@ fn insert(
 ) {
     match value {
         Ok(value) => {
-            out.insert(key.to_owned(), json::number(value));
+            out.insert(key.to_owned(), json!(value));
         }
         Err(error) => {
             out.insert(key.to_owned(), Value::Null);
@@ -170,7 +248,7 @@ fn transform(args: &Args) -> Result<(), Failure> {
     };
     let mut out = Map::new();
     out.insert("im_unit".to_owned(), "that of the numbers given".into());
-    out.insert("shift".to_owned(), json::number(shift));
+    out.insert("shift".to_owned(), json!(shift));
     let given = [
         ("im16", args.im16),
         ("im50", args.im50),
@@ -179,7 +257,7 @@ fn transform(args: &Args) -> Result<(), Failure> {
     ];
     for (key, value) in given {
         if let Some(value) = value {
-            out.insert(key.to_owned(), json::number(value));
+            out.insert(key.to_owned(), json!(value));
         }
     }
     if args.im50.is_none() && args.im16.is_none() {
@@ -201,10 +279,10 @@ fn transform(args: &Args) -> Result<(), Failure> {
             return Err(Failure::input("--beta needs --im50"));
         };
         let c = args.c.unwrap_or(1.0);
-        out.insert("c".to_owned(), json::number(c));
+        out.insert("c".to_owned(), json!(c));
         insert(&mut out, "eq7", eq7(median, beta, shift, c));
         let limit = c_max(median, beta, shift).ok();
-        out.insert("c_max".to_owned(), json::optional(limit));
+        out.insert("c_max".to_owned(), json!(limit));
     }
     show(args, out)
 }

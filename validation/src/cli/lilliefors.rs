@@ -16,7 +16,6 @@ use serde_json::{Value, json};
 use super::samples::{SampleFile, Shift};
 use super::{Failure, print, print_json, progress, with_threads};
 use crate::files::Output;
-use crate::json;
 use crate::table::Table as Csv;
 
 /// Values of a simulated sample, at most: each thread holds one.
@@ -50,6 +49,7 @@ pub struct Args {
     #[arg(
         long,
         value_name = "X|min",
+        value_parser = known_shift,
         conflicts_with_all = ["critical_values", "write_table"],
         allow_hyphen_values = true
     )]
@@ -117,11 +117,11 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
     if args.json {
         let out = json!({
             "n": n,
-            "level": json::number(args.level),
-            "critical_value": json::number(critical.value),
-            "standard_error": json::number(critical.standard_error),
-            "low": json::number(critical.low),
-            "high": json::number(critical.high),
+            "level": args.level,
+            "critical_value": critical.value,
+            "standard_error": critical.standard_error,
+            "low": critical.low,
+            "high": critical.high,
             "replicates": replicates,
             "seed": seed,
         });
@@ -156,7 +156,7 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     let (scale, sample) = match shift {
         None => (Scale::Linear, whole),
         Some(shift) => {
-            let (shift, above) = shift.split(file.values());
+            let (shift, above) = shift.split(file.values())?;
             let scale = Scale::Logarithmic { shift };
             (scale, ExtendedSample::try_new(&above)?)
         }
@@ -177,6 +177,16 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
         return print_json(out);
     }
     print(&to_text(&assessment, &others))
+}
+
+/// A shift that Lilliefors' null knows: a third fitted parameter has another.
+fn known_shift(text: &str) -> Result<Shift, String> {
+    match text.parse()? {
+        Shift::Free => Err("expected a number, not negative, or `min`; \
+             `rocking fragility --compare` tests a fitted shift"
+            .into()),
+        shift => Ok(shift),
+    }
 }
 
 fn is_beyond_table(n: usize) -> bool {
@@ -276,19 +286,18 @@ fn to_json(
     let (statistic, p) = (assessment.statistic, assessment.p_value);
     let tested = assessment.tested.as_ref();
     let (verdict, reason) = verdict(assessment);
-    let number = json::optional;
     let mut out = json!({
         "n": assessment.n,
         "distinct": tested.map(Sample::distinct),
         "largest_tie": tested.map(Sample::largest_tie),
-        "statistic": number(statistic.map(|s| s.d)),
-        "d_plus": number(statistic.map(|s| s.d_plus)),
-        "d_minus": number(statistic.map(|s| s.d_minus)),
-        "p_value": number(p.map(|p| p.value)),
-        "p_low": number(p.map(|p| p.low)),
-        "p_high": number(p.map(|p| p.high)),
-        "critical_value": number(assessment.critical_value),
-        "level": json::number(assessment.level),
+        "statistic": statistic.map(|s| s.d),
+        "d_plus": statistic.map(|s| s.d_plus),
+        "d_minus": statistic.map(|s| s.d_minus),
+        "p_value": p.map(|p| p.value),
+        "p_low": p.map(|p| p.low),
+        "p_high": p.map(|p| p.high),
+        "critical_value": assessment.critical_value,
+        "level": assessment.level,
         "verdict": verdict,
         "reason": reason,
         "method": p.map(|_| method),
@@ -298,10 +307,10 @@ fn to_json(
     for (key, test) in keys.into_iter().zip(others) {
         let test = test.as_ref();
         let simulated = test.and_then(|t| t.simulated);
-        out[key] = number(test.map(|t| t.statistic));
-        out[format!("{key}_p_value")] = number(test.map(|t| t.p_value));
-        out[format!("{key}_p_low")] = number(simulated.map(|s| s.0));
-        out[format!("{key}_p_high")] = number(simulated.map(|s| s.1));
+        out[key] = json!(test.map(|t| t.statistic));
+        out[format!("{key}_p_value")] = json!(test.map(|t| t.p_value));
+        out[format!("{key}_p_low")] = json!(simulated.map(|s| s.0));
+        out[format!("{key}_p_high")] = json!(simulated.map(|s| s.1));
         out[format!("{key}_verdict")] = json!(simulated.map(|s| name(s.2)));
     }
     out
@@ -353,13 +362,8 @@ fn write_table(path: &Path) -> Result<(), Failure> {
     let out = Output::open(path, &[])?;
     let sizes = Table::sizes();
     let progress = progress(sizes.len() as u64);
-    let mut csv = Csv::new(&[
-        "n",
-        "replicates",
-        "level",
-        "critical_value",
-        "standard_error",
-    ]);
+    let mut csv =
+        Csv::headed("n,replicates,level,critical_value,standard_error");
     for (n, replicates) in sizes {
         let null = NullDistribution::simulate(n, replicates, 0)?;
         for level in Table::LEVELS {

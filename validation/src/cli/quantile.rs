@@ -9,7 +9,6 @@ use serde_json::json;
 
 use super::samples::SampleFile;
 use super::{Failure, print, print_json};
-use crate::json;
 
 /// Quantiles of a sample by named type (Hyndman and Fan 1996).
 #[derive(ClapArgs)]
@@ -48,8 +47,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let out = json!({
             "n": sample.len(),
             "type": quantile_type.number(),
-            "at": json::numbers(&args.at),
-            "values": json::numbers(&values),
+            "at": &args.at,
+            "values": &values,
         });
         return print_json(out);
     }

@@ -13,7 +13,6 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, print, print_json};
 use crate::files::Output;
-use crate::json::number;
 use crate::suites::inputs;
 use crate::suites::remarks::Remarks;
 use measures::{Found, MeasureArgs};
@@ -289,11 +288,11 @@ impl Listing {
                 "file": listed.file,
                 "format": listed.format.to_string(),
                 "units": listed.unit.to_string(),
-                "dt_s": number(motion.dt_s()),
+                "dt_s": motion.dt_s(),
                 "npts": motion.samples_g().len(),
-                "duration_s": number(motion.duration_s()),
-                "pga_g": number(motion.pga_g()),
-                "pgv_m_s": number(motion.pgv_m_s(gravity_m_s2)),
+                "duration_s": motion.duration_s(),
+                "pga_g": motion.pga_g(),
+                "pgv_m_s": motion.pgv_m_s(gravity_m_s2),
                 "pair": pair,
                 "study_component": study,
                 "remarks": remarks.collect::<Vec<_>>(),
@@ -314,7 +313,7 @@ impl Listing {
         };
         let records = self.records.iter().enumerate().map(record);
         let mut all = json!({
-            "gravity_m_s2": number(gravity_m_s2),
+            "gravity_m_s2": gravity_m_s2,
             "processing": self.processing,
             "records": records.collect::<Vec<_>>(),
             "refused": refused(&self.refused),
@@ -336,15 +335,9 @@ impl Listing {
             line(
                 &mut text,
                 format_args!(
-                    "{:width$}  {:8} {:>6} {:>10} {:>7} {:>11} {:>9} {:>10}",
+                    "{:width$}  format    units     dt (s)       n \
+                     duration(s)   PGA (g)  PGV (m/s)",
                     "file",
-                    "format",
-                    "units",
-                    "dt (s)",
-                    "n",
-                    "duration(s)",
-                    "PGA (g)",
-                    "PGV (m/s)",
                 ),
             );
         }

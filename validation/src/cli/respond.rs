@@ -17,7 +17,6 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print, print_json};
 use crate::draw::figures::{Heading, Histories, History, HistoryPanel};
 use crate::files::Output;
-use crate::json::{number, optional};
 use crate::paper::Intensity;
 use crate::suites::remarks::Remarks;
 use crate::table::Table;
@@ -221,8 +220,8 @@ fn is_clear(response: &Response) -> bool {
 fn clearance_json(least: &Clearance) -> Value {
     json!({
         "decision": least.decision.name(),
-        "margin_over_error": number(least.ratio),
-        "time_s": number(least.time_s),
+        "margin_over_error": least.ratio,
+        "time_s": least.time_s,
     })
 }
 
@@ -261,11 +260,11 @@ impl Setting<'_> {
             .iter()
             .map(|impact| {
                 json!({
-                    "time_s": number(impact.time_s),
-                    "speed_before_rad_s": number(impact.speed_before_rad_s),
-                    "time_error_s": optional(impact.error.map(|e| e.time_s)),
+                    "time_s": impact.time_s,
+                    "speed_before_rad_s": impact.speed_before_rad_s,
+                    "time_error_s": impact.error.map(|e| e.time_s),
                     "speed_error_rad_s":
-                        optional(impact.error.map(|e| e.speed_rad_s)),
+                        impact.error.map(|e| e.speed_rad_s),
                 })
             })
             .collect();
@@ -275,33 +274,33 @@ impl Setting<'_> {
             "outcome":
                 outcome_name(&response.outcome, is_clear(response)),
             "counts_as": outcome_name(&response.outcome, true),
-            "peak_ratio": number(response.outcome.edp()),
-            "peak_time_s": optional(match overturning {
+            "peak_ratio": response.outcome.edp(),
+            "peak_time_s": match overturning {
                 Some(_) => None,
                 None => response.peak_time_s,
-            }),
-            "uplift_time_s": optional(response.uplift_time_s),
-            "overturning_time_s": optional(overturning.map(|o| o.0)),
+            },
+            "uplift_time_s": response.uplift_time_s,
+            "overturning_time_s": overturning.map(|o| o.0),
             "overturning_side": overturning.map(|o| side_name(o.1)),
-            "overturning_error_s": optional(response.overturning_error_s),
-            "rest_time_s": optional(response.rest_time_s),
-            "rest_error_s": optional(response.rest_error_s),
+            "overturning_error_s": response.overturning_error_s,
+            "rest_time_s": response.rest_time_s,
+            "rest_error_s": response.rest_error_s,
             "impacts": impacts,
-            "fate_margin": number(response.fate_margin),
+            "fate_margin": response.fate_margin,
             "certificate":
                 response.certificate.as_ref().map(certificate_json),
             "certified": self.certified.map(|fate| json!({
                 "outcome": certified_name(&fate),
-                "peak_ratio": number(fate.outcome.edp()),
-                "margin": number(fate.margin),
-                "error_estimate": optional(fate.error),
+                "peak_ratio": fate.outcome.edp(),
+                "margin": fate.margin,
+                "error_estimate": fate.error,
                 "by": fate.by.name(),
                 "least": clearance_json(&fate.least),
                 "for_all_inputs_that_round_to_these":
                     fate.decided_for_inputs,
             })),
-            "error_estimate": optional(response.error_estimate),
-            "condition_number": optional(response.condition_number),
+            "error_estimate": response.error_estimate,
+            "condition_number": response.condition_number,
             "reasons": self.reasons(response),
             "work": {
                 "steps": work.steps,
@@ -311,16 +310,16 @@ impl Setting<'_> {
                 "rest_scans": work.rest_scans,
             },
             "scene": {
-                "alpha_rad": number(block.slenderness_rad()),
-                "p_rad_s": number(block.frequency_rad_s()),
-                "eta": number(self.scene.restitution.velocity_ratio()),
+                "alpha_rad": block.slenderness_rad(),
+                "p_rad_s": block.frequency_rad_s(),
+                "eta": self.scene.restitution.velocity_ratio(),
                 "model": self.args.model.model_name(),
                 "overturn": self.args.model.overturning_name(),
-                "gravity_m_s2": number(self.gravity_m_s2),
+                "gravity_m_s2": self.gravity_m_s2,
                 "processing": self.done,
                 "remarks": self.remarks.map(Remarks::json),
-                "pga_g": number(self.pga_g),
-                "im_pga": number(self.im_pga()),
+                "pga_g": self.pga_g,
+                "im_pga": self.im_pga(),
             },
         })
     }
@@ -478,12 +477,8 @@ impl Setting<'_> {
 /// The history as a table, one row a point.
 fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
     let alpha = scene.block.slenderness_rad();
-    let mut table = Table::new(&[
-        "time_s",
-        "rotation_rad",
-        "velocity_rad_s",
-        "rotation_ratio",
-    ]);
+    let mut table =
+        Table::headed("time_s,rotation_rad,velocity_rad_s,rotation_ratio");
     for point in &response.history {
         let angle = point.rotation_rad;
         let cells = [point.time_s, angle, point.velocity_rad_s, angle / alpha];

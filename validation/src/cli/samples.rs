@@ -1,4 +1,5 @@
-//! Sample files: one value a line, `inf` for a censored one, `#` comments.
+//! Sample files: one value a line, `>3.2` for one censored at 3.2, `inf` for
+//! one censored at a limit that is not told, `#` comments.
 //! The comment behind a value is the name of its record.
 
 use std::collections::BTreeMap;
@@ -7,8 +8,14 @@ use std::io::{self, Read, Stdin};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
+use rocking::block::Block;
+use rocking::integrator::Model;
+use rocking::statistics::lognormal::{FitError, profile_shift};
 use rocking::statistics::{ExtendedSample, Sample, SampleError};
 use thiserror::Error;
+
+use super::names::{INTENSITIES, MODELS};
+use crate::paper::Intensity;
 
 /// Why a sample file was refused.
 #[derive(Debug, Error)]
@@ -25,7 +32,7 @@ pub enum SampleFileError {
     },
     /// A line that does not hold one number.
     #[error(
-        "{}:{line}: found `{found}`: expected one number, or inf, on the line",
+        "{}:{line}: found `{found}`: expected one number, >LIMIT or inf on the line",
         path.display()
     )]
     Line {
@@ -35,6 +42,16 @@ pub enum SampleFileError {
         line: usize,
         /// The line's text.
         found: String,
+    },
+    /// A measure that is not the one given.
+    #[error("{}: a sample of {found}, --im {given}: expected its own measure", path.display())]
+    Measure {
+        /// The file.
+        path: PathBuf,
+        /// What it says of itself.
+        found: String,
+        /// The measure given.
+        given: &'static str,
     },
     /// A value below zero where ratios are formed.
     #[error("{}:{line}: found {found}: expected a number, not negative", path.display())]
@@ -81,8 +98,44 @@ pub enum SampleFileError {
     },
 }
 
+/// Largest relative difference between a block's frequency parameter and the
+/// sample's: the median moves by about as much.
+const MOST_DIFFERENT: f64 = 0.01;
+
 /// How the line begins that says what the values are.
 pub const SAMPLE_OF: &str = "# Sample of ";
+
+/// The block and model of which a sample file says that it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SampleSetting {
+    /// Slenderness angle in rad; none for adjusted blocks.
+    pub alpha_rad: Option<f64>,
+    /// Frequency parameter in rad/s.
+    pub p_rad_s: Option<f64>,
+    /// Coefficient of restitution.
+    pub eta: Option<f64>,
+    /// Equation of motion.
+    pub model: Option<Model>,
+}
+
+impl SampleSetting {
+    /// Of the comment line that `rocking capacities` writes second.
+    fn of(line: &str) -> Option<Self> {
+        let mut words = line.strip_prefix("# alpha ")?.split(", ");
+        let number = |text: &str| text.parse().ok();
+        let alpha = words.next()?.strip_suffix(" rad");
+        let p = words.next()?.strip_prefix("p ")?.strip_suffix(" rad/s");
+        let eta = words.next()?.strip_prefix("eta ");
+        let model = words.next()?;
+        let model = MODELS.iter().find(|named| named.0 == model);
+        Some(Self {
+            alpha_rad: alpha.and_then(number),
+            p_rad_s: p.and_then(number),
+            eta: eta.and_then(number),
+            model: model.map(|named| named.1),
+        })
+    }
+}
 
 /// A file to read from, or standard input where `-` is given.
 pub enum Opened {
@@ -126,11 +179,14 @@ impl Read for Opened {
 pub struct SampleFile {
     path: PathBuf,
     values: Vec<f64>,
+    /// Limits of the censored values, where the file tells them.
+    limits: Vec<Option<f64>>,
     lines: Vec<usize>,
     /// Names behind the values.
     names: Vec<Option<String>>,
     /// What the values are, where the file says it.
     of: Option<String>,
+    setting: SampleSetting,
 }
 
 impl SampleFile {
@@ -147,10 +203,15 @@ impl SampleFile {
                 SampleFileError::Read { path, source }
             })?;
         let (mut values, mut lines) = (Vec::new(), Vec::new());
+        let mut limits = Vec::new();
         let (mut names, mut of) = (Vec::new(), None);
+        let mut setting = SampleSetting::default();
         for (i, line) in text.lines().enumerate() {
             if let Some(words) = line.strip_prefix(SAMPLE_OF) {
                 of = Some(words.trim().to_owned());
+            }
+            if let Some(found) = SampleSetting::of(line) {
+                setting = found;
             }
             let (content, comment) =
                 line.split_once('#').unwrap_or((line, ""));
@@ -158,17 +219,20 @@ impl SampleFile {
             if content.is_empty() {
                 continue;
             }
-            let value = parse(content);
-            values.push(value.ok_or_else(|| SampleFileError::Line {
-                path: path.to_owned(),
-                line: i + 1,
-                found: content.chars().take(40).collect(),
-            })?);
+            let (value, limit) =
+                parse(content).ok_or_else(|| SampleFileError::Line {
+                    path: path.to_owned(),
+                    line: i + 1,
+                    found: content.chars().take(40).collect(),
+                })?;
+            values.push(value);
+            limits.push(limit);
             lines.push(i + 1);
             let name = comment.trim();
             names.push((!name.is_empty()).then(|| name.to_owned()));
         }
-        Ok(Self { path: path.to_owned(), values, lines, names, of })
+        let path = path.to_owned();
+        Ok(Self { path, values, limits, lines, names, of, setting })
     }
 
     /// The values of two files as pairs: by the names of their records where
@@ -243,7 +307,75 @@ impl SampleFile {
         }
     }
 
-    /// The values in the order of the lines.
+    /// The limits of the values that are censored at one of their own, in
+    /// the order of the lines.
+    #[must_use]
+    pub fn limits(&self) -> &[Option<f64>] {
+        &self.limits
+    }
+
+    /// What the file says that its values are, in words.
+    #[must_use]
+    pub fn of(&self) -> Option<&str> {
+        self.of.as_deref()
+    }
+
+    /// The intensity measure that the file says its values are of; `None`
+    /// where it says nothing, or another one.
+    #[must_use]
+    pub fn intensity(&self) -> Option<Intensity> {
+        let measure = self.of()?.split(" at EDP ").next()?;
+        let all = INTENSITIES.iter().map(|named| named.1);
+        all.into_iter().find(|intensity| intensity.words() == measure)
+    }
+
+    /// The intensity measure, that of the file or the one given.
+    ///
+    /// # Errors
+    /// [`SampleFileError::Measure`] where they differ.
+    pub fn measure(
+        &self,
+        given: Option<Intensity>,
+    ) -> Result<Option<Intensity>, SampleFileError> {
+        let found = self.intensity();
+        match (self.of(), given) {
+            (Some(of), Some(given)) if found != Some(given) => {
+                Err(SampleFileError::Measure {
+                    path: self.path.clone(),
+                    found: of.to_owned(),
+                    given: given.name(),
+                })
+            }
+            _ => Ok(found.or(given)),
+        }
+    }
+
+    /// Whether capacities of this sample are those of a block; tells what is
+    /// wrong where they are not. Those of another slenderness are: the
+    /// dimensionless intensity is there to make them so.
+    ///
+    /// # Errors
+    /// Words, where the file says a frequency parameter that differs.
+    pub fn holds_for(&self, block: &Block) -> Result<(), String> {
+        let p = block.frequency_rad_s();
+        match self.setting.p_rad_s {
+            Some(own) if !((p / own - 1.0).abs() <= MOST_DIFFERENT) => {
+                Err(format!(
+                    "capacities at p {own} rad/s, the block has {p}: \
+                     expected those of its own p, to 1 %"
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The block and model that the file says.
+    #[must_use]
+    pub fn setting(&self) -> SampleSetting {
+        self.setting
+    }
+
+    /// The values in the order of the lines, infinite where censored.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
@@ -293,21 +425,32 @@ impl SampleFile {
     }
 }
 
+/// A value, infinite where it is censored, and the limit behind `>`.
+fn parse(text: &str) -> Option<(f64, Option<f64>)> {
+    let Some(limit) = text.strip_prefix('>') else {
+        return number(text).map(|value| (value, None));
+    };
+    let limit = number(limit.trim()).filter(|x| x.is_finite())?;
+    Some((f64::INFINITY, Some(limit)))
+}
+
 /// A number, or infinity where the text says so: a number too large for a
 /// double is not silently infinite.
-fn parse(text: &str) -> Option<f64> {
+fn number(text: &str) -> Option<f64> {
     let value = text.parse::<f64>().ok().filter(|x| !x.is_nan())?;
     let says_so = text.to_ascii_lowercase().contains("inf");
     (value.is_finite() || says_so).then_some(value)
 }
 
-/// A shift: a number, or the sample's smallest value.
+/// A shift: a number, or one that the sample tells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shift {
     /// This number, not negative.
     Given(f64),
     /// The smallest value of the sample.
     Min,
+    /// The shift of the highest profile likelihood.
+    Free,
 }
 
 impl FromStr for Shift {
@@ -317,27 +460,38 @@ impl FromStr for Shift {
         if text == "min" {
             return Ok(Self::Min);
         }
+        if text == "free" {
+            return Ok(Self::Free);
+        }
         let number = text.parse().ok().filter(|x: &f64| x.is_finite());
         let shift = number.filter(|x| *x >= 0.0);
-        shift
-            .map(Self::Given)
-            .ok_or_else(|| "expected a number, not negative, or `min`".into())
+        shift.map(Self::Given).ok_or_else(|| {
+            "expected a number, not negative, or `min` or `free`".into()
+        })
     }
 }
 
 impl Shift {
-    /// The shift, and the values that enter above it: all of them for a
-    /// given one, those above the smallest for that one.
-    #[must_use]
-    pub fn split(self, values: &[f64]) -> (f64, Vec<f64>) {
-        match self {
+    /// The shift, and the values that enter above it: those above the
+    /// smallest for that one, else all of them.
+    ///
+    /// # Errors
+    /// [`FitError`] where the likelihood tells no shift.
+    pub fn split(self, values: &[f64]) -> Result<(f64, Vec<f64>), FitError> {
+        Ok(match self {
             Self::Given(shift) => (shift, values.to_vec()),
+            Self::Free => {
+                let sample = ExtendedSample::try_new(values)
+                    .map_err(|_| FitError::TooFew(0))?;
+                let best = profile_shift(&sample)?.fit.distribution;
+                (best.shift(), values.to_vec())
+            }
             Self::Min => {
                 let least =
                     values.iter().copied().fold(f64::INFINITY, f64::min);
                 let above = values.iter().copied().filter(|&x| x > least);
                 (least, above.collect())
             }
-        }
+        })
     }
 }

@@ -16,7 +16,6 @@ pub struct BlockArgs {
         long,
         value_name = "A",
         requires = "p",
-        required_unless_present = "width_m",
         conflicts_with_all = ["width_m", "height_m"]
     )]
     alpha: Option<f64>,
@@ -37,6 +36,19 @@ pub struct BlockArgs {
 }
 
 impl BlockArgs {
+    /// The first flag given, to be refused where no block is needed.
+    #[must_use]
+    pub fn given(&self) -> Option<&'static str> {
+        let flags = [
+            ("--alpha", self.alpha),
+            ("--p", self.p),
+            ("--width-m", self.width_m),
+            ("--height-m", self.height_m),
+        ];
+        let given = flags.iter().find(|(_, value)| value.is_some());
+        given.map(|(flag, _)| *flag)
+    }
+
     /// The block under gravity g (m/s2).
     ///
     /// # Errors

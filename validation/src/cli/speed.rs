@@ -12,7 +12,6 @@ use serde_json::{Value, json};
 use super::{Failure, print, print_json, progress};
 use crate::curves::Execution;
 use crate::files::Output;
-use crate::json::{number, optional};
 use crate::paper::BLOCKS;
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
@@ -190,26 +189,20 @@ fn scaled(json: bool) -> Result<(), Failure> {
                 "axis": point.axis,
                 "size": point.size,
                 "analyses": point.analyses,
-                "cpu_s": number(point.cpu_s),
-                "peak_memory_mib": optional(point.peak_memory_mib),
-                "time_exponent": optional(grown.map(|g| g.time)),
-                "memory_exponent": optional(grown.and_then(|g| g.memory)),
+                "cpu_s": point.cpu_s,
+                "peak_memory_mib": point.peak_memory_mib,
+                "time_exponent": grown.map(|g| g.time),
+                "memory_exponent": grown.and_then(|g| g.memory),
             })).collect::<Vec<_>>(),
         }));
     }
     let mut out = format!(
-        "Growth with records (p = 3, alpha = 0.15), samples (15 blocks, whole runs) and \
-         blocks (8 records), {}, {} threads\n\n{:<8} {:>9} {:>9} {:>9} \
-         {:>9} {:>9} {:>9}\n",
+        "Growth with records (p = 3, alpha = 0.15), samples (15 blocks, \
+          whole runs) and blocks (8 records), {}, {} threads\n\n\
+         axis          size  analyses     CPU s  peak MiB    time ~  \
+         memory ~\n",
         Isa::best().name(),
         rayon::current_num_threads(),
-        "axis",
-        "size",
-        "analyses",
-        "CPU s",
-        "peak MiB",
-        "time ~",
-        "memory ~"
     );
     let two = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.2}"));
     for (point, grown) in rows {
@@ -247,27 +240,27 @@ fn machine(
             "method": t.label[2],
             "setting": t.label[3],
             "cases": t.cases,
-            "median_ratio": number(t.ratio),
-            "median_cpu_s": number(t.cpu_s),
-            "mean_cpu_s": number(t.mean_cpu_s),
-            "median_work": number(t.work),
-            "median_peak_error": number(t.peak_error),
-            "peak_error_90": number(t.peak_error_90),
-            "median_impact_error_s": number(t.impact_error_s),
+            "median_ratio": t.ratio,
+            "median_cpu_s": t.cpu_s,
+            "mean_cpu_s": t.mean_cpu_s,
+            "median_work": t.work,
+            "median_peak_error": t.peak_error,
+            "peak_error_90": t.peak_error_90,
+            "median_impact_error_s": t.impact_error_s,
             "wrong_fates": t.wrong_fates,
             "other_impacts": t.other_impacts,
         })).collect::<Vec<_>>(),
         "throughput": many.iter().map(|t| json!({
             "work": t.work,
             "threads": t.threads,
-            "cpu_s": number(t.cpu_s),
+            "cpu_s": t.cpu_s,
             "count": t.count,
-            "rate_per_cpu_s": number(t.rate_per_s()),
+            "rate_per_cpu_s": t.rate_per_s(),
             "samples": t.samples,
-            "sample_ns": optional(t.sample_ns()),
+            "sample_ns": t.sample_ns(),
             "moved_chains": t.moved,
         })).collect::<Vec<_>>(),
-        "peak_memory_mib": optional(memory),
+        "peak_memory_mib": memory,
     })
 }
 
@@ -280,19 +273,11 @@ fn people(
     // Writing to a string cannot fail.
     let _ = writeln!(
         out,
-        "Single analyses, {}: medians over {} cases\n\n{:<44} {:>9} {:>10} \
-         {:>8} {:>10} {:>10} {:>10} {:>6} {:>7}",
+        "Single analyses, {}: medians over {} cases\n\n\
+         method                                           ratio      \
+         CPU s     work peak error       90 %   impact s  fates impacts",
         Isa::best().name(),
         singles.first().map_or(0, |t| t.cases),
-        "method",
-        "ratio",
-        "CPU s",
-        "work",
-        "peak error",
-        "90 %",
-        "impact s",
-        "fates",
-        "impacts"
     );
     for t in singles {
         let [tool, version, method, setting] = &t.label;
@@ -319,14 +304,8 @@ fn people(
     if !many.is_empty() {
         let _ = writeln!(
             out,
-            "\n{:<44} {:>7} {:>9} {:>9} {:>12} {:>9} {:>6}",
-            "work",
-            "threads",
-            "CPU s",
-            "number",
-            "per CPU s",
-            "ns/sample",
-            "moved"
+            "\nwork                                         threads     \
+             CPU s    number    per CPU s ns/sample  moved"
         );
     }
     for t in many {

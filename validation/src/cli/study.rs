@@ -16,6 +16,7 @@ use super::{Failure, logged, print, with_threads};
 use crate::files::{Folder, is_interrupted};
 use crate::paper::{Arm, RESTITUTION, SuiteKind};
 use crate::report::evidence::{NOT_RUN, Proof};
+use crate::report::head::Signatures;
 use crate::report::output::{self, Files};
 use crate::report::stale;
 use crate::study::Study;
@@ -78,6 +79,8 @@ pub struct Args {
     /// then shows; the folder data of the report if it holds them.
     #[arg(long, value_name = "DIR")]
     proof: Option<PathBuf>,
+    #[command(flatten)]
+    signatures: Signatures,
     /// Folder of the report.
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
@@ -109,7 +112,7 @@ pub(super) fn default_report(proof: &Proof) -> Result<Files, Failure> {
     }
     let args = Line::try_parse_from(["study"])?.args;
     let study = computed(&args, &suites(&args)?)?;
-    Ok(output::files(&study, Some(proof))?)
+    Ok(output::files(&study, Some(proof), &args.signatures)?)
 }
 
 /// The suites that the options name.
@@ -173,7 +176,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         None => Proof::find(&args.out.join("data"))?,
     };
     let study = computed(args, &suites)?;
-    let files = output::files(&study, proof.as_ref())?;
+    let files = output::files(&study, proof.as_ref(), &args.signatures)?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
     if args.json {

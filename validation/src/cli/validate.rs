@@ -9,7 +9,6 @@ use serde_json::json;
 use super::{Failure, print, print_json};
 use crate::diff::{self, Results};
 use crate::files::Output;
-use crate::json;
 use crate::proof::cases::{Case, Cost, FAMILIES, load_all};
 use crate::proof::methods::{digits, digits_csv};
 use crate::proof::verdict::{Outcome, Verdict, run_all, snapshot};
@@ -140,17 +139,17 @@ fn machine(outcomes: &[Outcome]) -> serde_json::Value {
                 "id": outcome.id,
                 "kind": outcome.kind.name(),
                 "verdict": outcome.verdict.name(),
-                "margin": json::number(outcome.worst_margin()),
+                "margin": outcome.worst_margin(),
                 "quantities": outcome.checks.iter().map(|c| json!({
                     "quantity": c.quantity,
-                    "observed": json::numbers(&c.observed),
-                    "expected": json::numbers(&c.expected),
-                    "error": json::number(c.error),
-                    "margin": json::number(c.margin),
+                    "observed": &c.observed,
+                    "expected": &c.expected,
+                    "error": c.error,
+                    "margin": c.margin,
                 })).collect::<Vec<_>>(),
                 "rejected": outcome.rejections.iter().map(|r| json!({
                     "model": r.model,
-                    "margin": json::number(r.margin),
+                    "margin": r.margin,
                     "quantity": r.quantity,
                 })).collect::<Vec<_>>(),
                 "messages": outcome.messages,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::flaw::Flaw;
 use super::{Content, Item, Limit};
 use crate::findings::{
-    Claim, Findings, Measured, Place, Question, Suite, Table, Topic,
+    Claim, Findings, Measured, Place, Question, Suite, Table, Tested, Topic,
 };
 
 /// The items of a study's findings.
@@ -74,37 +74,65 @@ impl Owner<'_> {
 }
 
 fn claim(out: &mut Vec<Item>, claim: &Claim) {
-    let group = match claim.suites[..] {
-        [] => "claims without records".into(),
-        [suite] => format!("{suite} suite: claims"),
-        _ => "both suites: claims".into(),
-    };
     let id = &claim.id;
     let owner = format!("claim {id}");
+    let group = String::from("claims");
     let mut own = Owner { out, owner, group };
+    let region = claim.region.map_or(String::new(), |r| r.to_string());
+    let quantifier = claim.quantifier.map_or("", |q| q.words());
     own.item(
-        "verdict",
-        format!("{id}, \"{}\"", claim.quote),
-        Content::Verdict(claim.verdict.name().into()),
+        "region",
+        format!("claim {id}: region"),
+        Content::Setting(format!("{quantifier}: {region}")),
     );
-    own.item(
-        "margin",
-        format!("claim {id}: margin"),
-        Content::Setting(claim.margin.clone()),
-    );
-    let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
-    let arm = arm.unwrap_or_default();
-    let words = format!("{id}: {}, {}{arm}", claim.measure, claim.blocks);
-    own.measured("value", words, claim.measured);
     for (name, text) in [
         ("measure", &claim.measure),
         ("blocks", &claim.blocks),
         ("quote", &claim.quote),
+        ("reason", &claim.reason),
+        ("criterion", &claim.criterion),
+        ("case", &claim.case),
         ("note", &claim.note),
     ] {
         own.text(name, text);
     }
     own.text("section", &claim.section.to_string());
+    for result in &claim.results {
+        let owner = format!("claim {id}, {}", result.place());
+        let group = match result.suite {
+            Tested::None => "claims without records".to_owned(),
+            Tested::Both => "both suites: claims".to_owned(),
+            suite => format!("{} suite: claims", suite.name()),
+        };
+        let mut own = Owner { out: &mut *out, owner, group };
+        let place = result.place();
+        for (name, words, verdict) in [
+            ("verdict", "", result.by_equivalence),
+            (
+                "verdict by the paper's criterion",
+                ", by the paper's criterion",
+                result.by_criterion,
+            ),
+        ] {
+            if let Some(verdict) = verdict {
+                own.item(
+                    name,
+                    format!("{id}, {place}{words}, \"{}\"", claim.quote),
+                    Content::Verdict(verdict.name().into()),
+                );
+            }
+        }
+        let words = format!("{id}: {}, {place}", claim.measure);
+        own.measured("value", words, result.measured());
+        own.text("at", &result.at);
+        let cell = result.deciding_cell.iter();
+        let named = cell.map(|cell| ("deciding cell", cell));
+        let others = result.details.iter().map(|d| (d.name.as_str(), d));
+        for (name, detail) in named.chain(others) {
+            let words = format!("{id}: {}, {place}", detail.name);
+            own.measured(name, words, detail.measured);
+        }
+    }
 }
 
 fn settings(out: &mut Vec<Item>, findings: &Findings) {

@@ -6,32 +6,21 @@ use serde_json::{Value, json};
 
 use super::words::percent;
 use super::{Change, Comparison, Measure, Presence};
-use crate::json::{number, optional};
 
 /// Changes that are listed unless all are wanted: of those within their
 /// uncertainty, and of those beyond it in a group that state none.
 const MOST: usize = 10;
 
-/// Changes by what they are listed under, in the order of the first of each.
-fn by_group<'a>(
-    changes: impl IntoIterator<Item = &'a Change>,
-) -> Vec<(&'a str, Vec<&'a Change>)> {
-    let mut groups: Vec<(&str, Vec<&Change>)> = Vec::new();
-    for change in changes {
-        match groups.iter_mut().find(|(name, _)| *name == change.group) {
-            Some((_, list)) => list.push(change),
-            None => groups.push((&change.group, vec![change])),
-        }
-    }
-    groups
-}
-
-fn groups_of_presences(list: &[Presence]) -> Vec<(&str, Vec<&Presence>)> {
-    let mut groups: Vec<(&str, Vec<&Presence>)> = Vec::new();
+/// What is listed, by its group, in the order of the first of each.
+fn by_group<'a, T>(
+    list: impl IntoIterator<Item = &'a T>,
+    group: impl Fn(&'a T) -> &'a str,
+) -> Vec<(&'a str, Vec<&'a T>)> {
+    let mut groups: Vec<(&str, Vec<&T>)> = Vec::new();
     for one in list {
-        match groups.iter_mut().find(|(name, _)| *name == one.group) {
+        match groups.iter_mut().find(|(name, _)| *name == group(one)) {
             Some((_, list)) => list.push(one),
-            None => groups.push((&one.group, vec![one])),
+            None => groups.push((group(one), vec![one])),
         }
     }
     groups
@@ -54,7 +43,7 @@ impl Comparison {
             }
             // Writing to a string cannot fail.
             let _ = writeln!(out, "\n{title}");
-            for (group, changes) in by_group(changes) {
+            for (group, changes) in by_group(changes, |c| &c.group) {
                 let _ = writeln!(out, "  {group}");
                 let blind = |c: &&&Change| c.measure == Measure::NoInterval;
                 let most = if all { changes.len() } else { MOST };
@@ -89,7 +78,7 @@ impl Comparison {
             if !presences.is_empty() {
                 let _ = writeln!(out, "\n{title}");
             }
-            for (group, list) in groups_of_presences(presences) {
+            for (group, list) in by_group(presences, |one| &one.group) {
                 let _ = writeln!(out, "  {group}");
                 for one in list {
                     let _ = writeln!(out, "    {}", one.words);
@@ -199,7 +188,7 @@ impl Comparison {
 
 fn machine(change: &Change) -> Value {
     let (old, new) = match change.values {
-        Some((old, new)) => (number(old), number(new)),
+        Some((old, new)) => (json!(old), json!(new)),
         None => (json!(change.old), json!(change.new)),
     };
     let errors = match change.measure {
@@ -217,10 +206,10 @@ fn machine(change: &Change) -> Value {
         "what": change.words,
         "old": old,
         "new": new,
-        "relative": optional(change.relative),
-        "standard_errors": optional(errors),
-        "tolerances": optional(tolerances),
-        "change_over_limit": number(change.rank),
+        "relative": change.relative,
+        "standard_errors": errors,
+        "tolerances": tolerances,
+        "change_over_limit": change.rank,
         "significant": change.significant,
     })
 }
@@ -230,7 +219,7 @@ fn table(out: &mut String, title: &str, changes: &[&Change]) {
         return;
     }
     let _ = writeln!(out, "\n### {title}");
-    for (group, changes) in by_group(changes.iter().copied()) {
+    for (group, changes) in by_group(changes.iter().copied(), |c| &c.group) {
         let _ = writeln!(
             out,
             "\n**{}**\n\n| quantity | old | new | change | measured by |\n\

@@ -53,15 +53,12 @@ impl Axis {
                 Tick { at, label: fixed(at, digits) }
             })
             .collect();
-        Self {
-            low,
-            high,
-            scale: Scale::Linear,
-            ticks,
-            minor: Vec::new(),
-            label: String::new(),
-            grid: true,
-        }
+        Self::new(low, high, Scale::Linear, ticks)
+    }
+
+    fn new(low: f64, high: f64, scale: Scale, ticks: Vec<Tick>) -> Self {
+        let (minor, label) = (Vec::new(), String::new());
+        Self { low, high, scale, ticks, minor, label, grid: true }
     }
 
     /// A linear axis that ends at round numbers around the range.
@@ -87,15 +84,7 @@ impl Axis {
             (0.1, 10.0)
         };
         let decades = libm::log10(high / low);
-        let mut axis = Self {
-            low,
-            high,
-            scale: Scale::Logarithmic,
-            ticks: Vec::new(),
-            minor: Vec::new(),
-            label: String::new(),
-            grid: true,
-        };
+        let mut axis = Self::new(low, high, Scale::Logarithmic, Vec::new());
         if decades < 0.6 {
             axis.ticks = Self::linear(low, high, 5).ticks;
             return axis;
@@ -141,15 +130,8 @@ impl Axis {
     pub fn about_one(low: f64, high: f64, width: f64, apart: f64) -> Self {
         let low = if low > 0.0 && low < 1.0 { low } else { 0.5 };
         let high = if high > 1.0 && high.is_finite() { high } else { 2.0 };
-        let mut axis = Self {
-            low,
-            high,
-            scale: Scale::AboutOne(width),
-            ticks: Vec::new(),
-            minor: Vec::new(),
-            label: String::new(),
-            grid: true,
-        };
+        let mut axis =
+            Self::new(low, high, Scale::AboutOne(width), Vec::new());
         let mut taken: Vec<f64> = Vec::new();
         for ratio in RATIOS {
             let place = axis.place(ratio);
@@ -172,15 +154,8 @@ impl Axis {
             .enumerate()
             .map(|(i, name)| Tick { at: (i + 1) as f64, label: name.clone() })
             .collect();
-        Self {
-            low: 0.4,
-            high: names.len().max(1) as f64 + 0.6,
-            scale: Scale::Linear,
-            ticks,
-            minor: Vec::new(),
-            label: String::new(),
-            grid: false,
-        }
+        let high = names.len().max(1) as f64 + 0.6;
+        Self { grid: false, ..Self::new(0.4, high, Scale::Linear, ticks) }
     }
 
     /// The same with a label, in [`super::markup`].

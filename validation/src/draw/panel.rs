@@ -19,8 +19,6 @@ const GRID: Pen = Pen::new(Ink::Grid, 0.6);
 pub enum Marker {
     /// Filled circle.
     Dot,
-    /// Open circle.
-    Ring,
     /// Diagonal cross.
     Cross,
     /// Upright cross.
@@ -63,7 +61,6 @@ impl Marker {
         let fill = Fill::solid(ink);
         match self {
             Self::Dot => scene.dot(at, r, ink),
-            Self::Ring => scene.ring(at, r, pen),
             Self::Cross => {
                 let s = 0.8 * r;
                 scene.line(&[(x - s, y - s), (x + s, y + s)], pen);
@@ -162,12 +159,6 @@ impl<'s> Panel<'s> {
     #[must_use]
     pub fn empty_because(self, reason: &'static str) -> Self {
         Self { reason, ..self }
-    }
-
-    /// The plotting area.
-    #[must_use]
-    pub fn frame(&self) -> Rect {
-        self.frame
     }
 
     /// Both ends of the horizontal axis.

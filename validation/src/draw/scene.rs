@@ -18,7 +18,6 @@ enum Shape {
     Line(Vec<Point>, Pen),
     Area(Vec<Point>, Fill),
     Dot(Point, f64, Ink),
-    Ring(Point, f64, Pen),
     Text(TextLine),
 }
 
@@ -83,13 +82,6 @@ impl Scene {
         }
     }
 
-    /// An open circle.
-    pub fn ring(&mut self, at: Point, radius_px: f64, pen: Pen) {
-        if finite(&[at]) {
-            self.shapes.push(Shape::Ring(at, radius_px, pen));
-        }
-    }
-
     /// A line of text.
     pub fn text(&mut self, text: TextLine) {
         if finite(&[text.at]) && !text.markup.is_empty() {
@@ -128,7 +120,6 @@ impl Scene {
                 }
                 Shape::Area(corners, fill) => svg.area(corners, *fill),
                 Shape::Dot(at, px, ink) => svg.dot(*at, *px, *ink),
-                Shape::Ring(at, px, pen) => svg.ring(*at, *px, *pen),
                 Shape::Text(text) => svg.text(text),
             }
         }

@@ -113,20 +113,6 @@ impl Svg {
         self.out.push_str("h0");
     }
 
-    /// An open circle.
-    pub(super) fn ring(&mut self, centre: Point, radius_px: f64, pen: Pen) {
-        self.close();
-        let (x, y) = self.coordinates.translate(&centre);
-        let _ = writeln!(
-            self.out,
-            "<circle {} cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
-            stroke(pen),
-            px(x),
-            px(y),
-            whole_steps(radius_px),
-        );
-    }
-
     /// A line of text.
     pub(super) fn text(&mut self, line: &TextLine) {
         self.close();

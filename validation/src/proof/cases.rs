@@ -56,33 +56,21 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-/// The kind of evidence a family gives.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Kind {
-    /// The code does what the model says: closed forms, high precision.
-    CodeVerification,
-    /// The numerical error is what the method promises.
-    SolutionVerification,
-    /// The model against measured or published results.
-    ModelValidation,
-    /// A statistical procedure keeps its stated error rates.
-    StatisticalCalibration,
-    /// Our own number, pinned.
-    Regression,
-}
+use crate::words::named;
 
-impl Kind {
-    /// The name as it stands in case files and trial names.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::CodeVerification => "code-verification",
-            Self::SolutionVerification => "solution-verification",
-            Self::ModelValidation => "model-validation",
-            Self::StatisticalCalibration => "statistical-calibration",
-            Self::Regression => "regression",
-        }
+named! {
+    /// The kind of evidence a family gives.
+    pub enum Kind {
+        /// The code does what the model says: closed forms, high precision.
+        CodeVerification = "code-verification",
+        /// The numerical error is what the method promises.
+        SolutionVerification = "solution-verification",
+        /// The model against measured or published results.
+        ModelValidation = "model-validation",
+        /// A statistical procedure keeps its stated error rates.
+        StatisticalCalibration = "statistical-calibration",
+        /// Our own number, pinned.
+        Regression = "regression",
     }
 }
 
@@ -126,45 +114,27 @@ pub enum Cost {
     Full,
 }
 
-/// Nature of the expected values.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OracleKind {
-    /// A formula, evaluated outside the code under test.
-    ClosedForm,
-    /// An independent computation in high precision.
-    HighPrecision,
-    /// A property that needs no outside number (symmetry, invariance).
-    Property,
-    /// Refinement of the method itself.
-    SelfConvergence,
-    /// Another program.
-    ExternalCode,
-    /// Published numbers.
-    Published,
-    /// Measurements.
-    Experiment,
-    /// Simulation with known truth.
-    KnownTruthSimulation,
-    /// Our own earlier output.
-    OwnOutput,
-}
-
-impl OracleKind {
-    /// The name as it stands in case files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ClosedForm => "closed-form",
-            Self::HighPrecision => "high-precision",
-            Self::Property => "property",
-            Self::SelfConvergence => "self-convergence",
-            Self::ExternalCode => "external-code",
-            Self::Published => "published",
-            Self::Experiment => "experiment",
-            Self::KnownTruthSimulation => "known-truth-simulation",
-            Self::OwnOutput => "own-output",
-        }
+named! {
+    /// Nature of the expected values.
+    pub enum OracleKind {
+        /// A formula, evaluated outside the code under test.
+        ClosedForm = "closed-form",
+        /// An independent computation in high precision.
+        HighPrecision = "high-precision",
+        /// A property that needs no outside number (symmetry, invariance).
+        Property = "property",
+        /// Refinement of the method itself.
+        SelfConvergence = "self-convergence",
+        /// Another program.
+        ExternalCode = "external-code",
+        /// Published numbers.
+        Published = "published",
+        /// Measurements.
+        Experiment = "experiment",
+        /// Simulation with known truth.
+        KnownTruthSimulation = "known-truth-simulation",
+        /// Our own earlier output.
+        OwnOutput = "own-output",
     }
 }
 
@@ -261,22 +231,6 @@ pub enum Basis {
     Measurement,
 }
 
-impl Basis {
-    /// The name as it stands in case files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::AttainableFloat64 => "attainable-float64",
-            Self::Conditioning => "conditioning",
-            Self::Identity => "identity",
-            Self::ReferenceRounding => "reference-rounding",
-            Self::Discretisation => "discretisation",
-            Self::Sampling => "sampling",
-            Self::Measurement => "measurement",
-        }
-    }
-}
-
 /// Tolerances, their reason, and the wrong models that must break them.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -357,6 +311,7 @@ pub const FAMILIES: &[(&str, &str)] = families![
     "fragility-transforms",
     "free-rocking",
     "hard-cases",
+    "inference",
     "intensity",
     "inversion",
     "invariants",

@@ -93,12 +93,6 @@ pub enum EngineError {
         /// Time reached in s.
         time_s: f64,
     },
-    /// The engine leaves the question open.
-    #[error("fate left open by the engine at t = {time_s} s")]
-    Unresolved {
-        /// Time reached in s.
-        time_s: f64,
-    },
 }
 
 /// Something that answers scenes.

@@ -11,44 +11,31 @@ mod grazing;
 mod random;
 mod records;
 mod search;
-mod suites;
 mod summary;
 
 pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
-pub use suites::{Near, Survey};
 pub use summary::{Judgement, SHARES, Summary};
 
 use rayon::prelude::*;
 use rocking::streams::Streams;
 
 use super::scene::{EngineError, Scene};
+use crate::words::named;
 use draw::Draw;
 
-/// A population of scenes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stratum {
-    /// Blocks and ground motions of the study and around it.
-    Ordinary,
-    /// Blocks, records and pulses at the ends of what is accepted.
-    Extreme,
-    /// Scenes in which a discrete decision is taken within rounding.
-    Grazing,
+named! {
+    /// A population of scenes.
+    pub enum Stratum {
+        /// Blocks and ground motions of the study and around it.
+        Ordinary = "ordinary",
+        /// Blocks, records and pulses at the ends of what is accepted.
+        Extreme = "extreme",
+        /// Scenes in which a discrete decision is taken within rounding.
+        Grazing = "grazing",
+    }
 }
 
 impl Stratum {
-    /// All strata.
-    pub const ALL: [Self; 3] = [Self::Ordinary, Self::Extreme, Self::Grazing];
-
-    /// The stratum in a word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Ordinary => "ordinary",
-            Self::Extreme => "extreme",
-            Self::Grazing => "grazing",
-        }
-    }
-
     /// The stratum of this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

@@ -10,35 +10,25 @@ use thiserror::Error;
 
 use crate::proof::cases::{Basis, Bound, Case, Kind, Status};
 use crate::proof::methods::{self, Answer, MethodError, Quantities};
+use crate::words::named;
 
-/// Result of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Every bound holds and every wrong model is rejected.
-    Pass,
-    /// A bound is broken, or a wrong model is not rejected.
-    Fail,
-    /// The case could not be judged.
-    Error,
-    /// Fails, as declared.
-    KnownFailure,
-    /// Passes although declared to fail.
-    UnexpectedPass,
+named! {
+    /// Result of a case.
+    pub enum Verdict {
+        /// Every bound holds and every wrong model is rejected.
+        Pass = "pass",
+        /// A bound is broken, or a wrong model is not rejected.
+        Fail = "fail",
+        /// The case could not be judged.
+        Error = "error",
+        /// Fails, as declared.
+        KnownFailure = "known-failure",
+        /// Passes although declared to fail.
+        UnexpectedPass = "unexpected-pass",
+    }
 }
 
 impl Verdict {
-    /// The name as it stands in reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Fail => "fail",
-            Self::Error => "error",
-            Self::KnownFailure => "known-failure",
-            Self::UnexpectedPass => "unexpected-pass",
-        }
-    }
-
     /// Whether the gate stays green.
     #[must_use]
     pub fn is_accepted(self) -> bool {

@@ -3,18 +3,22 @@
 use rocking::block::{BlockError, Restitution};
 use rocking::integrator::Overturning;
 
-use super::evidence::{self, NOT_RUN, Proof};
-use super::page::{Finding, ReportInput, ShownFigure};
-use super::summary::summary;
+use super::evidence::{self, EvidenceError, NOT_RUN, Proof};
+use super::head::Signatures;
+use super::page::{Answers, Chapter, ReportInput, ShownFigure};
 use super::timings::Timings;
-use super::{ReportError, credibility, ledger};
+use super::{
+    ReportError, answers, credibility, findings, head, ledger, method,
+};
 use crate::draw::figures::Figure;
-use crate::findings::Claim;
-use crate::paper::{BLOCKS, GRAVITY_M_S2};
+use crate::findings::{Findings, Theme};
+use crate::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use crate::study::figures::Results;
 use crate::study::questions::Answer;
 use crate::table::PlainTable;
-use crate::words::rounded_text;
+
+/// Figures beside the answers, by their stems.
+const FIRST: [&str; 2] = ["figure-08", "figure-16"];
 
 /// What the page shows; `proof` are the results of the declared cases, if
 /// they were handed in.
@@ -25,119 +29,202 @@ pub fn input(
     results: &Results,
     figures: &[Figure],
     charts: &[Figure],
-    claims: &[Claim],
-    answers: &[Answer],
+    found: &Findings,
+    questions: &[Answer],
     proof: Option<&Proof>,
+    signatures: &Signatures,
 ) -> Result<ReportInput, ReportError> {
     let timings = Timings::kept()?;
-    let mut drawn: Vec<ShownFigure> =
-        figures.iter().chain(charts).map(shown).collect();
-    drawn.push(ShownFigure {
-        number: "Speed".into(),
-        ..shown(&timings.figure())
-    });
-    let names: Vec<&str> =
-        figures.iter().map(|f| f.heading.name.as_str()).collect();
+    let recorded = results
+        .embedded()
+        .then(findings::recorded)
+        .transpose()
+        .map_err(ReportError::Recorded)?;
+    let recorded = recorded.as_ref();
+    // Of figures that both arms have, those of the paper's grid stand in the
+    // annex.
+    let other = |figure: &&Figure| {
+        let arm = figure.heading.arm;
+        let both = figure.heading.name.len() > "figure-00".len();
+        both && arm == Some(Arm::A) && results.plan.drawn().len() > 1
+    };
+    let own: Vec<ShownFigure> = figures
+        .iter()
+        .filter(|f| is_paper_s(f))
+        .filter(|f| !other(f))
+        .map(shown)
+        .collect();
+    let names: Vec<(String, String)> =
+        own.iter().map(|f| (f.name.clone(), f.number.clone())).collect();
+    let (first, rest): (Vec<_>, Vec<_>) = own
+        .into_iter()
+        .partition(|f| FIRST.iter().any(|stem| f.name.starts_with(stem)));
+    let rows =
+        answers::rows(results, found, recorded, &timings, proof, &names);
+    let mut themes = findings::themes(found, recorded, &names);
+    for figure in rest {
+        let theme = findings::theme_of(&figure.name);
+        let place = Theme::ALL.into_iter().find(|t| *t == theme);
+        let id = place.map(findings::anchor);
+        if let Some(one) = themes.iter_mut().find(|t| Some(t.id) == id) {
+            one.figures.push(figure);
+        }
+    }
+    let compared = || questions.iter().filter(|q| q.id == "suites");
+    let work = [&results.ordinary, &results.pulse].map(answers::work);
+    let suites = Chapter {
+        id: "suites",
+        title: "Suites".into(),
+        text: compared().map(|q| q.answer.clone()).chain(work).collect(),
+        figures: drawn(figures, |f| f.heading.name == "figure-suites"),
+        ..Chapter::default()
+    };
+    let by_block = Chapter {
+        id: "suites-by-block",
+        title: "Suites: motions, and capacities block by block".into(),
+        tables: compared().flat_map(|q| q.tables.clone()).collect(),
+        figures: drawn(figures, |f| {
+            f.heading.name == "figure-suites-capacities"
+        }),
+        ..Chapter::default()
+    };
+    let beyond = Chapter {
+        id: "beyond",
+        title: "Questions beyond the paper".into(),
+        tables: questions
+            .iter()
+            .filter(|q| q.id != "suites")
+            .flat_map(|q| q.tables.clone())
+            .collect(),
+        figures: drawn(figures, |f| {
+            !is_paper_s(f) && !f.heading.name.starts_with("figure-suites")
+        }),
+        ..Chapter::default()
+    };
+    let claims = &found.claims;
+    let (ledger, mut trust) = (
+        ledger::table(proof.map(Proof::results), claims)?,
+        credibility::tables(results, claims, proof)?,
+    );
+    // The assessment is short; the comparison has a row for each result.
+    let assessment = trust.split_off(trust.len().saturating_sub(1));
+    let mut speed = timings.tables();
+    let settings = speed.extract_if(.., |t| t.name == "speed-settings");
+    let settings: Vec<PlainTable> = settings.collect();
+    let coverage = proof
+        .map(Proof::coverage_table)
+        .transpose()
+        .map_err(EvidenceError::from)?;
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        summary: summary(results, claims, &timings, proof),
-        findings: claims.iter().map(|c| finding(c, &names)).collect(),
-        proof: proof.map_or(NOT_RUN.into(), Proof::to_string),
+        head: head::head(results),
+        signatures: signatures.shown(),
+        answers: Answers { rows, figures: first },
+        columns: findings::columns(found, recorded),
+        findings: themes,
+        identities: findings::identities(found),
+        method: [method::method(), vec![answers::trust(found, recorded)]]
+            .concat(),
+        glossary: method::glossary(),
+        proof: format!(
+            "{} {}",
+            proof.map_or(NOT_RUN.into(), Proof::to_string),
+            timings.accuracy()
+        ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
-        tables: tables(answers, proof)?,
-        figures: drawn,
-        provenance: provenance(results),
-        limits: limits(results),
-        credibility: credibility(results, claims, &timings, proof)?,
+        evidence: Chapter {
+            tables: coverage.into_iter().collect(),
+            figures: charts.iter().map(shown).collect(),
+            ..Chapter::default()
+        },
+        chapters: vec![
+            Chapter {
+                id: "speed",
+                title: "Speed against error".into(),
+                text: vec![timings.plain()],
+                tables: settings,
+                figures: vec![ShownFigure {
+                    number: "Speed".into(),
+                    ..shown(&timings.figure())
+                }],
+                ..Chapter::default()
+            },
+            suites,
+            Chapter {
+                id: "limits",
+                title: "Limits and credibility".into(),
+                text: [
+                    limits(results),
+                    vec![answers::not_checked(results) + "."],
+                ]
+                .concat(),
+                tables: assessment,
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "provenance",
+                title: "Provenance".into(),
+                list: provenance(results),
+                ..Chapter::default()
+            },
+        ],
+        annexes: vec![
+            Chapter {
+                id: "blocks",
+                title: "The blocks, and the digits of three precisions".into(),
+                tables: [
+                    vec![table_1()?],
+                    proof.map(Proof::digits_table).into_iter().collect(),
+                ]
+                .concat(),
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "paper-s-grid",
+                title: "Figures on the paper's grid (arm A)".into(),
+                figures: drawn(figures, |f| other(&f)),
+                ..Chapter::default()
+            },
+            beyond,
+            by_block,
+            Chapter {
+                id: "comparison",
+                title: "Comparison with printed numbers".into(),
+                tables: trust,
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "speed-tried",
+                title: "Speed: other tools, and settings tried".into(),
+                tables: speed,
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "requirements",
+                title: "Requirements".into(),
+                tables: vec![ledger],
+                ..Chapter::default()
+            },
+        ]
+        .into_iter()
+        .filter(|c| !(c.tables.is_empty() && c.figures.is_empty()))
+        .collect(),
     })
 }
 
-fn credibility(
-    results: &Results,
-    claims: &[Claim],
-    timings: &Timings,
-    proof: Option<&Proof>,
-) -> Result<Vec<PlainTable>, ReportError> {
-    let cases = proof.map(Proof::results);
-    let mut tables = vec![ledger::table(cases, claims)?];
-    tables.extend(credibility::tables(results, claims, proof));
-    tables.extend(timings.tables());
-    Ok(tables)
+/// Whether it is one of the paper's, by its number.
+fn is_paper_s(figure: &Figure) -> bool {
+    figure.heading.name.chars().any(|c| c.is_ascii_digit())
 }
 
-fn tables(
-    answers: &[Answer],
-    proof: Option<&Proof>,
-) -> Result<Vec<PlainTable>, ReportError> {
-    let mut tables = vec![table_1()?];
-    tables.extend(proof.map(Proof::digits_table));
-    for answer in answers {
-        tables.extend(answer.tables.iter().cloned());
-    }
-    Ok(tables)
-}
-
-/// The figures among `names` that a claim is about: those of its section, in
-/// its arm where there is one for each.
-fn shown_by(claim: &Claim, names: &[&str]) -> Vec<String> {
-    let mut out = Vec::new();
-    for number in claim.section.figures() {
-        let stem = format!("figure-{number:02}");
-        let own = claim
-            .arm
-            .map(|arm| format!("{stem}-{}", arm.letter().to_lowercase()));
-        let found = names
-            .iter()
-            .find(|name| own.as_deref() == Some(**name))
-            .or_else(|| names.iter().find(|name| name.starts_with(&stem)));
-        out.extend(found.map(|name| (*name).to_owned()));
-    }
-    out
-}
-
-/// What stands where no interval does.
-fn no_interval(claim: &Claim) -> String {
-    match (&claim.suites[..], claim.margin.as_str()) {
-        ([], _) => "computed, not sampled",
-        (_, "none") => "counted, all of them",
-        _ => "none stated: the value alone decides",
-    }
-    .into()
-}
-
-fn suite_words(claim: &Claim) -> &str {
-    match claim.suites[..] {
-        [] => "no records",
-        [suite] => suite.name(),
-        _ => "both suites",
-    }
-}
-
-fn finding(claim: &Claim, names: &[&str]) -> Finding {
-    let arm = claim
-        .arm
-        .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
-    let interval = claim.measured.interval;
-    let interval = interval.map_or_else(
-        || no_interval(claim),
-        |(a, b)| format!("{} to {}, 95 %", rounded_text(a), rounded_text(b)),
-    );
-    Finding {
-        id: claim.id.clone(),
-        claim: claim.quote.clone(),
-        source: format!("paper, section {}", claim.section),
-        tested_on: format!("{}, {}{arm}", suite_words(claim), claim.blocks),
-        measure: claim.measure.clone(),
-        value: rounded_text(claim.measured.value),
-        interval,
-        margin: claim.margin.clone(),
-        verdict: claim.verdict,
-        figures: shown_by(claim, names),
-        remark: claim.note.clone(),
-    }
+fn drawn(
+    figures: &[Figure],
+    is: impl Fn(&Figure) -> bool,
+) -> Vec<ShownFigure> {
+    figures.iter().filter(|f| is(f)).map(shown).collect()
 }
 
 /// Table 1, with the paper's gravity.
@@ -200,7 +287,6 @@ fn shown(figure: &Figure) -> ShownFigure {
         title: heading.title.clone(),
         reading: figure.reading.clone(),
         svg: figure.svg(),
-        csv: figure.csv.clone(),
         csv_path: format!("data/{}.csv", heading.name),
     }
 }

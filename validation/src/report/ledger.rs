@@ -186,7 +186,7 @@ pub fn table(
     results: Option<&Map<String, Value>>,
     claims: &[Claim],
 ) -> Result<PlainTable, LedgerError> {
-    let measured = |name: &str| claims.iter().any(|c| c.name == name);
+    let measured = |name: &str| claims.iter().any(|c| c.id == name);
     let requirements = requirements()?;
     let mut rows = Vec::with_capacity(requirements.len());
     let (mut met, mut by_tests) = (0, 0);
@@ -236,8 +236,14 @@ fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     }
     let found: Vec<String> = claims
         .iter()
-        .filter(|claim| r.findings.contains(&claim.name))
-        .map(|claim| format!("{} {}", claim.id, claim.verdict.name()))
+        .filter(|claim| r.findings.contains(&claim.id))
+        .flat_map(|claim| {
+            claim.results.iter().filter_map(|result| {
+                let verdict = result.by_equivalence?.name();
+                let (id, place) = (&claim.id, result.place());
+                Some(format!("{id} ({place}) {verdict}"))
+            })
+        })
         .collect();
     if !found.is_empty() {
         parts.push(format!("findings: {}", found.join(", ")));

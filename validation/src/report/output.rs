@@ -6,6 +6,8 @@ use std::fmt::Write as _;
 use rocking::block::BlockError;
 
 use super::evidence::{self, Proof};
+use super::head::Signatures;
+use super::quantity::{rule_text, value_text};
 use super::timings::Timings;
 use super::{ReportError, input, page};
 use crate::findings::Claim;
@@ -13,7 +15,6 @@ use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use crate::study::figures::Results;
 use crate::study::{Study, questions};
 use crate::table::{Table, number};
-use crate::words::rounded_text;
 
 /// Files of a report by name; folders in a name are parted by `/`.
 pub type Files = BTreeMap<String, Vec<u8>>;
@@ -44,6 +45,7 @@ fn laid_out(files: Files) -> Files {
 pub fn files(
     study: &Study,
     proof: Option<&Proof>,
+    signatures: &Signatures,
 ) -> Result<Files, ReportError> {
     let mut files = Files::new();
     let timed = Timings::kept()?.figure();
@@ -64,9 +66,10 @@ pub fn files(
         &study.results,
         &study.figures,
         &charts,
-        &study.findings.claims,
+        &study.findings,
         &study.answers,
         proof,
+        signatures,
     )?;
     files.insert("index.html".into(), page::page(&input).into_bytes());
     Ok(laid_out(files))
@@ -86,16 +89,10 @@ fn table_1() -> Result<String, BlockError> {
 
 /// Every record's histories and curves against those of alpha = 0.10.
 fn single_csv(results: &Results) -> String {
-    let mut table = Table::new(&[
-        "suite",
-        "record",
-        "p_rad_s",
-        "im_pga",
-        "alpha_rad",
-        "normalized_l2_distance",
-        "peak_ratio",
-        "mean_abs_ln_im_ratio",
-    ]);
+    let mut table = Table::headed(
+        "suite,record,p_rad_s,im_pga,alpha_rad,normalized_l2_distance,\
+         peak_ratio,mean_abs_ln_im_ratio",
+    );
     let others: Vec<f64> = (0..SLENDERNESSES_RAD.len())
         .filter(|s| *s != REFERENCE)
         .map(|s| SLENDERNESSES_RAD[s])
@@ -121,23 +118,27 @@ fn single_csv(results: &Results) -> String {
     table.finish()
 }
 
-/// The claims as a table for people.
+/// The findings among the claims as a table for people.
 #[must_use]
 pub fn claims_table(claims: &[Claim]) -> String {
     let mut out = String::new();
     for claim in claims {
-        let arm = claim.arm.map(|arm| format!(", arm {}", arm.letter()));
-        let suite = claim.suite_name().to_owned() + &arm.unwrap_or_default();
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "{:<13}  {:<34} {:<20} {:>10}  {}",
-            claim.verdict.name(),
-            claim.name,
-            suite,
-            rounded_text(claim.measured.value),
-            claim.margin
-        );
+        for result in &claim.results {
+            let Some(verdict) = result.by_equivalence else { continue };
+            let criterion = result.by_criterion.map_or(String::new(), |v| {
+                format!("; by the paper's criterion {}", v.name())
+            });
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                out,
+                "{:<13}  {:<26} {:<17} {:<32} limit: {}{criterion}",
+                verdict.name(),
+                claim.id,
+                result.place(),
+                value_text(claim, result),
+                rule_text(claim),
+            );
+        }
     }
     out
 }

@@ -26,37 +26,89 @@ pub struct ReportInput {
     pub title: String,
     /// One sentence under the title.
     pub subtitle: String,
+    /// Name and value: the paper, the program, its input, the command.
+    pub head: Vec<(String, String)>,
+    /// What is signed for, and by whom or when if that was given.
+    pub signatures: Vec<(String, Option<String>)>,
     /// The first thing read.
-    pub summary: Summary,
-    /// The table of findings.
-    pub findings: Vec<Finding>,
+    pub answers: Answers,
+    /// Suites of the columns of the answers and findings.
+    pub columns: Vec<Column>,
+    /// The findings by theme.
+    pub findings: Vec<Theme>,
+    /// Statements that are true by definition, or that are descriptions.
+    pub identities: PlainTable,
+    /// How the results come about, a paragraph each.
+    pub method: Vec<String>,
+    /// Terms and symbols, and what they mean.
+    pub glossary: Vec<(String, String)>,
     /// Whose results of the declared cases these are, or that there are
     /// none.
     pub proof: String,
     /// Declared cases, family by family.
     pub families: Vec<Family>,
-    /// Table 1 and any other tables that stand before the figures.
-    pub tables: Vec<PlainTable>,
-    /// The figures in order.
-    pub figures: Vec<ShownFigure>,
-    /// Name and value: version, suites with hashes, seeds, settings.
-    pub provenance: Vec<(String, String)>,
-    /// Known limits, and what was not checked.
-    pub limits: Vec<String>,
-    /// Tables on credibility: comparison error and uncertainty, and the
-    /// like.
-    pub credibility: Vec<PlainTable>,
+    /// Tables and figures of the proof.
+    pub evidence: Chapter,
+    /// Further chapters in order: speed, suites, limits, provenance.
+    pub chapters: Vec<Chapter>,
+    /// Chapters that are folded on a screen and whole on paper.
+    pub annexes: Vec<Chapter>,
 }
 
-/// What was asked, what was found, how far to trust it.
+/// The questions that a reader asks first, each with its answer.
 #[derive(Debug, Clone, Default)]
-pub struct Summary {
-    /// The question, a paragraph.
-    pub asked: String,
-    /// The answers, a sentence each.
-    pub found: Vec<String>,
-    /// How far to trust them, a paragraph.
-    pub trust: String,
+pub struct Answers {
+    /// The questions.
+    pub rows: Vec<AnswerRow>,
+    /// Drawings beside them.
+    pub figures: Vec<ShownFigure>,
+}
+
+/// One question and its answer.
+#[derive(Debug, Clone)]
+pub struct AnswerRow {
+    /// What is asked.
+    pub question: String,
+    /// The answer, fifteen words at most.
+    pub answer: String,
+    /// Size of the effect with its interval and unit.
+    pub effect: String,
+    /// What each column's suites say.
+    pub columns: Vec<String>,
+    /// Anchor and words of where it is shown.
+    pub shown: Vec<(String, String)>,
+}
+
+/// Text, tables and figures under a heading.
+#[derive(Debug, Clone, Default)]
+pub struct Chapter {
+    /// Unique name, also the anchor.
+    pub id: &'static str,
+    /// The heading.
+    pub title: String,
+    /// Paragraphs.
+    pub text: Vec<String>,
+    /// Names and values.
+    pub list: Vec<(String, String)>,
+    /// Tables.
+    pub tables: Vec<PlainTable>,
+    /// Figures.
+    pub figures: Vec<ShownFigure>,
+}
+
+/// Findings about one question.
+#[derive(Debug, Clone)]
+pub struct Theme {
+    /// Unique name, also the anchor.
+    pub id: &'static str,
+    /// The question.
+    pub question: String,
+    /// What came out, a paragraph.
+    pub paragraph: String,
+    /// Its figures.
+    pub figures: Vec<ShownFigure>,
+    /// Claims about it.
+    pub findings: Vec<Finding>,
 }
 
 /// One claim and what came out.
@@ -65,25 +117,51 @@ pub struct Finding {
     /// Unique name, also the anchor.
     pub id: String,
     /// The claim, as quoted.
-    pub claim: String,
-    /// Where the claim stands: `paper, section 4`.
+    pub quote: String,
+    /// Where the claim stands: `section 4, Figure 6`.
     pub source: String,
-    /// Suite, blocks and arm that it was tested on.
-    pub tested_on: String,
-    /// What was measured.
+    /// The paper's own criterion, where it states one.
+    pub criterion: String,
+    /// What counts as confirmed in practice.
+    pub rule: String,
+    /// What came out, by column.
+    pub columns: Vec<Vec<Outcome>>,
+    /// Anchors and numbers of the figures that show it.
+    pub figures: Vec<(String, String)>,
+    /// What was measured, and why the limits are what they are.
     pub measure: String,
-    /// Its value with unit.
-    pub value: String,
-    /// Its interval with level, or what it is compared with.
-    pub interval: String,
-    /// The margin decided beforehand.
-    pub margin: String,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Names of the figures that show it.
-    pub figures: Vec<String>,
     /// A remark, or nothing.
     pub remark: String,
+}
+
+/// What came out on a suite and arm.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// The suite.
+    pub suite: String,
+    /// Suite and arm.
+    pub place: String,
+    /// The value with its interval.
+    pub value: String,
+    /// The verdict by the paper's own criterion, where it has one.
+    pub by_criterion: Option<Verdict>,
+    /// The verdict by practical equivalence.
+    pub by_equivalence: Option<Verdict>,
+    /// Whether it stands among the findings, or in the annex alone.
+    pub first: bool,
+    /// Cells, how the interval was made, records needed.
+    pub remarks: Vec<String>,
+}
+
+/// Suites whose findings stand in one column.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// `recorded suites`.
+    pub name: String,
+    /// How many records: `86 ordinary + 44 pulse-type`.
+    pub suites: String,
+    /// Number of results with each verdict.
+    pub counts: [(Verdict, usize); 3],
 }
 
 /// Declared cases of one kind.
@@ -91,8 +169,12 @@ pub struct Finding {
 pub struct Family {
     /// Name: `free-rocking`.
     pub name: String,
-    /// Why the family exists.
-    pub purpose: String,
+    /// What the cases are held against.
+    pub oracle: String,
+    /// Largest share of a tolerance that a number of the family uses.
+    pub worst: String,
+    /// Number of wrong models that the cases told from the right one.
+    pub rejected: usize,
     /// The cases.
     pub cases: Vec<ShownCase>,
 }
@@ -110,10 +192,8 @@ pub struct ShownCase {
     pub tolerance: String,
     /// Why that tolerance.
     pub because: String,
-    /// What was measured.
-    pub error: String,
-    /// Share of the tolerance that was used, or the like.
-    pub margin: String,
+    /// The largest error as a share of its tolerance, and of which quantity.
+    pub worst: String,
     /// Wrong models that fail it.
     pub rejects: String,
     /// Whether it passed.
@@ -152,6 +232,7 @@ pub fn page(input: &ReportInput) -> String {
                     @if !input.subtitle.is_empty() {
                         p.subtitle { (input.subtitle) }
                     }
+                    (sections::head(input))
                 }
                 nav aria-label="Contents" { (contents(&parts)) }
                 main id="main" tabindex="-1" {
@@ -177,7 +258,7 @@ pub fn page(input: &ReportInput) -> String {
 /// A section of the page.
 struct Part {
     id: &'static str,
-    title: &'static str,
+    title: String,
     body: Markup,
 }
 

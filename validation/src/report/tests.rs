@@ -7,12 +7,13 @@ use rocking::integrator::Overturning;
 use rocking::record::Processing;
 
 use super::evidence::{NOT_RUN, Proof};
+use super::head::Signatures;
 use super::ledger::requirements;
 use super::output::{self, FINDINGS, Files};
-use super::{credibility, input, summary};
+use super::{answers, credibility, input};
 use crate::curves::Execution;
-use crate::findings::{Findings, Topic};
-use crate::paper::{Arm, SuiteKind, Verdict};
+use crate::findings::{Findings, Kind, Topic};
+use crate::paper::{Arm, SuiteKind};
 use crate::proof::cases::load_all;
 use crate::study::Study;
 use crate::study::analyses::{Plan, SuiteResults, Work};
@@ -41,7 +42,7 @@ fn empty(source: &Source) -> Results {
         sha256: String::new(),
         work: Work { analyses: 0, certainty: Certainty::default() },
         records: Vec::new(),
-        onset_violations: 0,
+        list: Vec::new(),
         chosen: [0; 3],
         arms: Vec::new(),
         single: Vec::new(),
@@ -66,7 +67,9 @@ fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     pool.expect("pool").install(|| {
         let progress = ProgressBar::hidden();
         let study = Study::run(plan, &[ordinary, pulse], false, &progress);
-        output::files(&study.expect("study"), proof).expect("report")
+        let signatures = Signatures::default();
+        output::files(&study.expect("study"), proof, &signatures)
+            .expect("report")
     })
 }
 
@@ -74,10 +77,10 @@ fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
 fn said_of(source: &Source) -> String {
     let results = empty(source);
     let limits = input::limits(&results).concat();
-    let tables = credibility::tables(&results, &[], None);
+    let tables = credibility::tables(&results, &[], None).expect("tables");
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
-    limits + &summary::not_checked(&results) + &cells
+    limits + &answers::not_checked(&results) + &cells
 }
 
 #[test]
@@ -113,7 +116,9 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         assert!(*content == two[name], "{name} differs");
     }
     let [page, without] = pages;
-    let (id, table) = (&load_all().expect("cases")[0].id, "table-precision");
+    // The first case is named by an identity of the paper.
+    let cases = load_all().expect("cases");
+    let (id, table) = (&cases[cases.len() - 1].id, "table-precision");
     assert!(page.contains(&proof.to_string()) && !page.contains("run here"));
     assert!(page.contains(id) && page.contains(table));
     assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
@@ -141,16 +146,28 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
     let findings = Findings::parse(&text).expect("findings");
     assert_eq!(findings.text(), text);
-    // The onset of rocking is exact for every record.
-    let onset = findings.claims.iter().filter(|c| c.measure.contains("1e-9"));
-    let onset: Vec<_> = onset.map(|claim| claim.verdict).collect();
-    assert_eq!(onset, [Verdict::Confirmed; 2]);
+    // Every finding is judged where it has an interval, and nowhere else.
+    for claim in &findings.claims {
+        let finding = claim.kind == Kind::Finding;
+        assert_eq!(claim.results.is_empty(), !finding, "{}", claim.id);
+        for result in &claim.results {
+            let known = result.measured().interval.is_some();
+            let judged = result.by_equivalence.is_some();
+            assert_eq!(judged, known, "{}, {}", claim.id, result.place());
+        }
+    }
+    // An identity names a case that there is.
+    let cases = load_all().expect("cases");
+    for claim in findings.claims.iter().filter(|c| c.kind == Kind::Identity) {
+        let declared = cases.iter().any(|case| case.id == claim.case);
+        assert!(declared, "{}: {}", claim.id, claim.case);
+    }
     // Ten records, all above 0.14 g: none fails to lift alpha = 0.10.
     let uplift = findings.table(Topic::UpliftUnscaled).expect("table");
     assert_eq!(uplift.rows[1].values[0].value, 10.0);
     // The ledger names what was measured, and all of it.
     let keys: Vec<&str> =
-        findings.claims.iter().map(|claim| claim.name.as_str()).collect();
+        findings.claims.iter().map(|claim| claim.id.as_str()).collect();
     let named: Vec<String> = requirements()
         .expect("ledger")
         .into_iter()

@@ -196,6 +196,50 @@ impl Timings {
         )
     }
 
+    /// The error of the peak, in a few words.
+    #[must_use]
+    pub fn error(&self) -> String {
+        self.own().map_or(String::new(), |own| {
+            format!(
+                "Peak of |theta|/alpha off by {} in the median, by less than \
+                 {} in 90 % of {} analyses",
+                digits(own.peak_error),
+                digits(own.peak_error_90),
+                own.cases
+            )
+        })
+    }
+
+    /// Whether it is faster than the compiled peer at no larger error, and
+    /// how fast.
+    #[must_use]
+    pub fn speed(&self) -> (String, String) {
+        let equal = self.of_many(PEER).and_then(|peer| {
+            let (setting, ours) = self.no_worse(peer)?;
+            Some((setting, ours.rate_per_s() / peer.rate_per_s()))
+        });
+        let answer = match equal {
+            Some((setting, times)) if times > 1.0 => format!(
+                "Yes: {} times Boost.odeint as first written, at {setting}.",
+                digits(times)
+            ),
+            Some((_, times)) => {
+                format!(
+                    "No: {} times Boost.odeint as first written.",
+                    digits(times)
+                )
+            }
+            None => "Open: no timing compares them.".into(),
+        };
+        let effect = self.of_many(PAPER).map_or(String::new(), |paper| {
+            format!(
+                "{:.0} analyses a second and core as shipped",
+                paper.rate_per_s()
+            )
+        });
+        (answer, effect)
+    }
+
     /// How fast, in a sentence.
     #[must_use]
     pub fn plain(&self) -> String {

@@ -17,6 +17,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::StudyError;
 use super::certainty::Certainty;
 use super::runs::Setup;
+use crate::findings::RecordName;
 use crate::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SuiteKind, position,
 };
@@ -70,11 +71,9 @@ pub struct StripeDemands {
     pub demands: Vec<Vec<Vec<f64>>>,
     /// By frequency, then by stripe, then by record: slenderness adjusted.
     pub adjusted: Vec<Vec<Vec<f64>>>,
-    /// Records that stand at a stripe at or above their first overturning,
-    /// by block, then by stripe.
-    pub stand_again: Vec<Vec<usize>>,
-    /// Records that overturned at or below, by block, then by stripe.
-    pub overturned: Vec<Vec<usize>>,
+    /// Whether a record stands at a stripe at or above its first
+    /// overturning, by block, then by stripe, then by record.
+    pub stands_again: Vec<Vec<Vec<bool>>>,
 }
 
 /// Results of one suite.
@@ -90,23 +89,22 @@ pub struct SuiteResults {
     pub remarks: Option<String>,
     /// Hash of the input.
     pub sha256: String,
+    /// The records' names and hashes.
+    pub list: Vec<RecordName>,
     /// What the chains took.
     pub work: Work,
     /// The records.
     pub records: Vec<Facts>,
-    /// Records whose onset is not exactly at intensity 1, for the reference
-    /// block with p = 3.
-    pub onset_violations: usize,
     /// Positions of the records that the single-record figures show.
     pub chosen: [usize; 3],
     /// Curves by arm.
     pub arms: Vec<ArmCurves>,
     /// By frequency parameter.
     pub single: Vec<SingleRecords>,
-    /// By arm; ordinary suite only.
+    /// By arm.
     pub stripes: Vec<StripeDemands>,
     /// Slenderness-adjusted curves by arm; by frequency instead of block,
-    /// then by record; ordinary suite only.
+    /// then by record.
     pub adjusted: Vec<ArmCurves>,
 }
 
@@ -153,15 +151,13 @@ impl Plan {
         }
     }
 
-    /// Runs everything for one suite; `stages_3_and_4` adds stripes and
-    /// slenderness adjustment.
+    /// Runs everything for one suite.
     ///
     /// # Errors
     /// [`StudyError`] where an analysis cannot be done.
     pub fn run(
         &self,
         suite: &StudySuite,
-        stages_3_and_4: bool,
         progress: &ProgressBar,
     ) -> Result<SuiteResults, StudyError> {
         let records: Vec<NormalisedRecord> = suite
@@ -178,18 +174,17 @@ impl Plan {
         let ratios: Vec<f64> =
             facts.iter().map(|f| f.velocity_ratio_s).collect();
         let chosen = single::by_rank(&ratios);
-        let reference = BLOCKS[position(1, REFERENCE)];
-        let violations: Vec<bool> = records
-            .par_iter()
-            .map(|record| self.setup.violates_onset(reference, record))
-            .collect::<Result<_, _>>()?;
         let mut results = SuiteResults {
-            onset_violations: violations.iter().filter(|v| **v).count(),
             kind: suite.kind,
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),
             remarks: suite.remarks.words(),
             sha256: suite.sha256(),
+            list: suite
+                .list()
+                .into_iter()
+                .map(|(name, sha256)| RecordName { name, sha256 })
+                .collect(),
             work,
             records: facts,
             chosen,
@@ -203,10 +198,8 @@ impl Plan {
                 self.single(frequency, &BLOCKS, &records, &results)?;
             results.single.push(single);
         }
-        if stages_3_and_4 {
-            results.adjusted = self.adjusted(&BLOCKS, &records, progress)?;
-            results.stripes = self.stripes(&BLOCKS, &records, &results)?;
-        }
+        results.adjusted = self.adjusted(&BLOCKS, &records, progress)?;
+        results.stripes = self.stripes(&BLOCKS, &records, &results)?;
         Ok(results)
     }
 

@@ -1,258 +1,244 @@
-//! The paper's claims, each with its measure and the margin that was fixed
-//! before any result was seen.
+//! The paper's claims: declared as data in `validation/claims`, measured by
+//! [`super::measures`], judged by [`super::inference`].
 
-mod basics;
-mod fragilities;
-mod lognormality;
-mod stages;
-mod stripes;
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
 
-use rocking::capacity::InversionRule;
-use rocking::statistics::ExtendedSample;
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
-use rocking::statistics::boxplot::median_interval;
-use rocking::statistics::paired::Pairs;
+use serde::Deserialize;
 
 use super::StudyError;
-use super::analyses::{Apart, SuiteResults};
-use super::figures::{Results, median_of};
-use super::runs::capacities;
-use super::sensitivities::Varied;
-use crate::findings::{Claim, Measured, suffix};
-use crate::paper::{
-    Arm, FREQUENCIES_RAD_S, Section, SuiteKind, Verdict, position,
+use super::figures::Results;
+use super::inference::{Draws, Replicated, Rule, judge, share};
+use super::measures::{Measure, Shares, Source, all_shares};
+use crate::findings::{
+    Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
 };
+use crate::paper::{Arm, Section};
 
-/// Level of all intervals.
-const LEVEL: f64 = 0.95;
+/// The declared claims, in the order of the page.
+const FILES: [(&str, &str); 4] = [
+    ("choices.toml", include_str!("../../claims/choices.toml")),
+    ("slenderness.toml", include_str!("../../claims/slenderness.toml")),
+    ("lognormality.toml", include_str!("../../claims/lognormality.toml")),
+    ("fragilities.toml", include_str!("../../claims/fragilities.toml")),
+];
 
-/// Replicates of a bootstrap.
-const REPLICATES: usize = 2000;
-
-/// Equal within this share counts as the same.
-const SAME: f64 = 0.05;
-
-/// Standard normal quantile of 97.5 %.
-const NORMAL_975: f64 = 1.959_963_984_540_054;
-
-/// Wilson's 95 % interval of a share: `count` of `of` records, which are
-/// independent of each other.
-#[must_use]
-pub fn wilson(count: usize, of: usize) -> (f64, f64) {
-    let (n, z2) = (of as f64, NORMAL_975 * NORMAL_975);
-    let share = count as f64 / n;
-    let middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
-    let spread = share * (1.0 - share) / n + z2 / (4.0 * n * n);
-    let half = NORMAL_975 * spread.sqrt() / (1.0 + z2 / n);
-    (middle - half, middle + half)
+/// A claim as it is declared.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Declared {
+    /// Unique name.
+    pub id: String,
+    /// What sort of statement it is.
+    pub kind: Kind,
+    /// What it is about.
+    pub theme: Theme,
+    /// Where the paper says it.
+    pub section: Section,
+    /// The paper's words.
+    pub quote: String,
+    /// Registered name of the measure of a finding.
+    pub measure: Option<Measure>,
+    /// What is measured, in words.
+    #[serde(default)]
+    pub words: String,
+    /// Blocks measured.
+    #[serde(default)]
+    pub blocks: String,
+    /// How many of the cells.
+    pub quantifier: Option<Quantifier>,
+    /// Where a value has to lie.
+    pub region: Option<Region>,
+    /// Why there.
+    #[serde(default)]
+    pub reason: String,
+    /// The paper's own criterion.
+    #[serde(default)]
+    pub criterion: String,
+    /// Suites that it is tested on.
+    #[serde(default)]
+    pub suites: Vec<Tested>,
+    /// Arms that it is tested on.
+    pub arms: Option<Arms>,
+    /// Declared case of an identity.
+    #[serde(default)]
+    pub case: String,
+    /// What else a reader must know.
+    #[serde(default)]
+    pub note: String,
 }
 
-/// All claims, in the paper's order.
+/// Arms of the grid that a claim is tested on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arms {
+    /// Each that is drawn.
+    Drawn,
+    /// The one that figures share.
+    Common,
+    /// None: the grid does not enter.
+    None,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    claim: Vec<Declared>,
+}
+
+/// The declared claims.
+///
+/// # Panics
+/// If a file is not of the expected form: the files are compiled in, and a
+/// test reads them.
+#[must_use]
+pub fn declared() -> &'static [Declared] {
+    static CLAIMS: LazyLock<Vec<Declared>> = LazyLock::new(|| {
+        let mut out = Vec::new();
+        for (name, text) in FILES {
+            let file: File = toml::from_str(text)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
+            out.extend(file.claim);
+        }
+        let mut ids = BTreeSet::new();
+        for claim in &out {
+            assert!(ids.insert(&claim.id), "two claims named {}", claim.id);
+            if let Err(error) = claim.check() {
+                panic!("claim {}: {error}", claim.id);
+            }
+        }
+        out
+    });
+    &CLAIMS
+}
+
+impl Declared {
+    /// What a claim of its kind must have, and nothing else.
+    fn check(&self) -> Result<(), &'static str> {
+        let judged = self.measure.is_some()
+            && self.quantifier.is_some()
+            && self.region.is_some()
+            && !self.reason.is_empty()
+            && !self.suites.is_empty()
+            && self.arms.is_some();
+        let bare = self.measure.is_none()
+            && self.region.is_none()
+            && self.suites.is_empty();
+        match self.kind {
+            Kind::Finding if judged && self.case.is_empty() => Ok(()),
+            Kind::Finding => Err(
+                "a finding has a measure, a quantifier, a region with its \
+                 reason, suites and arms, and no case",
+            ),
+            Kind::Identity if bare && !self.case.is_empty() => Ok(()),
+            Kind::Identity => Err("an identity names its declared case"),
+            Kind::Description if bare && self.case.is_empty() => Ok(()),
+            Kind::Description => Err("a description is quoted alone"),
+        }
+    }
+}
+
+/// All claims, with what came out.
 ///
 /// # Errors
 /// [`StudyError`] where a measure cannot be computed.
 pub fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
-    let mut out = basics::all(results)?;
-    out.extend(stages::all(results)?);
-    out.extend(lognormality::all(results)?);
-    out.extend(fragilities::all(results)?);
-    Ok(out)
-}
-
-/// What does not change from one claim to the next.
-struct Context<'a> {
-    section: Section,
-    suites: &'a [SuiteKind],
-    blocks: &'a str,
-    arm: Option<Arm>,
-}
-
-impl Context<'_> {
-    /// A claim measured here.
-    #[expect(clippy::too_many_arguments, reason = "all of them are words")]
-    fn claim(
-        &self,
-        id: &str,
-        quote: &str,
-        measure: &str,
-        measured: Measured,
-        margin: &str,
-        verdict: Verdict,
-        note: String,
-    ) -> Claim {
-        Claim {
-            id: format!("{id}{}", suffix(self.suites, self.arm)),
-            name: id.into(),
-            section: self.section,
-            quote: quote.into(),
-            suites: self.suites.to_vec(),
-            blocks: self.blocks.into(),
-            arm: self.arm,
-            measure: measure.into(),
-            measured,
-            margin: margin.into(),
-            verdict,
-            note,
-        }
-    }
-}
-
-/// Median with its exact order-statistic interval.
-#[must_use]
-pub fn median(values: &[f64]) -> Measured {
-    let finite: Vec<f64> =
-        values.iter().copied().filter(|x| x.is_finite()).collect();
-    let Ok(sample) = ExtendedSample::try_new(&finite) else {
-        return Measured::exact(f64::NAN);
-    };
-    let sorted = sample.sorted();
-    let n = sorted.len();
-    Measured {
-        value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
-        interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
-    }
-}
-
-/// Distance of a median from 1, with the interval's.
-fn away(m: Measured) -> Measured {
-    let off = |x: f64| (x - 1.0).abs();
-    let interval = m.interval.map(|(a, b)| {
-        let (a_off, b_off) = (off(a), off(b));
-        let high = if a_off > b_off { a_off } else { b_off };
-        let low = if a_off > b_off { b_off } else { a_off };
-        (if a <= 1.0 && b >= 1.0 { 0.0 } else { low }, high)
-    });
-    Measured { value: off(m.value), interval }
-}
-
-fn middle(values: &[f64]) -> f64 {
-    median(values).value
-}
-
-/// Difference of two samples' medians, a minus b, with the percentile
-/// interval of a bootstrap that draws from each sample on its own.
-fn difference(name: &str, a: &[f64], b: &[f64]) -> Measured {
-    let draw = |side: &str, x: &[f64]| {
-        let name = format!("study/{name}/{side}");
-        Bootstrap::new(&name, 0, x.len(), REPLICATES).map(|places| {
-            middle(&places.iter().map(|i| x[*i]).collect::<Vec<f64>>())
-        })
-    };
-    let value = middle(a) - middle(b);
-    let replicates: Vec<f64> =
-        draw("a", a).iter().zip(draw("b", b)).map(|(a, b)| a - b).collect();
-    let interval =
-        estimate(value, &replicates, LEVEL).map(|e| (e.low, e.high));
-    Measured { value, interval }
-}
-
-/// Medians that should all be 1: the worst one, and the verdict over all.
-struct Cells {
-    measured: Measured,
-    verdict: Verdict,
-    /// Number of cells, and of those whose interval does not contain 1.
-    counts: (usize, usize),
-}
-
-/// Confirmed if every cell's interval lies within 1 -+ `margin`, not
-/// confirmed if one lies wholly outside.
-fn all_one(cells: &[Vec<f64>], margin: f64) -> Cells {
-    let medians: Vec<Measured> = cells
+    let sizes = [&results.ordinary, &results.pulse].map(|s| s.records.len());
+    let draws = Draws::new(sizes);
+    let shares = all_shares(results, &draws);
+    declared()
         .iter()
-        .filter(|c| c.len() >= crate::paper::LEAST_USABLE)
-        .map(|c| median(c))
-        .collect();
-    let verdicts: Vec<Verdict> =
-        medians.iter().map(|m| m.within(1.0 - margin, 1.0 + margin)).collect();
-    let verdict = if verdicts.contains(&Verdict::NotConfirmed) {
-        Verdict::NotConfirmed
-    } else if verdicts.is_empty() || verdicts.contains(&Verdict::Inconclusive)
-    {
-        Verdict::Inconclusive
-    } else {
-        Verdict::Confirmed
-    };
-    let mut measured = Measured::exact(f64::NAN);
-    for m in &medians {
-        let off = |m: &Measured| (m.value - 1.0).abs();
-        if measured.value.is_nan() || off(m) > off(&measured) {
-            measured = *m;
-        }
-    }
-    let excludes =
-        |m: &&Measured| m.interval.is_some_and(|(a, b)| a > 1.0 || b < 1.0);
-    let excluding = medians.iter().filter(excludes).count();
-    Cells { measured, verdict, counts: (medians.len(), excluding) }
-}
-
-impl Cells {
-    fn note(&self) -> String {
-        format!(
-            "worst of {} cells; the intervals of {} exclude 1",
-            self.counts.0, self.counts.1
-        )
-    }
-}
-
-/// One frequency parameter of a suite's single-record comparison, medians
-/// over records and slendernesses.
-#[derive(Clone, Copy, Debug)]
-pub struct SingleRow {
-    /// Frequency parameter.
-    pub p_rad_s: f64,
-    /// Level of the histories.
-    pub im: f64,
-    /// Number of pairs of histories in which both blocks stand.
-    pub usable: usize,
-    /// Normalized L2 distance.
-    pub distance: f64,
-    /// Ratio of the peaks.
-    pub peak_ratio: f64,
-    /// Mean |ln| of the ratio of intensities at equal demand.
-    pub mean_ln_im: f64,
-}
-
-/// The single-record comparison by frequency parameter.
-#[must_use]
-pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
-    suite
-        .single
-        .iter()
-        .zip(FREQUENCIES_RAD_S)
-        .map(|(single, p_rad_s)| {
-            let stands = |a: &&Apart| a.distance.is_finite();
-            SingleRow {
-                p_rad_s,
-                im: single.im,
-                usable: single.apart.iter().flatten().filter(stands).count(),
-                distance: median_of(single, |a| a.distance),
-                peak_ratio: median_of(single, |a| a.peak_ratio),
-                mean_ln_im: median_of(single, |a| a.mean_ln_im),
-            }
-        })
+        .map(|claim| measured(claim, results, &draws, &shares))
         .collect()
 }
 
-/// Paired capacities at a demand: another choice over the study's.
-///
-/// # Errors
-/// [`StudyError`] where a curve cannot be inverted.
-pub fn varied_ratios(
+fn measured(
+    claim: &Declared,
     results: &Results,
-    varied: &Varied,
-    demand: f64,
-) -> Result<Pairs, StudyError> {
-    let curves = results.ordinary.curves(results.plan.common());
-    let base = &curves.ok_or(StudyError::NoArm)?
-        [position(varied.frequency, varied.slenderness)];
-    let (mut a, mut b) = (Vec::new(), Vec::new());
-    for (curve, base) in varied.curves.iter().zip(base) {
-        if let Some(curve) = curve {
-            a.extend(capacities(curve, &[demand], InversionRule::Median)?);
-            b.extend(capacities(base, &[demand], InversionRule::Median)?);
+    draws: &Draws,
+    shares: &[Shares],
+) -> Result<Claim, StudyError> {
+    let mut found = Vec::new();
+    if let (Some(measure), Some(quantifier), Some(region)) =
+        (claim.measure, claim.quantifier, claim.region)
+    {
+        let (unit, range) = measure.unit();
+        let rule = Rule { quantifier, region, unit, range };
+        let common = results.plan.common();
+        let arms: Vec<(Arm, Option<Arm>)> = match claim.arms {
+            Some(Arms::Drawn) => {
+                let drawn = results.plan.drawn();
+                drawn.into_iter().map(|arm| (arm, Some(arm))).collect()
+            }
+            Some(Arms::Common) => vec![(common, Some(common))],
+            Some(Arms::None) | None => vec![(common, None)],
+        };
+        for suite in &claim.suites {
+            for (arm, shown) in &arms {
+                let source = Source {
+                    results,
+                    draws,
+                    shares,
+                    tested: *suite,
+                    arm: *arm,
+                };
+                let Some(prepared) = source.prepare(measure)? else {
+                    continue;
+                };
+                let mut result = judge(
+                    draws,
+                    *suite,
+                    *shown,
+                    &rule,
+                    &prepared.cells,
+                    &prepared.measured,
+                );
+                if let Some(criterion) = &prepared.criterion
+                    && !claim.criterion.is_empty()
+                {
+                    by_criterion(draws, claim, criterion, &mut result);
+                }
+                found.push(result);
+            }
         }
     }
-    Ok(Pairs::try_new(&a, &b)?)
+    Ok(Claim {
+        id: claim.id.clone(),
+        kind: claim.kind,
+        theme: claim.theme,
+        section: claim.section,
+        quote: claim.quote.clone(),
+        measure: claim.words.clone(),
+        blocks: claim.blocks.clone(),
+        quantifier: claim.quantifier,
+        region: claim.region,
+        reason: claim.reason.clone(),
+        criterion: claim.criterion.clone(),
+        case: claim.case.clone(),
+        note: claim.note.clone(),
+        results: found,
+    })
+}
+
+/// The verdict by the paper's own criterion: the share of notches that cover
+/// 1, which an exception must not.
+fn by_criterion(
+    draws: &Draws,
+    claim: &Declared,
+    notches: &Replicated,
+    result: &mut ClaimResult,
+) {
+    let region = match claim.quantifier {
+        Some(Quantifier::Most) => Region::Above(0.5),
+        Some(Quantifier::One) => Region::Below(0.5),
+        _ => Region::Within(0.9, 1.0),
+    };
+    let (interval, verdict) = share(draws, result.suite, notches, region);
+    result.by_criterion = Some(verdict);
+    result.details.push(Detail {
+        name: "share of the cells whose notch covers 1".into(),
+        measured: interval,
+    });
 }
 
 #[cfg(test)]
@@ -260,13 +246,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wilson_agrees_with_its_closed_ends_and_r() {
-        // At 0 of n the upper end is z^2/(n + z^2).
-        let (low, high) = wilson(0, 20);
-        assert!(low.abs() < 1e-15 && (high - 0.161_125_158).abs() < 1e-8);
-        // R 4: prop.test(5, 10, correct = FALSE).
-        let (low, high) = wilson(5, 10);
-        assert!((low - 0.236_593_1).abs() < 1e-7, "{low}");
-        assert!((high - 0.763_406_9).abs() < 1e-7, "{high}");
+    fn every_measure_has_a_claim_and_every_claim_its_measure() {
+        // A finding without a measure does not load; so what is left is a
+        // measure that no claim names.
+        let named: BTreeSet<Measure> =
+            declared().iter().filter_map(|claim| claim.measure).collect();
+        for measure in Measure::ALL {
+            assert!(named.contains(&measure), "{measure:?}: no claim");
+        }
+        assert_eq!(named.len(), Measure::ALL.len());
+    }
+
+    #[test]
+    fn quotations_are_whole_sentences() {
+        for claim in declared() {
+            let quote = &claim.quote;
+            let first = quote.chars().next().unwrap();
+            assert!(first.is_uppercase(), "{}: {quote}", claim.id);
+            assert!(quote.ends_with('.'), "{}: {quote}", claim.id);
+            assert!(!quote.contains("..."), "{}: {quote}", claim.id);
+        }
     }
 }

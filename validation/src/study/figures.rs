@@ -6,12 +6,8 @@ mod quantiles;
 mod ratios;
 mod single;
 
-pub(crate) use fragilities::{
-    BLOCK, CONSTANTS, Fits, THRESHOLDS, distance, usfl7,
-};
-pub(crate) use ratios::{
-    adjusted_boxes, adjusted_split, demand_boxes, of_arm, pairs,
-};
+pub(crate) use fragilities::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
+pub(crate) use ratios::{adjusted_boxes, adjusted_split, of_arm, pairs};
 pub(crate) use single::median_of;
 
 use super::StudyError;

@@ -3,7 +3,7 @@
 use rocking::integrator::Overturning;
 
 use super::analyses::{Plan, SuiteResults};
-use super::claims::{self, wilson};
+use super::estimates::{self, wilson};
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
 use super::questions::{self, Answer};
 use super::{StudyError, normality};
@@ -64,6 +64,7 @@ fn suite(suite: &SuiteResults) -> Suite {
         component_rule: suite.component_rule.clone(),
         records: suite.records.len(),
         sha256: suite.sha256.clone(),
+        list: suite.list.clone(),
         shown_alone: suite.chosen.iter().map(name).collect(),
         remarks: suite.remarks.clone(),
         analyses: suite.work.analyses,
@@ -176,14 +177,13 @@ fn shares(results: &Results) -> Table {
 fn resurrections(results: &Results) -> Table {
     let stripes = &results.ordinary.stripes;
     let rows = stripes.iter().map(|stripes| {
-        let total = |counts: &[Vec<usize>]| -> Measured {
-            count(counts.iter().flatten().sum())
-        };
+        let demands = stripes.demands.iter().flatten().flatten();
+        let again = stripes.stands_again.iter().flatten().flatten();
         Row {
             at: Place { arm: Some(stripes.arm), ..Place::default() },
             values: vec![
-                total(&stripes.overturned),
-                total(&stripes.stand_again),
+                count(demands.filter(|d| d.is_infinite()).count()),
+                count(again.filter(|again| **again).count()),
             ],
         }
     });
@@ -204,7 +204,7 @@ fn resurrections(results: &Results) -> Table {
 fn single(results: &Results) -> Table {
     let mut rows = Vec::new();
     for suite in [&results.ordinary, &results.pulse] {
-        for row in claims::single_rows(suite) {
+        for row in estimates::single_rows(suite) {
             let ratios = [row.distance, row.peak_ratio, row.mean_ln_im];
             let mut values = vec![count(row.usable)];
             values.push(Measured::exact(row.im));
@@ -249,7 +249,7 @@ fn single(results: &Results) -> Table {
 fn varied(results: &Results) -> Result<Table, StudyError> {
     let mut rows = Vec::new();
     for v in &results.varied {
-        let pairs = claims::varied_ratios(results, v, 1.0)?;
+        let pairs = estimates::varied_ratios(results, v, 1.0)?;
         let at = Place {
             choice: Some(v.choice.name().into()),
             p_rad_s: Some(FREQUENCIES_RAD_S[v.frequency]),
@@ -257,7 +257,7 @@ fn varied(results: &Results) -> Result<Table, StudyError> {
             edp: Some(1.0),
             ..Place::default()
         };
-        let ratio = claims::median(&pairs.ratios);
+        let ratio = estimates::median(&pairs.ratios);
         rows.push(Row { at, values: vec![count(pairs.ratios.len()), ratio] });
     }
     Ok(Table {
@@ -289,7 +289,7 @@ fn adjustment(results: &Results) -> Result<Table, StudyError> {
             for (stripe, split) in stripes.iter().zip(splits) {
                 let median = stripe.summary.as_ref().map(|b| b.median);
                 let part =
-                    |of: &[f64]| Measured::exact(claims::median(of).value);
+                    |of: &[f64]| Measured::exact(estimates::median(of).value);
                 rows.push(Row {
                     at: Place {
                         arm: Some(arm),
@@ -368,7 +368,7 @@ fn overturning(results: &Results) -> Table {
                     alpha_rad: Some(block.alpha_rad),
                     ..Place::default()
                 },
-                values: vec![claims::median(last)],
+                values: vec![estimates::median(last)],
             });
         }
     }

@@ -6,8 +6,7 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Adjust, Analysis, Grid, Overturned};
 use rocking::integrator::{
-    Model, Observe, Outcome, Overturning, Response, Scene, respond,
-    uplift_threshold,
+    Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
 };
 
 use super::StudyError;
@@ -148,25 +147,6 @@ impl Setup {
             initial_ratio: 0.0,
         };
         Ok(respond(&scene, observe)?)
-    }
-
-    /// Whether the onset of rocking is not exactly at intensity 1: a motion
-    /// there, or none at 1 + 1e-9.
-    ///
-    /// # Errors
-    /// [`StudyError`] where the record cannot be scaled so.
-    pub fn violates_onset(
-        &self,
-        block: Block,
-        record: &NormalisedRecord,
-    ) -> Result<bool, StudyError> {
-        let threshold = uplift_threshold(&block, Model::Nonlinear);
-        let moves = |pga_g| -> Result<bool, StudyError> {
-            let observe = Observe::default();
-            let response = self.respond(block, record, pga_g, &observe)?;
-            Ok(response.outcome != Outcome::NoUplift)
-        };
-        Ok(moves(threshold)? || !moves(threshold * (1.0 + 1e-9))?)
     }
 
     /// History of theta/alpha every `interval_s`, and the peak (infinite

@@ -39,8 +39,8 @@ impl Study {
         progress: &ProgressBar,
     ) -> Result<Self, StudyError> {
         let [first, second] = suites;
-        let ordinary = plan.run(first, true, progress)?;
-        let pulse = plan.run(second, false, progress)?;
+        let ordinary = plan.run(first, progress)?;
+        let pulse = plan.run(second, progress)?;
         let common = plan.common();
         let mut distributions = of_suite(&ordinary, common)?;
         distributions.extend(of_suite(&pulse, common)?);

@@ -113,6 +113,37 @@ pub struct Suite {
     pub block: (Option<String>, String),
     /// What all rows share.
     pub setting: Setting,
+    /// Whether the measure is the square of the curves' intensity, so that
+    /// the curves stay linear in the acceleration.
+    pub squared: bool,
+}
+
+impl Suite {
+    /// The curves against a measure whose values at intensity 1 are these:
+    /// proportional to the intensity, or to its square.
+    ///
+    /// # Errors
+    /// [`CapacityError::Factor`] for a value that is not positive.
+    pub fn against(
+        mut self,
+        at_one: &[f64],
+        squared: bool,
+    ) -> Result<Self, CapacityError> {
+        for ((_, curve), &factor) in self.curves.iter_mut().zip(at_one) {
+            let factor = if squared { factor.sqrt() } else { factor };
+            *curve = curve.scaled(factor)?;
+        }
+        let onsets = self.curves.iter().map(|(_, curve)| curve.onset_im());
+        self.im_r = onsets.fold(f64::INFINITY, f64::min);
+        self.squared = squared;
+        Ok(self)
+    }
+
+    /// The measure at an intensity of the curves.
+    #[must_use]
+    pub fn told(&self, im: f64) -> f64 {
+        if self.squared { im * im } else { im }
+    }
 }
 
 /// One row.
@@ -139,6 +170,7 @@ pub fn read(path: &Path, measure: Intensity) -> Result<Suite, IdaFileError> {
         after_overturning: 0,
         block: (alpha_rad, p_rad_s),
         setting,
+        squared: false,
     };
     for group in rows.chunk_by(|a, b| a.record == b.record) {
         let record = &group[0].record;

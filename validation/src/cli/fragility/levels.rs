@@ -3,15 +3,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use rocking::capacity::InversionRule;
+use rocking::capacity::{Capacity, InversionRule};
 use rocking::statistics::{ExtendedSample, Lognormal};
 use serde_json::json;
 
 use super::Args;
+use super::limits::Limited;
 use super::sample::Plan;
 use crate::cli::capacities::ida;
 use crate::cli::{Failure, print, print_json};
-use crate::json;
 use crate::paper::Intensity;
 
 /// What was found at one level.
@@ -26,25 +26,35 @@ struct Row {
 
 pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
     let plan = Plan::new(args)?;
-    let suite = ida::read(path, args.im.unwrap_or(Intensity::Pga))?;
+    let measure = args.im.unwrap_or(Intensity::Pga);
+    let suite = ida::read(path, measure)?;
     let rule = args.point.unwrap_or(InversionRule::Median);
     let levels = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
     let mut rows = Vec::new();
     for &edp in levels {
-        let mut ims = Vec::new();
+        let (mut ims, mut limits) = (Vec::new(), Vec::new());
         for (_, curve) in &suite.curves {
-            ims.push(curve.capacity(edp, rule)?.im());
+            let capacity = curve.capacity(edp, rule)?;
+            ims.push(capacity.im());
+            limits.push(match capacity {
+                Capacity::Reached(_) => None,
+                Capacity::Censored { above } => Some(above),
+            });
         }
         let sample = ExtendedSample::try_new(&ims)?;
-        let at = |p| plan.quantile_type.of_extended(&sample, p);
-        let fits = plan.fits(&ims).map_err(|error| {
+        let limited = Limited::new(&ims, &limits);
+        let at = |p| {
+            let value = limited.quantile(plan.quantile_type, p);
+            value.unwrap_or(f64::NAN)
+        };
+        let fits = plan.fits(&limited).map_err(|error| {
             let path = path.display();
             Failure::input(format!("{path} at EDP {edp}: {error}"))
         })?;
         rows.push(Row {
             edp,
             censored: sample.censored(),
-            quantiles: [at(0.16)?, at(0.5)?, at(0.84)?],
+            quantiles: [at(0.16), at(0.5), at(0.84)],
             fitted: fits.fit.distribution,
             unshifted: fits.unshifted,
         });
@@ -53,26 +63,32 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
     if args.json {
         let rows = rows.iter().map(|row| {
             json!({
-                "edp": json::number(row.edp),
+                "edp": row.edp,
                 "censored": row.censored,
-                "im16": json::number(row.quantiles[0]),
-                "im50": json::number(row.quantiles[1]),
-                "im84": json::number(row.quantiles[2]),
-                "shift": json::number(row.fitted.shift()),
-                "median": json::number(row.fitted.median()),
-                "beta": json::number(row.fitted.dispersion()),
+                "im16": row.quantiles[0],
+                "im50": row.quantiles[1],
+                "im84": row.quantiles[2],
+                "shift": row.fitted.shift(),
+                "median": row.fitted.median(),
+                "beta": row.fitted.dispersion(),
                 "unshifted_median":
-                    json::optional(row.unshifted.map(|u| u.median())),
+                    row.unshifted.map(|u| u.median()),
                 "unshifted_beta":
-                    json::optional(row.unshifted.map(|u| u.dispersion())),
+                    row.unshifted.map(|u| u.dispersion()),
             })
         });
         let rows: Vec<_> = rows.collect();
-        return print_json(json!({ "n": n, "point": rule, "levels": rows }));
+        return print_json(json!({
+            "im_unit": measure.words(),
+            "n": n,
+            "point": rule,
+            "levels": rows,
+        }));
     }
     let mut text = format!(
-        "{n} records, {rule} crossing\n\
+        "{n} records, {rule} crossing, intensities in {}\n\
          {:>8} {:>8} {:>9} {:>9} {:>9} {:>8} {:>9} {:>8} {:>17}\n",
+        measure.words(),
         "EDP",
         "censored",
         "16 %",

@@ -4,14 +4,17 @@ use std::path::Path;
 
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
-use rocking::statistics::lognormal::{FitError, FitMethod, LognormalFit, fit};
+use rocking::statistics::lognormal::{
+    FitError, FitMethod, LognormalFit, fit, profile_shift,
+};
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use serde_json::{Map, Value, json};
 
+use super::limits::Limited;
 use super::{Args, Method, insert, show};
 use crate::cli::samples::{SampleFile, Shift};
 use crate::cli::{Failure, with_threads};
-use crate::json;
+use crate::paper::Intensity;
 
 /// The fit asked for, and what the unshifted statistics give instead.
 pub(super) struct Fits {
@@ -44,18 +47,26 @@ impl Plan {
             Method::Censored => FitMethod::Censored(quantile_type),
         };
         let shift = args.shift.unwrap_or(Shift::Given(0.0));
+        if shift == Shift::Free && method != FitMethod::MaximumLikelihood {
+            return Err(Failure::input(format!(
+                "--shift free with --method {method}: the shift maximises a \
+                 likelihood; expected --method mle"
+            )));
+        }
         Ok(Self { method, quantile_type, shift, c: args.c.unwrap_or(1.0) })
     }
 
-    pub(super) fn fits(&self, values: &[f64]) -> Result<Fits, FitError> {
-        let (shift, above) = self.shift.split(values);
-        let whole = sample(values)?;
-        let fit = fit(&sample(&above)?, shift, self.method)?;
-        let unshifted = fit_unshifted(&whole, self.method);
-        let at = |p| {
-            let value = self.quantile_type.of_extended(&whole, p);
-            value.unwrap_or(f64::NAN)
+    pub(super) fn fits(&self, values: &Limited) -> Result<Fits, FitError> {
+        let (shift, above) = self.shift.split(&values.values)?;
+        let fit = if above.len() < values.values.len() {
+            fit(&sample(&above)?, shift, self.method)?
+        } else {
+            values.fit(shift, self.method)?
         };
+        let unshifted = values.fit(0.0, self.method).ok();
+        let unshifted = unshifted.map(|fit| fit.distribution);
+        let at =
+            |p| values.quantile(self.quantile_type, p).unwrap_or(f64::NAN);
         let (median, dispersion) = unshifted
             .map_or((f64::NAN, f64::NAN), |u| (u.median(), u.dispersion()));
         Ok(Fits {
@@ -68,15 +79,21 @@ impl Plan {
     }
 }
 
-fn fit_unshifted(
-    sample: &ExtendedSample,
-    method: FitMethod,
-) -> Option<Lognormal> {
-    fit(sample, 0.0, method).ok().map(|fit| fit.distribution)
-}
-
 fn sample(values: &[f64]) -> Result<ExtendedSample, FitError> {
     ExtendedSample::try_new(values).map_err(|_| FitError::TooFew(0))
+}
+
+/// The unit of a sample's values in words.
+fn unit(
+    file: &SampleFile,
+    given: Option<Intensity>,
+) -> Result<String, Failure> {
+    let of = file.of().and_then(|of| of.split(" at EDP ").next());
+    Ok(match (file.measure(given)?, of) {
+        (Some(measure), _) => measure.words().to_owned(),
+        (None, Some(of)) => of.to_owned(),
+        (None, None) => "that of the sample".to_owned(),
+    })
 }
 
 pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
@@ -88,47 +105,93 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
              of five; expected a shift that is known, as --shift 1",
         ));
     }
+    if args.bootstrap.is_some() && plan.shift == Shift::Free {
+        return Err(Failure::input(
+            "--bootstrap with --shift free: expected no --bootstrap, the \
+             likelihood gives the interval of the shift",
+        ));
+    }
     let file = SampleFile::read(path)?;
     let whole = file.extended()?;
     let values = file.values();
+    let limited = Limited::new(values, file.limits());
     let in_file =
         |e: FitError| Failure::input(format!("{}: {e}", path.display()));
-    let fits = plan.fits(values).map_err(in_file)?;
+    if plan.shift == Shift::Min && limited.count() > 0 {
+        return Err(Failure::input(format!(
+            "{}: {} values censored at limits of their own with --shift min: \
+             expected a shift that is known, as --shift 1",
+            path.display(),
+            limited.count()
+        )));
+    }
+    let fits = plan.fits(&limited).map_err(in_file)?;
     let fitted = fits.fit.distribution;
-    let left_out = values.len() - plan.shift.split(values).1.len();
-    let at = |p| plan.quantile_type.of_extended(&whole, p);
-    let (im16, im50, im84) = (at(0.16)?, at(0.5)?, at(0.84)?);
-    let number = json::number;
+    let above = plan.shift.split(values).map_err(in_file)?.1;
+    let left_out = values.len() - above.len();
+    let at = |p| limited.quantile(plan.quantile_type, p);
+    let (im16, im50, im84) = (at(0.16), at(0.5), at(0.84));
+    let number = |x: f64| json!(x);
     let mut out = Map::new();
     let mut put = |key: &str, value: Value| {
         out.insert(key.to_owned(), value);
     };
-    put("im_unit", "that of the sample".into());
+    if let Some(of) = file.of() {
+        put("sample_of", of.into());
+    }
+    put("im_unit", unit(&file, args.im)?.into());
     put("n", whole.len().into());
     put("n_kept", fits.fit.n_kept.into());
     put("n_infinite", whole.censored().into());
+    put("n_with_own_limit", limited.count().into());
+    if let FitMethod::Censored(_) = plan.method {
+        let at = match (limited.count(), whole.censored()) {
+            (0, 0) => "at the largest value kept",
+            (0, _) => {
+                "at the largest value kept, the infinite ones too: the file \
+                 tells no limits of theirs"
+            }
+            (own, all) if own == all => "each at its own limit",
+            _ => {
+                "each at its own limit, at the largest value kept where the \
+                 file tells none"
+            }
+        };
+        put("censored", at.into());
+    }
     put("left_out_at_shift", left_out.into());
     put("method", plan.method.to_string().into());
     put("shift", number(fitted.shift()));
+    if plan.shift == Shift::Free {
+        let profile = profile_shift(&whole).map_err(in_file)?;
+        // Down to no shift at all where the likelihood falls too little.
+        put("shift_low", number(profile.low.unwrap_or(0.0)));
+        put("shift_high", json!(profile.high));
+        put("shift_interval_level", json!(0.95));
+    }
     put("mu", number(fitted.log_mean()));
     put("beta", number(fitted.dispersion()));
     put("median", number(fitted.median()));
-    put("log_likelihood", json::optional(fits.fit.log_likelihood));
-    put("ks_distance", number(fitted.kolmogorov_distance(&whole)));
-    put("area_distance", json::optional(fitted.area_distance(&whole)));
+    put("log_likelihood", json!(fits.fit.log_likelihood));
+    // The empirical distribution is that of values with one limit.
+    let distance =
+        (limited.count() == 0).then(|| fitted.kolmogorov_distance(&whole));
+    put("ks_distance", json!(distance));
+    put("area_distance", json!(fitted.area_distance(&whole)));
     put("quantile_type", plan.quantile_type.number().into());
-    put("im16", number(im16));
-    put("im50", number(im50));
-    put("im84", number(im84));
+    put("im16", json!(im16));
+    put("im50", json!(im50));
+    put("im84", json!(im84));
     let unshifted = fits.unshifted;
-    put("unshifted_mu", json::optional(unshifted.map(|u| u.log_mean())));
-    put("unshifted_beta", json::optional(unshifted.map(|u| u.dispersion())));
+    put("unshifted_mu", json!(unshifted.map(|u| u.log_mean())));
+    put("unshifted_beta", json!(unshifted.map(|u| u.dispersion())));
     let limit = unshifted
         .and_then(|u| c_max(u.median(), u.dispersion(), fitted.shift()).ok());
     put("c", number(plan.c));
-    put("c_max", json::optional(limit));
+    put("c_max", json!(limit));
+    let sample_median = im50.unwrap_or(f64::NAN);
     insert(&mut out, "eq5", fits.eq5);
-    insert(&mut out, "eq5_sample_median", eq5(im50, fitted.shift()));
+    insert(&mut out, "eq5_sample_median", eq5(sample_median, fitted.shift()));
     insert(&mut out, "eq6", fits.eq6);
     insert(&mut out, "eq7", fits.eq7);
     if let Some(replicates) = args.bootstrap {
@@ -139,7 +202,7 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
         }
         let seed = args.seed.unwrap_or(0);
         let intervals = with_threads(args.threads, || {
-            bootstrap(&plan, values, &fits, replicates, seed)
+            bootstrap(&plan, &limited, &fits, replicates, seed)
         })?;
         out.insert("bootstrap".to_owned(), intervals);
     }
@@ -150,12 +213,13 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
 /// is taken anew from every sample.
 fn bootstrap(
     plan: &Plan,
-    values: &[f64],
+    values: &Limited,
     fits: &Fits,
     replicates: usize,
     seed: u64,
 ) -> Value {
-    let draws = Bootstrap::new("fragility", seed, values.len(), replicates);
+    let n = values.values.len();
+    let draws = Bootstrap::new("fragility", seed, n, replicates);
     let numbers = |fits: &Fits| {
         let fitted = fits.fit.distribution;
         let or_nan = |x: &Result<f64, _>| *x.as_ref().unwrap_or(&f64::NAN);
@@ -168,15 +232,13 @@ fn bootstrap(
             or_nan(&fits.eq7),
         ]
     };
-    let made = |drawn: &[f64]| {
-        plan.fits(drawn).map_or([f64::NAN; 6], |fits| numbers(&fits))
+    let made = |places: &[usize]| {
+        let fits = plan.fits(&values.at(places));
+        fits.map_or([f64::NAN; 6], |fits| numbers(&fits))
     };
-    let rows = draws.map(|draw| {
-        let drawn: Vec<f64> = draw.iter().map(|&i| values[i]).collect();
-        made(&drawn)
-    });
-    let without: Vec<[f64; 6]> = (0..values.len())
-        .map(|k| made(&[&values[..k], &values[k + 1..]].concat()))
+    let rows = draws.map(made);
+    let without: Vec<[f64; 6]> = (0..n)
+        .map(|k| made(&(0..n).filter(|i| *i != k).collect::<Vec<_>>()))
         .collect();
     let points = numbers(fits);
     let mut out = Map::new();
@@ -190,11 +252,11 @@ fn bootstrap(
         let bca = accelerated(points[i], &column, &left_out, 0.95);
         let value = estimate(points[i], &column, 0.95).map(|e| {
             json!({
-                "bca_low": json::optional(bca.as_ref().map(|e| e.low)),
-                "bca_high": json::optional(bca.as_ref().map(|e| e.high)),
-                "standard_error": json::number(e.standard_error),
-                "low": json::number(e.low),
-                "high": json::number(e.high),
+                "bca_low": json!(bca.as_ref().map(|e| e.low)),
+                "bca_high": json!(bca.as_ref().map(|e| e.high)),
+                "standard_error": json!(e.standard_error),
+                "low": json!(e.low),
+                "high": json!(e.high),
                 "used": e.used,
             })
         });

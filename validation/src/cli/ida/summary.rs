@@ -7,7 +7,6 @@ use serde_json::{Value, json};
 
 use super::Job;
 use crate::cli::names::{ORDERS, name_of};
-use crate::json::{number, optional};
 
 /// Median first overturning intensity, counting the curves that stand as
 /// infinite.
@@ -55,13 +54,13 @@ impl Job<'_> {
             "suite": suite.name(),
             "processing": self.processing,
             "remarks": self.remarks.json(),
-            "highest_im": number(HIGHEST_IM),
+            "highest_im": HIGHEST_IM,
             "records": table.len(),
             "study_components": suite.study_rule().to_string(),
             "order": args.order.map(|order| name_of(ORDERS, &order)),
             "analyses": counts.analyses,
             "overturned_curves": counts.overturned,
-            "median_overturning_im": optional(median_overturning(table)),
+            "median_overturning_im": median_overturning(table),
             "unresolved": told.unresolved,
             "certified": args.certify.then(|| json!({
                 "assessed": told.assessed,
@@ -77,7 +76,7 @@ impl Job<'_> {
                 "record": c.record,
                 "levels": c.points.len(),
                 "overturning_im":
-                    c.overturning.map(|first| number(first.im())),
+                    c.overturning.map(|first| first.im()),
             })).collect::<Vec<_>>(),
         })
     }

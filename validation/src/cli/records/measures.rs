@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 
 use super::{Listed, line};
 use crate::cli::Failure;
-use crate::json::{number, optional};
 
 /// What is asked for beside the list.
 #[derive(clap::Args)]
@@ -182,7 +181,7 @@ impl Found {
                     json!({
                         "pulse_like": pulse(list).is_some(),
                         "pulse_period_s":
-                            optional(pulse(list).map(|c| c.period_s)),
+                            pulse(list).map(|c| c.period_s),
                         "candidates":
                             list.iter().map(candidate).collect::<Vec<_>>(),
                     })
@@ -243,16 +242,9 @@ impl Found {
         line(
             text,
             format_args!(
-                "\n{:width$}  {:>8} {:>9} {:>8} {:>10} {:>9} {:>9} {:>9} {:>7}{periods}",
+                "\n{:width$}   PGA (g) PGV (m/s)  PGD (m) Arias(m/s) \
+                 CAV (m/s) D5-75 (s) D5-95 (s) T_m (s){periods}",
                 "intensity",
-                "PGA (g)",
-                "PGV (m/s)",
-                "PGD (m)",
-                "Arias(m/s)",
-                "CAV (m/s)",
-                "D5-75 (s)",
-                "D5-95 (s)",
-                "T_m (s)",
             ),
         );
         for (name, found) in rows {
@@ -301,14 +293,9 @@ impl Found {
         line(
             text,
             format_args!(
-                "\n{:width$}  {:>5} {:>10} {:>9} {:>9} {:>9} {:>5}",
+                "\n{:width$}  pulse period (s)  time (s) PGV (m/s) \
+                     indicator  late",
                 "velocity pulse",
-                "pulse",
-                "period (s)",
-                "time (s)",
-                "PGV (m/s)",
-                "indicator",
-                "late",
             ),
         );
         for (pair, found) in rows {
@@ -357,21 +344,21 @@ fn json(m: &Measures, settings: &Settings) -> Value {
         .zip(&m.spectral_acceleration_g)
         .map(|(t, a)| {
             json!({
-                "period_s": number(*t),
-                "spectral_acceleration_g": number(*a),
+                "period_s": *t,
+                "spectral_acceleration_g": *a,
             })
         })
         .collect();
     json!({
-        "pga_g": number(m.pga_g),
-        "pgv_m_s": number(m.pgv_m_s),
-        "pgd_m": number(m.pgd_m),
-        "arias_intensity_m_s": number(m.arias_intensity_m_s),
-        "cav_m_s": number(m.cav_m_s),
-        "significant_duration_5_75_s": number(m.significant_duration_5_75_s),
-        "significant_duration_5_95_s": number(m.significant_duration_5_95_s),
-        "mean_period_s": optional(m.mean_period_s),
-        "damping_ratio": number(settings.damping_ratio()),
+        "pga_g": m.pga_g,
+        "pgv_m_s": m.pgv_m_s,
+        "pgd_m": m.pgd_m,
+        "arias_intensity_m_s": m.arias_intensity_m_s,
+        "cav_m_s": m.cav_m_s,
+        "significant_duration_5_75_s": m.significant_duration_5_75_s,
+        "significant_duration_5_95_s": m.significant_duration_5_95_s,
+        "mean_period_s": m.mean_period_s,
+        "damping_ratio": settings.damping_ratio(),
         "spectrum": spectrum,
     })
 }
@@ -379,13 +366,13 @@ fn json(m: &Measures, settings: &Settings) -> Value {
 fn candidate(c: &Candidate) -> Value {
     json!({
         "pulse": c.is_pulse(),
-        "period_s": number(c.period_s),
-        "time_s": number(c.time_s),
-        "direction_rad": number(c.direction_rad),
-        "pgv_m_s": number(c.pgv_m_s),
-        "pgv_ratio": number(c.pgv_ratio),
-        "energy_ratio": number(c.energy_ratio),
-        "indicator": number(c.indicator),
+        "period_s": c.period_s,
+        "time_s": c.time_s,
+        "direction_rad": c.direction_rad,
+        "pgv_m_s": c.pgv_m_s,
+        "pgv_ratio": c.pgv_ratio,
+        "energy_ratio": c.energy_ratio,
+        "indicator": c.indicator,
         "late": c.late,
     })
 }

@@ -66,19 +66,10 @@ impl AcceptedShares {
     /// `panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,share,`
     /// `null_low,null_high`.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel",
-            "suite",
-            "records",
-            "im_kind",
-            "sample",
-            "arm",
-            "p_rad_s",
-            "alpha_rad",
-            "share",
-            "null_low",
-            "null_high",
-        ]);
+        let mut table = Table::headed(
+            "panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,\
+             share,null_low,null_high",
+        );
         for (i, panel) in self.panels.iter().enumerate() {
             for block in &panel.shares {
                 let sample =
@@ -126,7 +117,7 @@ fn scene(figure: &AcceptedShares) -> Scene {
         format!("expected of a lognormal: {percent} %"),
     ));
     if shares().any(|s| s.null_band.is_some()) {
-        let words = "95 % band of a lognormal sample";
+        let words = "95 % band of a lognormal sample, of the mark's arm";
         legend.push(Entry::new(Sample::Band(NULL_BAND), words));
     }
     let grid = Grid::new(figure.panels.len(), figure.columns);

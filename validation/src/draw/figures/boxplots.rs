@@ -44,6 +44,9 @@ pub struct BoxPanel {
     /// Slenderness of the compared block; the colour of the boxes goes by
     /// it.
     pub alpha_rad: f64,
+    /// The ratio that the small-rotation limit of Eq. 1 gives, where the
+    /// panel has one: a thin line.
+    pub closed_form: Option<f64>,
     /// More words for the panel's title, or nothing.
     pub note: String,
     /// Stripes in rising level.
@@ -84,16 +87,9 @@ impl Boxplots {
     /// One row a stripe, then one row an outlier:
     /// `panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value`.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel",
-            "p_rad_s",
-            "alpha_rad",
-            "note",
-            "stripe_kind",
-            "level",
-            "quantity",
-            "value",
-        ]);
+        let mut table = Table::headed(
+            "panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value",
+        );
         let kind = match self.stripes {
             StripeKind::Intensity(i) => i.name(),
             StripeKind::Demand => "edp",
@@ -140,11 +136,15 @@ impl Boxplots {
 
 /// Half height of a box in units of the distance between stripes.
 const HALF: f64 = 0.30;
+/// Fewest ratios of a box with a notch: of fewer the notch often reaches
+/// beyond the quartiles.
+const NOTCHED: usize = 20;
 /// Half height at the notch.
 const WAIST: f64 = 0.15;
 /// Where the interval of the median is drawn, below the box.
 const BELOW: f64 = -0.43;
 const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
+const CLOSED_FORM: Pen = Pen::new(Ink::Text, 0.6);
 /// Ratios beyond are left out, with an arrow head at the edge.
 const WIDEST: (f64, f64) = (0.1, 10.0);
 
@@ -173,6 +173,10 @@ fn scene(figure: &Boxplots) -> Scene {
     if summaries(figure).any(|b| b.median_interval.is_some()) {
         let words = "exact 95 % interval of the median";
         legend.push(Entry::new(Sample::Line(INTERVAL), words));
+    }
+    if figure.panels.iter().any(|panel| panel.closed_form.is_some()) {
+        let words = "(sin α/α)/(sin 0.1/0.1)";
+        legend.push(Entry::new(Sample::Line(CLOSED_FORM), words));
     }
     let beyond =
         |b: &Boxplot| b.outliers.iter().any(|x| *x > high || *x < low);
@@ -204,6 +208,9 @@ fn scene(figure: &Boxplots) -> Scene {
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
             .empty_because("too few usable ratios");
         panel.vertical(1.0, Pen::new(Ink::Muted, 0.8));
+        if let Some(ratio) = shown.closed_form {
+            panel.vertical(ratio, CLOSED_FORM);
+        }
         let ink = Ink::Series(inks.series(shown.alpha_rad));
         draw_stripes(&mut panel, shown, ink, (low, high));
         let title = format!(
@@ -261,7 +268,8 @@ fn draw_stripes(
         let percent = (100.0 * stripe.usable_share()).round();
         panel.right_of(y, format!("{percent} %"));
         if let Some(summary) = &stripe.summary {
-            draw_box(panel, summary, y, ink, range);
+            let notched = stripe.usable >= NOTCHED;
+            draw_box(panel, summary, (y, notched), ink, range);
         }
     }
 }
@@ -269,21 +277,24 @@ fn draw_stripes(
 fn draw_box(
     panel: &mut Panel<'_>,
     b: &Boxplot,
-    y: f64,
+    (y, notched): (f64, bool),
     ink: Ink,
     (low, high): (f64, f64),
 ) {
     let pen = Pen::new(ink, 0.9);
+    let waist = if notched { WAIST } else { HALF };
+    // Without a notch its ends are the median.
+    let notch = |end: f64| if notched { end } else { b.median };
     let corners: Vec<Point> = [
         (b.q1, HALF),
-        (b.notch_low, HALF),
-        (b.median, WAIST),
-        (b.notch_high, HALF),
+        (notch(b.notch_low), HALF),
+        (b.median, waist),
+        (notch(b.notch_high), HALF),
         (b.q3, HALF),
         (b.q3, -HALF),
-        (b.notch_high, -HALF),
-        (b.median, -WAIST),
-        (b.notch_low, -HALF),
+        (notch(b.notch_high), -HALF),
+        (b.median, -waist),
+        (notch(b.notch_low), -HALF),
         (b.q1, -HALF),
     ]
     .into_iter()
@@ -306,8 +317,8 @@ fn draw_box(
     }
     panel.scene().area(&corners, Fill::tint(ink, 24));
     panel.scene().outline(&corners, pen);
-    let waist = [(b.median, y - WAIST), (b.median, y + WAIST)];
-    panel.line(waist, Pen::new(ink, 1.6));
+    let median = [(b.median, y - waist), (b.median, y + waist)];
+    panel.line(median, Pen::new(ink, 1.6));
     if let Some(interval) = b.median_interval {
         let (from, to) = (interval.low, interval.high);
         panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);

@@ -7,7 +7,7 @@ use crate::draw::{
 };
 use crate::paper::Intensity;
 use crate::table::{Table, number};
-use crate::words::letter;
+use crate::words::{letter, named};
 use rocking::statistics::Lognormal;
 
 /// Empirical and fitted fragilities.
@@ -40,26 +40,15 @@ pub struct Threshold {
     pub curves: Vec<Fitted>,
 }
 
-/// How a fitted fragility was obtained.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Estimator {
-    /// Lognormal fitted to the unshifted sample.
-    Usfl,
-    /// Lognormal fitted to the shifted sample.
-    Ssfl,
-    /// The unshifted fit transformed by Eq. 7.
-    Usfl7,
-}
-
-impl Estimator {
-    /// The paper's abbreviation.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Usfl => "USFL",
-            Self::Ssfl => "SSFL",
-            Self::Usfl7 => "USFL7",
-        }
+named! {
+    /// How a fitted fragility was obtained.
+    pub enum Estimator {
+        /// Lognormal fitted to the unshifted sample.
+        Usfl = "USFL",
+        /// Lognormal fitted to the shifted sample.
+        Ssfl = "SSFL",
+        /// The unshifted fit transformed by Eq. 7.
+        Usfl7 = "USFL7",
     }
 }
 
@@ -117,9 +106,8 @@ impl Fragilities {
     /// `panel,im_kind,edp,curve,quantity,value`: the sample (`ecdf`), and
     /// the parameters of each fitted curve.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel", "im_kind", "edp", "curve", "quantity", "value",
-        ]);
+        let mut table =
+            Table::headed("panel,im_kind,edp,curve,quantity,value");
         for (i, panel) in self.panels.iter().enumerate() {
             for threshold in &panel.thresholds {
                 let mut row = |curve: &str, quantity: &str, value| {
@@ -155,10 +143,8 @@ impl ByConstant {
 
     /// `panel,title,im_kind,edp,curve,c,quantity,value`.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel", "title", "im_kind", "edp", "curve", "c", "quantity",
-            "value",
-        ]);
+        let mut table =
+            Table::headed("panel,title,im_kind,edp,curve,c,quantity,value");
         for (i, panel) in self.panels.iter().enumerate() {
             let mut row = |curve: &str, c: f64, quantity: &str, value| {
                 table.row([

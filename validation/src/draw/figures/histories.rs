@@ -11,6 +11,9 @@ use crate::words::letter;
 const WIDTH_PX: f64 = 288.0;
 const HALF_PX: f64 = 111.0;
 
+/// Least half range of the rotation axis, in |theta|/alpha.
+const FLOOR: f64 = 1e-4;
+
 /// Response histories at equal dimensionless intensity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Histories {
@@ -77,16 +80,10 @@ impl Histories {
 
     /// `panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,theta_over_alpha`.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel",
-            "p_rad_s",
-            "record",
-            "im_kind",
-            "im",
-            "alpha_rad",
-            "time_s",
-            "theta_over_alpha",
-        ]);
+        let mut table = Table::headed(
+            "panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,\
+             theta_over_alpha",
+        );
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {
                 for (t, y) in curve.time_s.iter().zip(&curve.ratio) {
@@ -110,7 +107,9 @@ impl Histories {
 fn scene(figure: &Histories) -> Scene {
     let curves = || figure.panels.iter().flat_map(|p| &p.curves);
     let inks = Slendernesses::new(curves().map(|c| c.alpha_rad));
-    let grid = Grid::new(figure.panels.len(), figure.columns).with_subtitles();
+    // Room for ticks of small rotations.
+    let grid = Grid::new(figure.panels.len(), figure.columns);
+    let grid = Grid { left: 72.0, width: 272.0, ..grid }.with_subtitles();
     let mut legend = inks.lines();
     if curves().any(|c| c.overturned) {
         legend.push(common::overturned_entry());
@@ -176,8 +175,9 @@ fn times(shown: &HistoryPanel) -> (f64, f64) {
     (start, last + rest)
 }
 
-/// The panel's range: what the histories reach, and never less than a tenth
-/// either way. An overturning block leaves at 1.
+/// The panel's range: what the histories reach, and never less than 1e-4
+/// either way, below which there is nothing to compare. An overturning block
+/// leaves at 1.
 fn ratios(shown: &HistoryPanel) -> (f64, f64) {
     let values = shown.curves.iter().flat_map(|c| &c.ratio);
     let (low, high) =
@@ -185,5 +185,5 @@ fn ratios(shown: &HistoryPanel) -> (f64, f64) {
     let overturned = shown.curves.iter().any(|c| c.overturned);
     let most = if overturned { 1.08 } else { 1.0 };
     let grow = |x: f64| if x.abs() > 0.97 { x.signum() * most } else { x };
-    (grow(low.clamp(-1.0, -0.1)), grow(high.clamp(0.1, 1.0)))
+    (grow(low.clamp(-1.0, -FLOOR)), grow(high.clamp(FLOOR, 1.0)))
 }

@@ -70,15 +70,8 @@ impl IdaCurves {
 
     /// `panel,p_rad_s,record,im_kind,alpha_rad,im,edp`.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel",
-            "p_rad_s",
-            "record",
-            "im_kind",
-            "alpha_rad",
-            "im",
-            "edp",
-        ]);
+        let mut table =
+            Table::headed("panel,p_rad_s,record,im_kind,alpha_rad,im,edp");
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {
                 let mut row = |im: f64, edp: f64| {

@@ -56,10 +56,8 @@ impl Quantiles {
 
     /// `panel,p_rad_s,note,im_kind,group,im,q16,q50,q84`.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "panel", "p_rad_s", "note", "im_kind", "group", "im", "q16",
-            "q50", "q84",
-        ]);
+        let mut table =
+            Table::headed("panel,p_rad_s,note,im_kind,group,im,q16,q50,q84");
         for (i, panel) in self.panels.iter().enumerate() {
             for group in &panel.groups {
                 for (k, im) in group.im.iter().enumerate() {

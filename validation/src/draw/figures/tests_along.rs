@@ -111,15 +111,9 @@ impl TestsAlongDemand {
     /// `alpha_rad,p_rad_s,im_kind,sample,quantity,at,value`, where `at` is
     /// the demand, or the bin's lower edge.
     fn csv(&self) -> String {
-        let mut table = Table::new(&[
-            "alpha_rad",
-            "p_rad_s",
-            "im_kind",
-            "sample",
-            "quantity",
-            "at",
-            "value",
-        ]);
+        let mut table = Table::headed(
+            "alpha_rad,p_rad_s,im_kind,sample,quantity,at,value",
+        );
         for block in &self.blocks {
             let mut row = |sample: &str, quantity: &str, at, value| {
                 table.row([
@@ -172,11 +166,12 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
         Intensity::Pga => "IM = PGA / (*g* tan *α*)",
         Intensity::Pgv => "IM = *p* PGV / (*g* tan *α*)",
     };
+    // The same scale for all blocks: they are compared.
+    let ratios =
+        figure.blocks.iter().flat_map(|b| b.original.iter().chain(&b.shifted));
+    let (_, high) = common::span(ratios.copied(), true).unwrap_or((0.0, 1.5));
     for (row, block) in figure.blocks.iter().enumerate() {
         let first = 3 * row;
-        let ratios = block.original.iter().chain(&block.shifted);
-        let (_, high) =
-            common::span(ratios.copied(), true).unwrap_or((0.0, 1.5));
         let x = Axis::linear(0.0, 1.0, 5).label(common::DEMAND);
         let y = Axis::around(0.0, (1.05 * high).clamp(1.4, 12.0), 6)
             .label("*D* / *D*_{5 %}");

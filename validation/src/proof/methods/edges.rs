@@ -1,6 +1,7 @@
 //! Overturning edges of Eq. 1 against those of Eq. 2, where the safe bay of
 //! a one-sine pulse opens, and grazing uplift.
 
+use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
 use super::closed_forms::model;
@@ -230,6 +231,36 @@ pub(super) fn sizes(context: &Context) -> Result<Answer, MethodError> {
             let list = answer.observed.entry(name.to_owned()).or_default();
             list.push(value);
         }
+    }
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RestitutionInput {
+    slenderness_rad: Vec<f64>,
+    eta: f64,
+}
+
+/// Housner's coefficient of restitution, and the energy that an impact with
+/// a constant one takes.
+pub(super) fn restitution(context: &Context) -> Result<Answer, MethodError> {
+    let input: RestitutionInput = context.input()?;
+    let refused =
+        |e: rocking::block::BlockError| MethodError::Input(e.to_string());
+    let mut answer = Answer::default();
+    for &alpha in &input.slenderness_rad {
+        let scene = context.altered(&Scene::new(
+            [alpha, 1.0, 9.81],
+            input.eta,
+            Forcing::NONE,
+        ));
+        let block = Block::try_new(scene.slenderness_rad, 1.0);
+        let housner = Restitution::housner(&block.map_err(refused)?);
+        answer.see("housner", [housner.map_err(refused)?.velocity_ratio()]);
+        let constant =
+            Restitution::constant(scene.restitution).map_err(refused)?;
+        answer.see("energy-loss", [1.0 - constant.energy_ratio()]);
     }
     Ok(answer)
 }

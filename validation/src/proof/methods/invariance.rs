@@ -1,6 +1,7 @@
 //! What must not change: mirror image, shift in time, resampling, padding,
 //! units; and how Eq. 1 departs from similarity.
 
+use rocking::record::Accelerogram;
 use serde::Deserialize;
 
 use super::closed_forms::model;
@@ -9,6 +10,7 @@ use super::wrong::scale;
 use super::{Answer, Context, MethodError};
 use crate::proof::engine::Core;
 use crate::proof::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
+use crate::suites::synthesis;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -209,5 +211,69 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     answer.see("order", [order]);
     answer.see("change", changes);
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BiasInput {
+    slenderness_rad: Vec<f64>,
+    frequencies_rad_s: Vec<f64>,
+    intensity: f64,
+}
+
+/// Median over a suite's records of the peak over that of alpha = 0.10 at an
+/// intensity just above uplift: where rotations are small, Eq. 1 gives
+/// theta/alpha in proportion to sin(alpha)/alpha, for every motion and size.
+///
+/// With a = IM g tan(alpha) S(t), the terms of order 0 in theta are -p^2
+/// sin(alpha) (sgn(theta) + IM S), those of order 1 in theta are alpha's
+/// only by its square: theta/sin(alpha) follows one equation. What is left
+/// grows with (p t)^2, t the time of uplift.
+pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
+    let input: BiasInput = context.input()?;
+    let suite =
+        synthesis::pulse().map_err(|e| MethodError::Oracle(e.to_string()))?;
+    let mut answer = Answer::default();
+    let mut left = Vec::new();
+    for &p in &input.frequencies_rad_s {
+        let peak = |alpha: f64, record: &Accelerogram| {
+            let factor =
+                input.intensity * 9.81 * libm::tan(alpha) / record.pga_g();
+            let scene = Scene::new(
+                [alpha, p, 9.81],
+                0.92,
+                Forcing::Samples {
+                    dt_s: record.dt_s(),
+                    acceleration_m_s2: record
+                        .samples_g()
+                        .iter()
+                        .map(|a| a * factor)
+                        .collect(),
+                },
+            );
+            Ok::<_, MethodError>(context.engine.respond(&scene)?.peak_ratio)
+        };
+        let mut worst: f64 = 0.0;
+        for &alpha in &input.slenderness_rad {
+            let mut ratios = Vec::new();
+            for pair in &suite {
+                let record = &pair.components[0];
+                ratios.push(peak(alpha, record)? / peak(0.1, record)?);
+            }
+            ratios.sort_by(f64::total_cmp);
+            let n = ratios.len();
+            let median = 0.5 * (ratios[(n - 1) / 2] + ratios[n / 2]);
+            if left.is_empty() {
+                answer.see("ratio", [median]);
+            }
+            let due = (libm::sin(alpha) / alpha) / (libm::sin(0.1) / 0.1);
+            worst = worst.max((median - due).abs());
+        }
+        left.push((p, worst));
+    }
+    if let [(p, a), .., (q, b)] = left[..] {
+        answer.see("order-in-p", [libm::log(b / a) / libm::log(q / p)]);
+    }
     Ok(answer)
 }

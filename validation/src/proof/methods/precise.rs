@@ -10,7 +10,9 @@ use serde_json::Value;
 
 use super::closed_forms::model;
 use super::references;
-use super::references::{LINEAR_PULSES, RECT_PULSE, TRAJECTORIES};
+use super::references::{
+    LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE, TRAJECTORIES,
+};
 use super::{Answer, Context, MethodError};
 use crate::proof::arithmetic::decimal;
 use crate::proof::cases::WrongModel;
@@ -89,15 +91,9 @@ fn run(context: &Context, scene: &Scene) -> Result<WideTrace, MethodError> {
     Ok(WideTrace::run(&context.altered(scene), arithmetic)?)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    entry: String,
-}
-
 /// A trajectory of 36 digits, under both criteria.
 pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
-    let Entry { entry } = context.input()?;
+    let Named { entry } = context.input()?;
     let case = references::trajectory(&entry)?;
     let mut errors = Errors::default();
     for criterion in [Overturning::HalfPi, Overturning::Alpha] {
@@ -172,18 +168,9 @@ fn put_trajectory(
     Ok(())
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PulseInput {
-    entry: usize,
-    /// Blocks: alpha (rad), p (rad/s), g (m/s2), powers of two, so that the
-    /// pulse is scaled exactly.
-    blocks: Vec<[f64; 3]>,
-}
-
 /// A pulse in Eq. 2 on blocks that scale exactly.
 pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
-    let input: PulseInput = context.input()?;
+    let input: PulseOnBlocks = context.input()?;
     let file = &LINEAR_PULSES;
     let case = &references::entry(file, input.entry)?;
     let expected = file.get(case, "expected")?;
@@ -302,17 +289,11 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     Ok(errors.answer())
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Number {
-    entry: usize,
-}
-
 /// Rectangular pulse in Eq. 1, by elliptic integrals.
 pub(super) fn rectangular_pulse(
     context: &Context,
 ) -> Result<Answer, MethodError> {
-    let Number { entry } = context.input()?;
+    let Numbered { entry } = context.input()?;
     let file = &RECT_PULSE;
     let case = &references::entry(file, entry)?;
     let p = file.f64(case, "p")?;

@@ -4,6 +4,7 @@
 use std::sync::LazyLock;
 
 use rocking::number::double::DoubleDouble;
+use serde::Deserialize;
 use serde_json::Value;
 
 use super::MethodError;
@@ -114,6 +115,29 @@ impl Reference {
     ) -> Result<Vec<f64>, MethodError> {
         entries.iter().map(|entry| self.f64(entry, key)).collect()
     }
+}
+
+/// Input of a case: a named trajectory.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Named {
+    pub entry: String,
+}
+
+/// Input of a case: an entry by its place in the file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Numbered {
+    pub entry: usize,
+}
+
+/// Input of a case: a pulse in Eq. 2 by its place in the file, and blocks:
+/// alpha (rad), p (rad/s), g (m/s2).
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PulseOnBlocks {
+    pub entry: usize,
+    pub blocks: Vec<[f64; 3]>,
 }
 
 /// The entry of this number among a file's cases.

@@ -5,16 +5,11 @@ use serde_json::Value;
 
 use super::references;
 use super::references::{
-    FREE_ROCKING, LINEAR_PULSES, RECT_PULSE, TRAJECTORIES,
+    FREE_ROCKING, LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE,
+    TRAJECTORIES,
 };
 use super::{Answer, Context, MethodError};
 use crate::proof::scene::{Forcing, Model, Overturning, Scene, Trace};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    entry: String,
-}
 
 /// Impact times times `rate` and speeds over `unit_speed`, as many as the
 /// reference lists; a block that goes on where it should not shows in its
@@ -39,7 +34,7 @@ fn put_impacts(
 
 /// A sampled or pulse trajectory of 36 digits.
 pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
-    let Entry { entry } = context.input()?;
+    let Named { entry } = context.input()?;
     let file = &TRAJECTORIES;
     let case = references::trajectory(&entry)?;
     let expected = file.get(case, "expected")?;
@@ -112,17 +107,9 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LinearInput {
-    entry: usize,
-    /// Blocks: alpha (rad), p (rad/s), g (m/s2).
-    blocks: Vec<[f64; 3]>,
-}
-
 /// A pulse in Eq. 2 on several blocks: theta/alpha against p t is the same.
 pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
-    let input: LinearInput = context.input()?;
+    let input: PulseOnBlocks = context.input()?;
     let file = &LINEAR_PULSES;
     let case = &references::entry(file, input.entry)?;
     let expected = file.get(case, "expected")?;
@@ -226,14 +213,9 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
 pub(super) fn rectangular_pulse(
     context: &Context,
 ) -> Result<Answer, MethodError> {
-    #[derive(Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Input {
-        entry: usize,
-    }
-    let input: Input = context.input()?;
+    let Numbered { entry } = context.input()?;
     let file = &RECT_PULSE;
-    let case = &references::entry(file, input.entry)?;
+    let case = &references::entry(file, entry)?;
     let p = file.f64(case, "p")?;
     let scene = |criterion| references::rectangular_scene(case, criterion);
     let trace = context.engine.respond(&scene(Overturning::HalfPi)?)?;

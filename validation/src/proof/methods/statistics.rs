@@ -2,8 +2,10 @@
 //! published critical values, other packages, and simulated truths.
 
 mod calibration;
+mod choice;
 mod equations;
 mod fits;
+mod inference;
 mod inversion;
 mod lilliefors;
 mod nist;
@@ -11,8 +13,10 @@ mod truths;
 mod two_samples;
 
 pub(super) use calibration::{bias, coverage, rejection};
+pub(super) use choice::choice;
 pub(super) use equations::transforms;
 pub(super) use fits::{fits, paired, quantiles, tests};
+pub(super) use inference::coverage as inference;
 pub(super) use inversion::inversion;
 pub(super) use lilliefors::{
     asymptotics, draws, largest, null, published, table,

@@ -90,7 +90,7 @@ pub(super) fn extreme(draw: &mut Draw) -> Named {
         draw.count(2, COMMON)
     };
     let dt_s = draw.log(1e-4, 0.5) / scene.frequency_rad_s;
-    let kind = draw.one_of(&Kind::EXTREME);
+    let kind = draw.one_of(&Kind::ALL);
     let intensity = draw.log(EXTREME.intensity[0], EXTREME.intensity[1]);
     record(draw, &mut scene, kind, n, dt_s, intensity);
     let threshold = scene.threshold_m_s2();

@@ -3,53 +3,31 @@
 use std::f64::consts::TAU;
 
 use super::draw::Draw;
+use crate::words::named;
 
-/// What a record is like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// White noise through an oscillator, under an envelope.
-    Filtered,
-    /// White noise.
-    White,
-    /// A clear shock, a quiet time, then a chaotic shock.
-    TwoShocks,
-    /// Random levels, each held for a while.
-    Plateaus,
-    /// Noise with long stretches of zeros.
-    Zeros,
-    /// Few samples that are not zero.
-    Spikes,
-    /// Ramps that jump back.
-    SawTeeth,
-    /// Each sample of noise several times.
-    Repeated,
+named! {
+    /// What a record is like.
+    pub(super) enum Kind {
+        /// White noise through an oscillator, under an envelope.
+        Filtered = "filtered noise",
+        /// White noise.
+        White = "white noise",
+        /// A clear shock, a quiet time, then a chaotic shock.
+        TwoShocks = "two shocks",
+        /// Random levels, each held for a while.
+        Plateaus = "plateaus",
+        /// Noise with long stretches of zeros.
+        Zeros = "zeros",
+        /// Few samples that are not zero.
+        Spikes = "spikes",
+        /// Ramps that jump back.
+        SawTeeth = "saw teeth",
+        /// Each sample of noise several times.
+        Repeated = "repeated samples",
+    }
 }
 
 impl Kind {
-    pub const EXTREME: [Self; 8] = [
-        Self::Filtered,
-        Self::White,
-        Self::TwoShocks,
-        Self::Plateaus,
-        Self::Zeros,
-        Self::Spikes,
-        Self::SawTeeth,
-        Self::Repeated,
-    ];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Filtered => "filtered noise",
-            Self::White => "white noise",
-            Self::TwoShocks => "two shocks",
-            Self::Plateaus => "plateaus",
-            Self::Zeros => "zeros",
-            Self::Spikes => "spikes",
-            Self::SawTeeth => "saw teeth",
-            Self::Repeated => "repeated samples",
-        }
-    }
-
     /// So many samples, each `dt_s` after the other, with peak 1.
     pub fn samples(self, draw: &mut Draw, n: usize, dt_s: f64) -> Vec<f64> {
         let samples = match self {

@@ -1,10 +1,5 @@
 //! Findings counted.
 
-use std::collections::BTreeMap;
-use std::fmt;
-
-use rocking::number::Real as _;
-
 use super::compare::{Finding, Reading, Truth};
 
 /// What a finding says about a certificate.
@@ -89,8 +84,6 @@ pub struct Summary {
     pub exceeded: usize,
     /// Error of the peak over its estimate, of clear runs, in rising order.
     pub ratios: Vec<f64>,
-    /// Unresolved runs by the kind of their least clear decision.
-    pub least: BTreeMap<&'static str, usize>,
 }
 
 impl Summary {
@@ -103,7 +96,6 @@ impl Summary {
                 Judgement::Unresolved(wrong) => {
                     all.unresolved += 1;
                     all.wrong_and_unresolved += usize::from(wrong);
-                    *all.least.entry(least(finding)).or_default() += 1;
                 }
                 Judgement::Undecided => all.undecided += 1,
                 Judgement::WrongAndClear => all.wrong_and_clear += 1,
@@ -133,70 +125,5 @@ impl Summary {
         let last = self.ratios.len().saturating_sub(1);
         let at = (last * thousandths).div_ceil(1000);
         self.ratios.get(at).copied().unwrap_or(f64::NAN)
-    }
-}
-
-/// The least clear decision of a run in a word.
-fn least(finding: &Finding) -> &'static str {
-    finding.seen.certificate.least().decision.name()
-}
-
-impl fmt::Display for Summary {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "{} runs: {} clear, {} unresolved; wrong and clear {}, \
-             estimates exceeded {}, wrong and unresolved {}, clear and \
-             undecided {}",
-            self.runs,
-            self.clear,
-            self.unresolved,
-            self.wrong_and_clear,
-            self.exceeded,
-            self.wrong_and_unresolved,
-            self.undecided
-        )?;
-        for (name, share) in SHARES {
-            write!(f, "{name} {:.2e}  ", self.ratio(share))?;
-        }
-        for (name, count) in &self.least {
-            write!(f, "\nunresolved by {name}: {count}")?;
-        }
-        Ok(())
-    }
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let fate = |overturned| if overturned { "over" } else { "stands" };
-        let seen = &self.seen;
-        write!(
-            f,
-            "{}: double {} {:e} estimate {:.1e}, ",
-            self.name,
-            fate(seen.overturned),
-            seen.peak_ratio,
-            seen.estimate
-        )?;
-        match self.truth {
-            Truth::Stands { peak_ratio, error } => write!(
-                f,
-                "truth stands {:e} +- {error:.1e}",
-                peak_ratio.to_f64()
-            )?,
-            Truth::Overturned => write!(f, "truth over")?,
-            Truth::Undecided => write!(f, "truth undecided")?,
-        }
-        if let Some(error) = self.error() {
-            write!(f, ", error {error:.2e}")?;
-        }
-        let least = seen.certificate.least();
-        write!(
-            f,
-            ", least clear {} {:.2e} at {:.4} s",
-            least.decision.name(),
-            least.ratio,
-            least.time_s
-        )
     }
 }

@@ -4,6 +4,7 @@ use serde_json::{Map, Value};
 
 use crate::proof::cases::{Bound, Case, Cost, FAMILIES};
 use crate::report::page::{Family, ShownCase};
+use crate::words::rounded;
 
 /// Declared cases with their results, as the snapshot has them: all but those
 /// that are run only with `--full`.
@@ -22,7 +23,11 @@ pub fn families(cases: &[Case], results: &Map<String, Value>) -> Vec<Family> {
             let kinds: Vec<&str> = kinds.into_iter().collect();
             Family {
                 name: (*name).to_owned(),
-                purpose: kinds.join(", "),
+                oracle: kinds.join(", "),
+                worst: worst_of(
+                    own().filter_map(|case| results.get(&case.id)),
+                ),
+                rejected: own().map(|case| rejected(results, case)).sum(),
                 cases: own().map(|case| shown(case, results)).collect(),
             }
         })
@@ -31,13 +36,6 @@ pub fn families(cases: &[Case], results: &Map<String, Value>) -> Vec<Family> {
 
 fn shown(case: &Case, results: &Map<String, Value>) -> ShownCase {
     let result = results.get(&case.id).unwrap_or(&Value::Null);
-    let worst = worst(result);
-    let (error, margin) = match &worst {
-        Some((quantity, margin)) => {
-            (format!("largest in {quantity}"), format!("{margin:.0e}"))
-        }
-        None => ("no result".to_owned(), String::new()),
-    };
     let source = &case.source;
     let note = if source.note.is_empty() {
         String::new()
@@ -50,23 +48,58 @@ fn shown(case: &Case, results: &Map<String, Value>) -> ShownCase {
         source: format!("{}, {}{note}", source.cite, source.place),
         tolerance: tolerance(case),
         because: case.tolerance.because.clone(),
-        error,
-        margin,
+        worst: worst_of([result].into_iter()),
         rejects: rejects(case, result),
         passed: result["verdict"] == "pass",
     }
 }
 
-/// The quantity with the largest margin.
-fn worst(result: &Value) -> Option<(&str, f64)> {
-    let quantities = result["quantities"].as_object()?;
-    quantities
-        .iter()
+/// Number of wrong models that a case told from the right one.
+fn rejected(results: &Map<String, Value>, case: &Case) -> usize {
+    let found = results.get(&case.id).and_then(|r| r["rejected"].as_object());
+    found.map_or(0, Map::len)
+}
+
+/// The largest share of a tolerance, and the quantity that uses it.
+fn worst_of<'a>(results: impl Iterator<Item = &'a Value>) -> String {
+    let quantities = results
+        .filter_map(|result| result["quantities"].as_object())
+        .flatten()
+        .filter(|(_, q)| q["kind"] != "waived");
+    let worst = quantities
         .map(|(name, q)| {
             let margin = q["margin"].as_f64().unwrap_or(f64::INFINITY);
             (name.as_str(), margin)
         })
-        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .max_by(|a, b| a.1.total_cmp(&b.1));
+    match worst {
+        None => "no result".into(),
+        Some((_, 0.0)) => "no error".into(),
+        Some((name, margin)) => {
+            format!("{} of the tolerance, {name}", share(margin))
+        }
+    }
+}
+
+/// A share of a tolerance in per cent.
+fn share(margin: f64) -> String {
+    let percent = 100.0 * margin;
+    if percent < 0.001 {
+        "less than 0.001 %".into()
+    } else if percent.is_finite() {
+        format!("{} %", rounded(percent, 3))
+    } else {
+        "more than all".into()
+    }
+}
+
+/// A number of times, with two digits.
+fn times(margin: f64) -> String {
+    if margin < 1e5 {
+        format!("{} times", rounded(margin, 2))
+    } else {
+        format!("{margin:.1e} times")
+    }
 }
 
 /// Bounds in words, equal ones together.
@@ -106,7 +139,7 @@ fn rejects(case: &Case, result: &Value) -> String {
         .iter()
         .map(|wrong| wrong.name())
         .map(|name| match result["rejected"][name]["margin"].as_f64() {
-            Some(margin) => format!("{name} ({margin:.0e})"),
+            Some(margin) => format!("{name} ({})", times(margin)),
             // Infinite: a fate, a count or a side.
             None => name.to_owned(),
         })
@@ -136,8 +169,8 @@ mod tests {
         assert!(all.iter().all(|c| !c.tolerance.is_empty()));
         assert!(all.iter().all(|c| !c.rejects.is_empty()));
         let first = all.iter().find(|c| c.id == cases[0].id).unwrap();
-        assert!(first.passed && first.margin == "5e-1");
-        assert_eq!(first.error, "largest in a");
+        assert!(first.passed);
+        assert_eq!(first.worst, "50 % of the tolerance, a");
         // What has no result has not passed.
         let failed = all.iter().filter(|c| !c.passed).count();
         assert_eq!(failed, quick - 1);

@@ -20,6 +20,9 @@ const RESULTS: &str = "validation.json";
 /// File of the digits that each precision reaches.
 const DIGITS: &str = "precision.csv";
 
+/// Method of the cases that measure the coverage of the study's intervals.
+const COVERAGE: &str = "coverage-of-inference";
+
 /// How to get what is not there.
 pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
     validate --out FOLDER` runs them and writes their results to \
@@ -146,6 +149,38 @@ impl Proof {
     #[must_use]
     pub fn passed(&self) -> usize {
         self.results.values().filter(|case| case["verdict"] == "pass").count()
+    }
+
+    /// How often the intervals of the study hold the truth of simulated
+    /// suites, by the cases that simulate them.
+    ///
+    /// # Errors
+    /// [`CaseError`] where the declared cases cannot be read.
+    pub fn coverage_table(&self) -> Result<PlainTable, CaseError> {
+        let rows = load_all()?
+            .iter()
+            .filter(|case| case.method == COVERAGE)
+            .map(|case| {
+                let found = &self.results[&case.id]["quantities"]["rate"];
+                let rate = found["first"][0].as_f64().unwrap_or(f64::NAN);
+                let percent = crate::words::percent(rate, 1);
+                vec![case.claim.clone(), "95.0 %".into(), percent]
+            })
+            .collect();
+        let header = ["interval", "nominal", "found"];
+        Ok(PlainTable {
+            name: "coverage".into(),
+            title: "Coverage of the intervals of the findings".into(),
+            reading:
+                "Share of 300 simulated suites, whose truth is known, in \
+                      which the interval holds it. The standard error of a \
+                      share is 1.3 %. The interval of a share of cells \
+                      follows from the band over all cells and holds more \
+                      often than it says."
+                    .into(),
+            header: header.map(String::from).into(),
+            rows,
+        })
     }
 
     /// Number of wrong models that the cases told from the right one.

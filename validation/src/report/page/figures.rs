@@ -2,11 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::table;
 use crate::draw::colour;
-
-/// Rows of data shown on the page; the file has all.
-const PREVIEW_ROWS: usize = 25;
 
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
 const WIDE_PX: u32 = 640;
@@ -24,8 +20,6 @@ pub struct ShownFigure {
     pub reading: String,
     /// The drawing as [`crate::draw::figures::Figure::svg`] gives it.
     pub svg: String,
-    /// The numbers as CSV.
-    pub csv: String,
     /// Where the CSV lies, relative to the page.
     pub csv_path: String,
 }
@@ -51,18 +45,14 @@ pub fn figure(shown: &ShownFigure) -> Markup {
         "scroll drawing"
     };
     html! {
-        figure id=(shown.name) {
-            h3 { (shown.number) ". " (shown.title) }
+        figure.figure id=(shown.name) {
+            p.title { (shown.number) ". " (shown.title) }
             div class=(class) role="region" aria-label=(label) tabindex="0" {
                 (PreEscaped(inline(&shown.svg)))
             }
-            figcaption { (shown.reading) }
-            details {
-                summary { "Data of " (shown.called()) }
-                p {
-                    a href=(shown.csv_path) { (shown.csv_path) }
-                }
-                (table::preview(shown.called(), &shown.csv, PREVIEW_ROWS))
+            figcaption {
+                (shown.reading) " Numbers: "
+                a href=(shown.csv_path) { (shown.csv_path) } "."
             }
         }
     }

@@ -4,91 +4,193 @@ use maud::{Markup, html};
 
 use super::figures::{self, ShownFigure};
 use super::table::{self, scrolled};
-use super::{Family, Finding, Part, ReportInput, Summary};
+use super::{
+    Answers, Chapter, Column, Family, Finding, Outcome, Part, ReportInput,
+    Theme,
+};
 use crate::paper::Verdict;
+
+/// What the page is about, and who signs for it.
+pub fn head(input: &ReportInput) -> Markup {
+    html! {
+        @if !input.head.is_empty() { (list(&input.head)) }
+        @if !input.signatures.is_empty() {
+            ul.signatures {
+                @for (what, given) in &input.signatures {
+                    li {
+                        (what) ": "
+                        @if let Some(words) = given {
+                            (words)
+                        } @else {
+                            span.line { "to be signed" }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
 
 /// Those that have something to show.
 pub fn all(input: &ReportInput) -> Vec<Part> {
-    let mut parts = vec![Part {
-        id: "summary",
-        title: "Summary",
-        body: summary(&input.summary, &input.findings),
-    }];
-    let mut add = |wanted: bool, id, title, body: &dyn Fn() -> Markup| {
-        if wanted {
-            parts.push(Part { id, title, body: body() });
-        }
-    };
     let i = input;
+    let mut parts = Vec::new();
+    let mut add =
+        |wanted: bool, id, title: &str, body: &dyn Fn() -> Markup| {
+            if wanted {
+                parts.push(Part { id, title: title.into(), body: body() });
+            }
+        };
+    add(!i.answers.rows.is_empty(), "answers", "Answers", &|| {
+        answers(&i.answers, &i.columns)
+    });
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
-        findings(&i.findings, &i.figures)
+        html! {
+            @for column in &i.columns { (counts(column)) }
+            @for t in &i.findings { (theme(t, &i.columns)) }
+            @if !i.identities.rows.is_empty() {
+                (table::plain(&i.identities))
+            }
+        }
+    });
+    add(!i.method.is_empty(), "method", "Method and glossary", &|| {
+        html! {
+            @for words in &i.method { p { (words) } }
+            @if !i.glossary.is_empty() {
+                h3 { "Glossary" }
+                (list(&i.glossary))
+            }
+        }
     });
     let proof = !i.proof.is_empty() || !i.families.is_empty();
-    add(proof, "evidence", "Evidence", &|| {
+    add(proof, "evidence", "Proof of the integrator", &|| {
         html! {
             @if !i.proof.is_empty() { p { (i.proof) } }
-            @for family in &i.families { (cases(family)) }
+            @if !i.families.is_empty() { (families(&i.families)) }
+            (chapter(&i.evidence))
         }
     });
-    add(!i.tables.is_empty(), "tables", "Tables", &|| {
-        html! { @for t in &i.tables { (table::plain(t)) } }
-    });
-    add(!i.figures.is_empty(), "figures", "Figures", &|| {
-        html! { @for f in &i.figures { (figures::figure(f)) } }
-    });
-    add(!i.credibility.is_empty(), "credibility", "Credibility", &|| {
-        html! { @for t in &i.credibility { (table::plain(t)) } }
-    });
-    add(
-        !i.limits.is_empty(),
-        "limits",
-        "Known limits, and what was not checked",
-        &|| html! { ul { @for limit in &i.limits { li { (limit) } } } },
-    );
-    add(!i.provenance.is_empty(), "provenance", "Provenance", &|| {
+    for one in &i.chapters {
+        add(true, one.id, &one.title, &|| chapter(one));
+    }
+    let annexes = !i.annexes.is_empty() || !i.families.is_empty();
+    add(annexes, "annexes", "Annexes", &|| {
         html! {
-            dl {
-                @for (name, value) in &i.provenance {
-                    dt { (name) }
-                    dd { (value) }
-                }
+            @if !i.findings.is_empty() {
+                (folded("all-results", "Every result", &every_result(i)))
+            }
+            @if !i.families.is_empty() {
+                (folded("cases", "Every declared case", &html! {
+                    @for family in &i.families { (cases(family)) }
+                }))
+            }
+            @for one in &i.annexes {
+                (folded(one.id, &one.title, &chapter(one)))
             }
         }
     });
     parts
 }
 
-fn summary(summary: &Summary, findings: &[Finding]) -> Markup {
+/// A heading whose part is folded on a screen.
+fn folded(id: &str, title: &str, body: &Markup) -> Markup {
     html! {
-        @if !summary.asked.is_empty() {
-            h3 { "What was asked" }
-            p { (summary.asked) }
-        }
-        @if !findings.is_empty() || !summary.found.is_empty() {
-            h3 { "What was found" }
-        }
-        @if !findings.is_empty() { (counts(findings)) }
-        @if !summary.found.is_empty() {
-            ul { @for found in &summary.found { li { (found) } } }
-        }
-        @if !summary.trust.is_empty() {
-            h3 { "How far to trust it" }
-            p { (summary.trust) }
+        div id=(id) {
+            h3 { (title) }
+            details {
+                summary { "Show: " (title) }
+                (body)
+            }
         }
     }
 }
 
-fn counts(findings: &[Finding]) -> Markup {
-    let count =
-        |v: Verdict| findings.iter().filter(|f| f.verdict == v).count();
+fn list(pairs: &[(String, String)]) -> Markup {
     html! {
-        ul.counts {
-            @for verdict in Verdict::ALL {
-                li {
-                    span.number { (count(verdict)) } " "
-                    (mark(verdict))
+        dl {
+            @for (name, value) in pairs {
+                dt { (name) }
+                dd { (value) }
+            }
+        }
+    }
+}
+
+fn chapter(one: &Chapter) -> Markup {
+    html! {
+        @for words in &one.text { p { (words) } }
+        @if !one.list.is_empty() { (list(&one.list)) }
+        (drawings(&one.figures))
+        @for t in &one.tables { (table::plain(t)) }
+    }
+}
+
+fn drawings(shown: &[ShownFigure]) -> Markup {
+    html! {
+        @if !shown.is_empty() {
+            div.figures { @for f in shown { (figures::figure(f)) } }
+        }
+    }
+}
+
+fn answers(answers: &Answers, columns: &[Column]) -> Markup {
+    let body = html! {
+        table.cards.answers {
+            caption {
+                span { "Questions, and what the verdicts answer." }
+            }
+            thead {
+                tr {
+                    th scope="col" { "Question" }
+                    th scope="col" { "Answer" }
+                    th scope="col" { "Effect (95 % interval)" }
+                    @for column in columns {
+                        th scope="col" { (column.name) }
+                    }
+                    th scope="col" { "Shown in" }
                 }
             }
+            tbody {
+                @for row in &answers.rows {
+                    tr {
+                        th scope="row" { (row.question) }
+                        td data-label="Answer" { strong { (row.answer) } }
+                        td data-label="Effect" { (row.effect) }
+                        @for (column, words) in
+                            columns.iter().zip(&row.columns)
+                        {
+                            td data-label=(column.name) { (words) }
+                        }
+                        td data-label="Shown in" { (links(&row.shown)) }
+                    }
+                }
+            }
+        }
+    };
+    html! {
+        (scrolled("Answers", body))
+        (drawings(&answers.figures))
+    }
+}
+
+fn links(shown: &[(String, String)]) -> Markup {
+    html! {
+        @for (k, (anchor, words)) in shown.iter().enumerate() {
+            @if k > 0 { ", " }
+            a href={ "#" (anchor) } { (words) }
+        }
+    }
+}
+
+fn counts(column: &Column) -> Markup {
+    html! {
+        p {
+            "Results on the " (column.name) ", " (column.suites) " records: "
+            @for (k, (verdict, count)) in column.counts.iter().enumerate() {
+                @if k > 0 { ", " }
+                (count) " " (mark(*verdict))
+            }
+            "."
         }
     }
 }
@@ -98,6 +200,16 @@ fn mark(verdict: Verdict) -> Markup {
         span class=(class(verdict)) {
             span aria-hidden="true" { (sign(verdict)) " " }
             (verdict.name())
+        }
+    }
+}
+
+/// The verdict as a sign, its name for those who do not see it.
+fn short(verdict: Verdict) -> Markup {
+    html! {
+        span class=(class(verdict)) title=(verdict.name()) {
+            span aria-hidden="true" { (sign(verdict)) }
+            span.unseen { (verdict.name()) }
         }
     }
 }
@@ -119,82 +231,187 @@ fn class(verdict: Verdict) -> &'static str {
     }
 }
 
-fn findings(findings: &[Finding], shown: &[ShownFigure]) -> Markup {
-    let body = html! {
-        table.cards {
-            caption { "Claims, what was measured, and the verdict." }
-            thead {
-                tr {
-                    th scope="col" { "Claim" }
-                    th scope="col" { "Tested on" }
-                    th scope="col" { "Measure" }
-                    th scope="col" { "Value" }
-                    th scope="col" { "Interval" }
-                    th scope="col" { "Margin" }
-                    th scope="col" { "Verdict" }
-                }
-            }
-            tbody { @for f in findings { (finding(f, shown)) } }
-        }
-    };
-    scrolled("Findings, table", body)
-}
-
-/// A link to a figure, by its number where the page has it.
-fn link(name: &str, shown: &[ShownFigure]) -> Markup {
+fn theme(theme: &Theme, columns: &[Column]) -> Markup {
     html! {
-        @if let Some(figure) = shown.iter().find(|f| f.name == name) {
-            a href={ "#" (name) } { (figure.number) }
-        } @else {
-            (name)
+        div id=(theme.id) {
+            h3 { (theme.question) }
+            p { (theme.paragraph) }
+            (drawings(&theme.figures))
+            (scrolled(&theme.question, html! {
+                table.cards.findings {
+                    caption {
+                        span {
+                            "✓ confirmed, ✗ not confirmed, ? \
+                             inconclusive. The arm is C, or A where C was \
+                             not run. \
+                             Measures, reasons, all arms: "
+                            a href="#all-results" { "every result" } "."
+                        }
+                    }
+                    thead {
+                        tr {
+                            th scope="col" { "The paper's words" }
+                            th scope="col" { "Limit in practice" }
+                            @for column in columns {
+                                th scope="col" { (column.name) }
+                            }
+                        }
+                    }
+                    tbody {
+                        @for f in &theme.findings { (finding(f, columns)) }
+                    }
+                }
+            }))
         }
     }
 }
 
-fn finding(f: &Finding, shown: &[ShownFigure]) -> Markup {
+fn finding(f: &Finding, columns: &[Column]) -> Markup {
     html! {
         tr id={ "finding-" (f.id) } {
             th scope="row" {
-                (f.claim)
-                " " span.source { "(" (f.source) ")" }
-                @if !f.figures.is_empty() {
-                    span.source {
-                        @for (k, name) in f.figures.iter().enumerate() {
-                            @if k > 0 { ", " } @else { " See " }
-                            (link(name, shown))
-                        }
-                        "."
-                    }
+                "\u{201c}" (f.quote) "\u{201d} "
+                span.source {
+                    "(" (f.source) ")"
+                    @if !f.figures.is_empty() { " " (links(&f.figures)) }
                 }
             }
-            td data-label="Tested on" { (f.tested_on) }
-            td data-label="Measure" { (f.measure) }
-            td data-label="Value" { (f.value) }
-            td data-label="Interval" { (f.interval) }
-            td data-label="Margin" { (f.margin) }
-            td data-label="Verdict" {
-                (mark(f.verdict))
-                @if !f.remark.is_empty() {
-                    " " span.source { (f.remark) }
+            td data-label="Limit in practice" {
+                (f.rule)
+                @if !f.criterion.is_empty() {
+                    p.source { "The paper's: " (f.criterion) }
+                }
+            }
+            @for (k, column) in columns.iter().enumerate() {
+                td data-label=(column.name) {
+                    @for one in f.columns.get(k).into_iter().flatten() {
+                        @if one.first { (outcome(one, &one.suite)) }
+                    }
                 }
             }
         }
     }
 }
 
-fn cases(family: &Family) -> Markup {
-    let passed = family.cases.iter().filter(|c| c.passed).count();
+fn outcome(one: &Outcome, place: &str) -> Markup {
+    html! {
+        div.outcome {
+            @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
+            span.source { (place) ": " }
+            (one.value)
+            @if let Some(verdict) = one.by_criterion {
+                "; the paper's: " (short(verdict))
+            }
+        }
+    }
+}
+
+fn every_result(input: &ReportInput) -> Markup {
+    html! {
+        @for theme in &input.findings {
+            (scrolled(&format!("{}, every result", theme.question), html! {
+                table.cards.findings {
+                    caption { span { (theme.question) } }
+                    thead {
+                        tr {
+                            th scope="col" { "Claim and measure" }
+                            @for column in &input.columns {
+                                th scope="col" { (column.name) }
+                            }
+                        }
+                    }
+                    tbody {
+                        @for f in &theme.findings {
+                            (results(f, &input.columns))
+                        }
+                    }
+                }
+            }))
+        }
+    }
+}
+
+fn results(f: &Finding, columns: &[Column]) -> Markup {
+    html! {
+        tr {
+            th scope="row" {
+                a href={ "#finding-" (f.id) } { (f.id) }
+                p.source { (f.measure) }
+                @if !f.remark.is_empty() { p.source { (f.remark) } }
+            }
+            @for (k, column) in columns.iter().enumerate() {
+                td data-label=(column.name) {
+                    @for one in f.columns.get(k).into_iter().flatten() {
+                        (outcome(one, &one.place))
+                        @if !one.remarks.is_empty() {
+                            p.source { (one.remarks.join("; ")) "." }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn families(families: &[Family]) -> Markup {
     let body = html! {
         table.cards {
-            caption { "Cases of the family " (family.name) "." }
+            caption {
+                span {
+                    "One row a family of declared cases. The worst number \
+                     is the largest error as a share of its tolerance. A \
+                     wrong model is a version of the program with a known \
+                     fault, which a case has to tell from the right one."
+                }
+            }
+            thead {
+                tr {
+                    th scope="col" { "Family" }
+                    th scope="col" { "Cases passed" }
+                    th scope="col" { "Held against" }
+                    th scope="col" { "Worst number" }
+                    th scope="col" { "Wrong models rejected" }
+                }
+            }
+            tbody {
+                @for family in families {
+                    tr {
+                        th scope="row" {
+                            a href={ "#cases-" (family.name) } {
+                                (family.name)
+                            }
+                        }
+                        td data-label="Cases passed" {
+                            (passed(family)) " of " (family.cases.len())
+                        }
+                        td data-label="Held against" { (family.oracle) }
+                        td data-label="Worst number" { (family.worst) }
+                        td data-label="Wrong models rejected" {
+                            (family.rejected)
+                        }
+                    }
+                }
+            }
+        }
+    };
+    scrolled("Families of declared cases", body)
+}
+
+fn passed(family: &Family) -> usize {
+    family.cases.iter().filter(|c| c.passed).count()
+}
+
+fn cases(family: &Family) -> Markup {
+    let body = html! {
+        table.cards {
+            caption { span { "Cases of the family " (family.name) "." } }
             thead {
                 tr {
                     th scope="col" { "Case" }
                     th scope="col" { "Claim" }
                     th scope="col" { "Source" }
-                    th scope="col" { "Error" }
                     th scope="col" { "Tolerance and why" }
-                    th scope="col" { "Margin" }
+                    th scope="col" { "Worst number" }
                     th scope="col" { "Rejects" }
                     th scope="col" { "Result" }
                 }
@@ -205,12 +422,11 @@ fn cases(family: &Family) -> Markup {
                         th scope="row" { (c.id) }
                         td data-label="Claim" { (c.claim) }
                         td data-label="Source" { (c.source) }
-                        td data-label="Error" { (c.error) }
                         td data-label="Tolerance and why" {
                             (c.tolerance) " "
                             span.source { (c.because) }
                         }
-                        td data-label="Margin" { (c.margin) }
+                        td data-label="Worst number" { (c.worst) }
                         td data-label="Rejects" { (c.rejects) }
                         td data-label="Result" {
                             @if c.passed {
@@ -225,12 +441,8 @@ fn cases(family: &Family) -> Markup {
         }
     };
     html! {
-        h3 { (family.name) }
-        @if !family.purpose.is_empty() { p { (family.purpose) } }
-        details {
-            summary {
-                (passed) " of " (family.cases.len()) " cases passed"
-            }
+        div id={ "cases-" (family.name) } {
+            h4 { (family.name) }
             (scrolled(&family.name, body))
         }
     }

@@ -2,13 +2,13 @@
 
 use maud::{Markup, html};
 
-use crate::table::{PlainTable, cells};
+use crate::table::PlainTable;
 
 /// The table under its title.
 pub fn plain(table: &PlainTable) -> Markup {
     let body = html! {
         table {
-            caption { (table.reading) }
+            caption { span { (table.reading) } }
             (head(&table.header))
             tbody { @for row in &table.rows { (line(row)) } }
         }
@@ -19,23 +19,6 @@ pub fn plain(table: &PlainTable) -> Markup {
             (scrolled(&table.title, body))
         }
     }
-}
-
-/// The first rows of a CSV text as a table; the caption says how many there
-/// are.
-pub fn preview(name: &str, csv: &str, most: usize) -> Markup {
-    let mut lines = csv.lines();
-    let header = lines.next().map(cells).unwrap_or_default();
-    let rows: Vec<&str> = lines.collect();
-    let shown = rows.len().min(most);
-    let body = html! {
-        table.data {
-            caption { "Rows 1 to " (shown) " of " (rows.len()) "." }
-            (head(&header))
-            tbody { @for row in &rows[..shown] { (line(&cells(row))) } }
-        }
-    };
-    scrolled(&format!("Data of {name}"), body)
 }
 
 /// A box that scrolls sideways, so that the page does not.

@@ -5,18 +5,30 @@ use crate::draw::colour;
 use crate::draw::figures::{Figure, demonstration};
 
 fn made_up() -> ReportInput {
+    let outcome = |k: usize| Outcome {
+        suite: "ordinary".into(),
+        place: "ordinary, arm C".into(),
+        value: "91.0 % (83.0 to 96.0 %)".into(),
+        by_criterion: (k == 2).then_some(Verdict::NotConfirmed),
+        by_equivalence: Some(Verdict::ALL[k % 3]),
+        first: true,
+        remarks: vec!["52 of 52 cells inside, 0 outside".into()],
+    };
     let finding = |k: usize| Finding {
         id: format!("stage-{k}"),
-        claim: "“the median r conforms to 1.0 with 95 % confidence”".into(),
+        quote: "The median r conforms to 1.0 with 95 % confidence.".into(),
         source: format!("section {k}"),
-        tested_on: "86 ordinary records, p = 1, arm C".into(),
+        criterion: "the notch covers 1".into(),
+        rule: "at least 90 %".into(),
         measure: "share of stripes whose interval holds 1".into(),
-        value: "0.91".into(),
-        interval: "0.83 to 0.96 (95 %)".into(),
-        margin: "at least 0.90".into(),
-        verdict: Verdict::ALL[k % 3],
-        figures: vec!["figure-08".into()],
+        columns: vec![vec![outcome(k); 2], vec![outcome(k + 1); 2]],
+        figures: vec![("figure-08".into(), "Figure 8".into())],
         remark: if k == 1 { "The lowest stripe.".into() } else { "".into() },
+    };
+    let column = |name: &str| Column {
+        name: name.into(),
+        suites: "86 ordinary + 44 pulse-type".into(),
+        counts: Verdict::ALL.map(|verdict| (verdict, 7)),
     };
     let case = |k: usize| ShownCase {
         id: format!("free-rocking/decay-{k}"),
@@ -24,8 +36,7 @@ fn made_up() -> ReportInput {
         source: "Housner 1963, Eq. 8".into(),
         tolerance: "1e-12 relative".into(),
         because: "hundred times what double precision can give".into(),
-        error: "3.1e-14".into(),
-        margin: "32 times".into(),
+        worst: "3.1 % of the tolerance, peak".into(),
         rejects: "energy ratio taken for velocity ratio".into(),
         passed: k != 2,
     };
@@ -38,7 +49,6 @@ fn made_up() -> ReportInput {
             reading: "Nothing can be seen here, the numbers are made up."
                 .into(),
             svg: figure.svg(),
-            csv: figure.csv.clone(),
             csv_path: format!("data/{}.csv", heading.name),
         }
     };
@@ -48,35 +58,63 @@ fn made_up() -> ReportInput {
     ReportInput {
         title: "Rocking: what was verified, what was found".into(),
         subtitle: "Free-standing blocks under 86 + 44 records".into(),
-        summary: Summary {
-            asked: "Is slenderness normalized out? ".repeat(4),
-            found: vec!["It is, on average.".into(); 3],
-            trust: "As far as the cases go. ".repeat(3),
+        head: vec![("Paper".into(), "Made-up authors".into())],
+        signatures: vec![
+            ("Issued".into(), Some("a day".into())),
+            ("Approved by".into(), None),
+        ],
+        answers: Answers {
+            rows: vec![AnswerRow {
+                question: "Is slenderness normalized out?".into(),
+                answer: "Nearly: for ratios; open for quantiles.".into(),
+                effect: "-0.9 % (-1 to -0.8 %)".into(),
+                columns: vec!["7 results for it".into(); 2],
+                shown: vec![("figure-08".into(), "Figure 8".into())],
+            }],
+            figures: vec![],
         },
-        findings: (0..7).map(finding).collect(),
+        columns: ["recorded suites", "embedded suites"].map(column).into(),
+        findings: vec![Theme {
+            id: "theme-a",
+            question: "Does the slenderness drop out?".into(),
+            paragraph: "On average it does.".into(),
+            figures: demonstration().iter().map(shown).collect(),
+            findings: (0..7).map(finding).collect(),
+        }],
         proof: "By the results handed in: all cases pass.".into(),
         families: vec![Family {
             name: "free-rocking".into(),
-            purpose: "The motion has closed forms.".into(),
+            oracle: "closed form".into(),
+            worst: "3.1 % of the tolerance, peak".into(),
+            rejected: 3,
             cases: (0..3).map(case).collect(),
         }],
-        tables: vec![PlainTable {
-            name: "table-1".into(),
-            title: "Table 1. The blocks".into(),
-            reading: "Sizes follow from p and alpha.".into(),
-            header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
-            rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
-        }],
-        figures: demonstration().iter().map(shown).collect(),
-        provenance: vec![
-            ("version".into(), "0.1.0".into()),
-            (
+        identities: PlainTable::default(),
+        method: vec!["As one would.".into()],
+        glossary: vec![("p".into(), "frequency parameter".into())],
+        evidence: Chapter::default(),
+        chapters: vec![Chapter {
+            id: "provenance",
+            title: "Provenance".into(),
+            text: vec!["Two suites only.".into()],
+            list: vec![(
                 "suite ordinary".into(),
                 "sha256 ".to_owned() + &"ab1".repeat(21),
-            ),
-        ],
-        limits: vec!["Two suites only.".into(); 3],
-        credibility: vec![],
+            )],
+            ..Chapter::default()
+        }],
+        annexes: vec![Chapter {
+            id: "blocks",
+            title: "Blocks".into(),
+            tables: vec![PlainTable {
+                name: "table-1".into(),
+                title: "Table 1. The blocks".into(),
+                reading: "Sizes follow from p and alpha.".into(),
+                header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
+                rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
+            }],
+            ..Chapter::default()
+        }],
     }
 }
 

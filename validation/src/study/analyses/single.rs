@@ -14,6 +14,10 @@ use crate::study::runs::capacities;
 /// Interval at which histories are compared and drawn, in s.
 pub const HISTORY_INTERVAL_S: f64 = 0.01;
 
+/// Intensities PGA/(g tan alpha) at which histories of both suites are
+/// compared: from just above uplift to where blocks begin to overturn.
+pub const LEVELS_IM: [f64; 4] = [1.25, 1.5, 2.0, 3.0];
+
 /// Theta/alpha every [`HISTORY_INTERVAL_S`], and whether the block
 /// overturned.
 pub type ShownHistory = (Vec<f64>, bool);
@@ -29,6 +33,8 @@ pub struct SingleRecords {
     pub histories: Vec<Vec<ShownHistory>>,
     /// By record, then by slenderness other than the reference.
     pub apart: Vec<Vec<Apart>>,
+    /// The same at each of `LEVELS_IM`, for comparisons of the suites.
+    pub by_level: Vec<(f64, Vec<Vec<Apart>>)>,
 }
 
 /// A block against the reference slenderness under one record.
@@ -68,29 +74,33 @@ impl Plan {
             .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
             .collect();
         let im = common_level(&standing);
+        let at_level = |record: usize, im: f64| -> Result<_, StudyError> {
+            let histories: Vec<(Vec<f64>, f64)> = slendernesses
+                .clone()
+                .map(|s| {
+                    self.setup.history(
+                        blocks[position(frequency, s)],
+                        &records[record],
+                        im,
+                        HISTORY_INTERVAL_S,
+                    )
+                })
+                .collect::<Result<_, _>>()?;
+            let apart = slendernesses
+                .clone()
+                .filter(|s| *s != REFERENCE)
+                .map(|s| {
+                    let (a, b) = (&histories[s], &histories[REFERENCE]);
+                    let curves = (of(s, record), of(REFERENCE, record));
+                    apart(a, b, curves)
+                })
+                .collect::<Result<Vec<Apart>, _>>()?;
+            Ok((histories, apart))
+        };
         let all: Vec<(Vec<ShownHistory>, Vec<Apart>)> = (0..records.len())
             .into_par_iter()
             .map(|record| {
-                let histories: Vec<(Vec<f64>, f64)> = slendernesses
-                    .clone()
-                    .map(|s| {
-                        self.setup.history(
-                            blocks[position(frequency, s)],
-                            &records[record],
-                            im,
-                            HISTORY_INTERVAL_S,
-                        )
-                    })
-                    .collect::<Result<_, _>>()?;
-                let apart = slendernesses
-                    .clone()
-                    .filter(|s| *s != REFERENCE)
-                    .map(|s| {
-                        let (a, b) = (&histories[s], &histories[REFERENCE]);
-                        let curves = (of(s, record), of(REFERENCE, record));
-                        apart(a, b, curves)
-                    })
-                    .collect::<Result<_, _>>()?;
+                let (histories, apart) = at_level(record, im)?;
                 let kept = if results.chosen.contains(&record) {
                     histories
                         .into_iter()
@@ -102,10 +112,20 @@ impl Plan {
                 Ok((kept, apart))
             })
             .collect::<Result<_, StudyError>>()?;
+        let by_level = LEVELS_IM
+            .into_iter()
+            .map(|im| {
+                let apart = (0..records.len())
+                    .into_par_iter()
+                    .map(|record| Ok(at_level(record, im)?.1))
+                    .collect::<Result<_, StudyError>>()?;
+                Ok((im, apart))
+            })
+            .collect::<Result<_, StudyError>>()?;
         let histories =
             results.chosen.iter().map(|r| all[*r].0.clone()).collect();
         let apart = all.into_iter().map(|(_, apart)| apart).collect();
-        Ok(SingleRecords { im, histories, apart })
+        Ok(SingleRecords { im, histories, apart, by_level })
     }
 }
 

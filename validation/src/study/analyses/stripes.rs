@@ -64,28 +64,26 @@ impl Plan {
                 .map(|(r, c)| apply(r, c))
                 .collect();
             // Overturned by the rule, yet finite by its own run.
-            let count = |which: fn(f64, f64) -> bool| {
-                demands
-                    .iter()
-                    .zip(&runs)
-                    .map(|(demands, runs)| {
-                        demands
-                            .iter()
-                            .zip(runs)
-                            .map(|(d, r)| {
-                                d.iter()
-                                    .zip(r)
-                                    .filter(|(d, r)| which(**d, **r))
-                                    .count()
-                            })
+            let stands_again = demands
+                .iter()
+                .zip(&runs)
+                .map(|(demands, runs): (&Vec<Vec<f64>>, &Vec<Vec<f64>>)| {
+                    let again = |d: &Vec<f64>, r: &Vec<f64>| {
+                        d.iter()
+                            .zip(r)
+                            .map(|(d, r)| d.is_infinite() && r.is_finite())
                             .collect()
-                    })
-                    .collect()
-            };
+                    };
+                    demands
+                        .iter()
+                        .zip(runs)
+                        .map(|(d, r)| again(d, r))
+                        .collect()
+                })
+                .collect();
             out.push(StripeDemands {
                 arm: *arm,
-                stand_again: count(|d, r| d.is_infinite() && r.is_finite()),
-                overturned: count(|d, _| d.is_infinite()),
+                stands_again,
                 demands,
                 adjusted,
             });

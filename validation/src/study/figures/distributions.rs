@@ -129,8 +129,11 @@ pub(super) fn shares(
                     });
                 }
             }
-            let mean = shares.iter().fold(0.0, |s, b| s + b.share)
-                / shares.len() as f64;
+            // Of the arm that the findings show first.
+            let common = results.plan.common();
+            let own = || shares.iter().filter(|b| b.arm == common);
+            let mean =
+                own().fold(0.0, |s, b| s + b.share) / own().count() as f64;
             let sample = if shifted { "shifted" } else { "original" };
             words.push(format!(
                 "{} for {sample} {} samples",
@@ -165,7 +168,9 @@ pub(super) fn shares(
         columns: 2,
     }
     .figure(format!(
-        "Mean over blocks and arms of the accepted share: {}.",
+        "Mean over blocks of the accepted share, arm {}: {}. A band belongs \
+         to the mark in front of it.",
+        results.plan.common().letter(),
         words.join(", ")
     )))
 }

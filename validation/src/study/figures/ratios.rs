@@ -11,6 +11,7 @@ use crate::paper::{
 };
 use crate::study::StudyError;
 use crate::study::analyses::{StripeDemands, SuiteResults};
+use crate::study::measures::closed_form;
 use crate::words::{percent, range};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
@@ -30,6 +31,7 @@ pub(super) fn slendernesses(
                 panels.push(BoxPanel {
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
                     alpha_rad,
+                    closed_form: Some(closed_form(alpha_rad)),
                     note: String::new(),
                     stripes: boxes(stripes, *frequency, Some(slenderness))?,
                 });
@@ -72,6 +74,7 @@ pub(super) fn adjusted(
             Ok(BoxPanel {
                 p_rad_s,
                 alpha_rad: SLENDERNESSES_RAD[REFERENCE],
+                closed_form: None,
                 note: String::new(),
                 stripes: boxes(stripes, frequency, None)?,
             })
@@ -123,20 +126,6 @@ pub(crate) fn pairs(
         .zip(compared.iter().zip(reference))
         .map(|(im, (a, b))| Ok((*im, Pairs::try_new(a, b)?)))
         .collect()
-}
-
-/// Boxes of a slenderness over the reference; none where stripes were not
-/// run.
-pub(crate) fn demand_boxes(
-    suite: &SuiteResults,
-    arm: Arm,
-    frequency: usize,
-    slenderness: usize,
-) -> Result<Vec<Stripe>, StudyError> {
-    match of_arm(suite, arm) {
-        Some(stripes) => boxes(stripes, frequency, Some(slenderness)),
-        None => Ok(Vec::new()),
-    }
 }
 
 /// Boxes of Figure 9 by frequency parameter; none where stripes were not

@@ -9,8 +9,8 @@ use crate::draw::figures::{
 use crate::paper::{Arm, Intensity, demand_index, demands};
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
-use crate::study::claims::median;
 use crate::study::distributions::{BlockSamples, factors};
+use crate::study::estimates::median;
 use crate::study::figures::Results;
 use crate::study::normality::{LEVEL, over_critical};
 use crate::words::{capital, range};

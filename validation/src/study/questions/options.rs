@@ -15,8 +15,8 @@ use crate::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };
 use crate::study::StudyError;
-use crate::study::claims::median;
 use crate::study::distributions::BlockSamples;
+use crate::study::estimates::median;
 use crate::study::figures::{BLOCK, Results, THRESHOLDS};
 use crate::table::{Table, digits, number};
 use crate::words::range;

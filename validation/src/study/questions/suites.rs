@@ -12,7 +12,7 @@ use super::Answer;
 use crate::draw::markup;
 use crate::paper::{Intensity, SuiteKind};
 use crate::study::StudyError;
-use crate::study::claims::median;
+use crate::study::estimates::median;
 use crate::study::figures::Results;
 use crate::table::PlainTable;
 use crate::words::{capital, range};

@@ -65,9 +65,3 @@ fn one_arm_alone_gives_the_same_curve() {
         assert_eq!(alone, [curve]);
     }
 }
-
-#[test]
-fn onset_is_exact() {
-    let block = Block::try_new(0.1, 3.0).expect("block");
-    assert!(!setup().violates_onset(block, &lobe()).expect("runs"));
-}

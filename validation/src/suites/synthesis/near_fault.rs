@@ -9,12 +9,66 @@ use coefficients::{CORRELATION, DEVIATION, REGRESSION};
 
 use rocking::statistics::normal;
 
+use rayon::prelude::*;
+use rocking::record::AccelerogramError;
+
 use super::draws::{Stream, cholesky, correlate, dot};
 use super::noise::{
     DT_S, Filter, corner_hz, energy, filtered_noise, high_pass,
 };
 use super::special::{beta_quantile, two_sided_exponential_quantile};
-use super::{Role, Scenario};
+use super::{PULSE_SEED, Pair, Role, Scenario, finished, stream_index};
+
+/// Pairs of the suite.
+const PAIRS: u64 = 44;
+
+/// All pairs, each with streams of its own. A pair that the model's limits or
+/// the least PGA refuse is drawn again with the next streams.
+pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
+    (1..=PAIRS)
+        .into_par_iter()
+        .map(|number| {
+            let mut refused = 0;
+            loop {
+                let stream = |role| stream_index(number, refused, role);
+                let scenario = scenario(PULSE_SEED, stream);
+                if let Some(samples) = pair(&scenario, PULSE_SEED, stream)
+                    && let Some(components) =
+                        finished("pulse", number, samples)?
+                {
+                    return Ok(Pair { components, scenario, refused });
+                }
+                refused += 1;
+            }
+        })
+        .collect()
+}
+
+/// Earthquake and site.
+fn scenario(seed: &str, stream: impl Fn(Role) -> u64) -> Scenario {
+    let mut draws = Stream::new(seed, stream(Role::Scenario));
+    Scenario {
+        mw: draws.uniform(6.3, 7.6),
+        rrup_km: draws.log_uniform(1.0, 15.0),
+        vs30_m_s: draws.log_uniform(200.0, 760.0),
+        reverse: draws.uniform(0.0, 1.0) < 0.5,
+        towards_site_km: draws.uniform(5.0, 40.0),
+    }
+}
+
+/// Length of a record whose motion has all but ended at `end_s`: eight
+/// seconds more for the high-pass filter to come to rest, at least 20 s;
+/// `None` above a minute.
+fn duration_s(end_s: f64) -> Option<f64> {
+    let wanted = (end_s + 8.0).ceil();
+    if !(wanted <= 60.0) {
+        None
+    } else if wanted < 20.0 {
+        Some(20.0)
+    } else {
+        Some(wanted)
+    }
+}
 
 /// The modified Mavroeidis-Papageorgiou velocity pulse (Dabaghi and Der
 /// Kiureghian 2014): the pulse of 2003 less a bump that takes its residual
@@ -268,7 +322,7 @@ pub(super) fn pair(
             end = t;
         }
     }
-    let duration_s = super::duration_s(end)?;
+    let duration_s = duration_s(end)?;
     let n = (duration_s / DT_S).round() as usize + 1;
     let noise = |role| Stream::new(suite, stream(role)).normals(n);
     let mut first = along.samples(&noise(Role::First), scenario.mw);

@@ -151,6 +151,7 @@ pub fn boxplots(panels: usize) -> Boxplots {
     let panel = |i: usize| BoxPanel {
         p_rad_s: if panels == 4 { 1.0 } else { FREQUENCIES[1 + i / 4] },
         alpha_rad: [0.05, 0.15, 0.20, 0.25][i % 4],
+        closed_form: None,
         note: String::new(),
         stripes: levels
             .iter()

@@ -9,6 +9,7 @@ use crate::draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::paper::{Arm, Intensity};
+use crate::words::range;
 
 /// Median distance over blocks and demands against the constant of Eq. 7.
 pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
@@ -33,6 +34,20 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
             series(label, Mark::LineAndPoints, along.collect())
         };
         let (fitted, sample) = (Centre::FittedMedian, Centre::SampleMedian);
+        let lines = vec![
+            flat("unshifted", Recipe::Unshifted(MLE)),
+            flat("Option 1", Recipe::Shifted(MLE)),
+            flat("Option 2", Recipe::Quantiles(quantile_type)),
+            seven("Option 3, untrimmed", MLE, fitted),
+            seven("Option 3, trimmed", trimmed(), fitted),
+            seven(
+                "Option 3, quantiles",
+                FitMethod::Quantile(quantile_type),
+                sample,
+            ),
+        ];
+        let (_, most) = range(lines.iter().flat_map(|s| s.y.iter().copied()));
+        let top = if most > 0.0 { 1.1 * most } else { 1.0 };
         ChartPanel {
             title: intensity.name().to_uppercase(),
             x: ChartAxis::new(
@@ -43,20 +58,9 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
             y: ChartAxis::new(
                 "median Kolmogorov distance",
                 Scale::Linear,
-                None,
+                Some((0.0, top)),
             ),
-            series: vec![
-                flat("unshifted", Recipe::Unshifted(MLE)),
-                flat("Option 1", Recipe::Shifted(MLE)),
-                flat("Option 2", Recipe::Quantiles(quantile_type)),
-                seven("Option 3, untrimmed", MLE, fitted),
-                seven("Option 3, trimmed", trimmed(), fitted),
-                seven(
-                    "Option 3, quantiles",
-                    FitMethod::Quantile(quantile_type),
-                    sample,
-                ),
-            ],
+            series: lines,
         }
     };
     Chart {

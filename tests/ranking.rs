@@ -1,0 +1,329 @@
+//! Capacities in any intensity measure, stripes and censored samples, run as
+//! a user runs them: from a suite to a ranking, a table of counts, a fit.
+//!
+//! Fits, likelihoods and lines are compared with SciPy, statsmodels and
+//! mpmath in the core; here the commands must agree with each other and with
+//! `fixtures/oracles`.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use libm::{exp, log, sin, tan};
+use serde_json::Value;
+
+fn folder(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn rocking(place: &PathBuf, words: &str) -> Output {
+    let binary = env!("CARGO_BIN_EXE_rocking");
+    let words = words.split_whitespace();
+    Command::new(binary).current_dir(place).args(words).output().unwrap()
+}
+
+fn text(place: &PathBuf, words: &str) -> String {
+    let output = rocking(place, words);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{words}: {error}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(place: &PathBuf, words: &str) -> Value {
+    serde_json::from_str(&text(place, &format!("{words} --json"))).unwrap()
+}
+
+fn refused(place: &PathBuf, words: &str) -> String {
+    let output = rocking(place, words);
+    assert_eq!(output.status.code(), Some(2), "{words}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn close(value: &Value, expected: f64, tolerance: f64) {
+    let number = value.as_f64().unwrap();
+    let error = (number / expected - 1.0).abs();
+    assert!(error <= tolerance, "{number} against {expected}");
+}
+
+/// Six records of a few cycles each, their index with magnitude and
+/// distance, and the table of their IDA.
+fn suite(name: &str) -> PathBuf {
+    let place = folder(name);
+    let mut index = String::from("file,units,dt_s,mw,rrup_km\n");
+    for k in 0..6 {
+        let period = 0.4 + 0.15 * f64::from(k);
+        let wave = |i: i32| {
+            let t = 0.02 * f64::from(i);
+            let turn = std::f64::consts::TAU * t / period;
+            0.2 * sin(turn) * exp(-0.3 * (t - 3.0) * (t - 3.0))
+        };
+        let samples: Vec<String> =
+            (0..300).map(|i| wave(i).to_string()).collect();
+        let file = format!("wave{k}.txt");
+        fs::write(place.join(&file), samples.join("\n") + "\n").unwrap();
+        let (mw, km) = (6.0 + 0.2 * f64::from(k), 10 + (k * 7) % 11);
+        index += &format!("{file},g,0.02,{mw},{km}\n");
+    }
+    fs::write(place.join("suite.csv"), index).unwrap();
+    text(
+        &place,
+        "ida --alpha 0.2 --p 2 --suite suite.csv --step-im 0.1 --out ida.csv",
+    );
+    place
+}
+
+/// Values of a sample file.
+fn values(sample: &str) -> Vec<f64> {
+    let lines = sample.lines().filter(|line| !line.starts_with('#'));
+    let cell = |line: &str| line.split('#').next().unwrap().trim().to_owned();
+    lines.map(|line| cell(line).parse().unwrap()).collect()
+}
+
+#[test]
+fn capacities_in_any_measure_are_those_in_pga_scaled_by_record() {
+    let place = suite("ranking-measures");
+    let capacities = |im: &str| {
+        let by = format!("--im {im} --suite suite.csv");
+        let by = if im == "pga" { "--im pga".into() } else { by };
+        values(&text(
+            &place,
+            &format!("capacities --ida ida.csv {by} --at 1 --out -"),
+        ))
+    };
+    let pga = capacities("pga");
+    let records =
+        json(&place, "records suite.csv --intensity --periods 0.5,1");
+    let of = |record: usize, key: &str| {
+        let all = &records["records"][record]["intensity"];
+        all[key].as_f64().unwrap()
+    };
+    let spectrum = |record: usize, period: usize| {
+        let all = &records["records"][record]["intensity"]["spectrum"];
+        all[period]["spectral_acceleration_g"].as_f64().unwrap()
+    };
+    let uplift = tan(0.2);
+    for (im, power, value) in [
+        ("pgd", 1, &(|k| of(k, "pgd_m")) as &dyn Fn(usize) -> f64),
+        ("cav", 1, &|k| of(k, "cav_m_s")),
+        ("arias", 2, &|k| of(k, "arias_intensity_m_s")),
+        ("sa:1", 1, &|k| spectrum(k, 1)),
+        ("avgsa:0.5,1", 1, &|k| (spectrum(k, 0) * spectrum(k, 1)).sqrt()),
+        ("column:rrup_km", 1, &|k| (10 + (k * 7) % 11) as f64),
+    ] {
+        for (k, own) in capacities(im).into_iter().enumerate() {
+            let scale = pga[k] * uplift / of(k, "pga_g");
+            let expected =
+                (if power == 2 { scale * scale } else { scale }) * value(k);
+            // Arias by the first power is some tens of per cent off.
+            let error = (own / expected - 1.0).abs();
+            assert!(error < 1e-12, "{im}: {own} {expected}");
+        }
+    }
+    let said = refused(&place, "capacities --ida ida.csv --im sa:1");
+    assert!(said.contains("expected --suite"), "{said}");
+    let said = refused(
+        &place,
+        "capacities --ida ida.csv --im column:vs30 --suite suite.csv",
+    );
+    assert!(said.contains("column vs30: found no such column"), "{said}");
+    let said = refused(&place, "capacities --ida ida.csv --im sa:-1");
+    assert!(said.contains("expected pga, pgv"), "{said}");
+}
+
+#[test]
+fn a_ranking_tells_the_dispersion_of_the_fits_and_the_slopes() {
+    let place = suite("ranking-rank");
+    let words = "rank --ida ida.csv --suite suite.csv --at 1 --im pga \
+                 --im pgv --im sa:1 --magnitude mw --distance rrup_km \
+                 --bootstrap 200";
+    let out = json(&place, words);
+    assert_eq!((&out["n"], &out["censored"]), (&6.into(), &0.into()));
+    for (row, im) in ["pga", "pgv", "sa:1"].into_iter().enumerate() {
+        let by = if row < 2 { "" } else { "--suite suite.csv" };
+        let sample = text(
+            &place,
+            &format!("capacities --ida ida.csv --im {im} {by} --at 1 --out -"),
+        );
+        fs::write(place.join("sample.txt"), &sample).unwrap();
+        let fit = json(&place, "fragility --sample sample.txt");
+        let own = &out["measures"][row];
+        close(&own["beta"]["value"], fit["beta"].as_f64().unwrap(), 1e-11);
+        close(&own["median"], fit["median"].as_f64().unwrap(), 1e-11);
+        let (low, high) = (&own["beta"]["low"], &own["beta"]["high"]);
+        assert!(low.as_f64() < high.as_f64());
+        // Least squares by the normal equations.
+        let y: Vec<f64> = values(&sample).iter().map(|x| log(*x)).collect();
+        let slope = |x: &[f64]| {
+            let mean = |v: &[f64]| v.iter().sum::<f64>() / 6.0;
+            let (mx, my) = (mean(x), mean(&y));
+            let pairs = x.iter().zip(&y);
+            let cross: f64 = pairs.map(|(x, y)| (x - mx) * (y - my)).sum();
+            cross / x.iter().map(|x| (x - mx) * (x - mx)).sum::<f64>()
+        };
+        let mw: Vec<f64> = (0..6).map(|k| 6.0 + 0.2 * f64::from(k)).collect();
+        let km = (0..6).map(|k| log(f64::from(10 + (k * 7) % 11)));
+        let km: Vec<f64> = km.collect();
+        close(&own["on_magnitude"]["slope"], slope(&mw), 1e-9);
+        close(&own["on_ln_distance"]["slope"], slope(&km), 1e-9);
+    }
+    assert_eq!(out["measures"][0]["ratio_to_first"]["value"], 1.0);
+    let one = text(&place, &format!("{words} --threads 1"));
+    assert_eq!(one, text(&place, &format!("{words} --threads 2")));
+    assert!(one.contains("slope on ln R"), "{one}");
+}
+
+#[test]
+fn stripes_count_what_the_curves_tell_and_the_counts_are_fitted() {
+    let place = suite("ranking-stripes");
+    let words = "stripes --ida ida.csv --levels 1:6:0.25 --at 1";
+    let out = json(&place, &format!("{words} --counts counts.csv"));
+    let pga = values(&text(
+        &place,
+        "capacities --ida ida.csv --at 1 --point first --out -",
+    ));
+    for stripe in out["stripes"].as_array().unwrap() {
+        let im = stripe["im"].as_f64().unwrap();
+        let reached = pga.iter().filter(|capacity| **capacity <= im).count();
+        let exceeded = stripe["exceeded"].as_u64().unwrap();
+        // A curve may turn back below the level above its first crossing.
+        assert!(exceeded as usize <= reached, "{stripe}");
+        assert!(stripe["overturned"].as_u64().unwrap() <= exceeded);
+        assert_eq!(
+            stripe["n"].as_u64().unwrap() + stripe["open"].as_u64().unwrap(),
+            6
+        );
+    }
+    let last = out["stripes"].as_array().unwrap().last().unwrap();
+    assert!(last["exceeded"].as_u64().unwrap() > 0, "{last}");
+    let fit = json(&place, "fragility --counts counts.csv");
+    assert!(fit["median"].as_f64().unwrap() > 1.0);
+}
+
+#[test]
+fn counts_agree_with_statsmodels() {
+    let place = folder("ranking-counts");
+    let rows = "im,exceeded,n\n0.2,0,40\n0.3,0,40\n0.4,0,40\n0.6,4,40\n\
+                0.7,6,40\n0.8,13,40\n0.9,12,40\n1,16,40\n";
+    fs::write(place.join("baker.csv"), rows).unwrap();
+    let out = json(&place, "fragility --counts baker.csv");
+    // Row `baker` of fixtures/oracles/censored.csv.
+    close(&out["median"], 1.076_115_794_292_683_3, 1e-11);
+    close(&out["beta"], 0.429_237_203_832_318_4, 1e-11);
+    close(&out["median_low"], 0.964_245_965_383_478, 1e-9);
+    close(&out["beta_high"], 0.650_025_363_947_763, 1e-9);
+    for (rows, words) in [
+        ("im,exceeded,n\n1,3,2\n", "stripe 1, 3 of 2 at 1"),
+        ("im,exceeded,n\n1,x,2\n", "wrong.csv:2: found `x` in column exceed"),
+        ("im,k,n\n1,1,2\n", "expected `im,exceeded,n`"),
+        ("im,exceeded,n\n1,0,2\n2,2,2\n", "tell no dispersion"),
+    ] {
+        fs::write(place.join("wrong.csv"), rows).unwrap();
+        let said = refused(&place, "fragility --counts wrong.csv");
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+#[test]
+fn censored_values_enter_by_their_own_limits() {
+    let place = folder("ranking-censored");
+    // The sample of fixtures/oracles/censored.py.
+    let exact = "1.05\n1.12\n1.2\n1.21\n1.33\n1.41\n1.5\n1.52\n1.6\n1.75\n\
+                 1.8\n1.93\n2.2\n2.4\n2.45\n3.1\n3.8\n";
+    let limits = ">1.25\n> 1.7\n>2.0 # a record\n>4.0\n>3\n>0.9\n";
+    let write = |name: &str, text: String| {
+        fs::write(place.join(name), text).unwrap();
+    };
+    write("own.txt", format!("{exact}{limits}"));
+    write("inf.txt", format!("{exact}inf\ninf\ninf\ninf\ninf\ninf\n"));
+    let csv = include_str!("../fixtures/oracles/censored.csv");
+    for shift in ["0", "1"] {
+        let row = csv
+            .lines()
+            .find(|line| line.starts_with(&format!("own-limits-{shift}")))
+            .unwrap();
+        let cells: Vec<&str> = row.split(',').collect();
+        let expected = |i: usize| cells[i].parse::<f64>().unwrap();
+        // A quarter is censored: nothing lies above the 95 % quantile.
+        for method in ["censored", "mle"] {
+            let out = json(
+                &place,
+                &format!(
+                    "fragility --sample own.txt --shift {shift} --method \
+                     {method}"
+                ),
+            );
+            close(&out["n_kept"], expected(1), 0.0);
+            close(&out["mu"], expected(2), 1e-11);
+            close(&out["beta"], expected(3), 1e-11);
+            close(&out["log_likelihood"], expected(4), 1e-11);
+            assert_eq!(out["n_with_own_limit"], 6);
+            // The median lies above some limits: it is open.
+            assert_eq!(out["im50"], Value::Null);
+        }
+    }
+    let common = json(&place, "fragility --sample inf.txt --method censored");
+    assert!(common["beta"].as_f64().unwrap() > 0.5, "{common}");
+    let said = common["censored"].as_str().unwrap();
+    assert!(said.contains("the file tells no limits"), "{said}");
+    let said = refused(&place, "fragility --sample inf.txt");
+    assert!(said.contains("infinite"), "{said}");
+    write("wrong.txt", "1\n>x\n".into());
+    let said = refused(&place, "fragility --sample wrong.txt");
+    assert!(said.contains("wrong.txt:2: found `>x`"), "{said}");
+}
+
+#[test]
+fn censored_records_of_a_table_are_written_with_their_limit() {
+    let place = suite("ranking-limits");
+    let table = fs::read_to_string(place.join("ida.csv")).unwrap();
+    // The first record is run up to no more than 1.3.
+    let keeps = |line: &&str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let im = cells[5].parse::<f64>().unwrap_or(0.0);
+        cells[0] != "wave0" || im <= 1.3
+    };
+    let cut: Vec<&str> = table.lines().filter(keeps).collect();
+    fs::write(place.join("cut.csv"), cut.join("\n") + "\n").unwrap();
+    let sample = text(&place, "capacities --ida cut.csv --at 1 --out -");
+    let line = sample.lines().find(|line| line.starts_with('>')).unwrap();
+    assert!(line.ends_with("# wave0"), "{sample}");
+    let limit = line[1..].split('#').next().unwrap().trim();
+    let limit: f64 = limit.parse().unwrap();
+    assert!(limit > 1.15 && limit <= 1.3, "{line}");
+}
+
+#[test]
+fn a_comparison_of_distributions_agrees_with_scipy() {
+    let place = folder("ranking-compare");
+    let sample = "1.05\n1.12\n1.2\n1.21\n1.3\n1.33\n1.41\n1.5\n1.52\n1.6\n\
+                  1.75\n1.8\n1.93\n2.0\n2.2\n2.4\n2.45\n2.9\n3.1\n3.8\n4.5\n\
+                  7.5\n";
+    fs::write(place.join("sample.txt"), sample).unwrap();
+    let words = "fragility --sample sample.txt --compare 200";
+    let out = json(&place, words);
+    let csv = include_str!("../fixtures/oracles/choice.csv");
+    for row in csv.lines().filter(|line| line.starts_with("right")) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let model = &out["models"][cells[1]];
+        let keys = ["log_likelihood", "aic", "bic", "ks_distance", "a2"];
+        for (key, cell) in keys.iter().zip(&cells[5..]) {
+            close(&model[key], cell.parse().unwrap(), 1e-5);
+        }
+        let p = model["a2_p"].as_f64().unwrap();
+        assert!(p > 0.0 && p <= 1.0);
+    }
+    let shifted = &out["models"]["shifted lognormal"];
+    // 2 x 3 parameters less twice the likelihood of rivals.csv.
+    let rivals = include_str!("../fixtures/oracles/rivals.csv");
+    let row = rivals.lines().find(|line| line.starts_with("profile"));
+    let value: f64 =
+        row.unwrap().split(',').next_back().unwrap().parse().unwrap();
+    close(&shifted["aic"], 6.0 - 2.0 * value, 1e-12);
+    let one = text(&place, &format!("{words} --threads 1"));
+    assert_eq!(one, text(&place, &format!("{words} --threads 2")));
+    let said = refused(&place, &format!("{words} --shift min"));
+    assert!(said.contains("fits its own"), "{said}");
+}

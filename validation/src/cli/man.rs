@@ -1,0 +1,43 @@
+//! `rocking man`: manual pages.
+
+use clap::{Args as ClapArgs, Command};
+use clap_mangen::Man;
+
+use super::{Failure, print};
+
+/// The manual page of the program, or of one of its commands, on standard
+/// output.
+#[derive(ClapArgs)]
+#[command(after_help = "Examples:\n  \
+    rocking man > ~/.local/share/man/man1/rocking.1\n  \
+    rocking man fragility | man -l -")]
+pub struct Args {
+    /// A command, such as `ida`.
+    #[arg(value_name = "COMMAND")]
+    of: Option<String>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a command that there is not, and when standard output
+/// cannot be written.
+pub fn run(args: &Args, mut command: Command) -> Result<(), Failure> {
+    // Names every command in full, as `rocking-ida`.
+    command.build();
+    let shown = match &args.of {
+        None => command,
+        Some(name) => {
+            let found = command.find_subcommand(name).cloned();
+            found.ok_or_else(|| {
+                Failure::input(format!(
+                    "man {name}: expected a command that `rocking --help` \
+                     names"
+                ))
+            })?
+        }
+    };
+    let mut page = Vec::new();
+    Man::new(shown).render(&mut page)?;
+    print(&String::from_utf8_lossy(&page))
+}

@@ -1,0 +1,366 @@
+//! Intensity measures by name, and their values for the records of a suite.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use libm::{exp, log};
+use rayon::prelude::*;
+use rocking::integrator::Model;
+use rocking::intensity::{Measures, Settings};
+use rocking::record::SuiteMember;
+
+use super::capacities::ida;
+use super::names::MODELS;
+use super::processing::{ProcessingArgs, words};
+use super::reading::ReadArgs;
+use super::samples::Opened;
+use super::{Failure, SOFTWARE};
+use crate::suites::inputs::read_suite;
+
+/// An intensity measure of a record.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Measure {
+    /// PGA/(g tan alpha), as in the table.
+    Pga,
+    /// p PGV/(g tan alpha), as in the table.
+    Pgv,
+    /// Peak ground displacement.
+    Pgd,
+    /// Arias intensity.
+    Arias,
+    /// Cumulative absolute velocity.
+    Cav,
+    /// Spectral acceleration at a period, 5 % damping.
+    Sa(f64),
+    /// Geometric mean of spectral accelerations.
+    AverageSa(Vec<f64>),
+    /// A column of the suite's index or of --attributes.
+    Column(String),
+}
+
+impl FromStr for Measure {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let refuse = || {
+            format!(
+                "found `{text}`: expected pga, pgv, pgd, arias, cav, sa:T, \
+                 avgsa:T1,T2,.. with periods in s, or column:NAME"
+            )
+        };
+        let period = |text: &str| {
+            let period = text.trim().parse::<f64>().ok();
+            let positive = |t: &f64| *t > 0.0 && t.is_finite();
+            period.filter(positive).ok_or_else(refuse)
+        };
+        Ok(match text.split_once(':') {
+            None => match text {
+                "pga" => Self::Pga,
+                "pgv" => Self::Pgv,
+                "pgd" => Self::Pgd,
+                "arias" => Self::Arias,
+                "cav" => Self::Cav,
+                _ => return Err(refuse()),
+            },
+            Some(("sa", t)) => Self::Sa(period(t)?),
+            Some(("avgsa", list)) => {
+                let periods = list.split(',').map(period);
+                Self::AverageSa(periods.collect::<Result<_, _>>()?)
+            }
+            Some(("column", name)) if !name.is_empty() => {
+                Self::Column(name.to_owned())
+            }
+            Some(_) => return Err(refuse()),
+        })
+    }
+}
+
+impl fmt::Display for Measure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pga => f.write_str("PGA/(g tan alpha)"),
+            Self::Pgv => f.write_str("p PGV/(g tan alpha)"),
+            Self::Pgd => f.write_str("PGD (m)"),
+            Self::Arias => f.write_str("Arias intensity (m/s)"),
+            Self::Cav => f.write_str("CAV (m/s)"),
+            Self::Sa(t) => write!(f, "SA({t} s) (g)"),
+            Self::AverageSa(list) => {
+                let list: Vec<_> = list.iter().map(f64::to_string).collect();
+                write!(f, "AvgSA({} s) (g)", list.join(", "))
+            }
+            Self::Column(name) => write!(f, "column {name}"),
+        }
+    }
+}
+
+impl Measure {
+    /// Whether the table of an IDA tells it.
+    #[must_use]
+    pub fn is_in_table(&self) -> bool {
+        matches!(self, Self::Pga | Self::Pgv)
+    }
+
+    /// Whether it grows with the square of the acceleration; all others grow
+    /// in proportion to it.
+    #[must_use]
+    pub fn is_squared(&self) -> bool {
+        matches!(self, Self::Arias)
+    }
+
+    fn periods(&self) -> &[f64] {
+        match self {
+            Self::Sa(period) => std::slice::from_ref(period),
+            Self::AverageSa(periods) => periods,
+            _ => &[],
+        }
+    }
+}
+
+/// Where the records are that the table was made of.
+#[derive(clap::Args, Clone, Debug)]
+pub struct GroundArgs {
+    /// The suite of --ida: folder, index or zip; for measures that the table
+    /// does not hold.
+    #[arg(long, value_name = "PATH", requires = "ida")]
+    suite: Option<PathBuf>,
+    #[command(flatten)]
+    reading: ReadArgs,
+    #[command(flatten)]
+    processing: ProcessingArgs,
+    /// Table of attributes by record: CSV with a column `record`, named as
+    /// in --ida. Columns of the suite's index are attributes too.
+    #[arg(long, value_name = "FILE.csv", requires = "suite")]
+    attributes: Option<PathBuf>,
+}
+
+/// The unscaled records of a table, in its order.
+pub struct Ground {
+    /// Where the attributes come from.
+    place: PathBuf,
+    periods_s: Vec<f64>,
+    /// p/(g tan alpha), in s/m.
+    pgv_factor: f64,
+    records: Vec<Unscaled>,
+}
+
+struct Unscaled {
+    name: String,
+    /// Scale factor of the record at PGA/(g tan alpha) = 1.
+    factor: f64,
+    measures: Measures,
+    attributes: BTreeMap<String, String>,
+}
+
+impl GroundArgs {
+    /// Whether a suite is given.
+    #[must_use]
+    pub fn is_given(&self) -> bool {
+        self.suite.is_some()
+    }
+
+    /// The files to be read.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.suite.iter().chain(&self.attributes).cloned().collect()
+    }
+
+    /// Reads the records of the table and measures them.
+    ///
+    /// # Errors
+    /// [`Failure`] for a suite that is refused, one that is not the table's,
+    /// or a table whose intensities are no scale factors.
+    pub fn ground(
+        &self,
+        table: &ida::Suite,
+        measures: &[Measure],
+    ) -> Result<Ground, Failure> {
+        let Some(path) = &self.suite else {
+            let told = measures.iter().find(|m| !m.is_in_table());
+            let told = told.map_or(String::new(), |m| format!("{m}: "));
+            return Err(Failure::input(format!(
+                "{told}expected --suite, the records that the table was made \
+                 of"
+            )));
+        };
+        let setting = &table.setting;
+        let number = |text: &str| {
+            let value = text.parse::<f64>().ok().filter(|x| *x > 0.0);
+            value.ok_or_else(|| {
+                Failure::input(format!(
+                    "found `{text}` as gravity or p of the table: expected a \
+                     positive number"
+                ))
+            })
+        };
+        let gravity = number(&setting.gravity_m_s2)?;
+        let frequency_rad_s = number(&table.block.1)?;
+        let uplift = uplift(table)?;
+        let processing = self.processing.processing()?;
+        let done = words(&processing).unwrap_or("none".into());
+        if done != setting.processing {
+            return Err(Failure::input(format!(
+                "processing of the table: {}; of the records here: {done}; \
+                 expected the same",
+                setting.processing
+            )));
+        }
+        let options = self.reading.options(gravity);
+        let suite = read_suite(path, options)?.processed(&processing)?;
+        let mut members: BTreeMap<&str, &SuiteMember> = BTreeMap::new();
+        for member in suite.members() {
+            let name = member.accelerogram.name();
+            if members.insert(name, member).is_some() {
+                return Err(Failure::input(format!(
+                    "{}: two records named {name}: expected one",
+                    path.display()
+                )));
+            }
+        }
+        let own = self.attributes.as_deref().map(read_attributes);
+        let own = own.transpose()?.unwrap_or_default();
+        let mut periods: Vec<f64> = Vec::new();
+        for period in measures.iter().flat_map(Measure::periods) {
+            if !periods.contains(period) {
+                periods.push(*period);
+            }
+        }
+        let damping = Settings::default().damping_ratio();
+        let settings = Settings::try_new(gravity, damping, periods)?;
+        let measured = table.curves.par_iter().map(|(name, _)| {
+            let member = members.get(name.as_str()).ok_or_else(|| {
+                Failure::input(format!(
+                    "{}: no record {name}: expected the suite of the table",
+                    path.display()
+                ))
+            })?;
+            let measures = Measures::of(&member.accelerogram, &settings)?;
+            let mut attributes = member.attributes.clone();
+            attributes.extend(own.get(name).into_iter().flatten().cloned());
+            Ok(Unscaled {
+                name: name.clone(),
+                factor: uplift / measures.pga_g,
+                measures,
+                attributes,
+            })
+        });
+        let records = measured.collect::<Result<Vec<_>, Failure>>()?;
+        let place = self.attributes.as_ref().unwrap_or(path).clone();
+        let periods_s = settings.periods_s().to_vec();
+        let pgv_factor = frequency_rad_s / (gravity * uplift);
+        Ok(Ground { place, periods_s, pgv_factor, records })
+    }
+}
+
+/// PGA in g at which the block of the table lifts off.
+fn uplift(table: &ida::Suite) -> Result<f64, Failure> {
+    let (Some(alpha), _) = &table.block else {
+        return Err(Failure::input(
+            "the table adjusts slenderness: expected one of record-scaling, \
+             whose intensities are scale factors",
+        ));
+    };
+    let alpha_rad = alpha.parse::<f64>().ok().filter(|a| *a > 0.0);
+    let model = &table.setting.model;
+    let model = MODELS.iter().find(|(name, ..)| name == model);
+    match (alpha_rad, model) {
+        (Some(alpha_rad), Some((_, Model::Linearized, _))) => Ok(alpha_rad),
+        (Some(alpha_rad), Some(_)) => Ok(libm::tan(alpha_rad)),
+        _ => Err(Failure::input(format!(
+            "alpha `{alpha}`, model `{}` of the table: expected what \
+             {SOFTWARE} writes",
+            table.setting.model
+        ))),
+    }
+}
+
+impl Ground {
+    /// The measure of each record where PGA/(g tan alpha) is 1.
+    ///
+    /// # Errors
+    /// [`Failure`] for a column that a record lacks, or whose cell is not
+    /// positive.
+    pub fn at_uplift(&self, measure: &Measure) -> Result<Vec<f64>, Failure> {
+        let of = |record: &Unscaled| {
+            let (m, factor) = (&record.measures, record.factor);
+            let at = |period: &f64| {
+                let place = self.periods_s.iter().position(|t| t == period);
+                let place = place.unwrap_or(usize::MAX);
+                let all = &m.spectral_acceleration_g;
+                all.get(place).copied().unwrap_or(f64::NAN)
+            };
+            Ok(match measure {
+                Measure::Pga => 1.0,
+                Measure::Pgv => self.pgv_factor * factor * m.pgv_m_s,
+                Measure::Pgd => factor * m.pgd_m,
+                Measure::Arias => factor * factor * m.arias_intensity_m_s,
+                Measure::Cav => factor * m.cav_m_s,
+                Measure::Sa(period) => factor * at(period),
+                Measure::AverageSa(periods) => {
+                    let sum = periods.iter().fold(0.0, |s, t| s + log(at(t)));
+                    factor * exp(sum / periods.len() as f64)
+                }
+                Measure::Column(name) => factor * self.cell(record, name)?,
+            })
+        };
+        self.records.iter().map(of).collect()
+    }
+
+    /// The positive numbers of a column.
+    ///
+    /// # Errors
+    /// As [`Ground::at_uplift`].
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Failure> {
+        self.records.iter().map(|record| self.cell(record, name)).collect()
+    }
+
+    fn cell(&self, record: &Unscaled, column: &str) -> Result<f64, Failure> {
+        let cell = record.attributes.get(column);
+        let value = cell.and_then(|cell| cell.trim().parse::<f64>().ok());
+        let value = value.filter(|x| *x > 0.0 && x.is_finite());
+        value.ok_or_else(|| {
+            let found = cell.map_or("no such column".to_owned(), |cell| {
+                format!("`{cell}`")
+            });
+            let place = self.place.display();
+            Failure::input(format!(
+                "{place}: record {}, column {column}: found {found}: \
+                 expected a positive number",
+                record.name
+            ))
+        })
+    }
+}
+
+/// Attributes by record.
+type Attributes = BTreeMap<String, Vec<(String, String)>>;
+
+fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
+    let place = path.display();
+    let refuse = |e: csv::Error| Failure::input(format!("{place}: {e}"));
+    let opened = Opened::open(path).map_err(|e| refuse(e.into()))?;
+    let mut reader =
+        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(opened);
+    let header = reader.headers().map_err(refuse)?.clone();
+    let Some(key) = header.iter().position(|name| name == "record") else {
+        return Err(Failure::input(format!(
+            "{place}:1: found columns `{}`: expected one named `record`",
+            header.iter().collect::<Vec<_>>().join(",")
+        )));
+    };
+    let mut all = Attributes::new();
+    for row in reader.records() {
+        let row = row.map_err(refuse)?;
+        let line = row.position().map_or(0, csv::Position::line);
+        let cells = header.iter().zip(&row);
+        let cells = cells.map(|(name, cell)| (name.into(), cell.into()));
+        if all.insert(row[key].to_owned(), cells.collect()).is_some() {
+            return Err(Failure::input(format!(
+                "{place}:{line}: record {} comes again: expected it once",
+                &row[key]
+            )));
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,333 @@
+//! `rocking sweep`: many blocks over one suite, on one machine or many.
+
+use std::env;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Subcommand, ValueEnum};
+use serde_json::json;
+use signal_hook::consts::{SIGINT, SIGTERM};
+
+use super::reading::ReadArgs;
+use super::{Failure, SOFTWARE, print, print_json, with_threads};
+use crate::suites::inputs::read_suite;
+use crate::sweep::{self, Content, Planned, State, Wanted, read_blocks};
+
+/// Runs many blocks over one suite in tiles: plan once, run on any number of
+/// tasks, merge.
+///
+/// A tile is some blocks with all records of the suite. It is written whole
+/// or not at all, and it names its plan and its own sum. Running the same
+/// task again is the answer to any failure: tiles that are done are skipped.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    rocking sweep plan --blocks blocks.csv --suite records/ --out sweep\n  \
+    rocking sweep run sweep\n  \
+    rocking sweep run sweep --task 3 --of 8\n  \
+    rocking sweep status sweep\n  \
+    rocking sweep merge sweep --out fragilities.csv\n  \
+    rocking sweep slurm sweep > job.sh && sbatch job.sh")]
+pub struct Args {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Subcommand)]
+enum Action {
+    Plan(PlanArgs),
+    Run(RunArgs),
+    Status(StatusArgs),
+    Merge(MergeArgs),
+    Slurm(SlurmArgs),
+}
+
+/// Writes a plan, packs the suite into its folder, and says what to expect.
+#[derive(clap::Args)]
+struct PlanArgs {
+    /// Table of blocks: alpha,p or width_m,height_m, and optionally eta.
+    #[arg(long, value_name = "FILE.csv")]
+    blocks: PathBuf,
+    /// Folder of records, index CSV, or one record file.
+    #[arg(long, value_name = "PATH")]
+    suite: PathBuf,
+    #[command(flatten)]
+    reading: ReadArgs,
+    /// Coefficient of restitution of blocks whose row has none.
+    #[arg(long, value_name = "ETA", default_value_t = 0.92)]
+    eta: f64,
+    /// Demands |theta|/alpha at which capacities are told.
+    #[arg(
+        long,
+        value_name = "E",
+        value_delimiter = ',',
+        default_values_t = [0.15, 0.35, 1.0]
+    )]
+    demands: Vec<f64>,
+    /// Step of the levels in PGA/(g tan alpha), from 1.
+    #[arg(long, value_name = "X", default_value_t = 0.02)]
+    step_im: f64,
+    /// Keep every analysis, not capacities and fragilities alone.
+    #[arg(long)]
+    rows: bool,
+    /// What a tile should take, in minutes of one core.
+    #[arg(long, value_name = "MIN", default_value_t = 5.0)]
+    tile_minutes: f64,
+    /// Folder of the plan.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Runs the tiles of one task that are not done.
+#[derive(clap::Args)]
+struct RunArgs {
+    /// Folder of the plan.
+    dir: PathBuf,
+    /// This task, from 0 [default: from SLURM, PMI or Open MPI, else 0].
+    #[arg(long, value_name = "I", requires = "of")]
+    task: Option<usize>,
+    /// Number of tasks [default: from SLURM, PMI or Open MPI, else 1].
+    #[arg(long, value_name = "N", requires = "task")]
+    of: Option<usize>,
+    /// Threads [default: all].
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+}
+
+/// Says which tiles are done.
+#[derive(clap::Args)]
+struct StatusArgs {
+    /// Folder of the plan.
+    dir: PathBuf,
+    /// JSON for machines.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Puts the tiles together in the plan's order; refuses a tile that is
+/// missing, of another plan, or damaged.
+#[derive(clap::Args)]
+struct MergeArgs {
+    /// Folder of the plan.
+    dir: PathBuf,
+    /// What is merged.
+    #[arg(long, value_enum, default_value_t = Merged::Fragilities)]
+    what: Merged,
+    /// Where the table goes.
+    #[arg(long, value_name = "FILE.csv")]
+    out: PathBuf,
+}
+
+/// Prints a script for SLURM: an array of tasks that may be requeued.
+#[derive(clap::Args)]
+struct SlurmArgs {
+    /// Folder of the plan.
+    dir: PathBuf,
+    /// Number of tasks [default: one a tile, 100 at most].
+    #[arg(long, value_name = "N")]
+    tasks: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Merged {
+    /// A row a block, intensity measure and demand.
+    Fragilities,
+    /// A row a block and record.
+    Capacities,
+    /// A row an analysis; for plans with `--rows`.
+    Rows,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for bad input, and for tiles that are left.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    match &args.action {
+        Action::Plan(args) => plan(args),
+        Action::Run(args) => run_task(args),
+        Action::Status(args) => status(args),
+        Action::Merge(args) => merge(args),
+        Action::Slurm(args) => slurm(args),
+    }
+}
+
+fn plan(args: &PlanArgs) -> Result<(), Failure> {
+    let positive = |x: f64| x > 0.0 && x.is_finite();
+    for (flag, x) in
+        [("--tile-minutes", args.tile_minutes), ("--step-im", args.step_im)]
+    {
+        if !positive(x) {
+            let message = format!("{flag} {x}: expected a positive number");
+            return Err(Failure::input(message));
+        }
+    }
+    for demand in &args.demands {
+        if !(*demand > 0.0 && *demand <= 1.0) {
+            return Err(Failure::input(format!(
+                "--demands {demand}: expected numbers above 0, at most 1"
+            )));
+        }
+    }
+    let blocks = read_blocks(&args.blocks, args.eta)?;
+    let gravity = rocking::units::STANDARD_GRAVITY_M_S2;
+    let suite = read_suite(&args.suite, args.reading.options(gravity))?;
+    let wanted = Wanted {
+        blocks: &blocks,
+        suite: &suite,
+        demands: args.demands.clone(),
+        step_im: args.step_im,
+        rows: args.rows,
+        tile_minutes: args.tile_minutes,
+    };
+    let planned = sweep::Plan::write(&wanted, &args.out, SOFTWARE)?;
+    let plan = &planned.plan;
+    let (blocks, records) = (plan.blocks.len(), plan.records.len());
+    let tiles = plan.tiles();
+    let core_s = planned.tile_core_s * tiles as f64;
+    // About 60 levels a chain; 150 bytes a row of capacities.
+    let analyses = blocks * records * 60;
+    let bytes = blocks * records * 150 * if plan.rows { 60 } else { 1 };
+    print(&format!(
+        "{blocks} blocks, {records} records, {tiles} tiles\n\
+         about {analyses} analyses, {:.2} core-hours, {:.1} MB\n\
+         plan: {}\n",
+        core_s / 3600.0,
+        bytes as f64 / 1e6,
+        args.out.join("plan.json").display()
+    ))
+}
+
+/// Task and number of tasks from the environment of a scheduler.
+fn from_environment() -> Result<(usize, usize), Failure> {
+    let read = |name: &str| -> Result<Option<usize>, Failure> {
+        let Ok(text) = env::var(name) else { return Ok(None) };
+        let number = text.parse().map_err(|_| {
+            Failure::input(format!("{name}={text}: expected a number"))
+        })?;
+        Ok(Some(number))
+    };
+    let least = read("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+    for (task, of, first) in [
+        ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", least),
+        ("SLURM_PROCID", "SLURM_NTASKS", 0),
+        ("PMI_RANK", "PMI_SIZE", 0),
+        ("OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", 0),
+    ] {
+        if let (Some(task), Some(of)) = (read(task)?, read(of)?) {
+            return Ok((task.saturating_sub(first), of));
+        }
+    }
+    Ok((0, 1))
+}
+
+fn run_task(args: &RunArgs) -> Result<(), Failure> {
+    let (task, of) = match (args.task, args.of) {
+        (Some(task), Some(of)) => (task, of),
+        _ => from_environment()?,
+    };
+    if task >= of {
+        return Err(Failure::input(format!(
+            "task {task} of {of}: expected a task below the number of tasks"
+        )));
+    }
+    let planned = Planned::read(&args.dir)?;
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGTERM, SIGINT] {
+        signal_hook::flag::register(signal, Arc::clone(&stop))?;
+    }
+    let go_on = || !stop.load(Ordering::Relaxed);
+    let total = planned.plan.tiles();
+    let done = |tile: usize| {
+        eprintln!("rocking: tile {tile} of {total} done");
+    };
+    let left = with_threads(args.threads, || {
+        sweep::run(&planned, (task, of), &go_on, &done)
+    })??;
+    if left.is_empty() {
+        return print(&format!(
+            "task {task} of {of}: all its tiles are done\n"
+        ));
+    }
+    let left: Vec<String> = left.iter().map(ToString::to_string).collect();
+    Err(Failure::gate(format!(
+        "task {task} of {of} was stopped; tiles left: {}",
+        left.join(", ")
+    )))
+}
+
+fn status(args: &StatusArgs) -> Result<(), Failure> {
+    let planned = Planned::read(&args.dir)?;
+    let states: Vec<State> = (0..planned.plan.tiles())
+        .map(|tile| sweep::state(&planned, tile))
+        .collect();
+    let count = |state: State| states.iter().filter(|s| **s == state).count();
+    let counts = [
+        ("done", count(State::Done)),
+        ("missing", count(State::Missing)),
+        ("foreign", count(State::Foreign)),
+        ("damaged", count(State::Damaged)),
+    ];
+    let left = states.len() - counts[0].1;
+    let core_s = planned.tile_core_s * left as f64;
+    if args.json {
+        let mut value = json!({
+            "plan": planned.hash,
+            "tiles": states.len(),
+            "left_core_s": core_s,
+        });
+        for (name, number) in counts {
+            value[name] = number.into();
+        }
+        return print_json(value);
+    }
+    let mut text = format!("{} tiles\n", states.len());
+    for (name, number) in counts {
+        text += &format!("{name:<8} {number}\n");
+    }
+    text += &format!("left     {:.2} core-hours, about\n", core_s / 3600.0);
+    print(&text)
+}
+
+fn merge(args: &MergeArgs) -> Result<(), Failure> {
+    let planned = Planned::read(&args.dir)?;
+    let content = match args.what {
+        Merged::Fragilities => Content::Fragilities,
+        Merged::Capacities => Content::Capacities,
+        Merged::Rows => Content::Rows,
+    };
+    if !Content::kept(&planned.plan).contains(&content) {
+        return Err(Failure::input(
+            "this plan keeps no rows; expected a plan of `--rows`",
+        ));
+    }
+    Ok(sweep::merge(&planned, content, &args.out)?)
+}
+
+fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
+    let planned = Planned::read(&args.dir)?;
+    let tiles = planned.plan.tiles();
+    let tasks = args.tasks.unwrap_or(tiles.min(100));
+    if !(tasks > 0 && tasks <= tiles) {
+        return Err(Failure::input(format!(
+            "--tasks {tasks}: expected 1 to {tiles}, the number of tiles"
+        )));
+    }
+    let tiles_a_task = tiles.div_ceil(tasks);
+    // Three times the estimate, and ten minutes at least.
+    let minutes = 3.0 * planned.tile_core_s * tiles_a_task as f64 / 60.0;
+    let minutes = 10 + minutes.ceil() as u64;
+    print(&format!(
+        "#!/bin/bash\n\
+         #SBATCH --job-name=rocking\n\
+         #SBATCH --array=0-{}\n\
+         #SBATCH --cpus-per-task=1\n\
+         #SBATCH --time={minutes}\n\
+         #SBATCH --requeue\n\
+         # A task that is requeued goes on with the tiles that it lacks.\n\
+         # In one allocation instead: srun rocking sweep run DIR\n\
+         rocking sweep run \"{}\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
+        tasks - 1,
+        args.dir.display()
+    ))
+}

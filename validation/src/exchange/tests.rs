@@ -1,0 +1,236 @@
+//! Each trap that the readers were found to set.
+
+use super::*;
+use rocking::statistics::normal;
+
+/// A block whose fragility in its own PGA or PGV has a shift or none.
+fn one(intensity: Intensity, shift: f64) -> BlockFragility {
+    let block = Block::try_new(0.15, 3.0).unwrap();
+    let factor = unit_intensity(intensity, &block, Model::Nonlinear, 9.80665);
+    // Ordinary records, p = 3 rad/s: median 2.51 above the shift.
+    let fitted = Lognormal::try_new(shift, libm::log(2.51), 0.713).unwrap();
+    BlockFragility {
+        id: Id::of(&block),
+        block,
+        eta: Some(0.92),
+        intensity,
+        fragility: fitted.scaled(factor).unwrap(),
+        origin: "86 capacities of \"A & B\"".into(),
+    }
+}
+
+fn state() -> Id {
+    "overturning".parse().unwrap()
+}
+
+fn nrml(intensity: Intensity, shift: f64) -> String {
+    Format::Nrml.texts(&[one(intensity, shift)], &state()).unwrap().main
+}
+
+/// The number of an attribute.
+fn attribute(text: &str, name: &str) -> f64 {
+    let from = text.split(&format!(" {name}=\"")).nth(1).unwrap();
+    from.split('"').next().unwrap().parse().unwrap()
+}
+
+/// Numbers of an element, or of a part of a cell.
+fn numbers(text: &str, separator: char) -> Vec<f64> {
+    text.split(separator).map(|word| word.trim().parse().unwrap()).collect()
+}
+
+fn element(text: &str, name: &str) -> Vec<f64> {
+    let from = text.split(&format!("<{name} ")).nth(1).unwrap();
+    let inside = from.split_once('>').unwrap().1;
+    numbers(inside.split('<').next().unwrap(), ' ')
+}
+
+/// OpenQuake's probability of a continuous function (scientific.py, 3.26.2).
+fn continuous(text: &str, im: f64) -> f64 {
+    let [mean, deviation, least, most, none] =
+        ["mean", "stddev", "minIML", "maxIML", "noDamageLimit"]
+            .map(|name| attribute(text, name));
+    let variance = deviation * deviation;
+    let sigma = libm::log(variance / (mean * mean) + 1.0).sqrt();
+    let scale = mean * mean / (variance + mean * mean).sqrt();
+    let raised = im.min(most).max(least);
+    if raised <= none {
+        return 0.0;
+    }
+    normal::cdf(libm::log(raised / scale) / sigma)
+}
+
+/// Straight lines between points, as numpy.interp makes them.
+fn interpolated(xs: &[f64], ps: &[f64], im: f64) -> f64 {
+    let after = xs.partition_point(|x| *x <= im);
+    if after == 0 {
+        return ps[0];
+    }
+    if after == xs.len() {
+        return ps[after - 1];
+    }
+    let share = (im - xs[after - 1]) / (xs[after] - xs[after - 1]);
+    ps[after - 1] + share * (ps[after] - ps[after - 1])
+}
+
+/// Forty intensities from nothing to twice the 98 % quantile.
+fn intensities(fragility: &Lognormal) -> impl Iterator<Item = f64> {
+    let end = 2.0 * fragility.quantile(0.98);
+    (0..40).map(move |k| end * f64::from(k) / 39.0)
+}
+
+#[test]
+fn openquake_s_mean_and_deviation_are_of_the_intensity_not_its_logarithm() {
+    let text = nrml(Intensity::Pga, 0.0);
+    let fragility = one(Intensity::Pga, 0.0).fragility;
+    let (mut worst, mut wrong) = (0.0f64, 0.0f64);
+    let taken_for_mean = text
+        .replace(
+            &format!("mean=\"{}\"", attribute(&text, "mean")),
+            &format!("mean=\"{}\"", fragility.median()),
+        )
+        .replace(
+            &format!("stddev=\"{}\"", attribute(&text, "stddev")),
+            &format!("stddev=\"{}\"", fragility.dispersion()),
+        );
+    for im in intensities(&fragility) {
+        let expected = fragility.cdf(im);
+        worst = worst.max((continuous(&text, im) - expected).abs());
+        let read = continuous(&taken_for_mean, im);
+        wrong = wrong.max((read - expected).abs());
+    }
+    // What the range cuts off, and nine digits.
+    assert!(worst < 1.01 * TAIL, "{worst:e}");
+    // Median and dispersion written as they are.
+    assert!(wrong > 0.05, "{wrong:e}");
+}
+
+#[test]
+fn openquake_s_least_level_is_not_above_its_no_damage_limit() {
+    let text = nrml(Intensity::Pga, 0.0);
+    let (least, none) =
+        (attribute(&text, "minIML"), attribute(&text, "noDamageLimit"));
+    assert!(least <= none && none > 0.0);
+    assert_eq!(continuous(&text, 0.5 * none), 0.0);
+    // Above it the limit is ignored, and no damage becomes some.
+    let raised = text.replace("minIML=\"", "minIML=\"1");
+    assert!(attribute(&raised, "minIML") > none);
+    assert!(continuous(&raised, 0.5 * none) > 0.05);
+}
+
+#[test]
+fn a_shift_is_written_to_openquake_as_points_since_a_limit_only_cuts() {
+    for intensity in [Intensity::Pga, Intensity::Pgv] {
+        let text = nrml(intensity, 1.0);
+        assert!(text.contains("format=\"discrete\""));
+        let (xs, ps) = (element(&text, "imls"), element(&text, "poes"));
+        let unit = if intensity == Intensity::Pgv { 100.0 } else { 1.0 };
+        let fragility = one(intensity, 1.0).fragility.scaled(unit).unwrap();
+        let mut worst = 0.0f64;
+        let mut cut = 0.0f64;
+        // The lognormal of the same median and 84 % quantile, cut.
+        let beta = libm::log(fragility.quantile(0.841) / fragility.median());
+        let two = libm::log(fragility.median());
+        let two = Lognormal::try_new(0.0, two, beta).unwrap();
+        for im in intensities(&fragility) {
+            let read = interpolated(&xs, &ps, im);
+            worst = worst.max((read - fragility.cdf(im)).abs());
+            let limited =
+                if im < fragility.shift() { 0.0 } else { two.cdf(im) };
+            cut = cut.max((limited - fragility.cdf(im)).abs());
+        }
+        assert!(worst < TOLERANCE, "{intensity:?}: {worst:e}");
+        assert!(cut > 20.0 * TOLERANCE, "{intensity:?}: {cut:e}");
+        assert_eq!((ps[0], ps[ps.len() - 1]), (0.0, 1.0));
+        let none = attribute(&text, "noDamageLimit");
+        assert!((none / fragility.shift() - 1.0).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn names_are_those_that_every_reader_takes() {
+    for refused in ["", "BLOCK/p3.0/a0.15", "a.b", "a-b", "a b", "ä", "a#b"] {
+        assert!(refused.parse::<Id>().is_err(), "{refused}");
+    }
+    assert!("x".repeat(75).parse::<Id>().is_ok());
+    assert!("x".repeat(76).parse::<Id>().is_err());
+    let named = |alpha, p| Id::of(&Block::try_new(alpha, p).unwrap());
+    let id = named(0.15, 3.0);
+    assert_eq!(id.to_string(), "block_a0_15_p3");
+    assert_eq!(id.to_string().parse::<Id>().unwrap(), id);
+    // Blocks that differ in the last digit have names that differ.
+    assert_ne!(id, named(0.15, 3.0f64.next_up()));
+}
+
+#[test]
+fn each_reader_has_its_own_unit_of_velocity() {
+    let median = one(Intensity::Pgv, 0.0).fragility.median();
+    let text = nrml(Intensity::Pgv, 0.0);
+    let half = continuous(&text, 100.0 * median);
+    assert!((half - 0.5).abs() < 1e-8, "{half}");
+    assert!(text.contains("imt=\"PGV\""));
+    let at = |format: Format| {
+        let all = [one(Intensity::Pgv, 0.0)];
+        format.texts(&all, &state()).unwrap().main
+    };
+    let (pelicun, pact) = (at(Format::Pelicun), at(Format::Pact));
+    let metres = crate::table::number(median);
+    assert!(pelicun.contains(&format!(",mps,0,1,lognormal,{metres},")));
+    assert!(pact.contains(&format!(",PGV,m/s,yes,{metres},")));
+}
+
+#[test]
+fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
+    let shifted = one(Intensity::Pga, 1.0);
+    let fragility = shifted.fragility;
+    let texts = Format::Pelicun
+        .texts(std::slice::from_ref(&shifted), &state())
+        .unwrap();
+    let row = texts.main.lines().nth(1).unwrap();
+    let cells = crate::table::cells(row);
+    assert_eq!(cells[2..7].join(" "), {
+        "Peak Ground Acceleration g 0 1 multilinear_CDF"
+    });
+    let (xs, ps) = cells[7].split_once('|').unwrap();
+    let (xs, ps) = (numbers(xs, ','), numbers(ps, ','));
+    assert_eq!((ps[0], ps[ps.len() - 1]), (0.0, 1.0));
+    for list in [&xs, &ps] {
+        assert!(list.windows(2).all(|w| w[1] - w[0] > 1e-8));
+    }
+    for im in intensities(&fragility) {
+        let error = interpolated(&xs, &ps, im) - fragility.cdf(im);
+        assert!(error.abs() < TOLERANCE, "{im}: {error:e}");
+    }
+    let (extension, json) = texts.beside.unwrap();
+    assert_eq!(Some(extension), Format::Pelicun.beside());
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let damage = &json[&cells[0]]["LimitStates"]["LS1"]["DS1"];
+    assert_eq!(damage["Description"], "overturning");
+    // Points that pelicun takes for one are refused.
+    let narrow = Lognormal::try_new(0.1, -16.0, 0.1).unwrap();
+    let narrow = BlockFragility { fragility: narrow, ..shifted };
+    let error = Format::Pelicun.texts(&[narrow], &state());
+    assert!(matches!(error, Err(ExchangeError::Narrow { .. })));
+}
+
+#[test]
+fn pact_is_refused_a_shift_and_csv_tells_all() {
+    let shifted = [one(Intensity::Pga, 1.0)];
+    let error = Format::Pact.texts(&shifted, &state()).unwrap_err();
+    assert!(matches!(error, ExchangeError::Shifted { .. }));
+    let csv = Format::Csv.texts(&shifted, &state()).unwrap().main;
+    let rows: Vec<Vec<String>> =
+        csv.lines().map(crate::table::cells).collect();
+    let cell = |name: &str| {
+        let column = rows[0].iter().position(|head| head == name).unwrap();
+        rows[1][column].clone()
+    };
+    assert_eq!(cell("shift"), crate::table::number(libm::tan(0.15)));
+    assert_eq!((cell("unit"), cell("eta")), ("g".into(), "0.92".into()));
+    assert_eq!(cell("origin"), "86 capacities of \"A & B\"");
+}
+
+#[test]
+fn what_xml_would_read_as_its_own_is_escaped() {
+    let text = nrml(Intensity::Pga, 0.0);
+    assert!(text.contains("of &quot;A &amp; B&quot;</description>"));
+}

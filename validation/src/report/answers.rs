@@ -1,0 +1,435 @@
+//! The answers of the page, each made from verdicts and measured numbers by
+//! one rule, and what stands about every theme and every suite.
+
+use super::evidence::Proof;
+use super::page::AnswerRow;
+use super::quantity::{cell_text, rule_text, value_text};
+use super::timings::Timings;
+use crate::findings::{Claim, Findings, Theme};
+use crate::paper::Verdict;
+use crate::study::analyses::SuiteResults;
+use crate::study::figures::Results;
+use crate::words::rounded_text;
+
+/// A part of a question: its short name, and the claims that answer it.
+type Part = (&'static str, &'static [&'static str]);
+
+/// A question that claims answer: words, parts, the claim whose number is
+/// shown, and the figures.
+struct Asked {
+    question: &'static str,
+    parts: &'static [Part],
+    effect: &'static str,
+    figures: &'static [&'static str],
+}
+
+const ASKED: [Asked; 4] = [
+    Asked {
+        question: "Is the slenderness normalized out of the statistics?",
+        parts: &[
+            ("ratios on stripes", &["ratios-p1", "ratios-p3-p4"]),
+            ("ratios at demands", &["ratios-at-demand"]),
+            ("quantiles", &["quantiles-coincide"]),
+        ],
+        effect: "ratios-p3-p4",
+        figures: &["figure-06", "figure-07", "figure-08"],
+    },
+    Asked {
+        question: "Do scaled records and an adjusted slenderness give the \
+                   same statistics?",
+        parts: &[
+            ("ratios", &["adjustment-ratios"]),
+            ("quantiles", &["adjustment-quantiles"]),
+        ],
+        effect: "adjustment-ratios",
+        figures: &["figure-09", "figure-10"],
+    },
+    Asked {
+        question: "Does the shifted lognormal fit capacities, in PGA better \
+                   than the unshifted one?",
+        parts: &[
+            ("distance in PGA", &["shift-gains-pga"]),
+            ("tests in PGA", &["shift-better-pga"]),
+            ("tests in PGV", &["pgv-shifted"]),
+        ],
+        effect: "shift-gains-pga",
+        figures: &["figure-12", "figure-14", "figure-15"],
+    },
+    Asked {
+        question: "Do Eqs. 5 to 7 give the shifted fragility?",
+        parts: &[
+            ("untrimmed PGV", &["eq7-untrimmed-pgv"]),
+            ("trimmed PGA", &["eq7-trimmed-pga"]),
+            ("untrimmed PGA", &["eq7-untrimmed-fails-pga"]),
+        ],
+        effect: "eq7-trimmed-pga",
+        figures: &["figure-16", "figure-17", "figure-18"],
+    },
+];
+
+/// The claim that Eq. 7 fails: its verdict speaks against the question.
+const AGAINST: &str = "eq7-untrimmed-fails-pga";
+
+/// How many results of a part have which verdict.
+#[derive(Clone, Copy, Default)]
+struct Count {
+    yes: usize,
+    no: usize,
+    open: usize,
+}
+
+impl Count {
+    fn of(findings: &Findings, claims: &[&str]) -> Self {
+        let mut count = Self::default();
+        let own = |c: &&Claim| claims.contains(&c.id.as_str());
+        for claim in findings.claims.iter().filter(own) {
+            let against = claim.id == AGAINST;
+            for result in &claim.results {
+                match result.by_equivalence {
+                    Some(Verdict::Confirmed) if against => count.no += 1,
+                    Some(Verdict::NotConfirmed) if against => count.yes += 1,
+                    Some(Verdict::Confirmed) => count.yes += 1,
+                    Some(Verdict::NotConfirmed) => count.no += 1,
+                    Some(Verdict::Inconclusive) => count.open += 1,
+                    None => {}
+                }
+            }
+        }
+        count
+    }
+
+    fn all(self) -> usize {
+        self.yes + self.no + self.open
+    }
+
+    fn words(self) -> String {
+        let Self { yes, no, open } = self;
+        format!("{yes} for, {no} against, {open} open")
+    }
+}
+
+/// An answer from the verdicts of its parts.
+///
+/// Yes: every result speaks for it. No: none does and some speak against.
+/// Nearly: none speaks against, and more than half for it. Only for: whole
+/// parts speak for it, others do not. Open: the rest.
+fn answered(parts: &[(&str, Count)]) -> String {
+    let sum = |of: fn(&Count) -> usize| -> usize {
+        parts.iter().map(|(_, count)| of(count)).sum()
+    };
+    let (yes, no) = (sum(|c| c.yes), sum(|c| c.no));
+    let all = sum(|c| c.all());
+    let names = |is: fn(&Count) -> bool| -> String {
+        let found = parts.iter().filter(|(_, count)| is(count));
+        let names: Vec<&str> = found.map(|(name, _)| *name).collect();
+        names.join(", ")
+    };
+    let whole = names(|c| c.all() > 0 && c.yes == c.all());
+    let open = names(|c| c.no == 0 && c.yes < c.all());
+    let against = names(|c| c.no > 0);
+    let rest = |words: &str, names: &str| match names {
+        "" => String::new(),
+        _ => format!("; {words} {names}"),
+    };
+    let rest = rest("open for", &open) + &rest("not for", &against);
+    if all == 0 {
+        "Open: there are no data.".into()
+    } else if yes == all {
+        format!("Yes: all {all} results confirm it.")
+    } else if yes == 0 && no > 0 {
+        format!("No: {no} of {all} results refute it, none confirms it.")
+    } else if whole.is_empty() {
+        format!("Open: {yes} of {all} results confirm it, {no} refute it.")
+    } else if no == 0 && 2 * yes > all {
+        format!("Nearly: for {whole}{rest}.")
+    } else {
+        format!("Only for {whole}{rest}.")
+    }
+}
+
+/// The rows of the first table. The first of `recorded` and `here` that
+/// there is leads.
+pub(super) fn rows(
+    results: &Results,
+    here: &Findings,
+    recorded: Option<&Findings>,
+    timings: &Timings,
+    proof: Option<&Proof>,
+    figures: &[(String, String)],
+) -> Vec<AnswerRow> {
+    let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
+    let lead = recorded.unwrap_or(here);
+    let mut rows: Vec<AnswerRow> = ASKED
+        .iter()
+        .map(|asked| {
+            let counts = |findings: &Findings| -> Vec<(&str, Count)> {
+                let parts = asked.parts.iter();
+                parts.map(|(n, ids)| (*n, Count::of(findings, ids))).collect()
+            };
+            let column = |findings: &&Findings| {
+                let all = asked.parts.iter().flat_map(|(_, ids)| *ids);
+                let all: Vec<&str> = all.copied().collect();
+                Count::of(findings, &all).words()
+            };
+            let stems = asked.figures.iter();
+            let shown = stems.filter_map(|stem| {
+                let own = |f: &&(String, String)| f.0.starts_with(stem);
+                let (name, number) = figures.iter().find(own)?;
+                let number = number.split(',').next().unwrap_or(number);
+                Some((name.clone(), number.to_owned()))
+            });
+            AnswerRow {
+                question: asked.question.into(),
+                answer: answered(&counts(lead)),
+                effect: effect(lead, asked.effect),
+                columns: sources.iter().map(column).collect(),
+                shown: shown.collect(),
+            }
+        })
+        .collect();
+    let same = |words: &str| vec![words.to_owned(); sources.len()];
+    let to = |id: &str, words: &str| vec![(id.into(), words.into())];
+    rows.push(AnswerRow {
+        question: "Does the integrator pass every declared case?".into(),
+        answer: accuracy(proof),
+        effect: timings.error(),
+        columns: same("no suite needed"),
+        shown: match proof {
+            Some(_) => to("evidence", "proof"),
+            None => Vec::new(),
+        },
+    });
+    let (answer, rate) = timings.speed();
+    rows.push(AnswerRow {
+        question: "Is it faster than other tools at no larger error?".into(),
+        answer,
+        effect: rate,
+        columns: same("kept timings"),
+        shown: to("speed", "speed"),
+    });
+    rows.push(AnswerRow {
+        question: "Was everything checked?".into(),
+        answer: "No: see the limits for what was not checked.".into(),
+        effect: not_checked(results),
+        columns: same("both alike"),
+        shown: to("limits", "limits"),
+    });
+    rows
+}
+
+/// The number of a claim on the suite and arm where it is worst.
+fn effect(findings: &Findings, id: &str) -> String {
+    let Some(claim) = findings.claims.iter().find(|c| c.id == id) else {
+        return String::new();
+    };
+    let Some(region) = claim.region else { return String::new() };
+    let value = |r: &crate::findings::ClaimResult| {
+        r.deciding_cell.as_ref().map_or(r.value, |c| c.measured.value)
+    };
+    let worst =
+        claim.results.iter().filter(|r| !value(r).is_nan()).max_by(|a, b| {
+            let bad = |r| region.badness(value(r));
+            bad(a).total_cmp(&bad(b))
+        });
+    let Some(worst) = worst else { return "no data".into() };
+    let text = match &worst.deciding_cell {
+        Some(cell) => cell_text(claim, cell.measured),
+        None => value_text(claim, worst),
+    };
+    format!("At worst {text}, {}; limit {}", worst.place(), rule_text(claim))
+}
+
+fn accuracy(proof: Option<&Proof>) -> String {
+    let Some(proof) = proof else {
+        return "Open: the declared cases were not run here.".into();
+    };
+    let (passed, all) = (proof.passed(), proof.results().len());
+    if passed == all {
+        format!("Yes: all {all} pass.")
+    } else {
+        format!("No: {} of {all} fail.", all - passed)
+    }
+}
+
+/// What the work on a suite was, and what rounding may have changed.
+pub(super) fn work(suite: &SuiteResults) -> String {
+    let certainty = suite.work.certainty;
+    let work = format!(
+        "{} {} records, {} analyses",
+        suite.records.len(),
+        suite.kind,
+        suite.work.analyses
+    );
+    if certainty.unresolved == 0 {
+        return format!("{work}; double precision tells every one.");
+    }
+    let ends = certainty.ends;
+    format!(
+        "{work}. Of {} of them rounding in double precision may have \
+             changed the peak or the fate: their motion is chaotic. {} of \
+             these are first overturnings, on which capacities rest. All of \
+             those were told again: {} by double precision, every decision \
+             being assessed, {} by double-double, {} by octuple precision, \
+             {} by none. Double precision had told {} of them wrongly; with \
+             these and those that none told at the next level that \
+             overturns, the 16, 50 and 84 % overturning intensities would \
+             move by {} at most.",
+        certainty.unresolved,
+        ends.all,
+        ends.double,
+        ends.double_double,
+        ends.octuple,
+        ends.undecided,
+        ends.moved,
+        rounded_text(certainty.largest_shift)
+    )
+}
+
+/// How verdicts come about, and how many of them chance may have given.
+pub(super) fn trust(
+    findings: &Findings,
+    recorded: Option<&Findings>,
+) -> String {
+    let judged = |findings: &Findings| -> usize {
+        Verdict::ALL.map(|verdict| findings.count(verdict)).iter().sum()
+    };
+    let by_chance = |findings: &Findings| {
+        let n = judged(findings);
+        format!("{n} results, about {:.0}", 0.025 * n as f64)
+    };
+    let counts = match recorded {
+        Some(recorded) => format!(
+            "recorded suites: {}; embedded suites: {}",
+            by_chance(recorded),
+            by_chance(findings)
+        ),
+        None => by_chance(findings),
+    };
+    format!(
+        "Every finding has an interval by resampling of the records, the \
+         same records in all blocks, stripes and measures at once; over \
+         several cells the interval holds for all of them together. A \
+         verdict needs the whole interval on one side of a limit, the \
+         smallest effect of interest, whose engineering reason stands beside \
+         it. An interval of 95 % misses on the deciding side in 2.5 % of the \
+         cases, so that chance alone may have given some verdicts \
+         ({counts}). The results share records, so such misses come \
+         together. Results of the arms A and C and of claims with the same \
+         quotation are not independent evidence."
+    )
+}
+
+pub(super) fn not_checked(results: &Results) -> String {
+    let records = if results.embedded() {
+        "recorded earthquakes in this run (these suites are synthetic), "
+    } else {
+        ""
+    };
+    format!(
+        "Not checked: the model against experiments, {records}sliding, \
+         bouncing, vertical motion and flexible supports, and other \
+         machines than x86-64 Linux"
+    )
+}
+
+/// How many results of a theme have which verdict, and what is not
+/// confirmed.
+pub(super) fn by_theme(
+    theme: Theme,
+    here: &Findings,
+    recorded: Option<&Findings>,
+) -> String {
+    let own = match recorded {
+        Some(_) => "the embedded suites",
+        None => "your suites",
+    };
+    let recorded = recorded.map(|found| ("the recorded suites", found));
+    let all = recorded.into_iter().chain([(own, here)]);
+    let parts: Vec<String> = all
+        .map(|(name, found)| format!("On {name} {}.", of_theme(found, theme)))
+        .collect();
+    parts.join(" ")
+}
+
+fn of_theme(findings: &Findings, theme: Theme) -> String {
+    let claims = || findings.claims.iter().filter(|c| c.theme == theme);
+    let count = |verdict: Verdict| {
+        claims()
+            .flat_map(|c| &c.results)
+            .filter(|r| r.by_equivalence == Some(verdict))
+            .count()
+    };
+    let [confirmed, not, open] = Verdict::ALL.map(count);
+    let mut words = format!(
+        "{confirmed} of {} results are confirmed, {not} not, {open} \
+         inconclusive",
+        confirmed + not + open
+    );
+    let refuted: Vec<&str> = claims()
+        .filter(|c| {
+            let not = Some(Verdict::NotConfirmed);
+            c.results.iter().any(|r| r.by_equivalence == not)
+        })
+        .map(|c| c.id.as_str())
+        .collect();
+    if !refuted.is_empty() {
+        words += &format!("; not confirmed somewhere: {}", refuted.join(", "));
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn count(yes: usize, no: usize, open: usize) -> Count {
+        Count { yes, no, open }
+    }
+
+    #[test]
+    fn answers_follow_from_the_verdicts_of_their_parts() {
+        let (good, bad) = (count(4, 0, 0), count(0, 4, 0));
+        let (open, mixed) = (count(1, 0, 3), count(3, 1, 0));
+        for (parts, answer) in [
+            (vec![("a", good), ("b", good)], "Yes: all 8 results"),
+            (vec![("a", bad), ("b", bad)], "No: 8 of 8 results refute it"),
+            (vec![("a", good), ("b", open)], "Nearly: for a; open for b."),
+            (
+                vec![("a", good), ("b", open), ("c", bad)],
+                "Only for a; open for b; not for c.",
+            ),
+            (vec![("a", mixed), ("b", open)], "Open: 4 of 8 results"),
+            (vec![("a", count(0, 0, 4))], "Open: 0 of 4 results"),
+            (vec![("a", count(0, 0, 0))], "Open: there are no data."),
+        ] {
+            let found = answered(&parts);
+            assert!(found.starts_with(answer), "{found:?}, {answer:?}");
+        }
+    }
+
+    #[test]
+    fn answers_have_at_most_fifteen_words_and_rest_on_claims() {
+        let recorded = super::super::findings::recorded().unwrap();
+        for asked in &ASKED {
+            let ids = asked.parts.iter().flat_map(|(_, ids)| *ids);
+            for id in ids.chain([&asked.effect]) {
+                let there = recorded.claims.iter().any(|c| c.id == *id);
+                assert!(there, "{id}");
+            }
+            for (first, other) in [
+                (count(1, 0, 0), count(0, 1, 0)),
+                (count(1, 0, 0), count(0, 0, 1)),
+                (count(0, 0, 1), count(0, 0, 1)),
+            ] {
+                let parts = asked.parts.iter().enumerate();
+                let parts: Vec<(&str, Count)> = parts
+                    .map(|(k, (n, _))| {
+                        (*n, if k == 0 { first } else { other })
+                    })
+                    .collect();
+                let found = answered(&parts);
+                assert!(found.split(' ').count() <= 15, "{found}");
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! The head of the page: what was asked, which program ran on what, and who
+//! signs for it.
+
+use rocking::integrator::Overturning;
+
+use crate::study::figures::Results;
+use crate::suites::inputs::sha256_hex;
+
+/// The versions of everything that the program is built from.
+const LOCK: &str = include_str!("../../../Cargo.lock");
+
+/// The paper, as far as its text says.
+const PAPER: &str = "C. G. Lachanas, D. Vamvatsikos, E. G. Dimitrakopoulos, \
+    \u{201c}Statistical property parameterization of simple rocking block \
+    response\u{201d}, Earthquake Engineering and Structural Dynamics.";
+
+/// Who signs for a report, and when it was issued: words of the user, since
+/// the program knows no clock and no names.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Signatures {
+    /// Date of issue, as it is to stand on the page.
+    #[arg(long, value_name = "DATE")]
+    pub issued: Option<String>,
+    /// Who prepared the report; otherwise the page has a line to sign.
+    #[arg(long, value_name = "NAME")]
+    pub prepared_by: Option<String>,
+    /// Who reviewed the report; otherwise the page has a line to sign.
+    #[arg(long, value_name = "NAME")]
+    pub reviewed_by: Option<String>,
+    /// Who approved the report; otherwise the page has a line to sign.
+    #[arg(long, value_name = "NAME")]
+    pub approved_by: Option<String>,
+}
+
+impl Signatures {
+    /// Each with what it is.
+    #[must_use]
+    pub fn shown(&self) -> Vec<(String, Option<String>)> {
+        [
+            ("Issued", &self.issued),
+            ("Prepared by", &self.prepared_by),
+            ("Reviewed by", &self.reviewed_by),
+            ("Approved by", &self.approved_by),
+        ]
+        .map(|(what, given)| (what.to_owned(), given.clone()))
+        .into()
+    }
+}
+
+/// The paper, the program and its input.
+#[must_use]
+pub fn head(results: &Results) -> Vec<(String, String)> {
+    let mut out = vec![
+        ("Paper".into(), PAPER.into()),
+        (
+            "Program".into(),
+            format!(
+                "rocking {}, sha256 of Cargo.lock {}",
+                env!("CARGO_PKG_VERSION"),
+                sha256_hex(LOCK.as_bytes())
+            ),
+        ),
+    ];
+    for suite in [&results.ordinary, &results.pulse] {
+        out.push((
+            format!("Suite, {}", suite.kind),
+            format!(
+                "{}, {} records, sha256 {}",
+                suite.source,
+                suite.records.len(),
+                suite.sha256
+            ),
+        ));
+    }
+    out.push(("Command".into(), command(results)));
+    out
+}
+
+/// The command that makes the page again.
+fn command(results: &Results) -> String {
+    let setup = results.plan.setup;
+    let arms: Vec<&str> =
+        results.plan.arms.iter().map(|arm| arm.letter()).collect();
+    let suites = match results.embedded() {
+        true => "",
+        false => " --ordinary ORDINARY --pulse PULSE",
+    };
+    let overturn = match setup.overturning {
+        Overturning::Alpha => "alpha",
+        Overturning::HalfPi => "half-pi",
+    };
+    format!(
+        "rocking study{suites} --eta {} --overturn {overturn} --refine {} \
+         --arms {}, after rocking validate --out FOLDER, with --proof \
+         FOLDER/data",
+        setup.restitution.velocity_ratio(),
+        setup.tolerance,
+        arms.join(",")
+    )
+}

@@ -1,0 +1,110 @@
+//! Many blocks over one suite, in tiles that any number of tasks work off:
+//! plan once, run anywhere, merge.
+//!
+//! A *tile* is some blocks with all records of the suite, since every
+//! statistic is over the records of one block: a tile ends in fragilities,
+//! and merging puts tiles in the plan's order. The bytes do not depend on
+//! the number of tasks, their order, or what was interrupted: a tile is
+//! written whole or not at all, and names the plan and its own sum.
+
+mod blocks;
+mod plan;
+mod tile;
+
+use std::io;
+use std::path::PathBuf;
+
+use rocking::block::BlockError;
+use rocking::ida::IdaError;
+use rocking::record::SuiteError;
+use thiserror::Error;
+
+pub use blocks::read_blocks;
+pub use plan::{Plan, Planned, Wanted};
+pub use tile::{Content, State, merge, run, state};
+
+use crate::files::WriteError;
+use crate::suites::export::ExportError;
+
+/// Why a sweep cannot be planned, run or merged.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// A file that cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        #[source]
+        source: io::Error,
+    },
+    /// A file that cannot be written.
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    /// A table of blocks of another form.
+    #[error("{}:{line}: {found}; expected {expected}", path.display())]
+    Blocks {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// A plan of another form or of another program.
+    #[error("{}: {found}; expected a plan of `rocking sweep plan`", path.display())]
+    Plan {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        found: String,
+    },
+    /// A folder that holds a plan already.
+    #[error(
+        "{}: holds another plan; expected an empty folder, or the same plan",
+        path.display()
+    )]
+    OtherPlan {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Records of the folder that are not those of the plan.
+    #[error("{record}: found hash {found}; expected {expected}, as planned")]
+    Record {
+        /// The record.
+        record: String,
+        /// Its hash.
+        found: String,
+        /// The plan's.
+        expected: String,
+    },
+    /// A tile that is not there, of another plan, or damaged.
+    #[error("{}: {state}; run the sweep again", path.display())]
+    Tile {
+        /// The tile's file.
+        path: PathBuf,
+        /// What is wrong with it.
+        state: State,
+    },
+    /// A suite that was refused.
+    #[error(transparent)]
+    Suite(#[from] SuiteError),
+    /// A record that cannot be packed.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+    /// A block out of range.
+    #[error(transparent)]
+    Block(#[from] BlockError),
+    /// An analysis that cannot be done.
+    #[error(transparent)]
+    Ida(#[from] IdaError),
+    /// A statistic that cannot be computed.
+    #[error("{0}")]
+    Statistics(String),
+}
+
+#[cfg(test)]
+mod tests;

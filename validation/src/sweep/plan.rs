@@ -1,0 +1,256 @@
+//! The plan of a sweep: blocks, records, settings, tiles.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use rocking::block::{Block, Restitution};
+use rocking::ida::{Analysis, Grid, REFINEMENT};
+use rocking::record::{Accelerogram, ReadOptions, Suite};
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use serde::{Deserialize, Serialize};
+
+use super::SweepError;
+use super::blocks::Given;
+use crate::files::write_atomically;
+use crate::suites::export;
+use crate::suites::inputs::{read_suite, sha256_hex};
+
+/// Version of the plan's shape.
+const SCHEMA: u32 = 1;
+
+/// Levels of a chain, about, and seconds that a sample of one takes a core:
+/// for the estimate of costs alone.
+const LEVELS: f64 = 60.0;
+const SAMPLE_S: f64 = 6e-9;
+
+/// Name of the suite in the plan's folder.
+const SUITE: &str = "suite";
+
+/// Everything that a task must know.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    schema: u32,
+    /// Program that made the plan.
+    pub software: String,
+    /// Step of the levels in PGA/(g tan alpha).
+    pub step_im: f64,
+    /// Demands at which capacities are told.
+    pub demands: Vec<f64>,
+    /// Replicates of the bootstrap of a fragility's parameters.
+    pub replicates: usize,
+    /// Whether every analysis is kept.
+    pub rows: bool,
+    /// Alpha (rad), p (rad/s) and coefficient of restitution of each block.
+    pub blocks: Vec<[f64; 3]>,
+    /// Study components: name and SHA-256 of the packed file.
+    pub records: Vec<(String, String)>,
+    /// Blocks of a tile, the last one apart.
+    pub blocks_a_tile: usize,
+}
+
+/// A plan with its folder, its hash and the time that it takes.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// The plan.
+    pub plan: Plan,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// SHA-256 of the plan's file.
+    pub hash: String,
+    /// Seconds of one core that a tile takes, estimated.
+    pub tile_core_s: f64,
+}
+
+/// What a plan is made of.
+pub struct Wanted<'a> {
+    /// The blocks.
+    pub blocks: &'a [Given],
+    /// The suite.
+    pub suite: &'a Suite,
+    /// Demands.
+    pub demands: Vec<f64>,
+    /// Step of the levels.
+    pub step_im: f64,
+    /// Whether every analysis is kept.
+    pub rows: bool,
+    /// What a tile should take, in minutes of a core.
+    pub tile_minutes: f64,
+}
+
+impl Plan {
+    /// Writes a plan and packs the suite into its folder.
+    ///
+    /// # Errors
+    /// [`SweepError::OtherPlan`] where the folder has another plan already;
+    /// [`SweepError`] where a record cannot be packed or a file cannot be
+    /// written.
+    pub fn write(
+        wanted: &Wanted<'_>,
+        folder: &Path,
+        software: &str,
+    ) -> Result<Planned, SweepError> {
+        let rows: Vec<export::Row<'_>> = export::members(wanted.suite, None)
+            .into_iter()
+            .filter(|row| row.study_component)
+            .collect();
+        let files = export::files(SUITE, &rows)?;
+        let samples: usize =
+            rows.iter().map(|row| row.motion.samples_g().len()).sum();
+        let block_s = samples as f64 * LEVELS * SAMPLE_S;
+        let a_tile = (60.0 * wanted.tile_minutes / block_s).round();
+        let records = files
+            .iter()
+            .filter(|(path, _)| path.extension().is_some_and(|e| e == "at2"))
+            .zip(&rows)
+            .map(|((_, text), row)| {
+                (row.motion.name().to_owned(), sha256_hex(text))
+            })
+            .collect();
+        let one = |g: &Given| {
+            [g.block.slenderness_rad(), g.block.frequency_rad_s(), g.eta]
+        };
+        let plan = Self {
+            schema: SCHEMA,
+            software: software.into(),
+            step_im: wanted.step_im,
+            demands: wanted.demands.clone(),
+            replicates: 400,
+            rows: wanted.rows,
+            blocks: wanted.blocks.iter().map(one).collect(),
+            records,
+            blocks_a_tile: (a_tile as usize).clamp(1, wanted.blocks.len()),
+        };
+        let text = plan.text();
+        let path = folder.join("plan.json");
+        match fs::read_to_string(&path) {
+            Ok(there) if there == text => return Planned::read(folder),
+            Ok(_) => {
+                return Err(SweepError::OtherPlan { path: folder.into() });
+            }
+            Err(_) => {}
+        }
+        for part in [SUITE, "tiles"] {
+            let part = folder.join(part);
+            fs::create_dir_all(&part).map_err(|source| SweepError::Read {
+                path: part.clone(),
+                source,
+            })?;
+        }
+        for (name, content) in files {
+            write_atomically(&folder.join(name), content)?;
+        }
+        write_atomically(&path, &text)?;
+        Planned::read(folder)
+    }
+
+    fn text(&self) -> String {
+        // These types print without an error.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// Number of tiles.
+    #[must_use]
+    pub fn tiles(&self) -> usize {
+        self.blocks.len().div_ceil(self.blocks_a_tile)
+    }
+
+    /// The blocks of a tile.
+    #[must_use]
+    pub fn blocks_of(&self, tile: usize) -> &[[f64; 3]] {
+        let first = tile * self.blocks_a_tile;
+        let last = (first + self.blocks_a_tile).min(self.blocks.len());
+        &self.blocks[first..last]
+    }
+
+    /// What is run of a block.
+    ///
+    /// # Errors
+    /// [`SweepError::Block`] for a block out of range.
+    pub fn analysis(&self, block: [f64; 3]) -> Result<Analysis, SweepError> {
+        let [alpha, p, eta] = block;
+        let restitution = Restitution::constant(eta)?;
+        Ok(Analysis {
+            grid: Grid::Im { step: self.step_im },
+            refine: Some(REFINEMENT),
+            ..Analysis::paper(Block::try_new(alpha, p)?, restitution)
+        })
+    }
+}
+
+impl Planned {
+    /// Reads the plan of a folder.
+    ///
+    /// # Errors
+    /// [`SweepError::Read`] where there is none, [`SweepError::Plan`] for
+    /// another form.
+    pub fn read(folder: &Path) -> Result<Self, SweepError> {
+        let path = folder.join("plan.json");
+        let text = fs::read_to_string(&path).map_err(|source| {
+            SweepError::Read { path: path.clone(), source }
+        })?;
+        let refused =
+            |found: String| SweepError::Plan { path: path.clone(), found };
+        let plan: Plan =
+            serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
+        if plan.schema != SCHEMA {
+            return Err(refused(format!("schema {}", plan.schema)));
+        }
+        if plan.blocks.is_empty() || plan.blocks_a_tile == 0 {
+            return Err(refused("no tile".into()));
+        }
+        let mut samples = 0;
+        for (name, _) in &plan.records {
+            let size = fs::metadata(record_path(folder, name));
+            // An AT2 file has about 15 bytes a sample.
+            samples += size.map_or(0, |m| m.len() / 15);
+        }
+        let block_s = samples as f64 * LEVELS * SAMPLE_S;
+        Ok(Self {
+            tile_core_s: block_s * plan.blocks_a_tile as f64,
+            hash: sha256_hex(text.as_bytes()),
+            folder: folder.into(),
+            plan,
+        })
+    }
+
+    /// The packed records, each held to the plan's hash.
+    ///
+    /// # Errors
+    /// [`SweepError::Record`] for a record that is another now.
+    pub fn records(&self) -> Result<Vec<Accelerogram>, SweepError> {
+        for (name, expected) in &self.plan.records {
+            let path = record_path(&self.folder, name);
+            let bytes = fs::read(&path).map_err(|source| {
+                SweepError::Read { path: path.clone(), source }
+            })?;
+            let found = sha256_hex(&bytes);
+            if found != *expected {
+                return Err(SweepError::Record {
+                    record: path.display().to_string(),
+                    found,
+                    expected: expected.clone(),
+                });
+            }
+        }
+        let options = ReadOptions {
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            ..ReadOptions::default()
+        };
+        let index = self.folder.join(format!("{SUITE}.csv"));
+        let suite = read_suite(&index, options)?;
+        let own = suite.members().iter();
+        Ok(own.map(|member| member.accelerogram.clone()).collect())
+    }
+
+    /// Where a tile lies.
+    #[must_use]
+    pub fn tile_path(&self, content: super::Content, tile: usize) -> PathBuf {
+        let name = format!("{}-{tile:05}.csv", content.name());
+        self.folder.join("tiles").join(name)
+    }
+}
+
+fn record_path(folder: &Path, name: &str) -> PathBuf {
+    folder.join(SUITE).join(format!("{name}.at2"))
+}

@@ -1,0 +1,168 @@
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rocking::block::Block;
+use rocking::record::ReadOptions;
+
+use super::blocks::Given;
+use super::*;
+use crate::suites::inputs::{read_suite, sha256_hex};
+
+/// A suite of three half sines in a folder.
+fn suite(folder: &Path) -> rocking::record::Suite {
+    let place = folder.join("records");
+    fs::create_dir_all(&place).unwrap();
+    for (name, scale) in [("a", 0.4), ("b", 0.6), ("c", 0.9)] {
+        let samples: Vec<f64> = (0..200)
+            .map(|i| scale * libm::sin(f64::from(i) * 0.06 / scale))
+            .collect();
+        let text: String = samples.iter().map(|x| format!("{x}\n")).collect();
+        fs::write(place.join(format!("{name}.txt")), text).unwrap();
+    }
+    let read = ReadOptions {
+        dt_s: Some(0.02),
+        unit: Some(rocking::units::AccelerationUnit::parse("g").unwrap()),
+        gravity_m_s2: 9.81,
+    };
+    read_suite(&place, read).unwrap()
+}
+
+fn plan(folder: &Path, tile_minutes: f64) -> Planned {
+    let blocks: Vec<Given> = [0.08, 0.1, 0.12, 0.15, 0.2, 0.22, 0.25]
+        .into_iter()
+        .map(|alpha| Given {
+            block: Block::try_new(alpha, 3.0).unwrap(),
+            eta: 0.92,
+        })
+        .collect();
+    let suite = suite(folder);
+    let wanted = Wanted {
+        blocks: &blocks,
+        suite: &suite,
+        demands: vec![0.35, 1.0],
+        step_im: 0.05,
+        rows: true,
+        tile_minutes,
+    };
+    Plan::write(&wanted, &folder.join("plan"), "test").unwrap()
+}
+
+fn run_all(planned: &Planned, of: usize) {
+    // The last task first: the order does not matter.
+    for task in (0..of).rev() {
+        let left = run(planned, (task, of), &|| true, &|_| ()).unwrap();
+        assert!(left.is_empty());
+    }
+}
+
+fn merged(planned: &Planned, content: Content) -> String {
+    let out = planned.folder.join("merged.csv");
+    merge(planned, content, &out).unwrap();
+    let text = fs::read(&out).unwrap();
+    fs::remove_file(out).unwrap();
+    sha256_hex(&text)
+}
+
+#[test]
+fn any_tiles_and_any_tasks_give_the_same_bytes() {
+    let mut sums = Vec::new();
+    for (tile_minutes, of) in [(1e9, 1), (1e-9, 1), (1e-9, 2), (1e-9, 5)] {
+        let place = tempfile::tempdir().unwrap();
+        let planned = plan(place.path(), tile_minutes);
+        let tiles = if tile_minutes > 1.0 { 1 } else { 7 };
+        assert_eq!(planned.plan.tiles(), tiles);
+        run_all(&planned, of);
+        let contents = Content::kept(&planned.plan);
+        assert_eq!(contents.len(), 3);
+        sums.push(contents.into_iter().map(|c| merged(&planned, c)).collect());
+    }
+    let first: &Vec<String> = &sums[0];
+    assert!(sums.iter().all(|sum| sum == first), "{sums:?}");
+}
+
+#[test]
+fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
+    let place = tempfile::tempdir().unwrap();
+    let planned = plan(place.path(), 1e-9);
+    let chains = AtomicUsize::new(0);
+    let stop = || chains.fetch_add(1, Ordering::Relaxed) < 8;
+    let left = run(&planned, (0, 1), &stop, &|_| ()).unwrap();
+    assert!(!left.is_empty() && left.len() < 7, "{left:?}");
+    for tile in 0..7 {
+        let expected =
+            if left.contains(&tile) { State::Missing } else { State::Done };
+        assert_eq!(state(&planned, tile), expected, "{tile}");
+    }
+    let out = place.path().join("out.csv");
+    let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
+    assert!(error.to_string().contains("missing"), "{error}");
+    assert!(!out.exists());
+    run_all(&planned, 1);
+    let whole = tempfile::tempdir().unwrap();
+    let other = plan(whole.path(), 1e-9);
+    run_all(&other, 1);
+    for content in Content::kept(&planned.plan) {
+        assert_eq!(merged(&planned, content), merged(&other, content));
+    }
+    let names = fs::read_dir(planned.folder.join("tiles")).unwrap();
+    assert_eq!(names.count(), 3 * 7);
+}
+
+#[test]
+fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
+    let place = tempfile::tempdir().unwrap();
+    let planned = plan(place.path(), 1e-9);
+    run_all(&planned, 1);
+    let path = planned.tile_path(Content::Fragilities, 3);
+    let right = fs::read(&path).unwrap();
+    let mut flipped = right.clone();
+    flipped[40] ^= 1;
+    fs::write(&path, &flipped).unwrap();
+    assert_eq!(state(&planned, 3), State::Damaged);
+    let out = place.path().join("out.csv");
+    let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
+    let words = error.to_string();
+    assert!(words.contains("fragilities-00003.csv"), "{words}");
+    // The same tile, once more.
+    run_all(&planned, 1);
+    assert_eq!(fs::read(&path).unwrap(), right);
+    // Of a plan with other demands.
+    let text = String::from_utf8(right).unwrap();
+    let foreign = text.replace(&planned.hash, &"0".repeat(64));
+    fs::write(&path, foreign).unwrap();
+    assert_eq!(state(&planned, 3), State::Foreign);
+    let record = planned.folder.join("suite/b.at2");
+    let mut bytes = fs::read(&record).unwrap();
+    let last = bytes.len() - 3;
+    bytes[last] = if bytes[last] == b'1' { b'2' } else { b'1' };
+    fs::write(&record, bytes).unwrap();
+    let error = run(&planned, (0, 1), &|| true, &|_| ()).unwrap_err();
+    assert!(error.to_string().contains("b.at2"), "{error}");
+}
+
+#[test]
+fn tables_of_blocks_are_refused_with_their_line() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("blocks.csv");
+    let read = |text: &str| {
+        fs::write(&path, text).unwrap();
+        read_blocks(&path, 0.92)
+    };
+    let blocks = read("alpha,p,eta\n0.1,3,0.9\n0.2,4,1\n").unwrap();
+    assert_eq!((blocks.len(), blocks[0].eta), (2, 0.9));
+    let blocks = read("width_m, height_m\n0.4, 2\n").unwrap();
+    // tan(alpha) = 0.2, p = sqrt(3 g/(2 sqrt(4.16))).
+    assert!((blocks[0].block.slenderness_rad() - 0.197_395_56).abs() < 1e-8);
+    for (text, words) in [
+        ("alpha,p\n0.1,3\n0.1,x\n", "blocks.csv:3: \"x\""),
+        ("alpha,p\n0.1,NaN\n", "blocks.csv:2"),
+        ("alpha,p,colour\n0.1,3,red\n", "column \"colour\""),
+        ("alpha,height_m\n0.1,3\n", "blocks.csv:1"),
+        ("alpha,p,eta\n0.1,3,1.5\n", "blocks.csv:2"),
+        ("alpha,p\n", "no block"),
+    ] {
+        let error = read(text).unwrap_err().to_string();
+        assert!(error.contains(words), "{error}");
+    }
+}

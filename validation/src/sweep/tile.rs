@@ -1,0 +1,380 @@
+//! Tiles: run, held to their plan and their sum, merged.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write as _};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use rocking::capacity::InversionRule;
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{Batch, IdaCurve, IdaError, Overturned, curves};
+use rocking::integrator::Outcome;
+use rocking::statistics::ExtendedSample;
+use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::lognormal::{FitMethod, fit};
+
+use super::SweepError;
+use super::plan::{Plan, Planned};
+use crate::files::write_atomically;
+use crate::suites::inputs::sha256_hex;
+use crate::table::Table;
+
+/// What a file of a tile holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// A row a block, intensity measure and demand.
+    Fragilities,
+    /// A row a block and record: first overturning and capacities.
+    Capacities,
+    /// A row an analysis.
+    Rows,
+}
+
+impl Content {
+    /// What a sweep keeps.
+    #[must_use]
+    pub fn kept(plan: &Plan) -> Vec<Self> {
+        let mut out = vec![Self::Fragilities, Self::Capacities];
+        if plan.rows {
+            out.push(Self::Rows);
+        }
+        out
+    }
+
+    /// Name in file names.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fragilities => "fragilities",
+            Self::Capacities => "capacities",
+            Self::Rows => "rows",
+        }
+    }
+
+    fn table(self, plan: &Plan) -> Table {
+        match self {
+            Self::Fragilities => Table::headed(
+                "alpha_rad,p_rad_s,eta,im,demand,records,reached,shift,\
+                 median,dispersion,median_low,median_high,dispersion_low,\
+                 dispersion_high,unresolved",
+            ),
+            Self::Capacities => {
+                let mut header: Vec<String> =
+                    ["alpha_rad", "p_rad_s", "eta", "record"]
+                        .map(String::from)
+                        .into();
+                header.push("velocity_factor".into());
+                header.push("first_overturning".into());
+                header.push("unresolved".into());
+                header
+                    .extend(plan.demands.iter().map(|d| format!("im_at_{d}")));
+                let cells: Vec<&str> =
+                    header.iter().map(String::as_str).collect();
+                Table::new(&cells)
+            }
+            Self::Rows => Table::headed(
+                "alpha_rad,p_rad_s,eta,record,im,pga_g,edp,resolved",
+            ),
+        }
+    }
+}
+
+/// How a tile stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Whole, and of this plan.
+    Done,
+    /// Not there.
+    Missing,
+    /// Of another plan.
+    Foreign,
+    /// Its bytes do not have the sum that it states.
+    Damaged,
+}
+
+impl fmt::Display for State {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Done => "done",
+            Self::Missing => "missing",
+            Self::Foreign => "of another plan",
+            Self::Damaged => "damaged: its sum is another",
+        })
+    }
+}
+
+/// The last line of a tile's file.
+fn footer(hash: &str, tile: usize, body: &str) -> String {
+    format!(
+        "# plan {hash} tile {tile} sha256 {}\n",
+        sha256_hex(body.as_bytes())
+    )
+}
+
+/// How a tile's file stands, and its text without the last line.
+fn read(planned: &Planned, content: Content, tile: usize) -> (State, String) {
+    let path = planned.tile_path(content, tile);
+    let Ok(text) = fs::read_to_string(path) else {
+        // A file that is there and is no text was written by nobody here.
+        let there = planned.tile_path(content, tile).exists();
+        let state = if there { State::Damaged } else { State::Missing };
+        return (state, String::new());
+    };
+    let Some(at) = text.trim_end().rfind('\n').map(|at| at + 1) else {
+        return (State::Damaged, String::new());
+    };
+    let (body, last) = text.split_at(at);
+    if last == footer(&planned.hash, tile, body) {
+        return (State::Done, body.to_owned());
+    }
+    let of_plan = last.starts_with(&format!("# plan {} ", planned.hash));
+    let has_plan = last.starts_with("# plan ");
+    let state =
+        if has_plan && !of_plan { State::Foreign } else { State::Damaged };
+    (state, String::new())
+}
+
+/// How a tile stands, by all its files.
+#[must_use]
+pub fn state(planned: &Planned, tile: usize) -> State {
+    Content::kept(&planned.plan)
+        .into_iter()
+        .map(|content| read(planned, content, tile).0)
+        .find(|state| *state != State::Done)
+        .unwrap_or(State::Done)
+}
+
+/// Runs the tiles of task `task` of `of` that are not done: tiles are dealt
+/// in turn, since they cost the same. `go_on` is asked after each chain;
+/// `done` is told each tile that was finished.
+///
+/// Returns the tiles that are left, where `go_on` ended the work.
+///
+/// # Errors
+/// [`SweepError`] for a record that is another than planned, an analysis
+/// that cannot be done, and a tile that cannot be written.
+pub fn run(
+    planned: &Planned,
+    (task, of): (usize, usize),
+    go_on: &(dyn Fn() -> bool + Sync),
+    done: &dyn Fn(usize),
+) -> Result<Vec<usize>, SweepError> {
+    let plan = &planned.plan;
+    let mut own: Vec<usize> = (0..plan.tiles())
+        .filter(|tile| tile % of == task)
+        .filter(|tile| state(planned, *tile) != State::Done)
+        .collect();
+    if own.is_empty() {
+        return Ok(own);
+    }
+    let records: Vec<NormalisedRecord> =
+        planned.records()?.iter().map(NormalisedRecord::new).collect();
+    while let Some(tile) = own.first().copied() {
+        let blocks = plan.blocks_of(tile);
+        let analyses = blocks
+            .iter()
+            .map(|block| plan.analysis(*block))
+            .collect::<Result<Vec<_>, _>>()?;
+        let progress = &|| match go_on() {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        };
+        let batch = Batch { progress, ..Batch::default() };
+        let found = match curves(&records, &analyses, &batch) {
+            Err(IdaError::Stopped) => return Ok(own),
+            found => found?,
+        };
+        for content in Content::kept(plan) {
+            let mut table = content.table(plan);
+            for (block, curves) in blocks.iter().zip(&found) {
+                fill(&mut table, plan, content, *block, curves)?;
+            }
+            let body = table.finish();
+            let text = footer(&planned.hash, tile, &body);
+            write_atomically(&planned.tile_path(content, tile), body + &text)?;
+        }
+        done(tile);
+        own.remove(0);
+    }
+    Ok(own)
+}
+
+/// Puts the tiles together in the plan's order, one after the other.
+///
+/// # Errors
+/// [`SweepError::Tile`] for a tile that is missing, of another plan, or
+/// damaged; `out` is then as it was.
+pub fn merge(
+    planned: &Planned,
+    content: Content,
+    out: &Path,
+) -> Result<(), SweepError> {
+    let failed = |source| SweepError::Read { path: out.to_owned(), source };
+    let folder = match out.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+    let handle: &File = file.as_file();
+    let mut writer = BufWriter::new(handle);
+    for tile in 0..planned.plan.tiles() {
+        let (state, body) = read(planned, content, tile);
+        if state != State::Done {
+            let path = planned.tile_path(content, tile);
+            return Err(SweepError::Tile { path, state });
+        }
+        // The header stands once.
+        let rows = match tile {
+            0 => body.as_str(),
+            _ => body.split_once('\n').map_or("", |(_, rows)| rows),
+        };
+        writer.write_all(rows.as_bytes()).map_err(failed)?;
+    }
+    writer.flush().map_err(failed)?;
+    drop(writer);
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(out).map_err(|e| failed(e.error))?;
+    Ok(())
+}
+
+fn unresolved(curve: &IdaCurve) -> usize {
+    curve.points.iter().filter(|point| !point.told.resolved).count()
+}
+
+/// Capacities of a curve at the plan's demands.
+fn capacities(plan: &Plan, curve: &IdaCurve) -> Result<Vec<f64>, SweepError> {
+    let refused = |e: rocking::capacity::CapacityError| {
+        SweepError::Statistics(format!("{}: {e}", curve.record))
+    };
+    let response = curve.response(Overturned::Refined).map_err(refused)?;
+    let at = |demand: &f64| {
+        let found = response.capacity(*demand, InversionRule::Median);
+        Ok(found.map_err(refused)?.im())
+    };
+    plan.demands.iter().map(at).collect()
+}
+
+fn fill(
+    table: &mut Table,
+    plan: &Plan,
+    content: Content,
+    block: [f64; 3],
+    curves: &[IdaCurve],
+) -> Result<(), SweepError> {
+    let name = block.map(|x| x.to_string());
+    match content {
+        Content::Rows => {
+            for curve in curves {
+                for point in &curve.points {
+                    let edp = match point.outcome {
+                        Outcome::Overturned { .. } => f64::INFINITY,
+                        _ => point.edp(),
+                    };
+                    let numbers = [point.im, point.pga_g, edp];
+                    let resolved = point.told.resolved.to_string();
+                    let cells = name
+                        .iter()
+                        .cloned()
+                        .chain([curve.record.clone()])
+                        .chain(numbers.map(|x| x.to_string()))
+                        .chain([resolved]);
+                    table.row(cells);
+                }
+            }
+        }
+        Content::Capacities => {
+            for curve in curves {
+                let first =
+                    curve.overturning.map_or(f64::INFINITY, |o| o.im());
+                let numbers = [curve.velocity_factor(block[1]), first];
+                let found = capacities(plan, curve)?;
+                let cells = name
+                    .iter()
+                    .cloned()
+                    .chain([curve.record.clone()])
+                    .chain(numbers.map(|x| x.to_string()))
+                    .chain([unresolved(curve).to_string()])
+                    .chain(found.iter().map(ToString::to_string));
+                table.row(cells);
+            }
+        }
+        Content::Fragilities => {
+            let by_record = curves
+                .iter()
+                .map(|curve| capacities(plan, curve))
+                .collect::<Result<Vec<_>, _>>()?;
+            let factors: Vec<f64> =
+                curves.iter().map(|c| c.velocity_factor(block[1])).collect();
+            let open: usize = curves.iter().map(unresolved).sum();
+            for (im, factors) in
+                [("pga", vec![1.0; curves.len()]), ("pgv", factors)]
+            {
+                for (k, demand) in plan.demands.iter().enumerate() {
+                    let sample: Vec<f64> = by_record
+                        .iter()
+                        .zip(&factors)
+                        .map(|(own, factor)| own[k] * factor)
+                        .collect();
+                    let numbers = fragility(plan, &name, &sample, &factors);
+                    let cells = name
+                        .iter()
+                        .cloned()
+                        .chain([im.to_owned(), demand.to_string()])
+                        .chain([sample.len().to_string()])
+                        .chain(numbers)
+                        .chain([open.to_string()]);
+                    table.row(cells);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Values reached, shift, and the median and dispersion of the shifted
+/// lognormal by maximum likelihood with their 95 % percentile intervals;
+/// empty where some record never reaches the demand.
+fn fragility(
+    plan: &Plan,
+    name: &[String; 3],
+    sample: &[f64],
+    onsets: &[f64],
+) -> Vec<String> {
+    let least = |of: &mut dyn Iterator<Item = f64>| {
+        of.fold(f64::INFINITY, |m, x| if x < m { x } else { m })
+    };
+    let shift = least(&mut onsets.iter().copied());
+    let reached = sample.iter().filter(|x| x.is_finite()).count();
+    let of = |values: &[f64], shift: f64| -> Option<[f64; 2]> {
+        let sample = ExtendedSample::try_new(values).ok()?;
+        let fitted = fit(&sample, shift, FitMethod::MaximumLikelihood).ok()?;
+        let lognormal = fitted.distribution;
+        Some([lognormal.median(), lognormal.dispersion()])
+    };
+    // A shift that is the least onset leaves the least capacity above it.
+    let found = of(sample, shift);
+    // Streams are named by the block, not by the tile.
+    let stream = format!("sweep/{}", name.join("/"));
+    let draws = Bootstrap::new(&stream, 0, sample.len(), plan.replicates);
+    let replicates: Vec<Option<[f64; 2]>> = draws.map(|places| {
+        let values: Vec<f64> = places.iter().map(|i| sample[*i]).collect();
+        of(&values, least(&mut places.iter().map(|i| onsets[*i])))
+    });
+    let interval = |k: usize| -> [f64; 2] {
+        let values: Vec<f64> =
+            replicates.iter().flatten().map(|r| r[k]).collect();
+        let point = found.map_or(f64::NAN, |found| found[k]);
+        let ends = estimate(point, &values, 0.95);
+        ends.map_or([f64::NAN; 2], |e| [e.low, e.high])
+    };
+    let found = found.unwrap_or([f64::NAN; 2]);
+    let numbers = [[shift, found[0]], [found[1], f64::NAN]];
+    let mut out = vec![reached.to_string()];
+    let all = [numbers[0][0], numbers[0][1], numbers[1][0]];
+    let ends = [interval(0), interval(1)].concat();
+    for x in all.into_iter().chain(ends) {
+        out.push(crate::table::number(x));
+    }
+    out
+}

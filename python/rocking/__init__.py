@@ -1,0 +1,87 @@
+"""How free-standing rigid blocks rock and overturn under earthquakes.
+
+>>> import rocking as rk
+>>> block = rk.Block(alpha=0.1, p=3.0)
+>>> sine = rk.Pulse("one-sine", amplitude_g=1.5 / 9.81, omega=12.0)
+>>> response = rk.respond(block, sine)
+>>> round(response.peak_ratio, 6)
+0.493882
+
+========================  ==================================================
+you have                  call
+========================  ==================================================
+a size                    `Block.from_dimensions`
+an array or a trace       `Record`, `Record.of`
+a file, a folder          `read_record`, `read_suite`
+a block and a motion      `respond`: what the block does
+many of both              `peak`, `spectrum`
+a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
+capacities                `fit_fragility`, `lilliefors`, `quantile`,
+                          `boxplot_stats`, `paired_ratios`
+a record                  `intensity_measures`, `rotd50`
+an IDA                    `rank_ims`
+========================  ==================================================
+
+Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
+`p` the frequency parameter sqrt(3 g/(4 R)) in rad/s. Accelerations are in
+multiples of gravity once they are in a `Record`; what unit an array or a file
+has must be said (`units="g"`, `"m/s2"` or `"cm/s2"`) unless the file states
+it. The response (EDP) is the peak of |theta|/alpha, infinite where the block
+overturns. Input that is refused raises `ValueError`, a missing file
+`FileNotFoundError`. Every result is the same, to the last bit, as that of the
+command line `rocking`, for any number of threads.
+"""
+
+from ._analyses import Ida, Response, ida, peak, respond, spectrum
+from ._inputs import (
+    STANDARD_GRAVITY,
+    Block,
+    Pulse,
+    Record,
+    Suite,
+    read_record,
+    read_suite,
+)
+from ._measures import RankedIm, intensity_measures, rank_ims, rotd50
+from ._rocking import __version__
+from ._statistics import (
+    ConfidenceInterval,
+    Fragility,
+    PairedResult,
+    TestResult,
+    boxplot_stats,
+    fit_fragility,
+    lilliefors,
+    paired_ratios,
+    quantile,
+)
+
+__all__ = [
+    "STANDARD_GRAVITY",
+    "Block",
+    "ConfidenceInterval",
+    "Fragility",
+    "Ida",
+    "PairedResult",
+    "Pulse",
+    "RankedIm",
+    "Record",
+    "Response",
+    "Suite",
+    "TestResult",
+    "__version__",
+    "boxplot_stats",
+    "fit_fragility",
+    "ida",
+    "intensity_measures",
+    "lilliefors",
+    "paired_ratios",
+    "peak",
+    "quantile",
+    "rank_ims",
+    "read_record",
+    "read_suite",
+    "respond",
+    "rotd50",
+    "spectrum",
+]

@@ -1,0 +1,421 @@
+"""Blocks and what shakes them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _draw, _rocking
+from ._rocking import STANDARD_GRAVITY as STANDARD_GRAVITY
+
+Floats = NDArray[np.float64]
+Given = tuple[str, Floats | None, float, dict[str, float]]
+
+
+def floats(values: ArrayLike, what: str) -> Floats:
+    """One-dimensional doubles; without a copy where `values` are some."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if np.ndim(values) != 1:
+        found = np.ndim(values)
+        raise ValueError(f"{what} of {found} dimensions: expected 1")
+    return array
+
+
+def frozen(array: Floats) -> Floats:
+    """The same array, read-only."""
+    array.setflags(write=False)
+    return array
+
+
+class Frozen:
+    """What is pickled comes back with its arrays read-only."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
+        self.__dict__.update(state)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Block:
+    """A rigid block by its slenderness angle and frequency parameter.
+
+    Parameters
+    ----------
+    alpha : float
+        Slenderness angle atan(b/h) in rad, between 0 and pi/2.
+    p : float
+        Frequency parameter sqrt(3 g/(4 R)) in rad/s, positive.
+
+    >>> Block(alpha=0.2, p=3.0)
+    Block(alpha=0.2, p=3.0)
+    """
+
+    alpha: float
+    p: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "alpha", float(self.alpha))
+        object.__setattr__(self, "p", float(self.p))
+        _rocking.block(self.alpha, self.p)
+
+    @classmethod
+    def from_dimensions(
+        cls,
+        *,
+        width_m: float,
+        height_m: float,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> Block:
+        """The rectangular block of this width 2b and height 2h in m.
+
+        >>> block = Block.from_dimensions(width_m=0.3, height_m=1.5)
+        >>> round(block.alpha, 4), round(block.p, 4)
+        (0.1974, 3.101)
+        """
+        alpha, p = _rocking.block_of_size(width_m, height_m, gravity)
+        return cls(alpha=alpha, p=p)
+
+    def dimensions(
+        self, *, gravity: float = STANDARD_GRAVITY
+    ) -> tuple[float, float]:
+        """Width 2b and height 2h in m of the rectangular block."""
+        return _rocking.block_size(self.alpha, self.p, gravity)
+
+    def _repr_html_(self) -> str:
+        width, height = self.dimensions()
+        return _draw.block(width, height, repr(self))
+
+
+@dataclass(frozen=True, init=False)
+class Pulse:
+    """An analytic pulse of ground acceleration, from t = 0.
+
+    Parameters
+    ----------
+    kind : str
+        "one-sine", "half-sine" or "one-cosine" (`amplitude_g`, `omega` in
+        rad/s), "rectangle" or "triangle" (`amplitude_g`, `duration` in s),
+        "ricker-symmetric" or "ricker-antisymmetric" (`amplitude_g`, `period`
+        in s, `cycles`: 4 unless given), "mavroeidis-papageorgiou"
+        (`velocity_g_s`, the velocity over gravity, `frequency_hz`, `gamma`,
+        `phase_rad`).
+
+    >>> Pulse("one-sine", amplitude_g=0.3, omega=6.0).pga_g
+    0.3
+    """
+
+    kind: str
+    parameters: tuple[tuple[str, float], ...]
+
+    def __init__(self, kind: str, **parameters: float) -> None:
+        if kind.startswith("ricker"):
+            parameters = {"cycles": 4.0, **parameters}
+        numbers = {key: float(x) for key, x in parameters.items()}
+        _rocking.pulse(kind, numbers)
+        object.__setattr__(self, "kind", kind)
+        object.__setattr__(self, "parameters", tuple(numbers.items()))
+
+    @property
+    def duration(self) -> float:
+        """Duration in s."""
+        return _rocking.pulse(self.kind, dict(self.parameters))[0]
+
+    @property
+    def pga_g(self) -> float:
+        """Peak acceleration in g."""
+        return _rocking.pulse(self.kind, dict(self.parameters))[1]
+
+    def __repr__(self) -> str:
+        numbers = (f"{key}={value!r}" for key, value in self.parameters)
+        return f"Pulse({', '.join([repr(self.kind), *numbers])})"
+
+
+@dataclass(frozen=True, init=False, eq=False)
+class Record(Frozen):
+    """A record of ground acceleration, linear between its samples.
+
+    Parameters
+    ----------
+    acc : array_like
+        At least two samples.
+    dt : float
+        Sampling interval in s.
+    units : str
+        Unit of the samples: "g", "m/s2" or "cm/s2". There is no default.
+    name : str
+        Name by which results refer to the record.
+    gravity : float
+        Gravity in m/s2 by which samples of the latter two are divided.
+    attributes : mapping of str to str
+        What else is known: magnitude, distance, file, ...
+
+    >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+    >>> lobe.pga_g, lobe.duration
+    (0.2, 0.5)
+    """
+
+    name: str
+    dt: float
+    acc_g: Floats = field(repr=False)
+    attributes: Mapping[str, str] = field(repr=False)
+
+    def __init__(
+        self,
+        acc: ArrayLike,
+        dt: float,
+        *,
+        units: str,
+        name: str = "",
+        gravity: float = STANDARD_GRAVITY,
+        attributes: Mapping[str, str] | None = None,
+    ) -> None:
+        samples = floats(acc, "samples")
+        acc_g = _rocking.samples(samples, dt, units, gravity)
+        self._set(name, acc_g, float(dt), dict(attributes or {}))
+
+    def _set(
+        self, name: str, acc_g: Floats, dt: float, attributes: dict[str, str]
+    ) -> None:
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "dt", dt)
+        object.__setattr__(self, "acc_g", frozen(acc_g))
+        object.__setattr__(self, "attributes", MappingProxyType(attributes))
+
+    @classmethod
+    def _read(
+        cls, name: str, acc_g: Floats, dt: float, known: dict[str, str]
+    ) -> Record:
+        """A record whose samples the core has read, in g."""
+        record = cls.__new__(cls)
+        record._set(name, acc_g, dt, known)
+        return record
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        known = dict(self.attributes)
+        return _unpickled, (self.name, self.acc_g, self.dt, known)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Record):
+            return NotImplemented
+        return (
+            self.name == other.name
+            and self.dt == other.dt
+            and np.array_equal(self.acc_g, other.acc_g)
+            and self.attributes == other.attributes
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.name, self.dt, self.acc_g.tobytes()))
+
+    @classmethod
+    def of(
+        cls,
+        trace: Any,
+        *,
+        units: str,
+        name: str | None = None,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> Record:
+        """The record in another package's object.
+
+        `trace` is an ObsPy `Trace` (`.data`, `.stats.delta`), an eqsig
+        `AccSignal` (`.values`, `.dt`), or a pandas `Series` whose index is
+        regular: numbers in s, or time steps. None of them says its unit, so
+        `units` must.
+
+        >>> import pandas
+        >>> series = pandas.Series([0.0, 1.0, 0.0], index=[0.0, 0.1, 0.2])
+        >>> Record.of(series, units="m/s2", name="lobe").dt
+        0.1
+        """
+        known = getattr(trace, "name", None)
+        if hasattr(trace, "stats") and hasattr(trace, "data"):
+            known = getattr(trace, "id", known)
+            acc, dt = trace.data, float(trace.stats.delta)
+        elif (
+            hasattr(trace, "values")
+            and hasattr(trace, "dt")
+            and not hasattr(trace, "index")
+        ):
+            known = getattr(trace, "label", known)
+            acc, dt = trace.values, float(trace.dt)
+        elif hasattr(trace, "index") and hasattr(trace, "to_numpy"):
+            acc, dt = trace.to_numpy(), _interval(trace.index)
+        else:
+            raise TypeError(
+                f"{type(trace).__name__}: expected an ObsPy Trace, an eqsig "
+                "AccSignal or a pandas Series; arrays go to Record"
+            )
+        chosen = name if name is not None else str(known or "")
+        return cls(acc, dt, units=units, name=chosen, gravity=gravity)
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last sample in s."""
+        return (len(self.acc_g) - 1) * self.dt
+
+    @property
+    def pga_g(self) -> float:
+        """Largest absolute sample in g."""
+        return float(np.abs(self.acc_g).max())
+
+    @property
+    def t(self) -> Floats:
+        """Times of the samples in s."""
+        return np.arange(len(self.acc_g), dtype=np.float64) * self.dt
+
+    def _repr_html_(self) -> str:
+        words = (
+            f"{self.name}: {len(self.acc_g)} samples, PGA {self.pga_g:.3f} g"
+        )
+        return _draw.lines([(self.t, self.acc_g)], "t, s", "a/g", words)
+
+
+def _unpickled(
+    name: str, acc_g: Floats, dt: float, known: dict[str, str]
+) -> Record:
+    return Record._read(name, acc_g, dt, known)
+
+
+def _interval(index: Any) -> float:
+    """Interval in s of a regular index."""
+    times = np.asarray(index)
+    if times.dtype.kind in "mM":
+        steps = times - times[0]
+        times = steps / np.timedelta64(1, "ns") * 1e-9
+    elif times.dtype.kind not in "fiu":
+        raise ValueError(
+            f"index of {times.dtype}: expected times in s, or time steps"
+        )
+    if len(times) < 2:
+        raise ValueError(f"index of {len(times)}: expected at least 2 times")
+    dt = float(times[-1] - times[0]) / (len(times) - 1)
+    apart = np.abs(np.diff(times) - dt)
+    if not bool(np.all(apart <= 1e-6 * abs(dt))):
+        row = int(np.argmax(~(apart <= 1e-6 * abs(dt)))) + 1
+        raise ValueError(
+            f"index: step {row} differs from the mean step of {dt} s: "
+            "expected a regular index"
+        )
+    # The shortest decimal that gives these times.
+    for digits in range(1, 17):
+        short = float(f"{dt:.{digits}g}")
+        if abs(short - dt) <= 1e-12 * abs(dt):
+            return short
+    return dt
+
+
+@dataclass(frozen=True)
+class Suite(Sequence[Record]):
+    """Records read together: a sequence of `Record`.
+
+    `records` may be any records; `name` is for messages.
+    """
+
+    name: str
+    records: tuple[Record, ...] = field(repr=False)
+
+    def __len__(self) -> int:
+        return len(self.records)
+
+    @overload
+    def __getitem__(self, index: int) -> Record: ...
+    @overload
+    def __getitem__(self, index: slice) -> Suite: ...
+    def __getitem__(self, index: int | slice) -> Record | Suite:
+        if isinstance(index, slice):
+            return Suite(self.name, self.records[index])
+        return self.records[index]
+
+    def __iter__(self) -> Iterator[Record]:
+        return iter(self.records)
+
+    def to_pandas(self) -> Any:
+        """One row a record, with its attributes, as a `pandas.DataFrame`."""
+        import pandas
+
+        rows = [
+            {
+                "record": record.name,
+                "dt": record.dt,
+                "samples": len(record.acc_g),
+                "pga_g": record.pga_g,
+                **record.attributes,
+            }
+            for record in self.records
+        ]
+        return pandas.DataFrame(rows)
+
+    def _repr_html_(self) -> str:
+        return _draw.caption(f"suite {self.name}: {len(self)} records")
+
+
+def read_record(
+    path: str | os.PathLike[str],
+    *,
+    dt: float | None = None,
+    units: str | None = None,
+    gravity: float = STANDARD_GRAVITY,
+) -> Record:
+    """Reads one record file; its format is told by its content.
+
+    PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC.
+    `dt` (s) and `units` ("g", "m/s2", "cm/s2") are needed where the file
+    states none, and refused where they contradict it.
+
+    Raises
+    ------
+    FileNotFoundError
+        There is no such file.
+    ValueError
+        The file is cut, miscounted, or of an unknown format or unit.
+    """
+    return Record._read(*_rocking.read_record(path, dt, units, gravity))
+
+
+def read_suite(
+    path: str | os.PathLike[str],
+    *,
+    dt: float | None = None,
+    units: str | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    component: str = "study",
+) -> Suite:
+    """Reads a folder of record files, or an index (CSV, one row a file).
+
+    Of each pair the component that the study uses, or with
+    `component="both"` both. Columns of the index are the records'
+    `attributes`.
+
+    Raises
+    ------
+    FileNotFoundError, ValueError
+        As `read_record`; with file and line.
+    """
+    if component not in ("study", "both"):
+        raise ValueError(
+            f"component {component!r}: expected one of study, both"
+        )
+    both = component == "both"
+    name, records = _rocking.read_suite(path, dt, units, gravity, both)
+    return Suite(name, tuple(Record._read(*record) for record in records))
+
+
+def given(excitation: Record | Pulse) -> Given:
+    """What the native half takes."""
+    if isinstance(excitation, Record):
+        return excitation.name, excitation.acc_g, excitation.dt, {}
+    if isinstance(excitation, Pulse):
+        return excitation.kind, None, 0.0, dict(excitation.parameters)
+    raise TypeError(
+        f"{type(excitation).__name__}: expected a Record or a Pulse; "
+        "Record.of(trace, units=...) takes traces of other packages"
+    )

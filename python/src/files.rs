@@ -1,0 +1,106 @@
+//! Records and suites from files.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::PyFileNotFoundError;
+use pyo3::prelude::*;
+use rocking::record::{self, Accelerogram, ReadOptions, Suite, SuiteOptions};
+use sha2::{Digest, Sha256};
+
+use crate::given::{refuse, unit};
+
+/// Name, samples in g, interval in s, and what the file says of itself.
+type Read<'py> =
+    (String, Bound<'py, PyArray1<f64>>, f64, BTreeMap<String, String>);
+
+fn options(
+    dt: Option<f64>,
+    units: Option<&str>,
+    gravity: f64,
+) -> PyResult<ReadOptions> {
+    let unit = units.map(unit).transpose()?;
+    Ok(ReadOptions { dt_s: dt, unit, gravity_m_s2: gravity })
+}
+
+/// A missing path is `FileNotFoundError`, everything else `ValueError`.
+fn refuse_at(path: &Path, error: impl std::fmt::Display) -> PyErr {
+    if path.exists() {
+        refuse(error)
+    } else {
+        PyFileNotFoundError::new_err(error.to_string())
+    }
+}
+
+fn to_python<'py>(
+    py: Python<'py>,
+    record: &Accelerogram,
+    attributes: BTreeMap<String, String>,
+) -> Read<'py> {
+    let samples = record.samples_g().to_vec().into_pyarray(py);
+    (record.name().to_owned(), samples, record.dt_s(), attributes)
+}
+
+/// One record.
+#[pyfunction]
+pub fn read_record<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    dt: Option<f64>,
+    units: Option<&str>,
+    gravity: f64,
+) -> PyResult<Read<'py>> {
+    let options = options(dt, units, gravity)?;
+    let read = py
+        .detach(|| record::read_file(&path, &options))
+        .map_err(|e| refuse_at(&path, e))?;
+    let mut attributes = BTreeMap::from([
+        ("file".to_owned(), path.display().to_string()),
+        ("format".to_owned(), read.format.to_string()),
+        ("units".to_owned(), read.unit.to_string()),
+    ]);
+    attributes.extend(read.channel.map(|text| ("channel".to_owned(), text)));
+    attributes.extend(read.site.map(|text| ("site".to_owned(), text)));
+    Ok(to_python(py, &read.accelerogram, attributes))
+}
+
+/// The name and the records of a suite; of pairs the study component alone,
+/// unless `both`.
+#[pyfunction]
+pub fn read_suite<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    dt: Option<f64>,
+    units: Option<&str>,
+    gravity: f64,
+    both: bool,
+) -> PyResult<(String, Vec<Read<'py>>)> {
+    let options = SuiteOptions {
+        read: options(dt, units, gravity)?,
+        sha256_hex: Some(sha256_hex),
+    };
+    let suite = py
+        .detach(|| Suite::read(&path, &options))
+        .map_err(|e| refuse_at(&path, e))?;
+    let members = suite.members().iter();
+    let records =
+        members.filter(|m| both || m.study_component).map(|member| {
+            let mut attributes = member.attributes.clone();
+            attributes.insert("file".to_owned(), member.file.clone());
+            attributes.insert("format".to_owned(), member.format.to_string());
+            attributes.insert("units".to_owned(), member.unit.to_string());
+            let named = [("site", &member.site), ("pair", &member.pair)];
+            for (key, text) in named {
+                attributes
+                    .extend(text.clone().map(|text| (key.to_owned(), text)));
+            }
+            to_python(py, &member.accelerogram, attributes)
+        });
+    Ok((suite.name().to_owned(), records.collect()))
+}
+
+fn sha256_hex(bytes: &[u8]) -> String {
+    let sum = Sha256::digest(bytes);
+    sum.iter().map(|byte| format!("{byte:02x}")).collect()
+}

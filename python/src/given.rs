@@ -1,0 +1,253 @@
+//! What Python gives: blocks, models, records and pulses, checked by the
+//! core.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{Pulse, PulseKind};
+use rocking::integrator::{self, Model, Overturning};
+use rocking::record::Accelerogram;
+use rocking::units::AccelerationUnit;
+
+/// The core's error as a `ValueError` with the core's text.
+pub fn refuse(error: impl Display) -> PyErr {
+    PyValueError::new_err(error.to_string())
+}
+
+/// Refuses a word that is none of the choices.
+pub fn choose<T: Copy>(
+    what: &str,
+    found: &str,
+    choices: &[(&str, T)],
+) -> PyResult<T> {
+    let choice = choices.iter().find(|(name, _)| *name == found);
+    choice.map(|(_, value)| *value).ok_or_else(|| {
+        let names: Vec<_> = choices.iter().map(|(name, _)| *name).collect();
+        let names = names.join(", ");
+        refuse(format!("{what} {found:?}: expected one of {names}"))
+    })
+}
+
+/// The unit in which samples are given.
+pub fn unit(text: &str) -> PyResult<AccelerationUnit> {
+    AccelerationUnit::parse(text).ok_or_else(|| {
+        refuse(format!("units {text:?}: expected g, m/s2 or cm/s2"))
+    })
+}
+
+/// Equation of motion, overturning criterion and restitution, as Python
+/// names them; no `eta` is Housner's.
+#[derive(FromPyObject)]
+pub struct Physics {
+    #[pyo3(item)]
+    eta: Option<f64>,
+    #[pyo3(item)]
+    model: String,
+    #[pyo3(item)]
+    overturn: String,
+}
+
+impl Physics {
+    pub fn model(&self) -> PyResult<Model> {
+        let models = [
+            ("nonlinear", Model::Nonlinear),
+            ("linearized", Model::Linearized),
+        ];
+        choose("model", &self.model, &models)
+    }
+
+    pub fn overturning(&self) -> PyResult<Overturning> {
+        let criteria =
+            [("alpha", Overturning::Alpha), ("half-pi", Overturning::HalfPi)];
+        choose("overturn", &self.overturn, &criteria)
+    }
+
+    pub fn restitution(&self, block: &Block) -> PyResult<Restitution> {
+        match self.eta {
+            Some(eta) => Restitution::constant(eta),
+            None => Restitution::housner(block),
+        }
+        .map_err(refuse)
+    }
+}
+
+/// A block by (alpha, p).
+pub fn block_of((alpha, p): (f64, f64)) -> PyResult<Block> {
+    Block::try_new(alpha, p).map_err(refuse)
+}
+
+/// An excitation as Python hands it over: name, samples in g with their
+/// interval, and a pulse's parameters where there are no samples.
+pub type Given<'py> =
+    (String, Option<PyReadonlyArray1<'py, f64>>, f64, BTreeMap<String, f64>);
+
+/// An excitation, checked.
+pub enum Ground {
+    Record(Accelerogram),
+    Pulse(Pulse),
+}
+
+impl Ground {
+    pub fn of((name, samples, dt, numbers): Given<'_>) -> PyResult<Self> {
+        match samples {
+            None => Ok(Self::Pulse(pulse_of(&name, &numbers)?)),
+            Some(samples) => {
+                // Copies of many records take a while.
+                samples.py().check_signals()?;
+                let samples = samples.as_slice()?.to_vec();
+                let record = Accelerogram::try_new(name, dt, samples)
+                    .map_err(refuse)?;
+                Ok(Self::Record(record))
+            }
+        }
+    }
+
+    pub fn all(given: Vec<Given<'_>>) -> PyResult<Vec<Self>> {
+        given.into_iter().map(Self::of).collect()
+    }
+}
+
+/// The records of given excitations that must be some.
+pub fn records_of(given: Vec<Given<'_>>) -> PyResult<Vec<Accelerogram>> {
+    given.into_iter().map(record_of).collect()
+}
+
+/// The record of a given excitation that must be one.
+pub fn record_of(given: Given<'_>) -> PyResult<Accelerogram> {
+    match Ground::of(given)? {
+        Ground::Record(record) => Ok(record),
+        Ground::Pulse(_) => Err(refuse("a pulse: expected a record")),
+    }
+}
+
+/// A pulse by its kind's name and its numbers.
+pub fn pulse_of(
+    name: &str,
+    numbers: &BTreeMap<String, f64>,
+) -> PyResult<Pulse> {
+    let mut left = numbers.clone();
+    let mut need = |key: &str| {
+        left.remove(key)
+            .ok_or_else(|| refuse(format!("pulse {name:?} needs {key}")))
+    };
+    let kind = match name {
+        "one-sine" => PulseKind::OneSine {
+            amplitude: need("amplitude_g")?,
+            omega_rad_s: need("omega")?,
+        },
+        "half-sine" => PulseKind::HalfSine {
+            amplitude: need("amplitude_g")?,
+            omega_rad_s: need("omega")?,
+        },
+        "one-cosine" => PulseKind::OneCosine {
+            amplitude: need("amplitude_g")?,
+            omega_rad_s: need("omega")?,
+        },
+        "rectangle" => PulseKind::Rectangle {
+            amplitude: need("amplitude_g")?,
+            duration_s: need("duration")?,
+        },
+        "triangle" => PulseKind::Triangle {
+            amplitude: need("amplitude_g")?,
+            duration_s: need("duration")?,
+        },
+        "ricker-symmetric" => PulseKind::RickerSymmetric {
+            amplitude: need("amplitude_g")?,
+            period_s: need("period")?,
+            cycles: need("cycles")?,
+        },
+        "ricker-antisymmetric" => PulseKind::RickerAntisymmetric {
+            amplitude: need("amplitude_g")?,
+            period_s: need("period")?,
+            cycles: need("cycles")?,
+        },
+        "mavroeidis-papageorgiou" => PulseKind::MavroeidisPapageorgiou {
+            velocity: need("velocity_g_s")?,
+            frequency_hz: need("frequency_hz")?,
+            gamma: need("gamma")?,
+            phase_rad: need("phase_rad")?,
+        },
+        _ => {
+            return Err(refuse(format!(
+                "pulse {name:?}: expected one of one-sine, half-sine, \
+                 one-cosine, rectangle, triangle, ricker-symmetric, \
+                 ricker-antisymmetric, mavroeidis-papageorgiou"
+            )));
+        }
+    };
+    if let Some(key) = left.keys().next() {
+        return Err(refuse(format!("pulse {name:?} has no use for {key}")));
+    }
+    Pulse::try_new(kind).map_err(refuse)
+}
+
+/// Checks the parameters of a block.
+#[pyfunction]
+pub fn block(alpha: f64, p: f64) -> PyResult<()> {
+    block_of((alpha, p)).map(|_| ())
+}
+
+/// (alpha, p) of a block of this size.
+#[pyfunction]
+pub fn block_of_size(
+    width_m: f64,
+    height_m: f64,
+    gravity: f64,
+) -> PyResult<(f64, f64)> {
+    let block =
+        Block::from_dimensions(width_m, height_m, gravity).map_err(refuse)?;
+    Ok((block.slenderness_rad(), block.frequency_rad_s()))
+}
+
+/// Width and height of a block in m.
+#[pyfunction]
+pub fn block_size(alpha: f64, p: f64, gravity: f64) -> PyResult<(f64, f64)> {
+    let size = block_of((alpha, p))?.dimensions(gravity).map_err(refuse)?;
+    Ok((size.width_m, size.height_m))
+}
+
+/// PGA in g above which a block lifts off.
+#[pyfunction]
+pub fn uplift_threshold(
+    alpha: f64,
+    p: f64,
+    physics: Physics,
+) -> PyResult<f64> {
+    let block = block_of((alpha, p))?;
+    Ok(integrator::uplift_threshold(&block, physics.model()?))
+}
+
+/// Samples in multiples of gravity, checked.
+#[pyfunction]
+pub fn samples<'py>(
+    py: Python<'py>,
+    acc: PyReadonlyArray1<'py, f64>,
+    dt: f64,
+    units: &str,
+    gravity: f64,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    if !(gravity > 0.0 && gravity.is_finite()) {
+        let text =
+            format!("gravity {gravity} m/s2: expected a positive number");
+        return Err(refuse(text));
+    }
+    let per_gravity = unit(units)?.per_gravity(gravity);
+    let samples: Vec<f64> =
+        acc.as_slice()?.iter().map(|a| a / per_gravity).collect();
+    let record = Accelerogram::try_new("", dt, samples).map_err(refuse)?;
+    Ok(record.samples_g().to_vec().into_pyarray(py))
+}
+
+/// Duration in s, PGA in g and PGV/g in s of a pulse.
+#[pyfunction]
+pub fn pulse(
+    kind: &str,
+    numbers: BTreeMap<String, f64>,
+) -> PyResult<(f64, f64, f64)> {
+    let pulse = pulse_of(kind, &numbers)?;
+    Ok((pulse.duration_s(), pulse.pga_g(), pulse.pgv_g_s()))
+}

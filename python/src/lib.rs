@@ -1,0 +1,47 @@
+//! The native half of the Python package `rocking`.
+//!
+//! Functions on numbers and numpy arrays; `python/rocking` makes the objects
+//! that people see of them. Errors carry the core's text.
+
+mod files;
+mod given;
+mod ida;
+mod measures;
+mod mechanics;
+mod statistics;
+mod work;
+
+use pyo3::prelude::*;
+
+/// Native functions of the package `rocking`; its public names are in
+/// `rocking` itself.
+#[pymodule(gil_used = false)]
+fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    m.add("STANDARD_GRAVITY", rocking::units::STANDARD_GRAVITY_M_S2)?;
+    m.add_function(wrap_pyfunction!(given::block, m)?)?;
+    m.add_function(wrap_pyfunction!(given::block_of_size, m)?)?;
+    m.add_function(wrap_pyfunction!(given::block_size, m)?)?;
+    m.add_function(wrap_pyfunction!(given::uplift_threshold, m)?)?;
+    m.add_function(wrap_pyfunction!(given::samples, m)?)?;
+    m.add_function(wrap_pyfunction!(given::pulse, m)?)?;
+    m.add_function(wrap_pyfunction!(files::read_record, m)?)?;
+    m.add_function(wrap_pyfunction!(files::read_suite, m)?)?;
+    m.add_function(wrap_pyfunction!(mechanics::respond, m)?)?;
+    m.add_function(wrap_pyfunction!(mechanics::peak, m)?)?;
+    m.add_function(wrap_pyfunction!(ida::ida, m)?)?;
+    m.add_function(wrap_pyfunction!(ida::capacities, m)?)?;
+    m.add_function(wrap_pyfunction!(ida::demands, m)?)?;
+    m.add_function(wrap_pyfunction!(measures::intensity_measures, m)?)?;
+    m.add_function(wrap_pyfunction!(measures::rotd50, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::fit_fragility, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::interval, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::cdf, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::ppf, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::lilliefors, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::quantile, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::boxplot, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::paired, m)?)?;
+    m.add_function(wrap_pyfunction!(statistics::slope, m)?)?;
+    Ok(())
+}

@@ -1,0 +1,269 @@
+//! Single responses, and peaks of many.
+
+use numpy::ndarray::{Array2, Array3};
+use numpy::{PyArray2, PyArray3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{NormalisedRecord, Pulse, ScaledRecord};
+use rocking::integrator::{
+    Assessment, Observe, Outcome, Solver, WorkLimit, certify, uplift_threshold,
+};
+use rocking::record::Accelerogram;
+use rocking::{Excitation, Response, Scene, integrator};
+
+use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
+use crate::work;
+
+/// What is scaled to a level.
+#[derive(Clone, Copy, PartialEq)]
+enum By {
+    /// PGA/(g tan alpha).
+    Im,
+    /// PGA in g.
+    PgaG,
+    /// A factor.
+    Scale,
+}
+
+const BY: [(&str, By); 3] =
+    [("im", By::Im), ("pga_g", By::PgaG), ("scale", By::Scale)];
+
+/// An excitation, a record also divided by its peak.
+enum Motion<'a> {
+    Record(&'a Accelerogram, NormalisedRecord),
+    Pulse(&'a Pulse),
+}
+
+impl<'a> Motion<'a> {
+    fn of(ground: &'a Ground) -> Self {
+        match ground {
+            Ground::Record(record) => {
+                Self::Record(record, NormalisedRecord::new(record))
+            }
+            Ground::Pulse(pulse) => Self::Pulse(pulse),
+        }
+    }
+}
+
+/// An excitation at a level.
+enum Scaled<'a> {
+    Record(ScaledRecord<'a>),
+    Pulse(Pulse),
+}
+
+impl<'a> Scaled<'a> {
+    fn of(
+        motion: &'a Motion<'_>,
+        by: By,
+        level: f64,
+        threshold: f64,
+    ) -> Result<Self, String> {
+        let is_fit = match by {
+            By::Scale => level.is_finite(),
+            By::Im | By::PgaG => level > 0.0 && level.is_finite(),
+        };
+        if !is_fit {
+            return Err(match by {
+                By::Scale => format!("scale {level}: expected a number"),
+                By::Im => format!("im {level}: expected a positive number"),
+                By::PgaG => {
+                    format!("pga_g {level}: expected a positive number")
+                }
+            });
+        }
+        let pga_g = if by == By::Im { level * threshold } else { level };
+        Ok(match motion {
+            Motion::Record(record, _) if by == By::Scale => {
+                Self::Record(ScaledRecord::by_factor(record, level))
+            }
+            Motion::Record(_, unit) => {
+                if !(unit.pga_g() > 0.0) {
+                    let name = unit.name();
+                    return Err(format!(
+                        "record {name}: all samples are zero and cannot be \
+                         scaled"
+                    ));
+                }
+                Self::Record(ScaledRecord::to_pga(unit, pga_g))
+            }
+            Motion::Pulse(pulse) => {
+                let scaled = match by {
+                    By::Scale => pulse.scaled(level),
+                    By::Im | By::PgaG => pulse.with_pga(pga_g),
+                };
+                Self::Pulse(scaled.map_err(|e| e.to_string())?)
+            }
+        })
+    }
+
+    fn excitation(&self) -> Excitation<'_> {
+        match self {
+            Self::Record(record) => Excitation::Record(*record),
+            Self::Pulse(pulse) => Excitation::Pulse(pulse),
+        }
+    }
+}
+
+fn outcome_name<N>(outcome: &Outcome<N>) -> &'static str {
+    match outcome {
+        Outcome::NoUplift => "no-uplift",
+        Outcome::Rocked { .. } => "rocked",
+        Outcome::Overturned { .. } => "overturned",
+    }
+}
+
+/// The response of one block, as a dict of the fields of `Response`.
+#[pyfunction]
+pub fn respond<'py>(
+    py: Python<'py>,
+    block: (f64, f64),
+    excitation: Given<'py>,
+    physics: Physics,
+    by: &str,
+    level: f64,
+    history_dt: Option<f64>,
+    certified: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let block = block_of(block)?;
+    let model = physics.model()?;
+    let ground = Ground::of(excitation)?;
+    let threshold = uplift_threshold(&block, model);
+    let by = choose("by", by, &BY)?;
+    let motion = Motion::of(&ground);
+    let scaled = Scaled::of(&motion, by, level, threshold).map_err(refuse)?;
+    let scene = Scene {
+        model,
+        overturning: physics.overturning()?,
+        ..Scene::new(block, physics.restitution(&block)?, scaled.excitation())
+    };
+    let observe = Observe {
+        events: true,
+        accuracy: true,
+        history_interval_s: history_dt,
+        ..Observe::default()
+    };
+    let (response, fate) = py
+        .detach(|| {
+            let response = integrator::respond(&scene, &observe)?;
+            let fate = certified
+                .then(|| certify(&scene, WorkLimit::default()))
+                .transpose()?;
+            Ok((response, fate))
+        })
+        .map_err(|e: integrator::SceneError| refuse(e))?;
+    let out = to_python(py, &response)?;
+    if let Some(fate) = fate {
+        out.set_item("outcome", outcome_name(&fate.outcome))?;
+        out.set_item("peak_ratio", fate.outcome.edp())?;
+        out.set_item("resolved", fate.decided)?;
+        out.set_item("fate_margin", fate.margin)?;
+        out.set_item("error_estimate", fate.error)?;
+        out.set_item("certified_by", fate.by.name())?;
+    }
+    Ok(out)
+}
+
+fn to_python<'py>(
+    py: Python<'py>,
+    response: &Response,
+) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    let (time_s, side) = match response.outcome {
+        Outcome::Overturned { time_s, side } => {
+            (Some(time_s), Some(side.sign()))
+        }
+        Outcome::NoUplift | Outcome::Rocked { .. } => (None, None),
+    };
+    out.set_item("outcome", outcome_name(&response.outcome))?;
+    out.set_item("peak_ratio", response.outcome.edp())?;
+    let is_clear = response.assessment() == Assessment::Clear;
+    out.set_item("resolved", is_clear)?;
+    out.set_item("fate_margin", response.fate_margin)?;
+    out.set_item("error_estimate", response.error_estimate)?;
+    out.set_item("peak_time", response.peak_time_s)?;
+    out.set_item("uplift_time", response.uplift_time_s)?;
+    out.set_item("rest_time", response.rest_time_s)?;
+    out.set_item("overturning_time", time_s)?;
+    out.set_item("overturning_side", side)?;
+    let impacts = response.impacts.iter();
+    let impacts = impacts.flat_map(|i| [i.time_s, i.speed_before_rad_s]);
+    out.set_item("impacts", rows(py, impacts.collect(), 2)?)?;
+    let history = response.history.iter();
+    let history =
+        history.flat_map(|h| [h.time_s, h.rotation_rad, h.velocity_rad_s]);
+    out.set_item("history", rows(py, history.collect(), 3)?)?;
+    out.set_item("certified_by", py.None())?;
+    Ok(out)
+}
+
+fn rows(
+    py: Python<'_>,
+    values: Vec<f64>,
+    columns: usize,
+) -> PyResult<Bound<'_, PyArray2<f64>>> {
+    Array2::from_shape_vec((values.len() / columns, columns), values)
+        .map(|table| PyArray2::from_owned_array(py, table))
+        .map_err(refuse)
+}
+
+/// Peaks |theta|/alpha by block, excitation and level; infinite where it
+/// overturned.
+#[pyfunction]
+pub fn peak<'py>(
+    py: Python<'py>,
+    blocks: Vec<(f64, f64)>,
+    excitations: Vec<Given<'py>>,
+    levels: Vec<f64>,
+    by: &str,
+    physics: Physics,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let model = physics.model()?;
+    let overturning = physics.overturning()?;
+    let by = choose("by", by, &BY)?;
+    let grounds = Ground::all(excitations)?;
+    let blocks: Vec<(Block, Restitution)> = blocks
+        .into_iter()
+        .map(|block| {
+            let block = block_of(block)?;
+            Ok((block, physics.restitution(&block)?))
+        })
+        .collect::<PyResult<_>>()?;
+    let shape = (blocks.len(), grounds.len(), levels.len());
+    let total = shape.0 * shape.1 * shape.2;
+    let solver = Solver { peak_only: true, ..Solver::default() };
+    let observe = Observe { work_limit: WorkLimit::IDA, ..Observe::default() };
+    let one = |motions: &[Motion<'_>], index: usize| {
+        let (block, restitution) = blocks[index / (shape.1 * shape.2)];
+        let motion = &motions[index / shape.2 % shape.1];
+        let threshold = uplift_threshold(&block, model);
+        let level = levels[index % shape.2];
+        let scaled = Scaled::of(motion, by, level, threshold)?;
+        let scene = Scene {
+            model,
+            overturning,
+            ..Scene::new(block, restitution, scaled.excitation())
+        };
+        let response = solver.respond(&scene, &observe);
+        let response = response.map_err(|e| e.to_string())?;
+        Ok(response.outcome.edp())
+    };
+    let peaks = work::run(py, threads, progress, total, |watch| {
+        let motion = |ground| watch.unless_stopped(|| Motion::of(ground));
+        let motions: Option<Vec<_>> = grounds.par_iter().map(motion).collect();
+        let motions = motions.ok_or("stopped")?;
+        let indices = (0..total).into_par_iter();
+        let made = indices.map(|index| match watch.tick() {
+            std::ops::ControlFlow::Continue(()) => one(&motions, index),
+            std::ops::ControlFlow::Break(()) => Err("stopped".to_owned()),
+        });
+        made.collect::<Result<Vec<f64>, String>>()
+    })?
+    .map_err(refuse)?;
+    Array3::from_shape_vec(shape, peaks)
+        .map(|table| PyArray3::from_owned_array(py, table))
+        .map_err(refuse)
+}

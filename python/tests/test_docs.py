@@ -1,0 +1,111 @@
+"""Every example runs, every name is explained, every type holds."""
+
+import doctest
+import importlib
+import inspect
+import os
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rocking as rk
+
+PACKAGE = Path(__file__).resolve().parents[1]
+MODULES = ("", "._inputs", "._analyses", "._statistics", "._measures")
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_examples_of_the_docs_run(name: str) -> None:
+    module = importlib.import_module(f"rocking{name}")
+    found = doctest.testmod(module)
+    assert found.attempted > 0 and found.failed == 0
+
+
+def run_python(folder: Path, *arguments: object) -> str:
+    words = [sys.executable, *(str(word) for word in arguments)]
+    environment = {**os.environ, "MPLBACKEND": "agg"}
+    done = subprocess.run(
+        words, cwd=folder, env=environment, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.parametrize("readme", ["README.md", "../README.md"])
+def test_the_python_of_the_readme_runs(
+    readme: str, suites: Path, tmp_path: Path
+) -> None:
+    text = (PACKAGE / readme).read_text()
+    blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    assert blocks
+    (tmp_path / "suites").symlink_to(suites)
+    for number, code in enumerate(blocks):
+        script = tmp_path / f"block-{number}.py"
+        script.write_text(code)
+        run_python(tmp_path, script)
+
+
+def test_the_examples_run_and_draw(suites: Path, tmp_path: Path) -> None:
+    examples = PACKAGE / "examples"
+    said = run_python(tmp_path, examples / "one_block.py")
+    assert said.count("peak |theta|/alpha") == 3
+    index = suites / "ordinary.csv"
+    said = run_python(tmp_path, examples / "suite_to_fragility.py", index)
+    assert said.startswith("86 records")
+    for name in ("one-block.png", "fragility.png"):
+        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
+
+
+def test_every_public_name_says_what_it_is() -> None:
+    for name in rk.__all__:
+        value = getattr(rk, name)
+        if not callable(value):
+            continue
+        text = inspect.getdoc(value)
+        assert text and not text.startswith(f"{name}("), name
+        if not inspect.isclass(value):
+            continue
+        for key, method in vars(value).items():
+            if not key.startswith("_") and inspect.isfunction(method):
+                assert inspect.getdoc(method), f"{name}.{key}"
+
+
+def test_the_stubs_name_what_the_native_half_has() -> None:
+    native = importlib.import_module("rocking._rocking")
+    stub = (Path(rk.__file__).parent / "_rocking.pyi").read_text()
+    named = set(re.findall(r"^def (\w+)", stub, re.MULTILINE))
+    public = {key for key in vars(native) if not key.startswith("_")}
+    assert named == public - {"STANDARD_GRAVITY"}
+
+
+def test_mypy_finds_nothing_in_strict_mode() -> None:
+    words = [sys.executable, "-m", "mypy", "--cache-dir", os.devnull]
+    done = subprocess.run(
+        [*words, "rocking", "tests"],
+        cwd=PACKAGE,
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout
+
+
+def test_a_notebook_shows_small_drawings(
+    ida: rk.Ida, block: rk.Block, suite: rk.Suite
+) -> None:
+    response = rk.respond(block, suite[0], im=1.5, history_dt=0.01)
+    fit = rk.fit_fragility(ida.capacities(np.inf), shift=1.0)
+    for shown in (ida, block, suite[0], response, fit, suite):
+        page = shown._repr_html_()
+        figure = ET.fromstring(page)
+        assert figure.find("figcaption") is not None
+        drawn = figure.findall(".//{http://www.w3.org/2000/svg}svg")
+        assert len(drawn) == (0 if shown is suite else 1)
+        assert len(page) < 500_000
+    curves = ET.fromstring(ida._repr_html_()).iter(
+        "{http://www.w3.org/2000/svg}polyline"
+    )
+    assert len(list(curves)) == 86

@@ -1,0 +1,67 @@
+"""Objects of other packages, by their shape."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+import rocking as rk
+
+ACC = np.array([0.0, 9.80665, -4.903325, 0.0])
+SAME = rk.Record([0.0, 1.0, -0.5, 0.0], 0.01, units="g", name="one")
+
+
+def test_an_obspy_trace_is_a_record() -> None:
+    stats = SimpleNamespace(delta=0.01)
+    trace = SimpleNamespace(data=ACC, stats=stats, id="one")
+    assert rk.Record.of(trace, units="m/s2") == SAME
+
+
+def test_an_eqsig_signal_is_a_record() -> None:
+    signal = SimpleNamespace(values=ACC, dt=0.01, label="one")
+    assert rk.Record.of(signal, units="m/s2") == SAME
+
+
+def test_a_pandas_series_of_seconds_or_of_time_steps_is_a_record() -> None:
+    seconds = np.arange(4) * 0.01
+    steps = pd.to_timedelta(np.arange(4) * 10, unit="ms")
+    dates = pd.Timestamp("2026-01-01") + steps
+    for index in (seconds, steps, dates):
+        series = pd.Series(ACC, index=index, name="one")
+        assert rk.Record.of(series, units="m/s2") == SAME
+
+
+def test_the_unit_must_be_said() -> None:
+    series = pd.Series(ACC, index=np.arange(4) * 0.01)
+    with pytest.raises(TypeError, match="units"):
+        rk.Record.of(series)  # type: ignore[call-arg]
+
+
+def test_an_irregular_index_is_refused_with_its_step() -> None:
+    series = pd.Series(ACC, index=[0.0, 0.01, 0.02, 0.04])
+    with pytest.raises(ValueError, match="step 1 differs"):
+        rk.Record.of(series, units="g")
+    with pytest.raises(ValueError, match="expected times in s"):
+        rk.Record.of(pd.Series(ACC, index=list("abcd")), units="g")
+
+
+def test_something_else_is_refused() -> None:
+    with pytest.raises(TypeError, match="arrays go to Record"):
+        rk.Record.of(ACC.tolist(), units="g")
+
+
+def test_right_censored_data_are_infinite_values() -> None:
+    # The fields of scipy.stats.CensoredData.
+    data = SimpleNamespace(
+        _uncensored=np.array([1.5, 2.0, 3.0]),
+        _left=np.array([]),
+        _right=np.array([4.0]),
+        _interval=np.empty((0, 2)),
+    )
+    plain = [1.5, 2.0, 3.0, np.inf]
+    quantiles = [0.1, 0.5, 0.9]
+    found = rk.quantile(data, quantiles)
+    assert found.tolist() == rk.quantile(plain, quantiles).tolist()
+    data._left = np.array([1.0])
+    with pytest.raises(ValueError, match="left- or interval-censored"):
+        rk.quantile(data, 0.5)

@@ -1,0 +1,100 @@
+"""What is refused, by which exception, with the core's text."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import rocking as rk
+
+PULSE = rk.Pulse("one-sine", amplitude_g=0.3, omega=6.0)
+BLOCK = rk.Block(alpha=0.2, p=3.0)
+LOBE = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="lobe")
+
+REFUSED: list[tuple[Callable[[], object], str]] = [
+    (lambda: rk.Block(alpha=0.0, p=1.0), "slenderness angle 0 rad: expected"),
+    (lambda: rk.Block(alpha=0.1, p=float("nan")), "frequency parameter NaN"),
+    (
+        lambda: rk.Block.from_dimensions(width_m=-1.0, height_m=1.0),
+        "expected positive lengths",
+    ),
+    (lambda: rk.Record([0.0], 0.1, units="g"), "at least"),
+    (lambda: rk.Record([0.0, 1.0], 0.0, units="g"), "interval"),
+    (lambda: rk.Record([0.0, np.inf], 0.1, units="g"), "finite"),
+    (lambda: rk.Record([[0.0, 1.0]], 0.1, units="g"), "2 dimensions"),
+    (
+        lambda: rk.Record([0.0, 1.0], 0.1, units="furlong"),
+        'units "furlong": expected g, m/s2 or cm/s2',
+    ),
+    (lambda: rk.Pulse("square", amplitude_g=1.0), "expected one of one-sine"),
+    (lambda: rk.Pulse("one-sine", amplitude_g=1.0), "needs omega"),
+    (
+        lambda: rk.Pulse("one-sine", amplitude_g=1.0, omega=1.0, gamma=1.0),
+        "has no use for gamma",
+    ),
+    (lambda: rk.respond(BLOCK, PULSE, eta=1.1), "restitution 1.1"),
+    (lambda: rk.respond(BLOCK, PULSE, im=1.0, scale=1.0), "at most one"),
+    (lambda: rk.respond(BLOCK, PULSE, im=-1.0), "im -1: expected"),
+    (lambda: rk.respond(BLOCK, PULSE, model="both"), "expected one of non"),
+    (lambda: rk.peak(BLOCK, PULSE, levels=[np.nan]), "im NaN: expected"),
+    (lambda: rk.ida(BLOCK, LOBE, step_g=0.0), "expected a positive number"),
+    (lambda: rk.ida(BLOCK, LOBE, step_g=0.1, step_im=0.1), "at most one"),
+    (lambda: rk.ida(BLOCK, LOBE, threads=0), "threads 0"),
+    (lambda: rk.ida(BLOCK, []), "at least one"),
+    (lambda: rk.ida(BLOCK, LOBE).capacities(-1.0), "EDP level -1"),
+    (lambda: rk.ida(BLOCK, LOBE).capacities(1.0, im=[1.0, 2.0]), "one a rec"),
+    (lambda: rk.fit_fragility([0.5, 2.0], shift=1.0), "above the shift"),
+    (lambda: rk.fit_fragility([2.0, np.inf]), "1 of 2 values are infinite"),
+    (
+        lambda: rk.fit_fragility([1.0, 2.0, 3.0], shift="min", n_resamples=9),
+        "bootstrap of the smallest value",
+    ),
+    (lambda: rk.fit_fragility([1.0, 2.0], rng=-1), "rng -1"),
+    (lambda: rk.lilliefors([1.0, 2.0], log=False, shift=1.0), "without log"),
+    (lambda: rk.quantile([1.0], 1.5), "probability 1.5"),
+    (lambda: rk.quantile([], 0.5), "empty sample"),
+    (lambda: rk.paired_ratios([1.0], [1.0, 2.0]), "as many on either side"),
+    (
+        lambda: rk.intensity_measures(LOBE, periods=[-1.0]),
+        "period -1 s: expected a positive number",
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("call", "text"), REFUSED, ids=[t for _, t in REFUSED]
+)
+def test_bad_input_is_a_value_error_with_a_text(
+    call: Callable[[], object], text: str
+) -> None:
+    with pytest.raises(ValueError) as refused:
+        call()
+    assert text in str(refused.value)
+
+
+def test_a_missing_file_is_a_file_not_found_error(tmp_path: Path) -> None:
+    missing = tmp_path / "none.AT2"
+    for read in (rk.read_record, rk.read_suite):
+        with pytest.raises(FileNotFoundError, match="none.AT2"):
+            read(missing)
+
+
+def test_a_file_without_a_unit_needs_one(tmp_path: Path) -> None:
+    file = tmp_path / "column.txt"
+    file.write_text("0.0\n9.80665\n-1.0\n")
+    with pytest.raises(ValueError, match="column.txt"):
+        rk.read_record(file)
+    record = rk.read_record(file, dt=0.1, units="m/s2")
+    assert record.pga_g == 1.0 and record.dt == 0.1
+
+
+def test_a_cut_file_is_refused_with_its_line(tmp_path: Path) -> None:
+    file = tmp_path / "column.txt"
+    file.write_text("0.0\n1.0\nabc\n")
+    with pytest.raises(ValueError, match="column.txt:3"):
+        rk.read_record(file, dt=0.1, units="g")
+
+
+def test_an_array_is_no_excitation() -> None:
+    with pytest.raises(TypeError, match="expected a Record or a Pulse"):
+        rk.respond(BLOCK, np.zeros(3))  # type: ignore[arg-type]

@@ -1,0 +1,141 @@
+"""Long calls: threads, progress, the end by Ctrl-C, pickling."""
+
+import os
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+import rocking as rk
+
+
+def columns(ida: rk.Ida) -> list[bytes]:
+    rows = ida.row_im, ida.row_edp, ida.row_fate_margin, ida.row_outcome
+    return [column.tobytes() for column in rows]
+
+
+def test_the_number_of_threads_changes_no_bit(
+    block: rk.Block, suite: rk.Suite, ida: rk.Ida
+) -> None:
+    for threads in (1, 2, 3):
+        assert columns(rk.ida(block, suite, threads=threads)) == columns(ida)
+
+
+def test_two_python_threads_work_at_once(
+    block: rk.Block, suite: rk.Suite, ida: rk.Ida
+) -> None:
+    found: list[rk.Ida] = []
+
+    def work() -> None:
+        found.append(rk.ida(block, suite, threads=1))
+
+    workers = [threading.Thread(target=work) for _ in range(2)]
+    for worker in workers:
+        worker.start()
+    # The interpreter is free: this loop turns while they work.
+    turns = 0
+    while any(worker.is_alive() for worker in workers):
+        turns += 1
+        time.sleep(0.001)
+    assert turns > 20
+    assert [columns(one) for one in found] == [columns(ida)] * 2
+
+
+def test_progress_is_told_in_the_calling_thread(
+    block: rk.Block, suite: rk.Suite
+) -> None:
+    told: list[tuple[int, int]] = []
+    threads: set[int] = set()
+
+    def progress(done: int, total: int) -> None:
+        told.append((done, total))
+        threads.add(threading.get_ident())
+
+    rk.ida(block, suite, progress=progress)
+    assert told[-1] == (86, 86)
+    assert told == sorted(told)
+    assert threads == {threading.get_ident()}
+
+
+def test_what_progress_raises_ends_the_work(
+    block: rk.Block, suite: rk.Suite
+) -> None:
+    class Enough(Exception):
+        pass
+
+    def progress(done: int, total: int) -> None:
+        raise Enough
+
+    begin = time.monotonic()
+    with pytest.raises(Enough):
+        rk.ida(block, suite, step_g=2e-4, progress=progress)
+    # Progress is told once a curve is done; the whole takes longer.
+    assert time.monotonic() - begin < 30.0
+
+
+@pytest.mark.parametrize("call", ["ida", "ida of long curves", "peak"])
+def test_ctrl_c_ends_the_work_within_a_second(
+    call: str, block: rk.Block, suite: rk.Suite
+) -> None:
+    sent: list[float] = []
+
+    def interrupt() -> None:
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    # A shell that runs this in the background ignores the signal.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    # Each takes half a minute or more.
+    timer = threading.Timer(0.5, interrupt)
+    levels = np.linspace(1.1, 3.0, 2000)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        if call == "ida":
+            rk.ida(block, [*suite] * 50)
+        elif call == "ida of long curves":
+            rk.ida(block, suite, step_g=1e-5)
+        else:
+            rk.peak(block, suite, levels=levels)
+    assert time.monotonic() - sent[0] < 1.0
+
+
+def test_everything_comes_back_from_a_pickle(
+    block: rk.Block, suite: rk.Suite, ida: rk.Ida, packet: rk.Record
+) -> None:
+    pulse = rk.Pulse("one-sine", amplitude_g=0.3, omega=6.0)
+    for same in (block, suite, pulse, packet):
+        assert pickle.loads(pickle.dumps(same)) == same
+    again = pickle.loads(pickle.dumps(ida))
+    assert columns(again) == columns(ida) and again.block == block
+    assert again.capacities(0.5).tolist() == ida.capacities(0.5).tolist()
+    response = rk.respond(block, packet, im=2.0, history_dt=0.01)
+    again = pickle.loads(pickle.dumps(response))
+    assert again.history.tolist() == response.history.tolist()
+    fit = rk.fit_fragility(ida.capacities(0.5), n_resamples=50)
+    again = pickle.loads(pickle.dumps(fit))
+    assert again.confidence_interval() == fit.confidence_interval()
+
+
+def test_results_are_frozen_after_a_pickle_too(
+    packet: rk.Record, ida: rk.Ida
+) -> None:
+    for record in (packet, pickle.loads(pickle.dumps(packet))):
+        with pytest.raises(ValueError, match="read-only"):
+            record.acc_g[0] = 1.0
+        with pytest.raises(AttributeError):
+            record.dt = 1.0  # type: ignore[misc]
+    for one in (ida, pickle.loads(pickle.dumps(ida))):
+        with pytest.raises(ValueError, match="read-only"):
+            one.row_edp[0] = 1.0
+
+
+def test_a_forked_process_works(block: rk.Block, packet: rk.Record) -> None:
+    expected = rk.ida(block, packet).row_edp.tobytes()
+    child = os.fork()
+    if child == 0:
+        found = rk.ida(block, packet).row_edp.tobytes()
+        os._exit(0 if found == expected else 1)
+    _, status = os.waitpid(child, 0)
+    assert status == 0

@@ -21,7 +21,7 @@ pub use claims::{
 
 /// Version of the file's shape. It rises with every change of a field or of
 /// its meaning.
-pub const SCHEMA: u32 = 3;
+pub const SCHEMA: u32 = 4;
 
 /// Everything that a study found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -89,6 +89,7 @@ fn claim(out: &mut Vec<Item>, claim: &Claim) {
         ("measure", &claim.measure),
         ("blocks", &claim.blocks),
         ("quote", &claim.quote),
+        ("plain words", &claim.plain),
         ("reason", &claim.reason),
         ("criterion", &claim.criterion),
         ("case", &claim.case),

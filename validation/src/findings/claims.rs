@@ -23,6 +23,9 @@ pub struct Claim {
     pub section: Section,
     /// The paper's words, a whole sentence with its qualifiers.
     pub quote: String,
+    /// The statement in plain words: what the verdicts speak of; empty
+    /// unless it is a finding.
+    pub plain: String,
     /// What is measured, in words; empty for a description.
     pub measure: String,
     /// Blocks measured.

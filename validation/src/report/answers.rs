@@ -6,7 +6,7 @@ use super::page::AnswerRow;
 use super::quantity::{cell_text, rule_text, value_text};
 use super::timings::Timings;
 use crate::findings::{Claim, Findings, Theme};
-use crate::paper::Verdict;
+use crate::paper::{Arm, Verdict};
 use crate::study::analyses::SuiteResults;
 use crate::study::figures::Results;
 use crate::words::rounded_text;
@@ -19,6 +19,8 @@ type Part = (&'static str, &'static [&'static str]);
 struct Asked {
     question: &'static str,
     parts: &'static [Part],
+    /// What that number is.
+    name: &'static str,
     effect: &'static str,
     figures: &'static [&'static str],
 }
@@ -31,6 +33,7 @@ const ASKED: [Asked; 4] = [
             ("ratios at demands", &["ratios-at-demand"]),
             ("quantiles", &["quantiles-coincide"]),
         ],
+        name: "Bias of the median ratio",
         effect: "ratios-p3-p4",
         figures: &["figure-06", "figure-07", "figure-08"],
     },
@@ -41,6 +44,7 @@ const ASKED: [Asked; 4] = [
             ("ratios", &["adjustment-ratios"]),
             ("quantiles", &["adjustment-quantiles"]),
         ],
+        name: "Bias of the median ratio",
         effect: "adjustment-ratios",
         figures: &["figure-09", "figure-10"],
     },
@@ -52,6 +56,7 @@ const ASKED: [Asked; 4] = [
             ("tests in PGA", &["shift-better-pga"]),
             ("tests in PGV", &["pgv-shifted"]),
         ],
+        name: "Gain in distance to the sample",
         effect: "shift-gains-pga",
         figures: &["figure-12", "figure-14", "figure-15"],
     },
@@ -62,6 +67,7 @@ const ASKED: [Asked; 4] = [
             ("trimmed PGA", &["eq7-trimmed-pga"]),
             ("untrimmed PGA", &["eq7-untrimmed-fails-pga"]),
         ],
+        name: "Distance to the shifted lognormal",
         effect: "eq7-trimmed-pga",
         figures: &["figure-16", "figure-17", "figure-18"],
     },
@@ -150,7 +156,7 @@ fn answered(parts: &[(&str, Count)]) -> String {
 /// The rows of the first table. The first of `recorded` and `here` that
 /// there is leads.
 pub(super) fn rows(
-    results: &Results,
+    embedded: bool,
     here: &Findings,
     recorded: Option<&Findings>,
     timings: &Timings,
@@ -181,7 +187,7 @@ pub(super) fn rows(
             AnswerRow {
                 question: asked.question.into(),
                 answer: answered(&counts(lead)),
-                effect: effect(lead, asked.effect),
+                effect: effect(lead, asked),
                 columns: sources.iter().map(column).collect(),
                 shown: shown.collect(),
             }
@@ -193,7 +199,7 @@ pub(super) fn rows(
         question: "Does the integrator pass every declared case?".into(),
         answer: accuracy(proof),
         effect: timings.error(),
-        columns: same("no suite needed"),
+        columns: same(""),
         shown: match proof {
             Some(_) => to("evidence", "proof"),
             None => Vec::new(),
@@ -204,22 +210,24 @@ pub(super) fn rows(
         question: "Is it faster than other tools at no larger error?".into(),
         answer,
         effect: rate,
-        columns: same("kept timings"),
+        columns: same(""),
         shown: to("speed", "speed"),
     });
     rows.push(AnswerRow {
-        question: "Was everything checked?".into(),
-        answer: "No: see the limits for what was not checked.".into(),
-        effect: not_checked(results),
-        columns: same("both alike"),
+        question: "What was not checked?".into(),
+        answer: "Open: the model against experiments, and what it leaves out."
+            .into(),
+        effect: not_checked(embedded),
+        columns: same(""),
         shown: to("limits", "limits"),
     });
     rows
 }
 
 /// The number of a claim on the suite and arm where it is worst.
-fn effect(findings: &Findings, id: &str) -> String {
-    let Some(claim) = findings.claims.iter().find(|c| c.id == id) else {
+fn effect(findings: &Findings, asked: &Asked) -> String {
+    let own = |c: &&Claim| c.id == asked.effect;
+    let Some(claim) = findings.claims.iter().find(own) else {
         return String::new();
     };
     let Some(region) = claim.region else { return String::new() };
@@ -236,7 +244,12 @@ fn effect(findings: &Findings, id: &str) -> String {
         Some(cell) => cell_text(claim, cell.measured),
         None => value_text(claim, worst),
     };
-    format!("At worst {text}, {}; limit {}", worst.place(), rule_text(claim))
+    format!(
+        "{}: at worst {text}, {}; limit {}",
+        asked.name,
+        worst.suite.name(),
+        rule_text(claim)
+    )
 }
 
 fn accuracy(proof: Option<&Proof>) -> String {
@@ -265,15 +278,12 @@ pub(super) fn work(suite: &SuiteResults) -> String {
     }
     let ends = certainty.ends;
     format!(
-        "{work}. Of {} of them rounding in double precision may have \
-             changed the peak or the fate: their motion is chaotic. {} of \
-             these are first overturnings, on which capacities rest. All of \
-             those were told again: {} by double precision, every decision \
-             being assessed, {} by double-double, {} by octuple precision, \
-             {} by none. Double precision had told {} of them wrongly; with \
-             these and those that none told at the next level that \
-             overturns, the 16, 50 and 84 % overturning intensities would \
-             move by {} at most.",
+        "{work}. In {} of them the motion is chaotic, and rounding in double \
+         precision may have changed the peak or the fate. {} of these are \
+         first overturnings, on which capacities rest. Assessed double \
+         precision settles {}, double-double {}, octuple precision {}, none \
+         {}. {} had been wrong; the 16, 50 and 84 % overturning intensities \
+         would move by {} at most.",
         certainty.unresolved,
         ends.all,
         ends.double,
@@ -282,6 +292,19 @@ pub(super) fn work(suite: &SuiteResults) -> String {
         ends.undecided,
         ends.moved,
         rounded_text(certainty.largest_shift)
+    )
+}
+
+/// How many analyses rounding may have changed, in a sentence.
+pub(super) fn rounding(results: &Results) -> String {
+    let suites = [&results.ordinary, &results.pulse];
+    let all: u64 = suites.iter().map(|s| s.work.analyses).sum();
+    let open = suites.iter().map(|s| s.work.certainty.unresolved);
+    format!(
+        "In {} of {all} analyses rounding may have changed the peak or the \
+         fate. First overturnings among them are told in wider arithmetic \
+         (annex).",
+        open.sum::<usize>()
     )
 }
 
@@ -306,76 +329,95 @@ pub(super) fn trust(
         None => by_chance(findings),
     };
     format!(
-        "Every finding has an interval by resampling of the records, the \
-         same records in all blocks, stripes and measures at once; over \
-         several cells the interval holds for all of them together. A \
-         verdict needs the whole interval on one side of a limit, the \
-         smallest effect of interest, whose engineering reason stands beside \
-         it. An interval of 95 % misses on the deciding side in 2.5 % of the \
-         cases, so that chance alone may have given some verdicts \
-         ({counts}). The results share records, so such misses come \
-         together. Results of the arms A and C and of claims with the same \
-         quotation are not independent evidence."
+        "Chance. An interval of 95 % misses on the deciding side in 2.5 % of \
+         the cases, so that chance alone may have given some verdicts \
+         ({counts}). Results share records, so such misses come together. \
+         The arms A and C, and claims with the same quotation, are not \
+         independent evidence."
     )
 }
 
-pub(super) fn not_checked(results: &Results) -> String {
-    let records = if results.embedded() {
-        "recorded earthquakes in this run (these suites are synthetic), "
-    } else {
-        ""
-    };
+pub(super) fn not_checked(embedded: bool) -> String {
+    let records =
+        if embedded { "recorded earthquakes in this run, " } else { "" };
     format!(
-        "Not checked: the model against experiments, {records}sliding, \
-         bouncing, vertical motion and flexible supports, and other \
-         machines than x86-64 Linux"
+        "Not checked: shaking tables, {records}sliding, bouncing, vertical \
+         motion, flexible supports, other machines than x86-64 Linux"
     )
 }
 
-/// How many results of a theme have which verdict, and what is not
-/// confirmed.
+/// What came out about a theme: the plain words of its findings by verdict,
+/// and where another suite says something else.
 pub(super) fn by_theme(
     theme: Theme,
+    first: Arm,
     here: &Findings,
     recorded: Option<&Findings>,
 ) -> String {
-    let own = match recorded {
-        Some(_) => "the embedded suites",
-        None => "your suites",
+    let lead = recorded.unwrap_or(here);
+    let own = |findings: &Findings| -> Vec<(String, Verdict)> {
+        let claims = findings.claims.iter().filter(|c| c.theme == theme);
+        claims
+            .filter_map(|c| Some((c.plain.clone(), whole(c, first)?)))
+            .collect()
     };
-    let recorded = recorded.map(|found| ("the recorded suites", found));
-    let all = recorded.into_iter().chain([(own, here)]);
-    let parts: Vec<String> = all
-        .map(|(name, found)| format!("On {name} {}.", of_theme(found, theme)))
-        .collect();
-    parts.join(" ")
+    let found = own(lead);
+    let listed = |verdict: Verdict| -> String {
+        let names = found.iter().filter(|(_, v)| *v == verdict);
+        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
+        names.join("; ")
+    };
+    let confirmed = |v: &Verdict| *v == Verdict::Confirmed;
+    let count = found.iter().filter(|(_, v)| confirmed(v)).count();
+    let mut words = format!("{count} of {} claims hold", found.len());
+    let open = Verdict::ALL.into_iter().filter(|v| !confirmed(v));
+    for verdict in open {
+        let names = listed(verdict);
+        if !names.is_empty() {
+            words += &format!(". {}: {names}", capital(verdict.name()));
+        }
+    }
+    if recorded.is_none() {
+        return words + ".";
+    }
+    let others = own(here);
+    let turned = others.iter().filter(|(name, verdict)| {
+        found.iter().any(|(n, v)| n == name && v != verdict)
+    });
+    let other = match turned.count() {
+        0 => "The embedded suites agree".into(),
+        1 => "One verdict differs on the embedded suites".to_owned(),
+        n => format!("{n} verdicts differ on the embedded suites"),
+    };
+    format!("On the recorded suites {words}. {other}.")
 }
 
-fn of_theme(findings: &Findings, theme: Theme) -> String {
-    let claims = || findings.claims.iter().filter(|c| c.theme == theme);
-    let count = |verdict: Verdict| {
-        claims()
-            .flat_map(|c| &c.results)
-            .filter(|r| r.by_equivalence == Some(verdict))
-            .count()
-    };
-    let [confirmed, not, open] = Verdict::ALL.map(count);
-    let mut words = format!(
-        "{confirmed} of {} results are confirmed, {not} not, {open} \
-         inconclusive",
-        confirmed + not + open
-    );
-    let refuted: Vec<&str> = claims()
-        .filter(|c| {
-            let not = Some(Verdict::NotConfirmed);
-            c.results.iter().any(|r| r.by_equivalence == not)
-        })
-        .map(|c| c.id.as_str())
+/// The verdict on a claim over its suites: confirmed where each of them
+/// confirms it, not confirmed where one refutes it.
+fn whole(claim: &Claim, first: Arm) -> Option<Verdict> {
+    let shown = |arm: Option<Arm>| arm.is_none_or(|arm| arm == first);
+    let verdicts: Vec<Verdict> = claim
+        .results
+        .iter()
+        .filter(|r| shown(r.arm))
+        .filter_map(|r| r.by_equivalence)
         .collect();
-    if !refuted.is_empty() {
-        words += &format!("; not confirmed somewhere: {}", refuted.join(", "));
+    let all = |v: &Verdict| *v == Verdict::Confirmed;
+    if verdicts.is_empty() {
+        None
+    } else if verdicts.iter().all(all) {
+        Some(Verdict::Confirmed)
+    } else if verdicts.contains(&Verdict::NotConfirmed) {
+        Some(Verdict::NotConfirmed)
+    } else {
+        Some(Verdict::Inconclusive)
     }
-    words
+}
+
+fn capital(words: &str) -> String {
+    let mut rest = words.chars();
+    let first = rest.next().map(|c| c.to_ascii_uppercase());
+    first.into_iter().chain(rest).collect()
 }
 
 #[cfg(test)]

@@ -115,6 +115,21 @@ pub fn tables(
     Ok(vec![comparison(&compared, shift), assessment(results, proof)])
 }
 
+/// The levels of the assessment, in a sentence.
+#[must_use]
+pub fn levels(assessment: &PlainTable) -> String {
+    let of = |row: &Vec<String>| {
+        let name = row.first()?.to_lowercase();
+        Some(format!("{name} {}", row.get(1)?))
+    };
+    let all: Vec<String> = assessment.rows.iter().filter_map(of).collect();
+    format!(
+        "Credibility after NASA-STD-7009B, from 0 (insufficient evidence) to \
+         4, by the project's own judgement: {}. Reasons stand in the annex.",
+        all.join(", ")
+    )
+}
+
 /// After ASME V&V 20: E = S - D and its uncertainty. `shift` is the largest
 /// relative change that first overturnings told wrongly make.
 fn comparison(compared: &[Compared], shift: f64) -> PlainTable {

@@ -95,8 +95,9 @@ pub fn themes(
         .map(|theme| Shown {
             id: anchor(theme),
             question: theme.question().into(),
-            paragraph: answers::by_theme(theme, here, recorded),
+            paragraph: answers::by_theme(theme, first, here, recorded),
             figures: Vec::new(),
+            more: Vec::new(),
             findings: here
                 .claims
                 .iter()
@@ -149,7 +150,8 @@ fn finding(
     Finding {
         id: claim.id.clone(),
         quote: claim.quote.clone(),
-        source: format!("section {}", claim.section),
+        plain: claim.plain.clone(),
+        source: format!("({})", claim.section),
         criterion: claim.criterion.clone(),
         rule: rule_text(claim),
         columns: sources.iter().map(outcomes).collect(),
@@ -199,7 +201,7 @@ fn outcome(claim: &Claim, result: &ClaimResult, first: Arm) -> Outcome {
         remarks.push(format!("about {needed} records would decide"));
     }
     Outcome {
-        suite: result.suite.name().into(),
+        suite: result.suite,
         place: result.place(),
         value: value_text(claim, result),
         by_criterion: result.by_criterion,

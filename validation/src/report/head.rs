@@ -9,6 +9,9 @@ use crate::suites::inputs::sha256_hex;
 /// The versions of everything that the program is built from.
 const LOCK: &str = include_str!("../../../Cargo.lock");
 
+/// Its headings are the revisions.
+const CHANGELOG: &str = include_str!("../../../CHANGELOG.md");
+
 /// The paper, as far as its text says.
 const PAPER: &str = "C. G. Lachanas, D. Vamvatsikos, E. G. Dimitrakopoulos, \
     \u{201c}Statistical property parameterization of simple rocking block \
@@ -74,6 +77,14 @@ pub fn head(results: &Results) -> Vec<(String, String)> {
     }
     out.push(("Command".into(), command(results)));
     out
+}
+
+/// Headings of the changelog, newest first, with the version of this one.
+#[must_use]
+pub fn revisions() -> String {
+    let headings = CHANGELOG.lines().filter_map(|l| l.strip_prefix("## "));
+    let all: Vec<&str> = headings.collect();
+    format!("{}; this is {}", all.join(", "), env!("CARGO_PKG_VERSION"))
 }
 
 /// The command that makes the page again.

@@ -20,6 +20,18 @@ use crate::table::PlainTable;
 /// Figures beside the answers, by their stems.
 const FIRST: [&str; 2] = ["figure-08", "figure-16"];
 
+/// Figures that open a theme, by their stems; its others are folded.
+const LEADING: [&str; 8] = [
+    "figure-02",
+    "figure-04",
+    "figure-06",
+    "figure-07",
+    "figure-11",
+    "figure-12",
+    "figure-15",
+    "figure-17",
+];
+
 /// What the page shows; `proof` are the results of the declared cases, if
 /// they were handed in.
 ///
@@ -59,15 +71,23 @@ pub fn input(
     let (first, rest): (Vec<_>, Vec<_>) = own
         .into_iter()
         .partition(|f| FIRST.iter().any(|stem| f.name.starts_with(stem)));
-    let rows =
-        answers::rows(results, found, recorded, &timings, proof, &names);
+    let rows = answers::rows(
+        results.embedded(),
+        found,
+        recorded,
+        &timings,
+        proof,
+        &names,
+    );
     let mut themes = findings::themes(found, recorded, &names);
     for figure in rest {
         let theme = findings::theme_of(&figure.name);
         let place = Theme::ALL.into_iter().find(|t| *t == theme);
         let id = place.map(findings::anchor);
         if let Some(one) = themes.iter_mut().find(|t| Some(t.id) == id) {
-            one.figures.push(figure);
+            let leads = LEADING.iter().any(|s| figure.name.starts_with(s));
+            let list = if leads { &mut one.figures } else { &mut one.more };
+            list.push(figure);
         }
     }
     let compared = || questions.iter().filter(|q| q.id == "suites");
@@ -75,7 +95,10 @@ pub fn input(
     let suites = Chapter {
         id: "suites",
         title: "Suites".into(),
-        text: compared().map(|q| q.answer.clone()).chain(work).collect(),
+        text: compared()
+            .map(|q| q.answer.clone())
+            .chain([answers::rounding(results)])
+            .collect(),
         figures: drawn(figures, |f| f.heading.name == "figure-suites"),
         ..Chapter::default()
     };
@@ -111,10 +134,8 @@ pub fn input(
     let mut speed = timings.tables();
     let settings = speed.extract_if(.., |t| t.name == "speed-settings");
     let settings: Vec<PlainTable> = settings.collect();
-    let coverage = proof
-        .map(Proof::coverage_table)
-        .transpose()
-        .map_err(EvidenceError::from)?;
+    let coverage =
+        proof.map(Proof::coverage).transpose().map_err(EvidenceError::from)?;
     Ok(ReportInput {
         title: "The statistics of rocking".into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -126,8 +147,12 @@ pub fn input(
         columns: findings::columns(found, recorded),
         findings: themes,
         identities: findings::identities(found),
-        method: [method::method(), vec![answers::trust(found, recorded)]]
-            .concat(),
+        method: [
+            method::method(),
+            vec![answers::trust(found, recorded)],
+            coverage.iter().map(|c| c.words()).collect(),
+        ]
+        .concat(),
         glossary: method::glossary(),
         proof: format!(
             "{} {}",
@@ -136,7 +161,6 @@ pub fn input(
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
-            tables: coverage.into_iter().collect(),
             figures: charts.iter().map(shown).collect(),
             ..Chapter::default()
         },
@@ -158,10 +182,10 @@ pub fn input(
                 title: "Limits and credibility".into(),
                 text: [
                     limits(results),
-                    vec![answers::not_checked(results) + "."],
+                    vec![answers::not_checked(results.embedded()) + "."],
+                    assessment.iter().map(credibility::levels).collect(),
                 ]
                 .concat(),
-                tables: assessment,
                 ..Chapter::default()
             },
             Chapter {
@@ -175,11 +199,18 @@ pub fn input(
             Chapter {
                 id: "blocks",
                 title: "The blocks, and the digits of three precisions".into(),
+                text: work.into(),
                 tables: [
                     vec![table_1()?],
                     proof.map(Proof::digits_table).into_iter().collect(),
                 ]
                 .concat(),
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "inference",
+                title: "Coverage of the intervals".into(),
+                tables: coverage.iter().map(|c| c.table()).collect(),
                 ..Chapter::default()
             },
             Chapter {
@@ -190,6 +221,12 @@ pub fn input(
             },
             beyond,
             by_block,
+            Chapter {
+                id: "credibility",
+                title: "Credibility".into(),
+                tables: assessment,
+                ..Chapter::default()
+            },
             Chapter {
                 id: "comparison",
                 title: "Comparison with printed numbers".into(),
@@ -294,7 +331,7 @@ fn shown(figure: &Figure) -> ShownFigure {
 fn provenance(results: &Results) -> Vec<(String, String)> {
     let setup = results.plan.setup;
     let mut out = vec![
-        ("Version".into(), env!("CARGO_PKG_VERSION").into()),
+        ("Revisions".into(), head::revisions()),
         (
             "Restitution".into(),
             format!("{}", setup.restitution.velocity_ratio()),
@@ -311,18 +348,16 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
             format!("{} in dimensionless intensity", setup.tolerance),
         ),
     ];
-    for arm in &results.plan.arms {
-        out.push(("Arm of the grid".into(), arm.words().into()));
-    }
+    let arms = results.plan.arms.iter();
+    let arms: Vec<&str> = arms.map(|arm| arm.words()).collect();
+    out.push(("Arms of the grid".into(), arms.join("; ")));
     for suite in [&results.ordinary, &results.pulse] {
         out.push((
             format!("Suite, {}", suite.kind),
             format!(
-                "{}, {} records, component: {}, sha256 {}",
-                suite.source,
+                "{} records, component: {}",
                 suite.records.len(),
-                suite.component_rule,
-                suite.sha256
+                suite.component_rule
             ),
         ));
         if let Some(remarks) = &suite.remarks {

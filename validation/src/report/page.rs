@@ -11,6 +11,7 @@ mod table;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use crate::draw::colour;
+use crate::findings::Tested;
 use crate::paper::Verdict;
 use crate::table::PlainTable;
 
@@ -107,6 +108,8 @@ pub struct Theme {
     pub paragraph: String,
     /// Its figures.
     pub figures: Vec<ShownFigure>,
+    /// Further figures, folded on a screen.
+    pub more: Vec<ShownFigure>,
     /// Claims about it.
     pub findings: Vec<Finding>,
 }
@@ -118,6 +121,8 @@ pub struct Finding {
     pub id: String,
     /// The claim, as quoted.
     pub quote: String,
+    /// The claim in plain words.
+    pub plain: String,
     /// Where the claim stands: `section 4, Figure 6`.
     pub source: String,
     /// The paper's own criterion, where it states one.
@@ -138,7 +143,7 @@ pub struct Finding {
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// The suite.
-    pub suite: String,
+    pub suite: Tested,
     /// Suite and arm.
     pub place: String,
     /// The value with its interval.

@@ -54,7 +54,9 @@ impl Scale {
         match self {
             // A ratio near 1 needs its third digit.
             Self::Plain if x.is_finite() => rounded(x, 3).to_string(),
-            Self::Change if x > 1.0 => format!("+{}", number(self.of(x))),
+            Self::Change if x > 1.0 && x.is_finite() => {
+                format!("+{}", number(self.of(x)))
+            }
             _ => number(self.of(x)),
         }
     }
@@ -67,7 +69,7 @@ pub fn number(x: f64) -> String {
         return "none".into();
     }
     if x.is_infinite() {
-        return "infinite".into();
+        return if x > 0.0 { "infinite".into() } else { "-infinite".into() };
     }
     let digits = if x.abs() < 10.0 { 2 } else { 3 };
     let x = rounded((1e2 * x).round() / 1e2, digits);
@@ -78,9 +80,12 @@ pub fn number(x: f64) -> String {
 fn measured(measured: Measured, scale: Scale) -> String {
     let unit = scale.unit();
     let value = scale.number(measured.value);
+    if measured.value.is_nan() {
+        return "no data".into();
+    }
     match measured.interval {
         Some((low, high)) => format!(
-            "{value}{unit} ({} to {}{unit})",
+            "{value}{unit} ({} to {})",
             scale.number(low),
             scale.number(high)
         ),
@@ -95,12 +100,12 @@ fn of_cells(claim: &Claim) -> bool {
     matches!(quantifier, Some(Quantifier::Most | Quantifier::AlmostAll))
 }
 
-/// A result's value with its interval and unit: `12 % (8 to 17 %)`.
+/// A result's value with its interval and unit: `12 % (8 to 17)`. Where the
+/// limit is about one cell of many, it is the share of the cells within it.
 #[must_use]
 pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
-    let text = measured(result.measured(), scale(result.unit, region));
-    if of_cells(claim) { format!("{text} of cells") } else { text }
+    measured(result.measured(), scale(result.unit, region))
 }
 
 /// The number of a cell of a claim, in the unit of the claim's limit.
@@ -109,7 +114,8 @@ pub fn cell_text(claim: &Claim, value: Measured) -> String {
     measured(value, scale(Unit::One, claim.region))
 }
 
-/// Where a claim's values have to lie: `every cell: -5 to +5 %`.
+/// Where a claim's values have to lie: `-5 to +5 %, in every cell`; "most"
+/// is more than half.
 #[must_use]
 pub fn rule_text(claim: &Claim) -> String {
     let (Some(quantifier), Some(region)) = (claim.quantifier, claim.region)
@@ -131,7 +137,9 @@ pub fn rule_text(claim: &Claim) -> String {
     };
     match quantifier {
         Quantifier::One => limits,
-        _ => format!("{}: {limits}", quantifier.words()),
+        Quantifier::All => format!("{limits}, in every cell"),
+        Quantifier::AlmostAll => format!("{limits}, in 90 % of cells"),
+        Quantifier::Most => format!("{limits}, in most cells"),
     }
 }
 
@@ -148,13 +156,16 @@ mod tests {
         let (share, one) = (Unit::Share, Unit::One);
         let ends = Some((0.95, 1.041));
         let same = Some(Region::Within(0.9, 1.1));
-        assert_eq!(text(one, same, 1.0131, ends), "+1.3 % (-5 to +4.1 %)");
+        assert_eq!(text(one, same, 1.0131, ends), "+1.3 % (-5 to +4.1)");
         assert_eq!(text(share, None, 0.272, None), "27.2 %");
         let below = Some(Region::Below(0.05));
         assert_eq!(text(one, below, 0.006_29, None), "0.63 %");
         let wide = Some(Region::Within(0.74, 1.35));
         assert_eq!(text(one, wide, 1.2087, None), "1.21");
-        assert_eq!(text(one, same, f64::NAN, None), "none %");
+        assert_eq!(text(one, same, f64::NAN, None), "no data");
+        let open = Some((f64::NEG_INFINITY, f64::INFINITY));
+        let open = text(one, same, 1.2, open);
+        assert_eq!(open, "+20 % (-infinite to infinite)");
     }
 
     #[test]

@@ -1,11 +1,13 @@
-//! The table of results in the README.
+//! The answers in the README: those of the page.
 
 use thiserror::Error;
 
+use super::answers;
 use super::evidence::Proof;
 use super::findings::recorded;
-use crate::findings::{Findings, Topic};
-use crate::paper::{Intensity, SuiteKind, Verdict};
+use super::page::AnswerRow;
+use super::timings::Timings;
+use crate::findings::Findings;
 
 /// Marks around the table.
 const MARKS: [&str; 2] = ["<!-- results -->\n", "<!-- end of results -->"];
@@ -20,17 +22,17 @@ pub enum ReadmeError {
     /// The findings of the recorded suites cannot be read.
     #[error("{0}")]
     Recorded(String),
-    /// The findings lack what the table shows.
-    #[error("findings: no {0}")]
-    Finding(&'static str),
+    /// The kept timings cannot be read.
+    #[error("fixtures/speed: {0}")]
+    Timings(#[from] csv::Error),
 }
 
 /// `readme` with the table of these findings and these results of the
 /// declared cases.
 ///
 /// # Errors
-/// [`ReadmeError`] for a README without marks, and for findings that lack
-/// what the table shows.
+/// [`ReadmeError`] for a README without marks, and for kept files that
+/// cannot be read.
 pub fn renewed(
     readme: &str,
     findings: &Findings,
@@ -46,73 +48,26 @@ pub fn renewed(
 }
 
 fn table(findings: &Findings, proof: &Proof) -> Result<String, ReadmeError> {
-    let suites = &findings.suites;
-    let analyses: u64 = suites.iter().map(|suite| suite.analyses).sum();
-    let open: usize =
-        suites.iter().map(|suite| suite.not_told_by_double_precision).sum();
-    let rows = [
-        (
-            "declared cases that pass",
-            format!(
-                "{} of {}; half of their numbers use less than {:.0e} of the \
-                 tolerance; wrong models rejected: {}",
-                proof.passed(),
-                proof.results().len(),
-                proof.middle_margin(),
-                proof.rejected()
-            ),
-        ),
-        (
-            "findings on the recorded suites (86 ordinary, 44 pulse-type \
-             records), each with a 95 % interval",
-            claims(&recorded().map_err(ReadmeError::Recorded)?),
-        ),
-        ("the same on the embedded suites", claims(findings)),
-        (
-            "analyses up to overturning; flagged: rounding may have \
-             changed their peak or fate",
-            format!("{analyses}; {open}"),
-        ),
-        (
-            "median overturning PGA/(g tan alpha), p = 3 rad/s, alpha = \
-             0.20, ordinary (95 % interval)",
-            overturning(findings, SuiteKind::Ordinary)?,
-        ),
-        ("the same, pulse-type", overturning(findings, SuiteKind::PulseType)?),
-    ];
-    let lines: Vec<String> = rows
-        .iter()
-        .map(|(what, result)| format!("| {what} | {result} |\n"))
-        .collect();
-    Ok(format!("| what | result |\n|---|---|\n{}", lines.concat()))
-}
-
-/// Number of results with each verdict.
-fn claims(findings: &Findings) -> String {
-    let [confirmed, not, open] =
-        Verdict::ALL.map(|verdict| findings.count(verdict));
-    format!(
-        "{confirmed} of {} confirmed, {not} not confirmed, {open} \
-         inconclusive",
-        confirmed + not + open
-    )
-}
-
-/// Median overturning intensity of one block, with its interval.
-fn overturning(
-    findings: &Findings,
-    suite: SuiteKind,
-) -> Result<String, ReadmeError> {
-    let rows = findings.table(Topic::Overturning).map(|table| &table.rows);
-    let row = rows.into_iter().flatten().find(|row| {
-        row.at.suite == Some(suite)
-            && row.at.intensity == Some(Intensity::Pga)
-            && row.at.p_rad_s == Some(3.0)
-            && row.at.alpha_rad == Some(0.2)
-    });
-    let median = row.and_then(|row| row.values.first());
-    median
-        .and_then(|m| Some((m.value, m.interval?)))
-        .map(|(x, (low, high))| format!("{x:.2} ({low:.2} to {high:.2})"))
-        .ok_or(ReadmeError::Finding("overturning intensities"))
+    let recorded = recorded().map_err(ReadmeError::Recorded)?;
+    let timings = Timings::kept()?;
+    let rows = answers::rows(
+        true,
+        findings,
+        Some(&recorded),
+        &timings,
+        Some(proof),
+        &[],
+    );
+    let line = |row: &AnswerRow| {
+        let columns = row.columns.join(" | ");
+        let AnswerRow { question, answer, effect, .. } = row;
+        let effect = effect.replace('|', "\\|");
+        format!("| {question} | {answer} | {effect} | {columns} |\n")
+    };
+    let lines: Vec<String> = rows.iter().map(line).collect();
+    Ok(format!(
+        "| question | answer | effect (95 % interval) | recorded suites | \
+         embedded suites |\n|---|---|---|---|---|\n{}",
+        lines.concat()
+    ))
 }

@@ -37,6 +37,9 @@ pub struct Declared {
     pub section: Section,
     /// The paper's words.
     pub quote: String,
+    /// The statement in plain words, of a finding.
+    #[serde(default)]
+    pub plain: String,
     /// Registered name of the measure of a finding.
     pub measure: Option<Measure>,
     /// What is measured, in words.
@@ -119,16 +122,18 @@ impl Declared {
             && self.quantifier.is_some()
             && self.region.is_some()
             && !self.reason.is_empty()
+            && !self.plain.is_empty()
             && !self.suites.is_empty()
             && self.arms.is_some();
         let bare = self.measure.is_none()
             && self.region.is_none()
+            && self.plain.is_empty()
             && self.suites.is_empty();
         match self.kind {
             Kind::Finding if judged && self.case.is_empty() => Ok(()),
             Kind::Finding => Err(
-                "a finding has a measure, a quantifier, a region with its \
-                 reason, suites and arms, and no case",
+                "a finding has plain words, a measure, a quantifier, a region \
+                 with its reason, suites and arms, and no case",
             ),
             Kind::Identity if bare && !self.case.is_empty() => Ok(()),
             Kind::Identity => Err("an identity names its declared case"),
@@ -208,6 +213,7 @@ fn measured(
         theme: claim.theme,
         section: claim.section,
         quote: claim.quote.clone(),
+        plain: claim.plain.clone(),
         measure: claim.words.clone(),
         blocks: claim.blocks.clone(),
         quantifier: claim.quantifier,

@@ -76,7 +76,7 @@ fn worst_of<'a>(results: impl Iterator<Item = &'a Value>) -> String {
         None => "no result".into(),
         Some((_, 0.0)) => "no error".into(),
         Some((name, margin)) => {
-            format!("{} of the tolerance, {name}", share(margin))
+            format!("{}, {name}", share(margin))
         }
     }
 }
@@ -170,7 +170,7 @@ mod tests {
         assert!(all.iter().all(|c| !c.rejects.is_empty()));
         let first = all.iter().find(|c| c.id == cases[0].id).unwrap();
         assert!(first.passed);
-        assert_eq!(first.worst, "50 % of the tolerance, a");
+        assert_eq!(first.worst, "50 %, a");
         // What has no result has not passed.
         let failed = all.iter().filter(|c| !c.passed).count();
         assert_eq!(failed, quick - 1);

@@ -14,6 +14,7 @@ use crate::diff::{self, DiffError};
 use crate::proof::cases::{Case, CaseError, Cost, load_all};
 use crate::proof::methods::DIGITS_HEADER;
 use crate::table::{PlainTable, cells};
+use crate::words::{percent, range};
 
 /// File of the results of the declared cases.
 const RESULTS: &str = "validation.json";
@@ -94,6 +95,47 @@ pub struct Proof {
     digits: String,
 }
 
+/// Shares of simulated suites in which intervals of 95 % hold the truth.
+#[derive(Clone, Debug)]
+pub struct Coverage {
+    rows: Vec<(String, f64)>,
+}
+
+impl Coverage {
+    /// The shares, in a sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let (low, high) = range(self.rows.iter().map(|(_, share)| *share));
+        format!(
+            "Coverage. In 300 simulated suites, whose truth is known, \
+             intervals of 95 % hold it in {} to {}.",
+            percent(low, 1),
+            percent(high, 1)
+        )
+    }
+
+    /// The shares, one by one.
+    #[must_use]
+    pub fn table(&self) -> PlainTable {
+        let row = |(claim, share): &(String, f64)| {
+            vec![claim.clone(), "95.0 %".into(), percent(*share, 1)]
+        };
+        let header = ["interval", "nominal", "found"];
+        PlainTable {
+            name: "coverage".into(),
+            title: "Coverage of the intervals of the findings".into(),
+            reading: "Share of 300 simulated suites, whose truth is known, \
+                      in which the interval holds it. The standard error of \
+                      a share is 1.3 %. The interval of a share of cells \
+                      follows from the band over all cells and holds more \
+                      often than it says."
+                .into(),
+            header: header.map(String::from).into(),
+            rows: self.rows.iter().map(row).collect(),
+        }
+    }
+}
+
 impl Proof {
     /// Reads the folder into which `rocking validate` wrote them.
     ///
@@ -152,35 +194,19 @@ impl Proof {
     }
 
     /// How often the intervals of the study hold the truth of simulated
-    /// suites, by the cases that simulate them.
+    /// suites, by the cases that simulate them: each claim with its share.
     ///
     /// # Errors
     /// [`CaseError`] where the declared cases cannot be read.
-    pub fn coverage_table(&self) -> Result<PlainTable, CaseError> {
-        let rows = load_all()?
-            .iter()
-            .filter(|case| case.method == COVERAGE)
-            .map(|case| {
-                let found = &self.results[&case.id]["quantities"]["rate"];
-                let rate = found["first"][0].as_f64().unwrap_or(f64::NAN);
-                let percent = crate::words::percent(rate, 1);
-                vec![case.claim.clone(), "95.0 %".into(), percent]
-            })
-            .collect();
-        let header = ["interval", "nominal", "found"];
-        Ok(PlainTable {
-            name: "coverage".into(),
-            title: "Coverage of the intervals of the findings".into(),
-            reading:
-                "Share of 300 simulated suites, whose truth is known, in \
-                      which the interval holds it. The standard error of a \
-                      share is 1.3 %. The interval of a share of cells \
-                      follows from the band over all cells and holds more \
-                      often than it says."
-                    .into(),
-            header: header.map(String::from).into(),
-            rows,
-        })
+    pub fn coverage(&self) -> Result<Coverage, CaseError> {
+        let share = |id: &str| {
+            let found = &self.results[id]["quantities"]["rate"];
+            found["first"][0].as_f64().unwrap_or(f64::NAN)
+        };
+        let cases = load_all()?;
+        let own = cases.iter().filter(|case| case.method == COVERAGE);
+        let rows = own.map(|c| (c.claim.clone(), share(&c.id))).collect();
+        Ok(Coverage { rows })
     }
 
     /// Number of wrong models that the cases told from the right one.

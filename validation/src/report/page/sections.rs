@@ -8,6 +8,7 @@ use super::{
     Answers, Chapter, Column, Family, Finding, Outcome, Part, ReportInput,
     Theme,
 };
+use crate::findings::Tested;
 use crate::paper::Verdict;
 
 /// What the page is about, and who signs for it.
@@ -46,19 +47,24 @@ pub fn all(input: &ReportInput) -> Vec<Part> {
     });
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
         html! {
+            p { (legend()) }
             @for column in &i.columns { (counts(column)) }
             @for t in &i.findings { (theme(t, &i.columns)) }
             @if !i.identities.rows.is_empty() {
-                (table::plain(&i.identities))
+                (folded(
+                    "true-by-definition",
+                    &i.identities.title,
+                    &table::untitled(&i.identities),
+                ))
             }
         }
     });
     add(!i.method.is_empty(), "method", "Method and glossary", &|| {
         html! {
-            @for words in &i.method { p { (words) } }
+            div.columns { @for words in &i.method { p { (words) } } }
             @if !i.glossary.is_empty() {
                 h3 { "Glossary" }
-                (list(&i.glossary))
+                div.columns { (list(&i.glossary)) }
             }
         }
     });
@@ -137,7 +143,7 @@ fn answers(answers: &Answers, columns: &[Column]) -> Markup {
     let body = html! {
         table.cards.answers {
             caption {
-                span { "Questions, and what the verdicts answer." }
+                span.unseen { "Questions, and what the verdicts answer." }
             }
             thead {
                 tr {
@@ -168,7 +174,7 @@ fn answers(answers: &Answers, columns: &[Column]) -> Markup {
         }
     };
     html! {
-        (scrolled("Answers", body))
+        (scrolled("Questions and answers", body))
         (drawings(&answers.figures))
     }
 }
@@ -179,6 +185,15 @@ fn links(shown: &[(String, String)]) -> Markup {
             @if k > 0 { ", " }
             a href={ "#" (anchor) } { (words) }
         }
+    }
+}
+
+fn legend() -> Markup {
+    html! {
+        "A cell shows the value and its 95 % interval; where the limit is \
+         about a share of cells, that share. The arm is C, or A where C was \
+         not run; most cells are more than half. Values on all suites and arms, measures and reasons: "
+        a href="#all-results" { "every result" } "."
     }
 }
 
@@ -237,57 +252,113 @@ fn theme(theme: &Theme, columns: &[Column]) -> Markup {
             h3 { (theme.question) }
             p { (theme.paragraph) }
             (drawings(&theme.figures))
-            (scrolled(&theme.question, html! {
-                table.cards.findings {
-                    caption {
-                        span {
-                            "✓ confirmed, ✗ not confirmed, ? \
-                             inconclusive. The arm is C, or A where C was \
-                             not run. \
-                             Measures, reasons, all arms: "
-                            a href="#all-results" { "every result" } "."
-                        }
+            @if !theme.more.is_empty() {
+                details {
+                    summary { "Show: " (called(&theme.more)) }
+                    (drawings(&theme.more))
+                }
+            }
+            (scrolled(&theme.question, findings(theme, columns)))
+        }
+    }
+}
+
+fn called(figures: &[ShownFigure]) -> String {
+    let names: Vec<&str> = figures.iter().map(|f| f.number.as_str()).collect();
+    names.join(", ")
+}
+
+/// Suites of the columns of a table of findings.
+const SUITES: [Tested; 2] = [Tested::Ordinary, Tested::PulseType];
+
+fn findings(theme: &Theme, columns: &[Column]) -> Markup {
+    // Claims that share a quotation stand under it.
+    let groups = theme.findings.chunk_by(|a, b| a.quote == b.quote);
+    html! {
+        table.cards.findings {
+            caption { span.unseen { "Claims and verdicts." } }
+            thead {
+                tr {
+                    th scope="col" rowspan="2" { "The paper's words" }
+                    th scope="col" rowspan="2" {
+                        "In plain words, and the limit in practice"
                     }
-                    thead {
-                        tr {
-                            th scope="col" { "The paper's words" }
-                            th scope="col" { "Limit in practice" }
-                            @for column in columns {
-                                th scope="col" { (column.name) }
-                            }
+                    @for column in columns {
+                        th scope="colgroup" colspan=(SUITES.len()) {
+                            (column.name)
                         }
-                    }
-                    tbody {
-                        @for f in &theme.findings { (finding(f, columns)) }
                     }
                 }
-            }))
+                tr {
+                    @for _ in columns {
+                        @for suite in SUITES {
+                            th scope="col" { (suite.name()) }
+                        }
+                    }
+                }
+            }
+            tbody {
+                @for group in groups {
+                    @for (k, one) in group.iter().enumerate() {
+                        tr id={ "finding-" (one.id) } {
+                            @if k == 0 {
+                                th scope="row" rowspan=(group.len()) {
+                                    (quotation(one))
+                                }
+                            }
+                            (finding(one, columns))
+                        }
+                    }
+                }
+            }
         }
+    }
+}
+
+fn quotation(f: &Finding) -> Markup {
+    html! {
+        "\u{201c}" (f.quote) "\u{201d} "
+        span.source { (f.source) }
     }
 }
 
 fn finding(f: &Finding, columns: &[Column]) -> Markup {
     html! {
-        tr id={ "finding-" (f.id) } {
-            th scope="row" {
-                "\u{201c}" (f.quote) "\u{201d} "
-                span.source {
-                    "(" (f.source) ")"
-                    @if !f.figures.is_empty() { " " (links(&f.figures)) }
-                }
+        td data-label="In plain words" {
+            (f.plain) ": " span.source { (f.rule) }
+            @if !f.criterion.is_empty() {
+                span.source { ". The paper: " (f.criterion) }
             }
-            td data-label="Limit in practice" {
-                (f.rule)
-                @if !f.criterion.is_empty() {
-                    p.source { "The paper's: " (f.criterion) }
+        }
+        @for (k, column) in columns.iter().enumerate() {
+            @let own = f.columns.get(k).map_or(&[][..], |all| all);
+            @let both = own.iter().any(|o| o.suite == Tested::Both);
+            @if both {
+                td data-label=(column.name) colspan=(SUITES.len()) {
+                    (outcomes(own, Tested::Both, k == 0))
                 }
-            }
-            @for (k, column) in columns.iter().enumerate() {
-                td data-label=(column.name) {
-                    @for one in f.columns.get(k).into_iter().flatten() {
-                        @if one.first { (outcome(one, &one.suite)) }
+            } @else {
+                @for suite in SUITES {
+                    td data-label={ (column.name) ", " (suite.name()) } {
+                        (outcomes(own, suite, k == 0))
                     }
                 }
+            }
+        }
+    }
+}
+
+/// What came out on a suite, in the arm that stands among the findings: the
+/// first column has the value, the others the verdict alone.
+fn outcomes(all: &[Outcome], suite: Tested, value: bool) -> Markup {
+    html! {
+        @for one in all.iter().filter(|o| o.first && o.suite == suite) {
+            @if value {
+                (outcome(one, ""))
+            } @else if let Some(verdict) = one.by_equivalence {
+                (short(verdict))
+            } @else {
+                "\u{2013}"
             }
         }
     }
@@ -297,10 +368,10 @@ fn outcome(one: &Outcome, place: &str) -> Markup {
     html! {
         div.outcome {
             @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
-            span.source { (place) ": " }
+            @if !place.is_empty() { span.source { (place) ": " } }
             (one.value)
             @if let Some(verdict) = one.by_criterion {
-                "; the paper's: " (short(verdict))
+                "; the paper: " (short(verdict))
             }
         }
     }
@@ -358,10 +429,8 @@ fn families(families: &[Family]) -> Markup {
         table.cards {
             caption {
                 span {
-                    "One row a family of declared cases. The worst number \
-                     is the largest error as a share of its tolerance. A \
-                     wrong model is a version of the program with a known \
-                     fault, which a case has to tell from the right one."
+                    "One row a family of declared cases, with its largest \
+                     error as a share of the tolerance."
                 }
             }
             thead {
@@ -369,7 +438,7 @@ fn families(families: &[Family]) -> Markup {
                     th scope="col" { "Family" }
                     th scope="col" { "Cases passed" }
                     th scope="col" { "Held against" }
-                    th scope="col" { "Worst number" }
+                    th scope="col" { "Worst share of tolerance" }
                     th scope="col" { "Wrong models rejected" }
                 }
             }
@@ -385,7 +454,7 @@ fn families(families: &[Family]) -> Markup {
                             (passed(family)) " of " (family.cases.len())
                         }
                         td data-label="Held against" { (family.oracle) }
-                        td data-label="Worst number" { (family.worst) }
+                        td data-label="Worst share of tolerance" { (family.worst) }
                         td data-label="Wrong models rejected" {
                             (family.rejected)
                         }
@@ -411,7 +480,7 @@ fn cases(family: &Family) -> Markup {
                     th scope="col" { "Claim" }
                     th scope="col" { "Source" }
                     th scope="col" { "Tolerance and why" }
-                    th scope="col" { "Worst number" }
+                    th scope="col" { "Worst share of tolerance" }
                     th scope="col" { "Rejects" }
                     th scope="col" { "Result" }
                 }
@@ -426,7 +495,7 @@ fn cases(family: &Family) -> Markup {
                             (c.tolerance) " "
                             span.source { (c.because) }
                         }
-                        td data-label="Worst number" { (c.worst) }
+                        td data-label="Worst share of tolerance" { (c.worst) }
                         td data-label="Rejects" { (c.rejects) }
                         td data-label="Result" {
                             @if c.passed {

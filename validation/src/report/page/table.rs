@@ -6,6 +6,16 @@ use crate::table::PlainTable;
 
 /// The table under its title.
 pub fn plain(table: &PlainTable) -> Markup {
+    html! {
+        div id=(table.name) {
+            h3 { (table.title) }
+            (untitled(table))
+        }
+    }
+}
+
+/// The table alone.
+pub fn untitled(table: &PlainTable) -> Markup {
     let body = html! {
         table {
             caption { span { (table.reading) } }
@@ -13,12 +23,7 @@ pub fn plain(table: &PlainTable) -> Markup {
             tbody { @for row in &table.rows { (line(row)) } }
         }
     };
-    html! {
-        div id=(table.name) {
-            h3 { (table.title) }
-            (scrolled(&table.title, body))
-        }
-    }
+    scrolled(&table.title, body)
 }
 
 /// A box that scrolls sideways, so that the page does not.

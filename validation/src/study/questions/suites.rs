@@ -145,11 +145,9 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
         }
     }
     out.push(
-        "So the embedded default shows how the procedure works, its \
-         numerical error, and how findings hang on its choices. It does not \
+        "So the embedded suites show how the procedure works. They do not \
          show levels of capacity or of motion where an interval leaves 1 \
-         out; those, and what a verdict says of real earthquakes, need \
-         recorded motions."
+         out."
             .into(),
     );
     out.join(" ")

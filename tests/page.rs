@@ -109,6 +109,37 @@ fn words(browser: &mut Browser, selector: &str) -> Vec<String> {
     )))
 }
 
+/// A screen of a desk, in px.
+const SCREEN_PX: f64 = 900.0;
+
+/// Where the answers and the main part end, in px, and how many words the
+/// main part shows: those with a letter or a digit, without drawings and what
+/// is folded.
+const LENGTHS: &str = "(() => { \
+    const end = (selector, side) => scrollY + \
+        document.querySelector(selector).getBoundingClientRect()[side]; \
+    const shown = document.body.cloneNode(true); \
+    shown.querySelectorAll('#annexes, details, svg, .unseen, footer') \
+        .forEach((e) => e.replaceWith(' ')); \
+    shown.querySelectorAll('*').forEach((e) => e.append(' ')); \
+    const words = shown.textContent.split(/\\s+/); \
+    return [end('table.answers', 'bottom'), end('#annexes', 'top'), \
+        words.filter((w) => /[\\p{L}\\p{N}]/u.test(w)).length]; })()";
+
+/// One screen answers, fourteen say why: what a decision maker and a
+/// researcher have time for.
+#[test]
+fn the_first_screen_answers_and_the_main_part_is_short() {
+    let Some(mut browser) = started("lengths") else { return };
+    browser.open(&root().join("reports/index.html"), 1400, "light");
+    let found = browser.evaluate(LENGTHS);
+    let [answers, main, words] =
+        [0, 1, 2].map(|k| found[k].as_f64().expect("a number"));
+    assert!(answers <= SCREEN_PX, "the answers end at {answers} px");
+    assert!(main <= 14.0 * SCREEN_PX, "{:.2} screens", main / SCREEN_PX);
+    assert!(words <= 5000.0, "{words} words");
+}
+
 #[test]
 fn every_claim_case_and_caption_is_on_paper() {
     let Some(mut browser) = started("paper") else { return };

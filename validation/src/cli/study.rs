@@ -188,9 +188,10 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
             }
         }
         print(&format!(
-            "{}\n{}\nReport: {}\n",
+            "{}\n{}\n{}\nReport: {}\n",
             output::claims_table(&study.findings.claims),
-            proof.map_or(NOT_RUN.into(), |proof| proof.to_string()),
+            output::answers_text(&study, proof.as_ref())?,
+            proof.as_ref().map_or(NOT_RUN.into(), Proof::to_string),
             args.out.join("index.html").display()
         ))
     }

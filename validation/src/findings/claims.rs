@@ -106,7 +106,8 @@ impl Theme {
                 "Are capacities lognormal above a shift (Figures 11 to 14)?"
             }
             Self::Fragilities => {
-                "Do Eqs. 5 to 7 give the fragility (Figures 15 to 18)?"
+                "Do Eqs. 5 to 7 give the fragility of the block with p = 3, \
+                 alpha = 0.20 (Figures 15 to 18)?"
             }
         }
     }

@@ -23,6 +23,20 @@ pub fn recorded() -> Result<Findings, String> {
         .map_err(|e| format!("fixtures/recorded/findings.json: {e}"))
 }
 
+/// Where the numbers of the recorded suites come from: name and words.
+#[must_use]
+pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
+    let row = |suite: &crate::findings::Suite| {
+        let words = format!(
+            "{} records, sha256 {}; results kept in \
+             fixtures/recorded/findings.json, not run here",
+            suite.records, suite.sha256
+        );
+        (format!("Recorded, {}", suite.kind), words)
+    };
+    recorded.suites.iter().map(row).collect()
+}
+
 /// Columns of the page: those of the recorded suites first, where the study
 /// at hand is of the embedded ones.
 #[must_use]
@@ -81,8 +95,7 @@ pub fn themes(
     figures: &[(String, String)],
 ) -> Vec<Shown> {
     let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
-    let arms = &here.settings.arms;
-    let first = if arms.contains(&Arm::C) { Arm::C } else { Arm::A };
+    let first = answers::first_arm(here);
     let order = [
         Theme::SingleRecords,
         Theme::Statistics,
@@ -95,7 +108,7 @@ pub fn themes(
         .map(|theme| Shown {
             id: anchor(theme),
             question: theme.question().into(),
-            paragraph: answers::by_theme(theme, first, here, recorded),
+            paragraph: answers::by_theme(theme, here, recorded),
             figures: Vec::new(),
             more: Vec::new(),
             findings: here

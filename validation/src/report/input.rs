@@ -95,10 +95,7 @@ pub fn input(
     let suites = Chapter {
         id: "suites",
         title: "Suites".into(),
-        text: compared()
-            .map(|q| q.answer.clone())
-            .chain([answers::rounding(results)])
-            .collect(),
+        text: compared().map(|q| q.answer.clone()).collect(),
         figures: drawn(figures, |f| f.heading.name == "figure-suites"),
         ..Chapter::default()
     };
@@ -141,7 +138,11 @@ pub fn input(
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
-        head: head::head(results),
+        head: [
+            head::head(results),
+            recorded.map(findings::kept).unwrap_or_default(),
+        ]
+        .concat(),
         signatures: signatures.shown(),
         answers: Answers { rows, figures: first },
         columns: findings::columns(found, recorded),
@@ -155,9 +156,10 @@ pub fn input(
         .concat(),
         glossary: method::glossary(),
         proof: format!(
-            "{} {}",
+            "{} {} {}",
             proof.map_or(NOT_RUN.into(), Proof::to_string),
-            timings.accuracy()
+            timings.accuracy(),
+            answers::rounding(results)
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {

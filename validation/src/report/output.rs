@@ -7,9 +7,10 @@ use rocking::block::BlockError;
 
 use super::evidence::{self, Proof};
 use super::head::Signatures;
+use super::page::AnswerRow;
 use super::quantity::{rule_text, value_text};
 use super::timings::Timings;
-use super::{ReportError, input, page};
+use super::{ReportError, answers, input, page};
 use crate::findings::Claim;
 use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use crate::study::figures::Results;
@@ -116,6 +117,32 @@ fn single_csv(results: &Results) -> String {
         }
     }
     table.finish()
+}
+
+/// The answers of the page for people, of this study's suites alone.
+///
+/// # Errors
+/// [`ReportError`] where the kept timings cannot be read.
+pub fn answers_text(
+    study: &Study,
+    proof: Option<&Proof>,
+) -> Result<String, ReportError> {
+    let rows = answers::rows(
+        study.results.embedded(),
+        &study.findings,
+        None,
+        &Timings::kept()?,
+        proof,
+        &[],
+    );
+    let text = |row: &AnswerRow| {
+        let columns = row.columns.concat();
+        let counts =
+            if columns.is_empty() { "" } else { &format!("; {columns}") };
+        let AnswerRow { question, answer, effect, .. } = row;
+        format!("{question}\n  {answer}\n  {effect}{counts}.\n")
+    };
+    Ok(rows.iter().map(text).collect())
 }
 
 /// The findings among the claims as a table for people.

@@ -21,7 +21,7 @@ enum Scale {
 /// differences in per cent.
 fn scale(unit: Unit, region: Option<Region>) -> Scale {
     match (unit, region) {
-        (Unit::Share | Unit::Probability, _) => Scale::Percent,
+        (Unit::Share, _) => Scale::Percent,
         (Unit::One, Some(Region::Within(a, b)))
             if (a + b - 2.0).abs() < 1e-9 =>
         {
@@ -105,7 +105,14 @@ fn of_cells(claim: &Claim) -> bool {
 #[must_use]
 pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
-    measured(result.measured(), scale(result.unit, region))
+    let text = measured(result.measured(), scale(result.unit, region));
+    match &result.cells {
+        Some(cells) if of_cells(claim) && cells.deciding > 0 => format!(
+            "{text} of {} judged, {} cells not",
+            cells.deciding, cells.too_few
+        ),
+        _ => text,
+    }
 }
 
 /// The number of a cell of a claim, in the unit of the claim's limit.

@@ -192,6 +192,9 @@ impl Measure {
             Self::ShiftGainPga
             | Self::ShiftGainPgv
             | Self::LowConstantGain => (Unit::Probability, (-1.0, 1.0)),
+            Self::PeakDifference
+            | Self::CurveDifference
+            | Self::HousnerSpread => (Unit::One, (0.0, f64::INFINITY)),
             _ => (Unit::One, any),
         }
     }

@@ -23,7 +23,7 @@ pub fn head(input: &ReportInput) -> Markup {
                         @if let Some(words) = given {
                             (words)
                         } @else {
-                            span.line { "to be signed" }
+                            span.line { "to be filled in" }
                         }
                     }
                 }
@@ -191,8 +191,9 @@ fn links(shown: &[(String, String)]) -> Markup {
 fn legend() -> Markup {
     html! {
         "A cell shows the value and its 95 % interval; where the limit is \
-         about a share of cells, that share. The arm is C, or A where C was \
-         not run; most cells are more than half. Values on all suites and arms, measures and reasons: "
+         about a share of cells, that share of the cells with 30 records or \
+         more. The arm is C, or A where C was not run. Figures are of the \
+         suites of this run. Values on all suites and arms, measures and reasons: "
         a href="#all-results" { "every result" } "."
     }
 }

@@ -49,12 +49,12 @@ fn draws_the_same_bytes_twice() {
 #[test]
 fn ratios_are_at_no_larger_error() {
     let mut kept = Timings::kept().expect("tables");
-    let mut peer = kept.of_many(FREE.work).expect("work").clone();
+    let mut peer = kept.of_many(STOPPED.work).expect("work").clone();
     let quick = |kept: &Timings, peer: &Throughput| {
-        kept.no_worse(&FREE, peer).map(|(setting, _)| setting.to_owned())
+        kept.fastest(&STOPPED, peer).map(|(setting, _)| setting.to_owned())
     };
     let told = quick(&kept, &peer).expect("a setting");
-    assert!(kept.plain().contains(&format!("times at {told}, our fastest")));
+    assert!(kept.plain().contains(&format!("At {told}, our fastest")));
 
     // Order 4 has the smaller medians, but a larger worst case.
     let of = |[tool, method, setting]: [&str; 3]| {
@@ -63,9 +63,8 @@ fn ratios_are_at_no_larger_error() {
     };
     let (low, theirs) = (
         of([BASE[0], BASE[1], "order 4"]),
-        of([TOOL, FREE.method, TOLERANCE]),
+        of([TOOL, STOPPED.method, TOLERANCE]),
     );
-    assert!(low.peak_error < theirs.peak_error);
     assert!(low.peak_error_worst > theirs.peak_error_worst);
     assert_ne!(told, "order 4");
 

@@ -26,7 +26,7 @@ pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
 pub use fragilities::{
     ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Threshold,
+    Fragilities, FragilityPanel, Limit,
 };
 pub use histories::{Histories, History, HistoryPanel};
 pub use ida::{IdaCurve, IdaCurves, IdaPanel};

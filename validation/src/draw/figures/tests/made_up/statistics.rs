@@ -93,18 +93,24 @@ fn lognormal(shift: f64, log_mean: f64, dispersion: f64) -> Lognormal {
 }
 
 pub fn fragilities() -> Fragilities {
-    let threshold = |edp: f64, seed: usize, shift: f64| {
+    let panel = |(intensity, shift): (Intensity, f64), edp: f64, seed| {
         let mut capacities: Vec<f64> = sample(86, seed, 0.5)
             .iter()
             .map(|x| shift + edp.sqrt() * 2.0 * x)
             .collect();
         capacities[5] = f64::INFINITY;
         let ln_median = libm::log(2.0 * edp.sqrt());
-        let fit = |estimator, curve| Fitted { estimator, curve };
+        let fit = |estimator, curve: Option<Lognormal>| {
+            let ends = |c: &Lognormal, x| (x, c.cdf(x) - 0.1, c.cdf(x) + 0.1);
+            let at = |c| (1..60).map(move |k| ends(c, 0.1 * f64::from(k)));
+            let band = curve.as_ref().into_iter().flat_map(at).collect();
+            Fitted { estimator, curve, band }
+        };
         let shifted = lognormal(shift, ln_median, 0.5);
         let unshifted =
             lognormal(0.0, libm::log(shift + 2.0 * edp.sqrt()), 0.4);
-        Threshold {
+        FragilityPanel {
+            intensity,
             edp,
             sample: capacities,
             curves: vec![
@@ -114,21 +120,20 @@ pub fn fragilities() -> Fragilities {
                     (edp > 0.2 || shift < 0.5).then_some(shifted),
                 ),
             ],
+            limit: Some(Limit { around: shifted, by: 0.05 }),
+            notes: vec!["largest distance".into(), "0.05".into()],
         }
     };
-    let panel = |(intensity, shift): (Intensity, f64)| FragilityPanel {
-        intensity,
-        thresholds: [(0.15, 3), (0.35, 4), (1.0, 5)]
-            .into_iter()
-            .map(|(edp, seed)| threshold(edp, seed, shift))
-            .collect(),
-    };
+    let panels = [(Intensity::Pga, 1.0), (Intensity::Pgv, 0.14)]
+        .into_iter()
+        .flat_map(|of| {
+            [(0.15, 3), (0.35, 4), (1.0, 5)]
+                .map(|(edp, seed)| panel(of, edp, seed))
+        });
     Fragilities {
         heading: heading("figure-16", Some(Arm::A)),
-        panels: [(Intensity::Pga, 1.0), (Intensity::Pgv, 0.14)]
-            .into_iter()
-            .map(panel)
-            .collect(),
+        panels: panels.collect(),
+        columns: 3,
     }
 }
 

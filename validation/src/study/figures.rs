@@ -56,9 +56,7 @@ impl Results {
                 )?);
             }
         }
-        for arm in &drawn {
-            out.push(quantiles::slendernesses(&self.ordinary, *arm)?);
-        }
+        out.push(quantiles::slendernesses(&self.ordinary, &drawn)?);
         for arm in &drawn {
             out.extend(ratios::adjusted(&self.ordinary, *arm)?);
         }

@@ -13,6 +13,7 @@ mod boxplots;
 mod capacities;
 mod chart;
 mod common;
+mod fates;
 mod fragilities;
 mod histories;
 mod ida;
@@ -24,6 +25,7 @@ pub use accepted::{AcceptedShares, BlockShare, SharePanel};
 pub use boxplots::{BoxPanel, Boxplots, Stripe, StripeKind};
 pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
+pub use fates::{Fate, FateMap};
 pub use fragilities::{
     ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
     Fragilities, FragilityPanel, Limit,

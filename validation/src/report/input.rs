@@ -136,7 +136,8 @@ pub fn input(
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
-            tables: coverage.into_iter().collect(),
+            tables: [evidence::checks(proof)?, coverage.into_iter().collect()]
+                .concat(),
             figures: charts.iter().map(shown).collect(),
             ..Chapter::default()
         },

@@ -24,6 +24,7 @@ pub fn accepted() -> AcceptedShares {
                         arm,
                         share,
                         null_band: Some((0.71, 1.0)),
+                        levels: 200 - k,
                     });
                 }
             }
@@ -40,6 +41,7 @@ pub fn accepted() -> AcceptedShares {
         heading: heading("figure-12", None),
         intensity: Intensity::Pga,
         expected: 0.95,
+        levels: 200,
         panels: (0..4).map(panel).collect(),
         columns: 2,
     }
@@ -76,6 +78,7 @@ pub fn tests_along() -> TestsAlongDemand {
                 .map(|k| 0.7 + 0.4 * noise(k + 77 * seed))
                 .collect(),
             edp,
+            grid_critical: Some(1.4),
             original_histogram: histogram(&original),
             shifted_histogram: histogram(&shifted),
         }
@@ -195,7 +198,8 @@ pub fn chart() -> Chart {
         panels: vec![
             ChartPanel {
                 title: "speed against error".into(),
-                x: axis("error of *θ*/*α*", Scale::Logarithmic),
+                x: axis("error of *θ*/*α*", Scale::Logarithmic)
+                    .with_second(1e3, "error in thousandths"),
                 y: axis("time for an analysis (s)", Scale::Logarithmic),
                 series: (0..4).map(series).collect(),
             },

@@ -21,8 +21,8 @@ enum Scale {
 
 /// Ticks of an axis of ratios in the order in which they get room.
 const RATIOS: [f64; 19] = [
-    1.0, 0.5, 2.0, 0.9, 1.1, 0.2, 5.0, 0.1, 10.0, 0.98, 1.02, 0.95, 1.05, 0.8,
-    1.25, 0.99, 1.01, 0.7, 1.4,
+    1.0, 0.5, 2.0, 0.95, 1.05, 0.99, 1.01, 0.2, 5.0, 0.1, 10.0, 0.9, 1.1, 0.8,
+    1.25, 0.98, 1.02, 0.7, 1.4,
 ];
 
 /// An axis: a range, ticks and a label.

@@ -13,6 +13,7 @@ mod boxplots;
 mod capacities;
 mod chart;
 mod common;
+mod fates;
 mod fragilities;
 mod histories;
 mod ida;
@@ -24,9 +25,10 @@ pub use accepted::{AcceptedShares, BlockShare, SharePanel};
 pub use boxplots::{BoxPanel, Boxplots, Stripe, StripeKind};
 pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
+pub use fates::{Fate, FateMap};
 pub use fragilities::{
     ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Threshold,
+    Fragilities, FragilityPanel, Limit,
 };
 pub use histories::{Histories, History, HistoryPanel};
 pub use ida::{IdaCurve, IdaCurves, IdaPanel};

@@ -54,6 +54,12 @@ impl Grid {
         Self { above: 38.0, ..self }
     }
 
+    /// The same with room for an axis at the upper edge.
+    #[must_use]
+    pub fn with_second_axis(self) -> Self {
+        Self { above: 62.0, ..self }
+    }
+
     /// Width of the whole figure.
     #[must_use]
     pub fn total_width(&self) -> f64 {

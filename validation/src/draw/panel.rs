@@ -122,6 +122,7 @@ pub struct Panel<'s> {
     frame: Rect,
     x: Axis,
     y: Axis,
+    second: Option<Axis>,
     empty: bool,
     reason: &'static str,
 }
@@ -135,6 +136,7 @@ impl<'s> Panel<'s> {
             frame,
             x,
             y,
+            second: None,
             empty: true,
             reason: "no data in this range",
         };
@@ -155,6 +157,12 @@ impl<'s> Panel<'s> {
         panel
     }
 
+    /// Another horizontal axis over the same width, at the upper edge.
+    #[must_use]
+    pub fn with_second(self, second: Axis) -> Self {
+        Self { second: Some(second), ..self }
+    }
+
     /// Says why there may be nothing to see.
     #[must_use]
     pub fn empty_because(self, reason: &'static str) -> Self {
@@ -165,6 +173,12 @@ impl<'s> Panel<'s> {
     #[must_use]
     pub fn horizontal_range(&self) -> Point {
         self.x.range()
+    }
+
+    /// Both ends of the vertical axis.
+    #[must_use]
+    pub fn vertical_range(&self) -> Point {
+        self.y.range()
     }
 
     /// The scene, for shapes placed in px.
@@ -324,7 +338,10 @@ impl<'s> Panel<'s> {
         }
         self.axis_lines();
         let middle = (f.left + f.right) / 2.0;
-        let title_y = if subtitle.is_empty() {
+        let title_y = if self.second.is_some() {
+            self.upper_axis();
+            f.top - 40.0
+        } else if subtitle.is_empty() {
             f.top - 9.0
         } else {
             let line = TextLine::new(
@@ -339,6 +356,27 @@ impl<'s> Panel<'s> {
             TextLine::new(title, (middle, title_y), Horizontal::Centre)
                 .size(TITLE_PX),
         );
+    }
+
+    fn upper_axis(&mut self) {
+        let Some(second) = &self.second else { return };
+        let f = self.frame;
+        self.scene.line(&[(f.left, f.top), (f.right, f.top)], HAIRLINE);
+        let px = |at: f64| second.place(at).mul_add(f.width(), f.left);
+        for at in second.minor() {
+            let x = px(*at);
+            self.scene.line(&[(x, f.top - MINOR_PX), (x, f.top)], HAIRLINE);
+        }
+        for tick in second.ticks() {
+            let x = px(tick.at);
+            self.scene.line(&[(x, f.top - TICK_PX), (x, f.top)], HAIRLINE);
+            let at = (x, f.top - TICK_PX - 4.0);
+            let label = tick.label.as_str();
+            self.scene.text(TextLine::new(label, at, Horizontal::Centre));
+        }
+        let above = ((f.left + f.right) / 2.0, f.top - 22.0);
+        let label = second.title();
+        self.scene.text(TextLine::new(label, above, Horizontal::Centre));
     }
 
     fn axis_lines(&mut self) {

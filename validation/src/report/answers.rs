@@ -369,8 +369,11 @@ pub(super) fn trust(
 }
 
 pub(super) fn not_checked(embedded: bool) -> String {
-    let records =
-        if embedded { "recorded motions anew (their results are kept), " } else { "" };
+    let records = if embedded {
+        "recorded motions anew (their results are kept), "
+    } else {
+        ""
+    };
     format!(
         "Not checked: shaking tables, {records}sliding, bouncing, vertical \
          motion, flexible supports, other machines than x86-64 Linux"

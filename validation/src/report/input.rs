@@ -163,6 +163,7 @@ pub fn input(
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
+            tables: evidence::checks(proof)?,
             figures: charts.iter().map(shown).collect(),
             ..Chapter::default()
         },

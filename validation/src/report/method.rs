@@ -49,7 +49,7 @@ const GLOSSARY: [(&str, &str); 20] = [
     ),
     ("PGA, PGV", "peak ground acceleration and velocity"),
     ("notch", "95 % interval of the median of a boxplot"),
-    ("trimmed", "without the largest of the sample, as section 5 trims it"),
+    ("trimmed", "without the values above the 95 % quantile"),
     (
         "resurrection",
         "a block stands at an intensity above one that overturns it",

@@ -42,23 +42,26 @@ const STOPPED: Peer = Peer {
 /// Lines of the figure: legend, tool, method, and settings left out.
 const LINES: [(&str, &str, &str, &[&str]); 7] = [
     (
-        "this project: orders 4, 6, 8, as shipped",
+        "this project, compiled: orders 4, 6, 8, as shipped",
         "rocking",
         "Taylor",
         &["order 10"],
     ),
-    ("heyoka", "heyoka", "Taylor sample by sample", &[]),
+    ("heyoka, compiled", "heyoka", "Taylor sample by sample", &[]),
     (
-        "Boost.odeint, stopped at samples",
+        "Boost.odeint, compiled, stopped at samples",
         "Boost.odeint",
         "dopri5 sample by sample",
         &[],
     ),
-    ("Boost.odeint", "Boost.odeint", "dopri5", &[]),
-    ("SUNDIALS CVODE", "SUNDIALS CVODE", "Adams with roots", &[]),
-    ("SciPy DOP853", "SciPy", "solve_ivp DOP853", &[]),
-    ("GNU Octave ode45", "GNU Octave", "ode45", &[]),
+    ("Boost.odeint, compiled", "Boost.odeint", "dopri5", &[]),
+    ("SUNDIALS CVODE, compiled", "SUNDIALS CVODE", "Adams with roots", &[]),
+    ("SciPy DOP853, interpreted", "SciPy", "solve_ivp DOP853", &[]),
+    ("GNU Octave ode45, interpreted", "GNU Octave", "ode45", &[]),
 ];
+
+/// Tools whose right-hand side an interpreter evaluates.
+const INTERPRETED: [&str; 2] = ["SciPy", "GNU Octave"];
 
 /// The kept timings.
 pub struct Timings {
@@ -124,16 +127,34 @@ impl Timings {
                 &[&str],
             )| {
                 let of = self.of(tool, method, without);
+                let mark = if INTERPRETED.contains(tool) {
+                    Mark::DashedAndPoints
+                } else {
+                    Mark::LineAndPoints
+                };
                 Series::new(
                     *label,
-                    Mark::LineAndPoints,
+                    mark,
                     of.iter().map(|t| x(t)).collect(),
                     of.iter().map(|t| y(t)).collect(),
                 )
             };
             LINES.iter().map(line).filter(|s| !s.x.is_empty()).collect()
         };
-        let time = "processor time, multiples of ours as shipped";
+        let own_ms = self.own().map_or(f64::NAN, |own| 1e3 * own.cpu_s);
+        let time = || {
+            let words = "processor time, multiples of ours as shipped";
+            let axis = logarithmic(words);
+            if own_ms > 0.0 {
+                let label = format!(
+                    "processor time (ms), ours in the median {}",
+                    digits(own_ms)
+                );
+                axis.with_second(own_ms, label)
+            } else {
+                axis
+            }
+        };
         let panel = |title: &str, x: ChartAxis, y: ChartAxis, series| {
             ChartPanel { title: title.into(), x, y, series }
         };
@@ -143,7 +164,7 @@ impl Timings {
         let mut panels = vec![
             panel(
                 "peak, by time",
-                logarithmic(time),
+                time(),
                 logarithmic(error),
                 series(|t| t.ratio, |t| t.peak_error),
             ),
@@ -155,13 +176,13 @@ impl Timings {
             ),
             panel(
                 "first ten impacts, by time",
-                logarithmic(time),
+                time(),
                 logarithmic("median error of their times (s)"),
                 series(|t| t.ratio, |t| t.impact_error_s),
             ),
             panel(
                 "all impacts, by time",
-                logarithmic(time),
+                time(),
                 ChartAxis::new(
                     "cases with another number of them (%)",
                     Scale::Linear,
@@ -253,14 +274,15 @@ impl Timings {
             (None, _) => "Open: no timing compares them.".into(),
         };
         let many = self.of_many(PAPER).zip(self.equal(&STOPPED));
-        let effect = many.map_or(String::new(), |(paper, (setting, times))| {
-            format!(
-                "{:.0} analyses a second and core as shipped; {} times at \
+        let effect =
+            many.map_or(String::new(), |(paper, (setting, times))| {
+                format!(
+                    "{:.0} analyses a second and core as shipped; {} times at \
                  {setting}",
-                paper.rate_per_s(),
-                digits(times)
-            )
-        });
+                    paper.rate_per_s(),
+                    digits(times)
+                )
+            });
         (answer, effect)
     }
 
@@ -368,21 +390,28 @@ impl Timings {
     fn reading(&self) -> String {
         let own = self.own();
         let best = self.most_accurate();
-        let (fast, slow) = range(best.iter().map(|t| t.ratio));
+        let by = |interpreted: bool| {
+            let is = |t: &&&Total| {
+                INTERPRETED.contains(&t.label[0].as_str()) == interpreted
+            };
+            let (fast, slow) = range(best.iter().filter(is).map(|t| t.ratio));
+            format!("{} to {} times", digits(fast), digits(slow))
+        };
         let (good, bad) = range(best.iter().map(|t| t.peak_error));
         format!(
-            "{} cases, the same records, blocks and rest rule for all, \
-             against double-double. As shipped, an analysis takes {} ms at a \
-             median error of {}. The most accurate setting of each other \
-             tool takes {} to {} times as long at {} to {}. A line joins the \
-             settings of a tool, least accurate first.",
-            own.map_or(0, |t| t.cases),
+            "As shipped, an analysis takes {} ms at a median error of {}. \
+             The most accurate setting of each compiled tool takes {} as \
+             long, of each interpreted one {}. Their errors are {} to {}. A \
+             line joins the settings of a tool, dashed where an interpreter \
+             evaluates the equation. All ran the same {} cases under one \
+             rest rule, against double-double.",
             own.map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
             own.map_or(String::new(), |t| digits(t.peak_error)),
-            digits(fast),
-            digits(slow),
+            by(false),
+            by(true),
             digits(good),
             digits(bad),
+            own.map_or(0, |t| t.cases),
         )
     }
 }

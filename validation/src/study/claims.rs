@@ -143,17 +143,27 @@ impl Declared {
     }
 }
 
+/// The end of the region that a measure is judged by which lies nearest to
+/// infinity; NaN where no claim has that measure.
+#[must_use]
+pub fn limit_of(measure: Measure) -> f64 {
+    let named = |claim: &&Declared| claim.measure == Some(measure);
+    let region = declared().iter().find(named).and_then(|claim| claim.region);
+    region.map_or(f64::NAN, |region| region.nearest_end(f64::INFINITY))
+}
+
 /// All claims, with what came out.
 ///
 /// # Errors
 /// [`StudyError`] where a measure cannot be computed.
-pub fn all(results: &Results) -> Result<Vec<Claim>, StudyError> {
-    let sizes = [&results.ordinary, &results.pulse].map(|s| s.records.len());
-    let draws = Draws::new(sizes);
-    let shares = all_shares(results, &draws);
+pub fn all(
+    results: &Results,
+    draws: &Draws,
+) -> Result<Vec<Claim>, StudyError> {
+    let shares = all_shares(results, draws);
     declared()
         .iter()
-        .map(|claim| measured(claim, results, &draws, &shares))
+        .map(|claim| measured(claim, results, draws, &shares))
         .collect()
 }
 

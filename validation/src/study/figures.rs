@@ -13,6 +13,7 @@ pub(crate) use single::median_of;
 use super::StudyError;
 use super::analyses::{Plan, SuiteResults};
 use super::distributions::Distributions;
+use super::inference::Draws;
 use super::sensitivities::Varied;
 use crate::draw::figures::Figure;
 use crate::paper::{Arm, SuiteKind};
@@ -34,11 +35,11 @@ pub struct Results {
 
 impl Results {
     /// Figures 1 to 18, in order; those of the grid's arms once for each arm
-    /// drawn.
+    /// drawn. Bands are of these draws of the records.
     ///
     /// # Errors
     /// [`StudyError`] where a curve cannot be read.
-    pub fn figures(&self) -> Result<Vec<Figure>, StudyError> {
+    pub fn figures(&self, draws: &Draws) -> Result<Vec<Figure>, StudyError> {
         let drawn = self.plan.drawn();
         let mut out = vec![single::sketch()];
         let one = self.plan.common();
@@ -55,9 +56,7 @@ impl Results {
                 )?);
             }
         }
-        for arm in &drawn {
-            out.push(quantiles::slendernesses(&self.ordinary, *arm)?);
-        }
+        out.push(quantiles::slendernesses(&self.ordinary, &drawn)?);
         for arm in &drawn {
             out.extend(ratios::adjusted(&self.ordinary, *arm)?);
         }
@@ -71,10 +70,16 @@ impl Results {
         }
         out.push(distributions::shares(self, 14)?);
         for number in [15, 16, 17] {
-            out.push(fragilities::thresholds(self, one, number)?);
+            out.push(fragilities::thresholds(self, draws, one, number)?);
         }
         out.push(fragilities::constants(self, one)?);
         Ok(out)
+    }
+
+    /// The draws of the records that bands and claims share.
+    #[must_use]
+    pub fn draws(&self) -> Draws {
+        Draws::new([&self.ordinary, &self.pulse].map(|s| s.records.len()))
     }
 
     /// Whether the suites are the embedded ones.

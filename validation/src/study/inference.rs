@@ -5,6 +5,8 @@
 //! records everywhere and recomputes the whole measure of a claim. The two
 //! suites are resampled independently of each other.
 
+mod drawn;
+
 use rayon::prelude::*;
 use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking::statistics::resampling::{
@@ -16,6 +18,8 @@ use crate::findings::{
     Tested, Unit,
 };
 use crate::paper::{Arm, SuiteKind, Verdict};
+
+pub use drawn::by_cell;
 
 /// Level of all intervals.
 pub const LEVEL: f64 = 0.95;
@@ -406,6 +410,37 @@ fn one(
     }
 }
 
+/// Cells with enough records to decide.
+fn deciding(cells: &[Cell], measured: &Replicated) -> Vec<usize> {
+    let decides = |k: &usize| {
+        cells[*k].records >= LEAST_DECIDING && measured.points[*k].is_finite()
+    };
+    (0..cells.len()).filter(decides).collect()
+}
+
+/// The band that holds all cells of a measure at once.
+fn band(
+    draws: &Draws,
+    tested: Tested,
+    range: (f64, f64),
+    own: &Replicated,
+) -> Vec<(f64, f64)> {
+    let band = match own.scheme {
+        Scheme::Bootstrap => simultaneous(&own.points, &own.replicates, LEVEL),
+        Scheme::Subsampling => {
+            // Bonferroni: these cells are few.
+            let count = own.points.len();
+            let level = 1.0 - (1.0 - LEVEL) / count as f64;
+            let ends = |k| own.interval(k, &draws.rules, tested, level);
+            (0..count).map(|k| ends(k).map(|e| (e.0, e.1))).collect()
+        }
+    };
+    band.into_iter()
+        .map(|ends| ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
+        .map(|(a, b)| (clipped(a, range), clipped(b, range)))
+        .collect()
+}
+
 /// Verdict over many cells, by the band that holds all of them at once: the
 /// share of cells in the region lies between the share whose whole interval
 /// is inside and the share whose interval is not wholly outside, with the
@@ -417,31 +452,13 @@ fn many(
     measured: &Replicated,
     result: &mut ClaimResult,
 ) {
-    let deciding: Vec<usize> = (0..cells.len())
-        .filter(|k| {
-            cells[*k].records >= LEAST_DECIDING
-                && measured.points[*k].is_finite()
-        })
-        .collect();
+    let deciding = deciding(cells, measured);
     let own = measured.map(|row| deciding.iter().map(|k| row[*k]).collect());
-    let band = match own.scheme {
-        Scheme::Bootstrap => {
-            result.interval = Some(Interval::Simultaneous);
-            simultaneous(&own.points, &own.replicates, LEVEL)
-        }
-        Scheme::Subsampling => {
-            result.interval = Some(Interval::Subsampling);
-            // Bonferroni: these cells are few.
-            let level = 1.0 - (1.0 - LEVEL) / deciding.len() as f64;
-            let ends = |k| own.interval(k, &draws.rules, result.suite, level);
-            (0..deciding.len()).map(|k| ends(k).map(|e| (e.0, e.1))).collect()
-        }
-    };
-    let band: Vec<(f64, f64)> = band
-        .into_iter()
-        .map(|ends| ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
-        .map(|(a, b)| (clipped(a, rule.range), clipped(b, rule.range)))
-        .collect();
+    result.interval = Some(match own.scheme {
+        Scheme::Bootstrap => Interval::Simultaneous,
+        Scheme::Subsampling => Interval::Subsampling,
+    });
+    let band = band(draws, result.suite, rule.range, &own);
     let verdicts: Vec<Verdict> =
         band.iter().map(|(a, b)| rule.region.verdict(*a, *b)).collect();
     let count = |verdict| verdicts.iter().filter(|v| **v == verdict).count();

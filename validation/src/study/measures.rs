@@ -13,6 +13,7 @@ mod stripes;
 
 use serde::Deserialize;
 
+pub(crate) use fragilities::{At, Thresholds, by_demand, to_ssfl};
 pub use shares::{Shares, all as all_shares};
 pub use stripes::closed_form;
 

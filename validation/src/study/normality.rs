@@ -47,7 +47,7 @@ pub fn accepted_share(assessments: &[Assessment]) -> f64 {
 pub const BAND_STRIDE: usize = 8;
 
 /// Replicates of the null band.
-const BAND_REPLICATES: u64 = 4000;
+pub const BAND_REPLICATES: u64 = 4000;
 
 /// The levels that stand for all of them in a simulation.
 pub fn every<T>(levels: &[T], stride: usize) -> impl Iterator<Item = &T> {

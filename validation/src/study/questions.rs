@@ -2,7 +2,7 @@
 //! answered with figures beside its claims.
 
 mod equivalence;
-mod grid;
+pub(super) mod grid;
 mod inversion;
 mod levels;
 mod nulls;

@@ -46,12 +46,13 @@ impl Study {
         distributions.extend(of_suite(&pulse, common)?);
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
-        let mut figures = results.figures()?;
+        let draws = results.draws();
+        let mut figures = results.figures(&draws)?;
         let mut answers = questions::all(&results, full)?;
         for answer in &mut answers {
             figures.append(&mut answer.figures);
         }
-        let claims = claims::all(&results)?;
+        let claims = claims::all(&results, &draws)?;
         let findings = findings::all(&results, claims, &answers)?;
         Ok(Self { results, figures, findings, answers })
     }

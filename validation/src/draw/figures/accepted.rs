@@ -21,6 +21,8 @@ pub struct AcceptedShares {
     pub intensity: Intensity,
     /// Share that a lognormal sample would give at the test's level (0.95).
     pub expected: f64,
+    /// Number of demand levels.
+    pub levels: usize,
     /// Panels row by row: a row a suite; original, then shifted.
     pub panels: Vec<SharePanel>,
     /// Panels in a row.
@@ -54,6 +56,8 @@ pub struct BlockShare {
     /// Central 95 % band of that share for lognormal samples whose levels
     /// are as dependent as these, where it was computed.
     pub null_band: Option<(f64, f64)>,
+    /// Levels at which the test could be made.
+    pub levels: usize,
 }
 
 impl AcceptedShares {
@@ -64,11 +68,11 @@ impl AcceptedShares {
     }
 
     /// `panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,share,`
-    /// `null_low,null_high`.
+    /// `null_low,null_high,levels`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
             "panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,\
-             share,null_low,null_high",
+             share,null_low,null_high,levels",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for block in &panel.shares {
@@ -86,6 +90,7 @@ impl AcceptedShares {
                     number(block.share),
                     optional(block.null_band.map(|b| b.0)),
                     optional(block.null_band.map(|b| b.1)),
+                    block.levels.to_string(),
                 ]);
             }
         }
@@ -116,12 +121,17 @@ fn scene(figure: &AcceptedShares) -> Scene {
         Sample::Line(EXPECTED),
         format!("expected of a lognormal: {percent} %"),
     ));
-    if shares().any(|s| s.null_band.is_some()) {
-        let words = "95 % band of a lognormal sample, of the mark's arm";
+    let banded =
+        |a: &&Arm| shares().any(|s| s.arm == **a && s.null_band.is_some());
+    let banded: Vec<&str> =
+        arms.iter().filter(banded).map(|a| a.letter()).collect();
+    if !banded.is_empty() {
+        let arms = banded.join(" and ");
+        let words = format!("95 % band of lognormal suites, arm {arms}");
         legend.push(Entry::new(Sample::Band(NULL_BAND), words));
     }
     let grid = Grid::new(figure.panels.len(), figure.columns);
-    let grid = grid.plot(440.0, 210.0);
+    let grid = grid.plot(440.0, 230.0);
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let ticks = blocks
@@ -141,11 +151,11 @@ fn scene(figure: &AcceptedShares) -> Scene {
                 label: (20 * k).to_string(),
             })
             .collect();
-        let y = Axis::linear(0.0, 114.0, 5)
+        let y = Axis::linear(0.0, 128.0, 5)
             .with_ticks(tens)
             .label("accepted levels (%)");
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
-        groups(&mut panel, &blocks);
+        groups(&mut panel, &blocks, shown, figure.levels);
         panel.horizontal(100.0 * figure.expected, EXPECTED);
         draw_shares(&mut panel, shown, &blocks, &arms, &inks);
         let title = format!(
@@ -168,7 +178,12 @@ fn marker(arm: usize) -> Marker {
 }
 
 /// Names of the frequency parameters over their blocks, and lines between.
-fn groups(panel: &mut Panel<'_>, blocks: &[(f64, f64)]) {
+fn groups(
+    panel: &mut Panel<'_>,
+    blocks: &[(f64, f64)],
+    shown: &SharePanel,
+    all: usize,
+) {
     let mut first = 0;
     for (k, block) in blocks.iter().enumerate() {
         let last = blocks.get(k + 1).is_none_or(|b| b.0 != block.0);
@@ -177,10 +192,19 @@ fn groups(panel: &mut Panel<'_>, blocks: &[(f64, f64)]) {
         }
         let middle = f64::midpoint((first + 1) as f64, (k + 1) as f64);
         panel.words_at(
-            (middle, 104.5),
+            (middle, 117.5),
             common::frequency(block.0),
             Horizontal::Centre,
         );
+        let own = || shown.shares.iter().filter(|s| s.p_rad_s == block.0);
+        let least = own().map(|s| s.levels).min().unwrap_or(0);
+        let most = own().map(|s| s.levels).max().unwrap_or(0);
+        let words = if least == most {
+            format!("{least} of {all} levels")
+        } else {
+            format!("{least} to {most} of {all} levels")
+        };
+        panel.words_at((middle, 105.5), words, Horizontal::Centre);
         if k + 1 < blocks.len() {
             let pen = Pen::new(Ink::Muted, 0.5);
             panel.vertical((k + 1) as f64 + 0.5, pen);

@@ -6,7 +6,8 @@ use rocking::statistics::Boxplot;
 
 use crate::draw::axis::Tick;
 use crate::draw::{
-    Axis, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample, Scene,
+    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample,
+    Scene,
 };
 use crate::paper::Intensity;
 use crate::table::{Table, number, optional};
@@ -144,9 +145,15 @@ const WAIST: f64 = 0.15;
 /// Where the interval of the median is drawn, below the box.
 const BELOW: f64 = -0.43;
 const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
-const CLOSED_FORM: Pen = Pen::new(Ink::Text, 0.6);
-/// Ratios beyond are left out, with an arrow head at the edge.
+const ONE: Pen = Pen::new(Ink::Muted, 0.9);
+const CLOSED_FORM: Pen = Pen::new(Ink::Series(1), 1.1).dash(Dash::Short);
+/// The range of every figure, unless a whisker reaches farther; outliers
+/// beyond are left out, with an arrow head at the edge.
+const USUAL: (f64, f64) = (0.2, 5.0);
+/// The widest range.
 const WIDEST: (f64, f64) = (0.1, 10.0);
+/// Width about 1, in ln, within which the axis of every figure is linear.
+const STRETCH: f64 = 0.005;
 
 fn scene(figure: &Boxplots) -> Scene {
     let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
@@ -165,7 +172,6 @@ fn scene(figure: &Boxplots) -> Scene {
         grid
     };
     let (low, high) = ratio_range(figure);
-    let near = box_width(figure);
     let mut legend =
         if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
     let cross = Sample::Mark(Marker::Cross, Ink::Text);
@@ -175,7 +181,8 @@ fn scene(figure: &Boxplots) -> Scene {
         legend.push(Entry::new(Sample::Line(INTERVAL), words));
     }
     if figure.panels.iter().any(|panel| panel.closed_form.is_some()) {
-        let words = "(sin α/α)/(sin 0.1/0.1)";
+        legend.push(Entry::new(Sample::Line(ONE), "ratio 1"));
+        let words = "closed form (sin *α*/*α*)/(sin 0.1/0.1)";
         legend.push(Entry::new(Sample::Line(CLOSED_FORM), words));
     }
     let beyond =
@@ -201,18 +208,18 @@ fn scene(figure: &Boxplots) -> Scene {
             .collect();
         let names = vec![String::new(); shown.stripes.len()];
         let y = Axis::named(&names).with_ticks(ticks).label(level);
-        let x = Axis::about_one(low, high, near, 34.0 / width).label(format!(
-            "{} (scale stretched about 1)",
-            figure.ratio_label
-        ));
+        let x = Axis::about_one(low, high, STRETCH, 27.0 / width).label(
+            format!("{} (scale stretched about 1)", figure.ratio_label),
+        );
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
             .empty_because("too few usable ratios");
-        panel.vertical(1.0, Pen::new(Ink::Muted, 0.8));
+        panel.vertical(1.0, ONE);
+        let ink = Ink::Series(inks.series(shown.alpha_rad));
+        draw_stripes(&mut panel, shown, ink, (low, high));
+        // Over the boxes: it is what their medians are compared with.
         if let Some(ratio) = shown.closed_form {
             panel.vertical(ratio, CLOSED_FORM);
         }
-        let ink = Ink::Series(inks.series(shown.alpha_rad));
-        draw_stripes(&mut panel, shown, ink, (low, high));
         let title = format!(
             "{}, {}",
             common::frequency(shown.p_rad_s),
@@ -231,30 +238,16 @@ fn summaries(figure: &Boxplots) -> impl Iterator<Item = &Boxplot> {
     stripes.filter_map(|s| s.summary.as_ref())
 }
 
-/// The same range for all panels: what the whiskers need, and most of the
-/// outliers.
+/// The usual range, or what boxes and whiskers need.
 fn ratio_range(figure: &Boxplots) -> (f64, f64) {
     let ends = summaries(figure).flat_map(|b| {
-        let notch = [b.notch_low, b.notch_high];
-        let whiskers = [b.whisker_low, b.whisker_high];
-        notch.into_iter().chain(whiskers).chain(b.outliers.iter().copied())
+        [b.notch_low, b.notch_high, b.whisker_low, b.whisker_high]
     });
-    let (low, high) = common::span(ends, false).unwrap_or((0.5, 1.5));
-    // Room for a cross within the axes.
-    let low = (0.9 * low).clamp(WIDEST.0, 0.9);
-    let high = (1.12 * high).clamp(1.1, WIDEST.1);
-    (low, high)
-}
-
-/// Width about 1 within which the axis is linear: half the median box, in
-/// ln, but 0.01 to 0.2.
-fn box_width(figure: &Boxplots) -> f64 {
-    let half = |b: &Boxplot| 0.5 * libm::log(b.q3 / b.q1);
-    let mut widths: Vec<f64> =
-        summaries(figure).map(half).filter(|w| w.is_finite()).collect();
-    widths.sort_by(f64::total_cmp);
-    let middle = widths.get(widths.len() / 2).copied().unwrap_or(0.2);
-    middle.clamp(0.01, 0.2)
+    let (low, high) = common::span(ends, false).unwrap_or((1.0, 1.0));
+    (
+        (0.9 * low).clamp(WIDEST.0, USUAL.0),
+        (1.12 * high).clamp(USUAL.1, WIDEST.1),
+    )
 }
 
 fn draw_stripes(

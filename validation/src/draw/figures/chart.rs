@@ -50,6 +50,18 @@ pub struct ChartAxis {
     pub range: Option<(f64, f64)>,
     /// Names of the ticks at 1, 2, 3 and so on; empty: numbers.
     pub categories: Vec<String>,
+    /// The same in another unit, at the opposite edge; of a horizontal axis
+    /// alone.
+    pub second: Option<Second>,
+}
+
+/// Another unit of an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Second {
+    /// How many of it make 1 of the axis.
+    pub factor: f64,
+    /// Label, in markup.
+    pub label: String,
 }
 
 impl ChartAxis {
@@ -60,7 +72,14 @@ impl ChartAxis {
         scale: Scale,
         range: Option<(f64, f64)>,
     ) -> Self {
-        Self { label: label.into(), scale, range, categories: Vec::new() }
+        let label = label.into();
+        Self { label, scale, range, categories: Vec::new(), second: None }
+    }
+
+    /// The same axis with another unit beside its own.
+    #[must_use]
+    pub fn with_second(self, factor: f64, label: impl Into<String>) -> Self {
+        Self { second: Some(Second { factor, label: label.into() }), ..self }
     }
 }
 
@@ -114,6 +133,17 @@ pub enum Mark {
     Points,
     /// Marks joined by a line.
     LineAndPoints,
+    /// Marks joined by a dashed line.
+    DashedAndPoints,
+}
+
+impl Mark {
+    fn has_points(self) -> bool {
+        matches!(
+            self,
+            Self::Points | Self::LineAndPoints | Self::DashedAndPoints
+        )
+    }
 }
 
 impl Chart {
@@ -225,10 +255,24 @@ fn scene(figure: &Chart) -> Scene {
         .map(|(k, s)| Entry::new(sample(s.mark, k), s.label.as_str()))
         .collect();
     let grid = grid(figure.panels.len(), figure.columns);
+    let above = figure.panels.iter().any(|p| p.x.second.is_some());
+    let grid = if above { grid.with_second_axis() } else { grid };
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let (x, y) = axes(shown);
+        let second = shown.x.second.as_ref().map(|second| {
+            let (low, high) = x.range();
+            let range = (second.factor * low, second.factor * high);
+            let of = match shown.x.scale {
+                Scale::Logarithmic => Axis::logarithmic(range.0, range.1),
+                Scale::Linear => Axis::linear(range.0, range.1, 6),
+            };
+            of.label(second.label.as_str())
+        });
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
+        if let Some(second) = second {
+            panel = panel.with_second(second);
+        }
         for series in &shown.series {
             let rank = labels.iter().position(|s| s.label == series.label);
             draw_series(&mut panel, series, rank);
@@ -249,7 +293,9 @@ fn sample(mark: Mark, rank: usize) -> Sample {
     match mark {
         Mark::Line | Mark::Dashed => Sample::Line(pen),
         Mark::Points => Sample::Mark(marker, pen.ink),
-        Mark::LineAndPoints => Sample::LineAndMark(pen, marker),
+        Mark::LineAndPoints | Mark::DashedAndPoints => {
+            Sample::LineAndMark(pen, marker)
+        }
     }
 }
 
@@ -258,7 +304,9 @@ fn pen(mark: Mark, rank: Option<usize>) -> Pen {
         return Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
     };
     match mark {
-        Mark::Dashed => Pen::new(Ink::Series(rank), 1.1).dash(Dash::Dashed),
+        Mark::Dashed | Mark::DashedAndPoints => {
+            Pen::new(Ink::Series(rank), 1.1).dash(Dash::Dashed)
+        }
         Mark::Line => Pen::of_series(rank),
         Mark::Points | Mark::LineAndPoints => Pen::new(Ink::Series(rank), 1.1),
     }
@@ -294,10 +342,10 @@ fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
     let pen = pen(series.mark, rank);
     let points = || series.x.iter().zip(&series.y).map(|(x, y)| (*x, *y));
     let ends = series.x.iter().zip(&series.interval);
-    let marked = matches!(series.mark, Mark::Points | Mark::LineAndPoints);
+    let marked = series.mark.has_points();
     if marked {
         for (x, (low, high)) in ends {
-            let bar = Pen { width_px: 0.8, ..pen };
+            let bar = Pen { width_px: 0.8, dash: Dash::Solid, ..pen };
             panel.line([(*x, *low), (*x, *high)], bar);
         }
     } else {

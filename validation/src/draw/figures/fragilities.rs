@@ -2,11 +2,11 @@
 
 use super::{Figure, Heading, common};
 use crate::draw::{
-    Axis, Dash, Entry, Grid, Horizontal, Ink, Marker, Panel, Pen, Sample,
-    Scene,
+    Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
+    Sample, Scene,
 };
 use crate::paper::Intensity;
-use crate::table::{Table, number};
+use crate::table::{Table, number, point};
 use crate::words::{letter, named};
 use rocking::statistics::Lognormal;
 
@@ -15,29 +15,37 @@ use rocking::statistics::Lognormal;
 pub struct Fragilities {
     /// The words.
     pub heading: Heading,
-    /// One panel an intensity measure: (a) PGA, (b) PGV.
+    /// Row by row: (a) PGA, (b) PGV; a panel a demand threshold.
     pub panels: Vec<FragilityPanel>,
+    /// Panels in a row.
+    pub columns: usize,
 }
 
-/// One intensity measure.
+/// One demand threshold in one intensity measure.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FragilityPanel {
     /// Kind of the intensity.
     pub intensity: Intensity,
-    /// The thresholds, a colour each.
-    pub thresholds: Vec<Threshold>,
-}
-
-/// One demand threshold.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Threshold {
     /// Demand, peak |theta|/alpha.
     pub edp: f64,
     /// Capacities of all records, +infinity where the threshold was never
     /// reached; the ECDF divides by the length.
     pub sample: Vec<f64>,
-    /// Fitted curves, a dash each.
+    /// Fitted curves, a colour and dash each.
     pub curves: Vec<Fitted>,
+    /// The fragility that one of the curves is held against.
+    pub limit: Option<Limit>,
+    /// What decides, a line each, in markup.
+    pub notes: Vec<String>,
+}
+
+/// How far a curve may be from another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// The other one.
+    pub around: Lognormal,
+    /// Largest distance in probability.
+    pub by: f64,
 }
 
 named! {
@@ -59,6 +67,8 @@ pub struct Fitted {
     pub estimator: Estimator,
     /// The curve; none where the fit or Eq. 7 is not defined.
     pub curve: Option<Lognormal>,
+    /// Intensity, and both ends of the 95 % band there.
+    pub band: Vec<(f64, f64, f64)>,
 }
 
 /// The constant c of Eq. 7 compared, against a benchmark.
@@ -103,31 +113,41 @@ impl Fragilities {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,im_kind,edp,curve,quantity,value`: the sample (`ecdf`), and
-    /// the parameters of each fitted curve.
+    /// `panel,im_kind,edp,curve,quantity,at,value`: the sample (`ecdf`),
+    /// the parameters of each fitted curve, its band at an intensity.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,im_kind,edp,curve,quantity,value");
+            Table::headed("panel,im_kind,edp,curve,quantity,at,value");
         for (i, panel) in self.panels.iter().enumerate() {
-            for threshold in &panel.thresholds {
-                let mut row = |curve: &str, quantity: &str, value| {
-                    table.row([
-                        letter(i),
-                        panel.intensity.name().into(),
-                        number(threshold.edp),
-                        curve.into(),
-                        quantity.into(),
-                        number(value),
-                    ]);
-                };
-                for im in &threshold.sample {
-                    row("ECDF", "im", *im);
+            let mut row = |curve: &str, quantity: &str, at: f64, value| {
+                table.row([
+                    letter(i / self.columns.max(1)),
+                    panel.intensity.name().into(),
+                    number(panel.edp),
+                    curve.into(),
+                    quantity.into(),
+                    point(at),
+                    number(value),
+                ]);
+            };
+            for im in &panel.sample {
+                row("ECDF", "im", f64::NAN, *im);
+            }
+            for fit in &panel.curves {
+                let name = fit.estimator.name();
+                parameters(fit.curve.as_ref(), |quantity, value| {
+                    row(name, quantity, f64::NAN, value);
+                });
+                for (im, low, high) in &fit.band {
+                    row(name, "band_low", *im, *low);
+                    row(name, "band_high", *im, *high);
                 }
-                for fit in &threshold.curves {
-                    parameters(fit.curve.as_ref(), |quantity, value| {
-                        row(fit.estimator.name(), quantity, value);
-                    });
-                }
+            }
+            if let Some(limit) = &panel.limit {
+                parameters(Some(&limit.around), |quantity, value| {
+                    row("SSFL", quantity, f64::NAN, value);
+                });
+                row("SSFL", "limit", f64::NAN, limit.by);
             }
         }
         table.finish()
@@ -183,62 +203,56 @@ fn parameters(fit: Option<&Lognormal>, mut row: impl FnMut(&str, f64)) {
 }
 
 const SIZE: (f64, f64) = (440.0, 290.0);
+const LIMIT: Fill = Fill::tint(Ink::Muted, 30);
+const BAND_PERCENT: u8 = 26;
 
-fn dash(estimator: Estimator) -> Dash {
-    match estimator {
-        Estimator::Usfl => Dash::Solid,
-        Estimator::Ssfl => Dash::Dashed,
-        Estimator::Usfl7 => Dash::Short,
-    }
+fn pen(estimator: Estimator) -> Pen {
+    let (series, dash) = match estimator {
+        Estimator::Usfl => (0, Dash::Solid),
+        Estimator::Ssfl => (2, Dash::Dashed),
+        Estimator::Usfl7 => (1, Dash::Dashed),
+    };
+    Pen::new(Ink::Series(series), 1.4).dash(dash)
 }
 
 fn scene(figure: &Fragilities) -> Scene {
-    let thresholds = || figure.panels.iter().flat_map(|p| &p.thresholds);
-    let mut levels: Vec<f64> = thresholds().map(|t| t.edp).collect();
-    levels.sort_by(f64::total_cmp);
-    levels.dedup();
-    let mut estimators: Vec<Estimator> =
-        thresholds().flat_map(|t| &t.curves).map(|c| c.estimator).collect();
+    let fits = || figure.panels.iter().flat_map(|p| &p.curves);
+    let mut estimators: Vec<Estimator> = fits().map(|c| c.estimator).collect();
     estimators.sort();
     estimators.dedup();
-    let mut legend: Vec<Entry> = levels
-        .iter()
-        .enumerate()
-        .map(|(k, edp)| {
-            let sample = Sample::Mark(marker(k), ink(k));
-            Entry::new(sample, format!("ECDF, *θ̃* = {edp:.2}"))
-        })
-        .collect();
+    let dots = Sample::Mark(Marker::Dot, Ink::Muted);
+    let mut legend = vec![Entry::new(dots, "empirical fragility (ECDF)")];
     for estimator in &estimators {
-        let pen = Pen::new(Ink::Text, 1.2).dash(dash(*estimator));
-        legend.push(Entry::new(Sample::Line(pen), estimator.name()));
+        let sample = Sample::Line(pen(*estimator));
+        legend.push(Entry::new(sample, estimator.name()));
     }
-    let grid = Grid::new(figure.panels.len(), 2).plot(SIZE.0, SIZE.1);
+    for estimator in &estimators {
+        let own = |f: &&Fitted| f.estimator == *estimator;
+        if fits().filter(own).any(|f| !f.band.is_empty()) {
+            let fill = Fill::tint(pen(*estimator).ink, BAND_PERCENT);
+            let words = format!("95 % band of {}", estimator.name());
+            legend.push(Entry::new(Sample::Band(fill), words));
+        }
+    }
+    if let Some(limit) = figure.panels.iter().find_map(|p| p.limit) {
+        let words = format!("limit: SSFL ± {}", limit.by);
+        legend.push(Entry::new(Sample::Band(LIMIT), words));
+    }
+    let grid = Grid::new(figure.panels.len(), figure.columns);
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
-        let samples = shown.thresholds.iter().map(|t| t.sample.as_slice());
-        let mut panel =
-            axes(&mut scene, &grid, i, shown.intensity, end(samples));
-        let missing = draw_panel(&mut panel, shown, &levels);
-        for (k, words) in missing.iter().enumerate() {
-            let down = 0.95 - 0.05 * k as f64;
-            panel.note(words.as_str(), (0.985, down), Horizontal::Right);
-        }
-        let name = match shown.intensity {
-            Intensity::Pga => "dimensionless PGA",
-            Intensity::Pgv => "dimensionless PGV",
-        };
-        panel.finish(&common::panel_title(i, name), "");
+        let (low, high) = Fragilities::range(&shown.sample);
+        let x = Axis::linear(low, high, 5)
+            .label(common::intensity(shown.intensity));
+        let y = Axis::linear(0.0, 1.0, 5).label("probability of exceedance");
+        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
+        draw_panel(&mut panel, shown);
+        let name = shown.intensity.name().to_uppercase();
+        let words = format!("{name}, *θ̃* = {:.2}", shown.edp);
+        let row = i / grid.columns;
+        panel.finish(&common::panel_title(row, &words), "");
     }
     scene
-}
-
-fn ink(threshold: usize) -> Ink {
-    Ink::Series([0, 2, 3][threshold % 3])
-}
-
-fn marker(threshold: usize) -> Marker {
-    [Marker::Dot, Marker::Square, Marker::Triangle][threshold % 3]
 }
 
 fn axes<'s>(
@@ -258,41 +272,61 @@ fn axes<'s>(
 fn end<'a>(samples: impl Iterator<Item = &'a [f64]>) -> f64 {
     let mut end = 1.0_f64;
     for sample in samples {
-        let mut sorted = sample.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let most = (0.97 * sorted.len() as f64) as usize;
-        let upper = &sorted[..sorted.len().min(most + 1)];
-        let last = upper.iter().rev().find(|x| x.is_finite());
-        end = end.max(last.copied().unwrap_or(1.0));
+        end = end.max(most_of(sample).unwrap_or(1.0));
     }
     1.02 * end
 }
 
-/// Draws the curves; gives words for those that do not exist.
-fn draw_panel(
-    panel: &mut Panel<'_>,
-    shown: &FragilityPanel,
-    levels: &[f64],
-) -> Vec<String> {
-    let mut missing = Vec::new();
-    for threshold in &shown.thresholds {
-        let k = levels.iter().position(|l| *l == threshold.edp).unwrap_or(0);
-        draw_sample(panel, &threshold.sample, marker(k), ink(k));
-        for fit in &threshold.curves {
-            match &fit.curve {
-                Some(curve) => {
-                    let pen = Pen::new(ink(k), 1.2).dash(dash(fit.estimator));
-                    draw_curve(panel, curve, pen);
-                }
-                None => missing.push(format!(
-                    "{} is not defined at *θ̃* = {:.2}",
-                    fit.estimator.name(),
-                    threshold.edp
-                )),
+/// What 97 % of the data do not exceed, or the last finite datum below.
+fn most_of(sample: &[f64]) -> Option<f64> {
+    let mut sorted = sample.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let most = (0.97 * sorted.len() as f64) as usize;
+    let upper = &sorted[..sorted.len().min(most + 1)];
+    upper.iter().rev().find(|x| x.is_finite()).copied()
+}
+
+impl Fragilities {
+    /// Ends of a panel's intensity axis: from below the least datum to what
+    /// 97 % of the data do not exceed.
+    #[must_use]
+    pub fn range(sample: &[f64]) -> (f64, f64) {
+        let data = sample.iter().copied();
+        let (least, _) = common::span(data, true).unwrap_or((1.0, 2.0));
+        let most = most_of(sample).filter(|x| *x > least);
+        (0.6 * least, 1.05 * most.unwrap_or(2.0 * least))
+    }
+}
+
+/// Draws the bands, then the sample, then the curves.
+fn draw_panel(panel: &mut Panel<'_>, shown: &FragilityPanel) {
+    if let Some(limit) = &shown.limit {
+        let along = along(panel);
+        let rows: Vec<_> = along
+            .map(|x| (x, limit.around.cdf(x)))
+            .map(|(x, p)| (x, p - limit.by, p + limit.by))
+            .collect();
+        panel.band(&rows, LIMIT);
+    }
+    for fit in &shown.curves {
+        let fill = Fill::tint(pen(fit.estimator).ink, BAND_PERCENT);
+        panel.band(&fit.band, fill);
+    }
+    draw_sample(panel, &shown.sample, Marker::Dot, Ink::Muted);
+    let mut notes = shown.notes.clone();
+    for fit in &shown.curves {
+        match &fit.curve {
+            Some(curve) => draw_curve(panel, curve, pen(fit.estimator)),
+            None => {
+                let name = fit.estimator.name();
+                notes.push(format!("{name} is not defined"));
             }
         }
     }
-    missing
+    for (k, words) in notes.iter().rev().enumerate() {
+        let down = 0.96 - 0.06 * k as f64;
+        panel.note(words.as_str(), (0.985, down), Horizontal::Right);
+    }
 }
 
 /// Dots of the ECDF.
@@ -311,11 +345,15 @@ fn draw_sample(
 }
 
 fn draw_curve(panel: &mut Panel<'_>, curve: &Lognormal, pen: Pen) {
+    let points: Vec<_> = along(panel).map(|x| (x, curve.cdf(x))).collect();
+    panel.line(points, pen);
+}
+
+/// Intensities from one end of the axis to the other.
+fn along(panel: &Panel<'_>) -> impl Iterator<Item = f64> + use<> {
     let (low, high) = panel.horizontal_range();
     let step = (high - low) / 300.0;
-    let at = |i| step.mul_add(f64::from(i), low);
-    let points = (0..=300).map(|i| (at(i), curve.cdf(at(i))));
-    panel.line(points, pen);
+    (0..=300).map(move |i| step.mul_add(f64::from(i), low))
 }
 
 fn by_constant(figure: &ByConstant) -> Scene {

@@ -101,11 +101,15 @@ fn scene(figure: &Quantiles) -> Scene {
         legend.push(Entry::new(Sample::Line(pen), words));
     }
     let grid = Grid::new(figure.panels.len(), figure.columns);
-    let grid = Grid { right: 40.0, width: 264.0, ..grid };
+    let grid = match grid.columns {
+        2 => Grid { right: 40.0, width: 330.0, height: 190.0, ..grid },
+        _ => Grid { right: 40.0, width: 264.0, ..grid },
+    };
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let x = Axis::linear(0.0, END, 5).label(common::DEMAND);
-        let (low, high) = levels(shown);
+        let same = |p: &&QuantilePanel| p.p_rad_s == shown.p_rad_s;
+        let (low, high) = levels(figure.panels.iter().filter(same));
         let y = Axis::linear(low, high, 6)
             .label(common::intensity(figure.intensity));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
@@ -115,8 +119,11 @@ fn scene(figure: &Quantiles) -> Scene {
             draw_group(&mut panel, group, series);
         }
         edge_words(&mut panel, shown);
-        let title = common::panel_title(i, &common::frequency(shown.p_rad_s));
-        panel.finish(&title, &common::words(&shown.note));
+        let mut title = common::frequency(shown.p_rad_s);
+        if !shown.note.is_empty() {
+            title = format!("{title}, {}", common::words(&shown.note));
+        }
+        panel.finish(&common::panel_title(i, &title), "");
     }
     scene
 }
@@ -161,13 +168,14 @@ fn ends_at(im: &[f64], edp: &[f64]) -> Option<f64> {
     im.get(first).copied()
 }
 
-/// Ends of the intensity axis: 1, or the lowest level shown, and a little
-/// above the last overturning level.
-fn levels(shown: &QuantilePanel) -> (f64, f64) {
-    let ends = shown.groups.iter().map(|g| {
+/// Ends of the intensity axis of some panels: 1, or the lowest level shown,
+/// and a little above the last overturning level.
+fn levels<'a>(panels: impl Iterator<Item = &'a QuantilePanel>) -> (f64, f64) {
+    let groups: Vec<&QuantileGroup> = panels.flat_map(|p| &p.groups).collect();
+    let ends = groups.iter().map(|g| {
         ends_at(&g.im, &g.q16).or(g.im.last().copied()).unwrap_or(1.0)
     });
-    let starts = shown.groups.iter().filter_map(|g| g.im.first().copied());
+    let starts = groups.iter().filter_map(|g| g.im.first().copied());
     let (_, high) = common::span(ends, true).unwrap_or((1.0, 2.0));
     let (low, _) = common::span(starts, true).unwrap_or((1.0, 2.0));
     let low = if low < 0.99 { 0.0 } else { 1.0 };

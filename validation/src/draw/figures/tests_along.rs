@@ -36,6 +36,9 @@ pub struct TestedBlock {
     pub original: Vec<f64>,
     /// The same for the shifted sample.
     pub shifted: Vec<f64>,
+    /// The 5 % critical value, over the table's, of shifted overturnings on
+    /// the grid of 0.01 g; none in other arms.
+    pub grid_critical: Option<f64>,
     /// Histogram of ln IM.
     pub original_histogram: Histogram,
     /// Histogram of ln(IM - IM_R).
@@ -140,6 +143,11 @@ impl TestsAlongDemand {
                 if let Some(end) = histogram.edges.last() {
                     row(sample, "last_edge", *end, f64::NAN);
                 }
+                if sample == "shifted"
+                    && let Some(ratio) = block.grid_critical
+                {
+                    row(sample, "grid_critical_over_critical", 1.0, ratio);
+                }
                 row(sample, "normal_mean", self.edp, histogram.mean);
                 row(sample, "normal_sd", self.edp, histogram.deviation);
             }
@@ -150,16 +158,22 @@ impl TestsAlongDemand {
 
 const ORIGINAL: Ink = Ink::Series(0);
 const SHIFTED: Ink = Ink::Series(2);
+const GRID: Ink = Ink::Series(1);
 const LIMIT: Pen = Pen::new(Ink::Text, 0.8).dash(Dash::Dashed);
 
 fn scene(figure: &TestsAlongDemand) -> Scene {
     let line = |ink, marker| Sample::LineAndMark(Pen::new(ink, 1.1), marker);
-    let legend = [
+    let mut legend = vec![
         Entry::new(line(ORIGINAL, Marker::Dot), "original sample"),
         Entry::new(line(SHIFTED, Marker::Square), "shifted sample"),
         Entry::new(Sample::Line(LIMIT), "5 % critical value"),
         Entry::new(Sample::Line(Pen::new(Ink::Text, 1.1)), "fitted normal"),
     ];
+    if figure.blocks.iter().any(|b| b.grid_critical.is_some()) {
+        let mark = Sample::Mark(Marker::Diamond, GRID);
+        let words = "shifted, 5 % on the 0.01 *g* grid at overturning";
+        legend.push(Entry::new(mark, words));
+    }
     let grid = Grid::new(3 * figure.blocks.len(), 3).with_subtitles();
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     let im = match figure.intensity {
@@ -167,8 +181,14 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
         Intensity::Pgv => "IM = *p* PGV / (*g* tan *α*)",
     };
     // The same scale for all blocks: they are compared.
-    let ratios =
-        figure.blocks.iter().flat_map(|b| b.original.iter().chain(&b.shifted));
+    let ratios = figure.blocks.iter().flat_map(|b| {
+        b.original.iter().chain(&b.shifted).chain(&b.grid_critical)
+    });
+    let histograms = figure
+        .blocks
+        .iter()
+        .flat_map(|b| [&b.original_histogram, &b.shifted_histogram]);
+    let top = histograms.map(top).fold(1.0, f64::max);
     let (_, high) = common::span(ratios.copied(), true).unwrap_or((0.0, 1.5));
     for (row, block) in figure.blocks.iter().enumerate() {
         let first = 3 * row;
@@ -187,6 +207,8 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
             let few = points().step_by((block.edp.len() / 40).max(1));
             panel.marks(few, marker, 1.7, ink);
         }
+        let critical = block.grid_critical.map(|ratio| (1.0, ratio));
+        panel.marks(critical, Marker::Diamond, 4.0, GRID);
         let title = format!(
             "{}, {}",
             common::frequency(block.p_rad_s),
@@ -201,10 +223,34 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
             let title = format!("{words} at *θ̃* = {level}");
             let title = common::panel_title(first + k, &title);
             let frame = grid.frame(first + k);
-            draw_histogram(&mut scene, frame, histogram, ink, words, &title);
+            let words = (words, title.as_str());
+            draw_histogram(&mut scene, frame, histogram, ink, words, top);
         }
     }
     scene
+}
+
+/// Width of a bin.
+fn bin(histogram: &Histogram) -> f64 {
+    match histogram.edges.as_slice() {
+        [first, second, ..] => second - first,
+        _ => 1.0,
+    }
+}
+
+/// Records a bin that the fitted normal gives.
+fn density(histogram: &Histogram, x: f64) -> f64 {
+    let n: usize = histogram.counts.iter().sum();
+    let z = (x - histogram.mean) / histogram.deviation;
+    normal::pdf(z) / histogram.deviation * (n as f64 * bin(histogram))
+}
+
+/// What a histogram and its normal reach.
+fn top(histogram: &Histogram) -> f64 {
+    let most = histogram.counts.iter().max().copied().unwrap_or(0);
+    let peak = density(histogram, histogram.mean);
+    let peak = if peak.is_finite() { peak } else { 0.0 };
+    (most as f64).max(peak.min(2.0 * most as f64)).max(1.0)
 }
 
 fn draw_histogram(
@@ -212,24 +258,12 @@ fn draw_histogram(
     frame: Rect,
     histogram: &Histogram,
     ink: Ink,
-    label: &str,
-    title: &str,
+    (label, title): (&str, &str),
+    top: f64,
 ) {
     let n: usize = histogram.counts.iter().sum();
-    let most = histogram.counts.iter().max().copied().unwrap_or(0);
     let (low, high) = common::span(histogram.edges.iter().copied(), false)
         .unwrap_or((0.0, 1.0));
-    let width = match histogram.edges.as_slice() {
-        [first, second, ..] => second - first,
-        _ => 1.0,
-    };
-    let density = |x: f64| {
-        let z = (x - histogram.mean) / histogram.deviation;
-        normal::pdf(z) / histogram.deviation * (n as f64 * width)
-    };
-    let peak = density(histogram.mean);
-    let peak = if peak.is_finite() { peak } else { 0.0 };
-    let top = (most as f64).max(peak.min(2.0 * most as f64)).max(1.0);
     let margin = 0.08 * (high - low);
     let x = Axis::around(low - margin, high + margin, 6).label(label);
     let range = x.range();
@@ -245,7 +279,7 @@ fn draw_histogram(
     if histogram.deviation > 0.0 {
         let step = (range.1 - range.0) / 160.0;
         let curve = (0..=160).map(|i| step.mul_add(f64::from(i), range.0));
-        let curve = curve.map(|x| (x, density(x)));
+        let curve = curve.map(|x| (x, density(histogram, x)));
         panel.line(curve, Pen::new(Ink::Text, 1.1));
     }
     panel.finish(title, &format!("{n} records"));

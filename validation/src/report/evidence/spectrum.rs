@@ -12,9 +12,9 @@ use crate::proof::scene::{
 };
 
 /// Restitution of the figure.
-const ETA: f64 = 0.92;
+pub(super) const ETA: f64 = 0.92;
 /// Slenderness of the block of Eq. 1.
-const STOCKY_RAD: f64 = 0.25;
+pub(super) const STOCKY_RAD: f64 = 0.25;
 /// Top of the panels.
 const TOP: f64 = 30.0;
 /// Frequencies up to the fold.
@@ -23,7 +23,7 @@ const POINTS: u32 = 88;
 const LOWEST: f64 = 0.4;
 
 /// Whether a one-sine pulse overturns, and after how many impacts.
-fn fate(
+pub(super) fn fate(
     equation: Model,
     criterion: Overturning,
     omega: f64,

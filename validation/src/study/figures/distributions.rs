@@ -1,7 +1,7 @@
 //! Figures 11 to 14: capacities and their tests.
 
 use rocking::statistics::lilliefors::Assessment;
-use rocking::statistics::{QuantileType, Sample};
+use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 
 use super::{Figure, Results, name};
 use crate::draw::figures::{
@@ -14,8 +14,11 @@ use crate::paper::{
 };
 use crate::study::StudyError;
 use crate::study::distributions::{BlockSamples, Distributions};
-use crate::study::normality::{LEVEL, accepted_share, ends, over_critical};
-use crate::words::{percent, range};
+use crate::study::normality::{
+    BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
+};
+use crate::study::questions::grid::critical_on_grid;
+use crate::words::percent;
 
 impl Results {
     /// The capacity samples of a suite in an arm and a measure.
@@ -55,14 +58,14 @@ pub(super) fn inverted(
     arm: Arm,
 ) -> Result<Figure, StudyError> {
     let levels = demands();
-    // Every fourth level is enough to draw.
-    let kept: Vec<usize> =
-        (0..levels.len()).filter(|i| *i == 0 || (i + 1) % 4 == 0).collect();
     let mut panels = Vec::new();
     let mut onsets = Vec::new();
+    let mut ends = 0;
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let block = results.ordinary_block(arm, intensity, 0, 3)?;
-        onsets.push(range(block.samples[0].iter().copied()));
+        onsets.push(spread(&block.samples[0])?);
+        let last = block.samples.last().ok_or(StudyError::NoArm)?;
+        ends = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
         panels.push(CapacityPanel {
             intensity,
@@ -70,23 +73,31 @@ pub(super) fn inverted(
             curves: records
                 .map(|(record, facts)| CapacityCurve {
                     record: facts.name.clone(),
-                    edp: kept.iter().map(|i| levels[*i]).collect(),
-                    im: kept
-                        .iter()
-                        .map(|i| block.samples[*i][record])
-                        .collect(),
+                    edp: levels.clone(),
+                    im: block.samples.iter().map(|s| s[record]).collect(),
                 })
                 .collect(),
+            quantiles: levels
+                .iter()
+                .zip(&block.samples)
+                .map(|(edp, sample)| Ok((*edp, spread(sample)?)))
+                .collect::<Result<_, StudyError>>()?,
         });
     }
-    let (pga, pgv) = (onsets[0], onsets[1]);
+    let times = |of: [f64; 3], less: f64| (of[2] - less) / (of[0] - less);
+    let shifts: Vec<f64> = panels.iter().map(|p| p.shift).collect();
+    let cut = match ends {
+        0 => String::new(),
+        n => format!(" {n} records never overturn: their curves end early."),
+    };
     Ok(Capacities {
         heading: Heading::new(
             name(11, None),
             "Intensity given demand, original and shifted",
-            "A curve for each record of the intensity that \
-                              reaches a demand, by median point; PGA and \
-                              PGV, as inverted and above IM_R.",
+            "A pale curve for each record of the intensity that reaches a \
+             demand, by median point, with median and band of 16 to 84 % of \
+             the records; rows PGA and PGV, columns as inverted and above \
+             IM_R; logarithmic intensity.",
             Some(arm),
         ),
         alpha_rad: SLENDERNESSES_RAD[3],
@@ -95,11 +106,21 @@ pub(super) fn inverted(
     }
     .thinned()
     .figure(format!(
-        "At the lowest demand all capacities lie between {:.3} and \
-             {:.3} for PGA, but between {:.3} and {:.3} for PGV: the onset \
-             is sharp in the former alone.",
-        pga.0, pga.1, pgv.0, pgv.1
+        "At the lowest demand the 84 % capacity is {:.2} times the 16 % \
+         one for PGA, and {:.2} times for PGV. Less IM_R it is {:.2} and \
+         {:.2} times.{cut}",
+        times(onsets[0], 0.0),
+        times(onsets[1], 0.0),
+        times(onsets[0], shifts[0]),
+        times(onsets[1], shifts[1]),
     )))
+}
+
+/// 16, 50 and 84 % of a sample.
+fn spread(sample: &[f64]) -> Result<[f64; 3], StudyError> {
+    let sample = ExtendedSample::try_new(sample)?;
+    let of = |p| QuantileType::default().of_extended(&sample, p);
+    Ok([of(0.16)?, of(0.5)?, of(0.84)?])
 }
 
 /// Figure 12 (PGA) or 14 (PGV).
@@ -110,7 +131,7 @@ pub(super) fn shares(
     let intensity = if number == 12 { Intensity::Pga } else { Intensity::Pgv };
     let drawn = results.plan.drawn();
     let mut panels = Vec::new();
-    let mut words = Vec::new();
+    let mut means = Vec::new();
     for suite in [&results.ordinary, &results.pulse] {
         for shifted in [false, true] {
             let mut shares = Vec::new();
@@ -126,6 +147,11 @@ pub(super) fn shares(
                         null_band: block.bands[usize::from(shifted)]
                             .as_ref()
                             .and_then(ends),
+                        levels: tested(if shifted {
+                            &block.shifted
+                        } else {
+                            &block.original
+                        }),
                     });
                 }
             }
@@ -134,12 +160,7 @@ pub(super) fn shares(
             let own = || shares.iter().filter(|b| b.arm == common);
             let mean =
                 own().fold(0.0, |s, b| s + b.share) / own().count() as f64;
-            let sample = if shifted { "shifted" } else { "original" };
-            words.push(format!(
-                "{} for {sample} {} samples",
-                percent(mean, 1),
-                suite.kind
-            ));
+            means.push(percent(mean, 1));
             panels.push(SharePanel {
                 suite: suite.kind.name().into(),
                 records: suite.records.len(),
@@ -149,6 +170,17 @@ pub(super) fn shares(
         }
     }
     let measure = if number == 12 { "PGA" } else { "PGV" };
+    let all = || panels.iter().flat_map(|p| &p.shares);
+    let fewest = all().map(|s| s.levels).min().unwrap_or(0);
+    let levels = demands().len();
+    let rests = if fewest < levels {
+        format!(
+            "Where a record never overturns, fewer levels can be tested: \
+             {fewest} at least; the panels count them."
+        )
+    } else {
+        format!("All {levels} levels were tested for every block.")
+    };
     Ok(AcceptedShares {
         heading: Heading::new(
             name(number, None),
@@ -156,23 +188,35 @@ pub(super) fn shares(
                 "Share of demand levels at which lognormality is \
                      accepted, {measure}"
             ),
-            "Percent of 200 demand levels accepted by \
-                              Lilliefors' test at 5 %, for 15 blocks; \
-                              original and shifted samples, ordinary and \
-                              pulse-type.",
+            "Percent of the demand levels accepted by Lilliefors' test at \
+             5 %, for 15 blocks and the arms drawn, with a band for each \
+             mark of one arm; original and shifted samples, ordinary and \
+             pulse-type.",
             None,
         ),
         intensity,
         expected: 1.0 - LEVEL,
+        levels,
         panels,
         columns: 2,
     }
     .figure(format!(
-        "Mean over blocks of the accepted share, arm {}: {}. A band belongs \
-         to the mark in front of it.",
+        "On arm {0} the mean accepted share is {1} (original) and {2} \
+         (shifted) for ordinary records, {3} and {4} for pulse-type ones. \
+         {rests} The bands are of arm {0} too: they hold 95 % of \
+         {BAND_REPLICATES} lognormal suites with the same dependence between \
+         levels.",
         results.plan.common().letter(),
-        words.join(", ")
+        means[0],
+        means[1],
+        means[2],
+        means[3],
     )))
+}
+
+/// How many levels could be tested.
+fn tested(levels: &[Assessment]) -> usize {
+    levels.iter().filter(|a| over_critical(a).is_finite()).count()
 }
 
 /// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA.
@@ -187,7 +231,7 @@ pub(super) fn along(
         let block =
             results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
         words.push(format!(
-            "{} original and {} shifted at alpha = {:.2}",
+            "{} and {} at alpha = {:.2}",
             percent(accepted_share(&block.original), 1),
             percent(accepted_share(&block.shifted), 1),
             block.alpha_rad
@@ -198,6 +242,9 @@ pub(super) fn along(
             edp: demands(),
             original: block.original.iter().map(over_critical).collect(),
             shifted: block.shifted.iter().map(over_critical).collect(),
+            grid_critical: (arm == Arm::A)
+                .then(|| critical_on_grid(block))
+                .flatten(),
             original_histogram: histogram(&block.original[demand_index(edp)]),
             shifted_histogram: histogram(&block.shifted[demand_index(edp)]),
         });
@@ -216,7 +263,16 @@ pub(super) fn along(
         edp,
         blocks,
     }
-    .figure(format!("Accepted levels: {}.", words.join("; "))))
+    .figure(format!(
+        "Of the original and of the shifted levels the test accepts {}.{}",
+        words.join(", "),
+        if arm == Arm::A {
+            " The diamond is the 5 % critical value of a shifted lognormal \
+             whose overturnings lie on the 0.01 g grid."
+        } else {
+            ""
+        }
+    )))
 }
 
 /// Of the logarithms tested.

@@ -1,13 +1,16 @@
 //! Figures 15 to 18: fitted and transformed fragilities.
 
+mod thresholds;
+
+pub(super) use thresholds::thresholds;
+
 use rocking::fragility::transform;
 use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 
 use super::{Figure, Results, name};
 use crate::draw::figures::{
-    ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Heading, Threshold,
+    ByConstant, ByConstantPanel, ConstantCurve, Heading,
 };
 use crate::paper::{Arm, Intensity, demand_index};
 use crate::study::StudyError;
@@ -70,78 +73,6 @@ fn sample_at(
     edp: f64,
 ) -> Result<ExtendedSample, StudyError> {
     Ok(ExtendedSample::try_new(&block.samples[demand_index(edp)])?)
-}
-
-/// Figures 15, 16 and 17.
-pub(super) fn thresholds(
-    results: &Results,
-    arm: Arm,
-    number: u32,
-) -> Result<Figure, StudyError> {
-    let mut panels = Vec::new();
-    let mut words = Vec::new();
-    for intensity in [Intensity::Pga, Intensity::Pgv] {
-        let block =
-            results.ordinary_block(arm, intensity, BLOCK.0, BLOCK.1)?;
-        let mut thresholds = Vec::new();
-        for edp in THRESHOLDS {
-            let sample = sample_at(block, edp)?;
-            let fits = Fits::new(&sample, block.shift);
-            let (first, second) = match number {
-                15 => (fits.usfl, (Estimator::Ssfl, fits.ssfl)),
-                16 => (
-                    fits.trimmed,
-                    (Estimator::Usfl7, usfl7(fits.trimmed, block.shift, 1.0)),
-                ),
-                _ => (
-                    fits.usfl,
-                    (Estimator::Usfl7, usfl7(fits.usfl, block.shift, 1.0)),
-                ),
-            };
-            words.push(format!(
-                "{:.3} and {} ({} {edp:.2})",
-                distance(first, &sample),
-                second.1.map_or_else(
-                    || "undefined".into(),
-                    |f| format!("{:.3}", f.kolmogorov_distance(&sample))
-                ),
-                intensity.name().to_uppercase()
-            ));
-            thresholds.push(Threshold {
-                edp,
-                sample: block.samples[demand_index(edp)].clone(),
-                curves: vec![
-                    Fitted { estimator: Estimator::Usfl, curve: first },
-                    Fitted { estimator: second.0, curve: second.1 },
-                ],
-            });
-        }
-        panels.push(FragilityPanel { intensity, thresholds });
-    }
-    let (title, pair) = match number {
-        15 => ("Fragilities: USFL and SSFL, untrimmed", "USFL and SSFL"),
-        16 => {
-            ("Fragilities: USFL and USFL7, trimmed, c = 1", "USFL and USFL7")
-        }
-        _ => {
-            ("Fragilities: USFL and USFL7, untrimmed, c = 1", "USFL and USFL7")
-        }
-    };
-    Ok(Fragilities {
-        heading: Heading::new(
-            name(number, None),
-            title,
-            "Empirical fragilities at three demands with \
-                              two fitted ones each; PGA and PGV; p = 3, \
-                              alpha = 0.20.",
-            Some(arm),
-        ),
-        panels,
-    }
-    .figure(format!(
-        "Largest distance of {pair} to the empirical fragility: {}.",
-        words.join(", ")
-    )))
 }
 
 /// Figure 18: demand 0.15, PGA.

@@ -11,43 +11,80 @@ use crate::paper::{
 };
 use crate::study::StudyError;
 use crate::study::analyses::SuiteResults;
+use crate::words::{percent, range};
 
 /// Most points of a line.
 const MOST_POINTS: usize = 160;
 
+/// Figure 8: a row a frequency parameter, a column an arm.
 pub(super) fn slendernesses(
     suite: &SuiteResults,
-    arm: Arm,
+    arms: &[Arm],
 ) -> Result<Figure, StudyError> {
-    let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
-    let panels = panels(|frequency| {
-        SLENDERNESSES_RAD
-            .iter()
-            .enumerate()
-            .map(|(slenderness, alpha)| {
-                let label = format!("*α* = {alpha:.2} rad");
-                group(label, &curves[position(frequency, slenderness)])
-            })
-            .collect()
-    })?;
-    let words = overturning_in_words(&panels);
+    let mut by_arm = Vec::new();
+    for arm in arms {
+        let curves = suite.curves(*arm).ok_or(StudyError::NoArm)?;
+        by_arm.push(panels(|frequency| {
+            SLENDERNESSES_RAD
+                .iter()
+                .enumerate()
+                .map(|(slenderness, alpha)| {
+                    let label = format!("*α* = {alpha:.2} rad");
+                    group(label, &curves[position(frequency, slenderness)])
+                })
+                .collect()
+        })?);
+    }
+    let words = spread_in_words(arms, &by_arm);
+    let mut panels = Vec::new();
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for (arm, own) in arms.iter().zip(&by_arm) {
+            let note = format!("arm {}", arm.letter());
+            panels.push(QuantilePanel { note, ..own[frequency].clone() });
+        }
+    }
     Ok(Quantiles {
         heading: Heading::new(
-            name(8, Some(arm)),
-            "16/50/84 % demand given intensity, five \
-                        slendernesses",
-            "Three quantile curves for each slenderness, \
-                              one panel a frequency parameter; a curve ends \
-                              where its quantile is overturned.",
-            Some(arm),
+            name(8, None),
+            "16/50/84 % demand given intensity, five slendernesses",
+            "Three quantile curves for each slenderness; a row a frequency \
+             parameter, a column an arm of the grid, both on the same \
+             scale; a curve ends where its quantile is overturned.",
+            None,
         ),
         intensity: Intensity::Pga,
         panels,
-        columns: 3,
+        columns: arms.len(),
     }
-    .figure(format!(
-        "The median demand becomes overturning {words}, by slenderness."
-    )))
+    .figure(words))
+}
+
+/// How far the slendernesses are apart where the median overturns.
+fn spread_in_words(arms: &[Arm], by_arm: &[Vec<QuantilePanel>]) -> String {
+    let mut out = Vec::new();
+    for (arm, panels) in arms.iter().zip(by_arm) {
+        let spreads: Vec<String> = panels
+            .iter()
+            .map(|panel| {
+                let first = |g: &QuantileGroup| {
+                    let at = g.q50.iter().position(|q| q.is_infinite());
+                    at.map_or(f64::NAN, |i| g.im[i])
+                };
+                let (low, high) = range(panel.groups.iter().map(first));
+                format!(
+                    "{} at p = {}",
+                    percent(high / low - 1.0, 1),
+                    panel.p_rad_s
+                )
+            })
+            .collect();
+        out.push(format!(
+            "On arm {} the five medians overturn within {} of one another.",
+            arm.letter(),
+            spreads.join(", ")
+        ));
+    }
+    out.join(" ")
 }
 
 pub(super) fn adjusted(

@@ -11,6 +11,7 @@ use crate::paper::{
 };
 use crate::study::StudyError;
 use crate::study::analyses::{StripeDemands, SuiteResults};
+use crate::study::inference::LEAST_DECIDING;
 use crate::study::measures::closed_form;
 use crate::words::{percent, range};
 
@@ -213,9 +214,27 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
         stripes().filter_map(|s| s.summary.as_ref()).map(|b| b.median);
     let (low, high) = range(medians);
     let (least, _) = range(stripes().map(Stripe::usable_share));
+    // Of the boxes with enough ratios to tell.
+    let off = panels.iter().flat_map(|panel| {
+        let of = panel.closed_form.unwrap_or(1.0);
+        let many = |s: &&Stripe| s.usable >= LEAST_DECIDING;
+        let median = move |s: &Stripe| {
+            let b = s.summary.as_ref();
+            b.map_or(f64::NAN, |b| (b.median / of - 1.0).abs())
+        };
+        panel.stripes.iter().filter(many).map(median)
+    });
+    let (_, off) = range(off);
+    let about = if panels.iter().any(|p| p.closed_form.is_some()) {
+        "the closed form"
+    } else {
+        "1"
+    };
     format!(
-        "The medians of {} boxes lie between {low:.3} and {high:.3}; the \
-         share of usable ratios falls from 100 % to {}.",
+        "Medians of {LEAST_DECIDING} ratios or more lie within {} of {about}. \
+         All {} medians lie between {low:.3} and {high:.3}. The share of \
+         usable ratios falls to {}; boxes of fewer than 20 have no notch.",
+        percent(off, 2),
         stripes().count(),
         percent(least, 1)
     )

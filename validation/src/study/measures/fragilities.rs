@@ -10,7 +10,7 @@ use crate::paper::{Intensity, demand_index};
 use crate::study::StudyError;
 use crate::study::distributions::{BlockSamples, factors};
 use crate::study::figures::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
-use crate::study::inference::{Cell, Draw};
+use crate::study::inference::{Cell, Draw, Replicated};
 use rocking::statistics::resampling::Ranked;
 
 /// Dispersion of a lognormal sample over that of the same sample without its
@@ -19,21 +19,24 @@ use rocking::statistics::resampling::Ranked;
 const LOGNORMAL_INFLATION: f64 = 1.104;
 
 /// One threshold of one intensity measure, in a draw.
-struct At {
-    sample: ExtendedSample,
-    shift: f64,
-    fits: Fits,
+pub(crate) struct At {
+    pub(crate) sample: ExtendedSample,
+    pub(crate) shift: f64,
+    pub(crate) fits: Fits,
 }
 
 /// The thresholds of a block in an intensity measure.
-struct Thresholds {
+pub(crate) struct Thresholds {
     ranked: Vec<Ranked>,
     /// What the shift is the least of.
     onsets: Vec<f64>,
 }
 
 impl Thresholds {
-    fn new(source: &Source<'_>, intensity: Intensity) -> Option<Self> {
+    pub(crate) fn new(
+        source: &Source<'_>,
+        intensity: Intensity,
+    ) -> Option<Self> {
         let kind = source.kind();
         let found =
             source.results.distributions(kind, source.arm, intensity)?;
@@ -53,7 +56,7 @@ impl Thresholds {
         drawn.fold(f64::INFINITY, |m, (x, _)| if *x < m { *x } else { m })
     }
 
-    fn at(&self, counts: &[u32], place: usize) -> Option<At> {
+    pub(crate) fn at(&self, counts: &[u32], place: usize) -> Option<At> {
         let drawn = self.ranked[place].drawn(counts);
         let sample = ExtendedSample::try_new(&drawn).ok()?;
         let shift = self.shift(counts);
@@ -85,6 +88,22 @@ fn apart(a: Option<Lognormal>, b: Option<Lognormal>) -> f64 {
     most
 }
 
+/// Largest difference of USFL7 to the SSFL in probability.
+pub(crate) fn to_ssfl(usfl: Option<Lognormal>, at: &At, c: f64) -> f64 {
+    apart(usfl7(usfl, at.shift, c), at.fits.ssfl)
+}
+
+/// A number of each threshold, over the replicates.
+pub(crate) fn by_demand(
+    source: &Source<'_>,
+    thresholds: &Thresholds,
+    f: &(dyn Fn(&At) -> f64 + Sync),
+) -> Replicated {
+    let kind = source.kind();
+    let of = |draw: Draw<'_>| thresholds.each(draw.of(kind), f);
+    source.draws.smooth(source.tested, &of)
+}
+
 pub(super) fn prepare(
     source: &Source<'_>,
     measure: Measure,
@@ -98,18 +117,14 @@ pub(super) fn prepare(
     };
     let kind = source.kind();
     let n = source.results.suite(kind).records.len();
-    let by_demand = |f: &(dyn Fn(&At) -> f64 + Sync)| {
-        let of = |draw: Draw<'_>| thresholds.each(draw.of(kind), f);
+    let each = |f: &(dyn Fn(&At) -> f64 + Sync)| {
         let cell =
             |edp: f64| Cell { at: format!("demand {edp:.2}"), records: n };
         Some(Prepared {
             cells: THRESHOLDS.map(cell).into(),
-            measured: source.draws.smooth(source.tested, &of),
+            measured: by_demand(source, &thresholds, f),
             criterion: None,
         })
-    };
-    let to_ssfl = |usfl: Option<Lognormal>, at: &At, c: f64| {
-        apart(usfl7(usfl, at.shift, c), at.fits.ssfl)
     };
     let lowest = |f: &(dyn Fn(&At) -> f64 + Sync)| {
         let at = format!("demand {:.2}", THRESHOLDS[0]);
@@ -135,10 +150,10 @@ pub(super) fn prepare(
             })
         }
         Measure::TrimmedToSsfl => {
-            by_demand(&|at| to_ssfl(at.fits.trimmed, at, 1.0))
+            each(&|at| to_ssfl(at.fits.trimmed, at, 1.0))
         }
         Measure::UntrimmedToSsfl | Measure::UntrimmedToSsflPgv => {
-            by_demand(&|at| to_ssfl(at.fits.usfl, at, 1.0))
+            each(&|at| to_ssfl(at.fits.usfl, at, 1.0))
         }
         Measure::LowConstantGain => lowest(&|at| {
             to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)

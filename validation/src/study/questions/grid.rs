@@ -7,7 +7,7 @@ use rocking::statistics::lilliefors::{
     Assessment, Inapplicable, Null, Scale, Table,
 };
 use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
-use rocking::statistics::{ExtendedSample, Lognormal};
+use rocking::statistics::{ExtendedSample, Lognormal, QuantileType, Sample};
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows, both};
@@ -208,21 +208,50 @@ fn distinct(values: &[f64]) -> usize {
 /// block's first overturnings, each put on the next level of the 0.01 g
 /// grid; none where there is no such fit.
 fn grid_alone(block: &BlockSamples) -> Option<f64> {
+    let (truth, step, n) = overturnings(block)?;
+    Some(rejected_on_grid(&truth, step, n))
+}
+
+/// The lognormal above the shift of a block's first overturnings, the step of
+/// the 0.01 g grid, and how many they are.
+fn overturnings(block: &BlockSamples) -> Option<(Lognormal, f64, usize)> {
     let sample = block.samples.last()?;
     let extended = ExtendedSample::try_new(sample).ok()?;
     let method = FitMethod::MaximumLikelihood;
     let truth = fit(&extended, block.shift, method).ok()?.distribution;
-    let step = 0.01 / tan(block.alpha_rad);
-    Some(rejected_on_grid(&truth, step, sample.len()))
+    Some((truth, 0.01 / tan(block.alpha_rad), sample.len()))
+}
+
+/// The 95 % quantile of D over the table's critical value for such samples
+/// on that grid; none where there is no fit.
+pub(in crate::study) fn critical_on_grid(block: &BlockSamples) -> Option<f64> {
+    let (truth, step, n) = overturnings(block)?;
+    let ratios = on_grid(&truth, step, n, Assessment::ratio);
+    let ratios: Vec<f64> = ratios.into_iter().flatten().collect();
+    let sample = Sample::try_new(&ratios).ok()?;
+    QuantileType::default().of(&sample, 1.0 - LEVEL).ok()
 }
 
 /// Share of samples of `n` capacities of a shifted lognormal that the
 /// shifted test rejects after they were put on the next multiple of `step`.
 pub(super) fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
+    let rejected = on_grid(truth, step, n, Assessment::exceeds);
+    let count = rejected.into_iter().filter(|r| r.unwrap_or(true)).count();
+    count as f64 / DRAWS as f64
+}
+
+/// What the shifted test says of samples of `n` capacities of a shifted
+/// lognormal, each put on the next multiple of `step`.
+fn on_grid<T: Send>(
+    truth: &Lognormal,
+    step: f64,
+    n: usize,
+    of: impl Fn(&Assessment) -> Option<T> + Sync,
+) -> Vec<Option<T>> {
     let streams = Streams::new("study/grid alone", 0);
     let shift = truth.shift();
     let scale = Scale::Linear;
-    let rejected = (0..DRAWS)
+    (0..DRAWS)
         .into_par_iter()
         .map(|index| {
             let mut stream = streams.stream(index);
@@ -240,11 +269,9 @@ pub(super) fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
                 .collect();
             let sample = ExtendedSample::try_new(&logs).ok()?;
             let null = Null::Table(Table::embedded());
-            Assessment::new(&sample, scale, LEVEL, null).exceeds()
+            of(&Assessment::new(&sample, scale, LEVEL, null))
         })
-        .filter(|rejected| rejected.unwrap_or(true))
-        .count();
-    rejected as f64 / DRAWS as f64
+        .collect()
 }
 
 /// A row of panels a suite.

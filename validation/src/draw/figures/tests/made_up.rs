@@ -49,7 +49,27 @@ pub fn all() -> Vec<Figure> {
         by_constant().figure(String::new()),
         chart().figure(String::new()),
         spectrum().figure(String::new()),
+        fates().figure(String::new()),
     ]
+}
+
+pub fn fates() -> FateMap {
+    let ends = |count: usize, step: f64| -> Vec<f64> {
+        (0..=count).map(|k| libm::exp(step * k as f64)).collect()
+    };
+    let of = |k: usize| Fate::after([None, Some(0), Some(1), Some(2)][k % 4]);
+    FateMap {
+        heading: heading("figure-21", None),
+        frequencies: ends(20, 0.1),
+        amplitudes: ends(16, 0.2),
+        cells: (0..20)
+            .map(|x| (0..16).map(|y| of((x + y) / 9)).collect())
+            .collect(),
+        boundaries: vec![
+            ("first".into(), vec![(1.0, 2.0), (5.0, 9.0)]),
+            ("second".into(), vec![(1.0, 3.0), (5.0, 4.0)]),
+        ],
+    }
 }
 
 pub fn sketch() -> BlockSketch {
@@ -213,6 +233,10 @@ pub fn capacities() -> Capacities {
     let panel = |(intensity, shift): (Intensity, f64)| CapacityPanel {
         intensity,
         shift,
+        quantiles: (0..=100)
+            .map(|k| 0.01 * f64::from(k))
+            .map(|e| (e, [1.0, 2.0, 4.0].map(|q| shift + q * e.sqrt())))
+            .collect(),
         curves: (0..86)
             .map(|r| {
                 let edp: Vec<f64> =

@@ -78,11 +78,11 @@ pub fn all() -> Vec<Figure> {
 
     let mut fragilities = made_up::fragilities();
     fragilities.heading = heading("spare-16", None);
-    for threshold in &mut fragilities.panels[0].thresholds {
-        threshold.sample = vec![f64::INFINITY; 86];
-        for fit in &mut threshold.curves {
-            fit.curve = None;
-        }
+    fragilities.panels[0].sample = vec![f64::INFINITY; 86];
+    fragilities.panels[0].limit = None;
+    for fit in &mut fragilities.panels[0].curves {
+        fit.curve = None;
+        fit.band.clear();
     }
 
     let mut by_constant = made_up::by_constant();

@@ -63,6 +63,19 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
             series: lines,
         }
     };
+    let panels = [Intensity::Pga, Intensity::Pgv].map(panel);
+    let nearest = panels.each_ref().map(|panel| {
+        let all = panel
+            .series
+            .iter()
+            .flat_map(|s| s.y.iter().map(|y| (*y, s.label.as_str())));
+        let least = all
+            .filter(|(y, _)| y.is_finite())
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        least.map_or(String::new(), |(y, label)| {
+            format!("for {} {label} lies nearest, at {y:.3}", panel.title)
+        })
+    });
     Chart {
         heading: Heading::new(
             "figure-options",
@@ -73,12 +86,13 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
                               each option; PGA and PGV, ordinary records.",
             Some(arm),
         ),
-        panels: vec![panel(Intensity::Pga), panel(Intensity::Pgv)],
+        panels: panels.into(),
         columns: 2,
     }
-    .figure(
-        "Median over 15 blocks and demands 0.15, 0.35 and 1.00 of \
-                  the Kolmogorov distance to the empirical fragility, of \
-                  the blocks where the option is defined.",
-    )
+    .figure(format!(
+        "By the median distance to the empirical fragility {}. The median \
+         is over 15 blocks and demands 0.15, 0.35 and 1.00, where the \
+         option is defined.",
+        nearest.join(", ")
+    ))
 }

@@ -58,6 +58,7 @@ fn ratios(rows: &[Row], kind: &str) -> ChartPanel {
             scale: Scale::Linear,
             range: None,
             categories: MOTIONS.map(|(_, label)| label.into()).into(),
+            second: None,
         },
         y: ChartAxis::new(
             "embedded / recorded",

@@ -24,6 +24,7 @@ pub fn accepted() -> AcceptedShares {
                         arm,
                         share,
                         null_band: Some((0.71, 1.0)),
+                        levels: 200 - k,
                     });
                 }
             }
@@ -40,6 +41,7 @@ pub fn accepted() -> AcceptedShares {
         heading: heading("figure-12", None),
         intensity: Intensity::Pga,
         expected: 0.95,
+        levels: 200,
         panels: (0..4).map(panel).collect(),
         columns: 2,
     }
@@ -76,6 +78,7 @@ pub fn tests_along() -> TestsAlongDemand {
                 .map(|k| 0.7 + 0.4 * noise(k + 77 * seed))
                 .collect(),
             edp,
+            grid_critical: Some(1.4),
             original_histogram: histogram(&original),
             shifted_histogram: histogram(&shifted),
         }
@@ -93,18 +96,24 @@ fn lognormal(shift: f64, log_mean: f64, dispersion: f64) -> Lognormal {
 }
 
 pub fn fragilities() -> Fragilities {
-    let threshold = |edp: f64, seed: usize, shift: f64| {
+    let panel = |(intensity, shift): (Intensity, f64), edp: f64, seed| {
         let mut capacities: Vec<f64> = sample(86, seed, 0.5)
             .iter()
             .map(|x| shift + edp.sqrt() * 2.0 * x)
             .collect();
         capacities[5] = f64::INFINITY;
         let ln_median = libm::log(2.0 * edp.sqrt());
-        let fit = |estimator, curve| Fitted { estimator, curve };
+        let fit = |estimator, curve: Option<Lognormal>| {
+            let ends = |c: &Lognormal, x| (x, c.cdf(x) - 0.1, c.cdf(x) + 0.1);
+            let at = |c| (1..60).map(move |k| ends(c, 0.1 * f64::from(k)));
+            let band = curve.as_ref().into_iter().flat_map(at).collect();
+            Fitted { estimator, curve, band }
+        };
         let shifted = lognormal(shift, ln_median, 0.5);
         let unshifted =
             lognormal(0.0, libm::log(shift + 2.0 * edp.sqrt()), 0.4);
-        Threshold {
+        FragilityPanel {
+            intensity,
             edp,
             sample: capacities,
             curves: vec![
@@ -114,21 +123,20 @@ pub fn fragilities() -> Fragilities {
                     (edp > 0.2 || shift < 0.5).then_some(shifted),
                 ),
             ],
+            limit: Some(Limit { around: shifted, by: 0.05 }),
+            notes: vec!["largest distance".into(), "0.05".into()],
         }
     };
-    let panel = |(intensity, shift): (Intensity, f64)| FragilityPanel {
-        intensity,
-        thresholds: [(0.15, 3), (0.35, 4), (1.0, 5)]
-            .into_iter()
-            .map(|(edp, seed)| threshold(edp, seed, shift))
-            .collect(),
-    };
+    let panels = [(Intensity::Pga, 1.0), (Intensity::Pgv, 0.14)]
+        .into_iter()
+        .flat_map(|of| {
+            [(0.15, 3), (0.35, 4), (1.0, 5)]
+                .map(|(edp, seed)| panel(of, edp, seed))
+        });
     Fragilities {
         heading: heading("figure-16", Some(Arm::A)),
-        panels: [(Intensity::Pga, 1.0), (Intensity::Pgv, 0.14)]
-            .into_iter()
-            .map(panel)
-            .collect(),
+        panels: panels.collect(),
+        columns: 3,
     }
 }
 
@@ -190,7 +198,8 @@ pub fn chart() -> Chart {
         panels: vec![
             ChartPanel {
                 title: "speed against error".into(),
-                x: axis("error of *θ*/*α*", Scale::Logarithmic),
+                x: axis("error of *θ*/*α*", Scale::Logarithmic)
+                    .with_second(1e3, "error in thousandths"),
                 y: axis("time for an analysis (s)", Scale::Logarithmic),
                 series: (0..4).map(series).collect(),
             },

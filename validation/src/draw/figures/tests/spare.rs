@@ -55,6 +55,7 @@ pub fn all() -> Vec<Figure> {
     let mut capacities = made_up::capacities();
     capacities.heading = heading("spare-11", None);
     capacities.panels[0].curves.clear();
+    capacities.panels[0].quantiles.clear();
     capacities.panels[1].shift = f64::NAN;
 
     let mut accepted = made_up::accepted();

@@ -162,7 +162,7 @@ fn answered(parts: &[(&str, Count)]) -> String {
     } else if yes == 0 && no > 0 {
         format!("No: {no} of {all} results refute it, none confirms it.")
     } else if whole.is_empty() {
-        format!("Open: {yes} of {all} results confirm it, {no} refute it.")
+        format!("Open: {yes} of {all} results for it, {no} against.")
     } else if no == 0 && 2 * yes > all {
         format!("Nearly: for {whole}{rest}.")
     } else {
@@ -195,7 +195,11 @@ pub(super) fn rows(
                 let answer = answered(&counts(findings));
                 let word = answer.split([':', ';']).next().unwrap_or("");
                 let word = word.split(" for ").next().unwrap_or(word);
-                format!("{word}: {}", Count::of(findings, &all).words())
+                let counts = Count::of(findings, &all).words();
+                match sources.len() {
+                    1 => counts,
+                    _ => format!("{word}: {counts}"),
+                }
             };
             let stems = asked.figures.iter();
             let shown = stems.filter_map(|stem| {
@@ -415,12 +419,15 @@ pub(super) fn by_theme(
              criterion"
         );
     }
-    let open = Verdict::ALL.into_iter().filter(|v| !confirmed(v));
-    for verdict in open {
-        let names = listed(verdict);
-        if !names.is_empty() {
-            words += &format!(". {}: {names}", capital(verdict.name()));
-        }
+    let refuted = listed(Verdict::NotConfirmed);
+    if !refuted.is_empty() {
+        words += &format!(". Not confirmed: {refuted}");
+    }
+    let open = found.iter().filter(|(_, v)| *v == Verdict::Inconclusive);
+    match open.count() {
+        0 => {}
+        1 => words += ". One is inconclusive",
+        n => words += &format!(". {n} are inconclusive"),
     }
     if recorded.is_none() {
         return words + ".";
@@ -469,12 +476,6 @@ fn whole(claim: &Claim, first: Arm) -> Option<Verdict> {
     } else {
         Some(Verdict::Inconclusive)
     }
-}
-
-fn capital(words: &str) -> String {
-    let mut rest = words.chars();
-    let first = rest.next().map(|c| c.to_ascii_uppercase());
-    first.into_iter().chain(rest).collect()
 }
 
 #[cfg(test)]

@@ -28,8 +28,7 @@ pub fn recorded() -> Result<Findings, String> {
 pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
     let row = |suite: &crate::findings::Suite| {
         let words = format!(
-            "{} records, sha256 {}; results kept in \
-             fixtures/recorded/findings.json, not run here",
+            "{} records, sha256 {}; kept results, not run here",
             suite.records, suite.sha256
         );
         (format!("Recorded, {}", suite.kind), words)

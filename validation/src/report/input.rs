@@ -20,6 +20,9 @@ use crate::table::PlainTable;
 /// Figures beside the answers, by their stems.
 const FIRST: [&str; 2] = ["figure-08", "figure-16"];
 
+/// The figure of Eq. 1's departure from similarity.
+const SIMILARITY: &str = "figure-19";
+
 /// Figures that open a theme, by their stems; its others are folded.
 const LEADING: [&str; 8] = [
     "figure-02",
@@ -163,8 +166,19 @@ pub fn input(
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
-            tables: evidence::checks(proof)?,
-            figures: charts.iter().map(shown).collect(),
+            figures: charts
+                .iter()
+                .filter(|c| c.heading.name != SIMILARITY)
+                .map(shown)
+                .collect(),
+            folded: vec![Chapter {
+                id: "checks",
+                title: "Pulses, critical values, departure from similarity"
+                    .into(),
+                tables: evidence::checks(proof)?,
+                figures: drawn(charts, |c| c.heading.name == SIMILARITY),
+                ..Chapter::default()
+            }],
             ..Chapter::default()
         },
         chapters: vec![

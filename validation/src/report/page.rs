@@ -95,6 +95,8 @@ pub struct Chapter {
     pub tables: Vec<PlainTable>,
     /// Figures.
     pub figures: Vec<ShownFigure>,
+    /// Parts that are folded on a screen.
+    pub folded: Vec<Chapter>,
 }
 
 /// Findings about one question.
@@ -174,8 +176,6 @@ pub struct Column {
 pub struct Family {
     /// Name: `free-rocking`.
     pub name: String,
-    /// What the cases are held against.
-    pub oracle: String,
     /// Largest share of a tolerance that a number of the family uses.
     pub worst: String,
     /// Number of wrong models that the cases told from the right one.

@@ -108,8 +108,9 @@ pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
     let text = measured(result.measured(), scale(result.unit, region));
     match &result.cells {
         Some(cells) if of_cells(claim) && cells.deciding > 0 => format!(
-            "{text} of {} judged, {} cells not",
-            cells.deciding, cells.too_few
+            "{text}, {}/{} cells",
+            cells.deciding,
+            cells.deciding + cells.too_few
         ),
         _ => text,
     }

@@ -1,5 +1,3 @@
-use std::collections::BTreeSet;
-
 use serde_json::{Map, Value};
 
 use crate::proof::cases::{Bound, Case, Cost, FAMILIES};
@@ -18,12 +16,8 @@ pub fn families(cases: &[Case], results: &Map<String, Value>) -> Vec<Family> {
                     case.family == *name && case.cost == Cost::Quick
                 })
             };
-            let kinds: BTreeSet<&str> =
-                own().map(|case| case.kind.name()).collect();
-            let kinds: Vec<&str> = kinds.into_iter().collect();
             Family {
                 name: (*name).to_owned(),
-                oracle: kinds.join(", "),
                 worst: worst_of(
                     own().filter_map(|case| results.get(&case.id)),
                 ),

@@ -32,9 +32,11 @@ struct Pulses {
 #[derive(Deserialize)]
 struct Pulse {
     pulse: String,
-    #[serde(rename = "A")]
+    /// Of the acceleration, of one pulse of the velocity: a number, and words
+    /// in brackets.
+    #[serde(rename = "A", alias = "A_v")]
     amplitude: String,
-    #[serde(rename = "Omega")]
+    #[serde(rename = "Omega", alias = "f_p")]
     frequency: Option<String>,
     eta: String,
 }
@@ -66,8 +68,8 @@ pub fn similarity(
         let impacts = quantities["impact-times-p"]["values"].as_u64();
         Some(vec![
             pulse.pulse.replace('_', "-"),
-            pulse.frequency.clone().unwrap_or_else(|| "–".into()),
-            pulse.amplitude.clone(),
+            pulse.frequency.as_deref().map_or("–", bare).to_owned(),
+            bare(&pulse.amplitude).to_owned(),
             pulse.eta.clone(),
             impacts.unwrap_or(0).to_string(),
             error("peak-ratio"),
@@ -99,6 +101,11 @@ pub fn similarity(
         header: header.map(String::from).into(),
         rows: own.filter_map(row).collect(),
     })
+}
+
+/// A number without the words in brackets behind it.
+fn bare(number: &str) -> &str {
+    number.split(" (").next().unwrap_or(number)
 }
 
 #[derive(Default, Deserialize)]

@@ -51,8 +51,8 @@ pub fn figure(shown: &ShownFigure) -> Markup {
                 (PreEscaped(inline(&shown.svg)))
             }
             figcaption {
-                (shown.reading) " Numbers: "
-                a href=(shown.csv_path) { (shown.csv_path) } "."
+                (shown.reading) " "
+                a href=(shown.csv_path) { "Numbers" } "."
             }
         }
     }

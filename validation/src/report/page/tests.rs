@@ -84,7 +84,6 @@ fn made_up() -> ReportInput {
         proof: "By the results handed in: all cases pass.".into(),
         families: vec![Family {
             name: "free-rocking".into(),
-            oracle: "closed form".into(),
             worst: "3.1 %, peak".into(),
             rejected: 3,
             cases: (0..3).map(case).collect(),

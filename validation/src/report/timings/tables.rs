@@ -136,11 +136,8 @@ impl Timings {
         table(
             "speed-settings",
             "Which of our settings when",
-            "Moved: of the chains of 15 blocks and all embedded records \
-             (0.01 g steps), those whose first overturning is at another \
-             level than as shipped. An order is chosen by ida --order or, \
-             in the library, by Analysis::order and Solver::order; the \
-             other commands, and this study, run as shipped."
+            "Moved: chains of 15 blocks and all embedded records whose first \
+             overturning is at another level than as shipped."
                 .into(),
             &[
                 "setting",

@@ -145,9 +145,8 @@ pub fn state(planned: &Planned, tile: usize) -> State {
         .unwrap_or(State::Done)
 }
 
-/// Runs the tiles of task `task` of `of` that are not done: tiles are dealt
-/// in turn, since they cost the same. `go_on` is asked after each chain;
-/// `done` is told each tile that was finished.
+/// Runs the tiles of task `task` of `of` that are not done. `go_on` is asked
+/// after each chain; `done` is told each tile that was finished.
 ///
 /// Returns the tiles that are left, where `go_on` ended the work.
 ///
@@ -161,8 +160,9 @@ pub fn run(
     done: &dyn Fn(usize),
 ) -> Result<Vec<usize>, SweepError> {
     let plan = &planned.plan;
-    let mut own: Vec<usize> = (0..plan.tiles())
-        .filter(|tile| tile % of == task)
+    let mut own: Vec<usize> = plan
+        .tiles_of(task, of)
+        .into_iter()
         .filter(|tile| state(planned, *tile) != State::Done)
         .collect();
     if own.is_empty() {
@@ -218,7 +218,7 @@ pub fn merge(
     let file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
     let handle: &File = file.as_file();
     let mut writer = BufWriter::new(handle);
-    for tile in 0..planned.plan.tiles() {
+    for tile in 0..planned.plan.tiles.len() {
         let (state, body) = read(planned, content, tile);
         if state != State::Done {
             let path = planned.tile_path(content, tile);

@@ -7,7 +7,9 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use super::support::{answer, at2, folder, motion, rocking};
+use super::support::{
+    answer, at2, folder, json, motion, refused_for, rocking,
+};
 
 /// A folder with a plan of `blocks` blocks in as many tiles.
 fn planned(name: &str, blocks: usize) -> PathBuf {
@@ -158,5 +160,28 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
         let error = String::from_utf8(output.stderr).unwrap();
         assert!(error.contains("cannot write /dev/full: No space"), "{error}");
         assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+#[test]
+fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
+    let place = folder("sweep-surrogate", &[]);
+    let found = json(&place, "fragility --alpha 0.15 --p 3 --json");
+    for suite in ["ordinary", "pulse-type"] {
+        let own = &found["suites"][suite];
+        let median = own["median"].as_f64().unwrap();
+        // PGA of uplift is g tan alpha.
+        let pga_g = own["median_pga_g"].as_f64().unwrap();
+        assert!((pga_g / median - libm::tan(0.15)).abs() < 1e-12);
+        assert!(median > 1.0 && own["prob_max"].as_f64().unwrap() < 0.1);
+        assert_eq!(own["unseen_blocks"], 100);
+    }
+    for (arguments, names) in [
+        ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),
+        ("--alpha 0.2 --p 8", ["p 8", "1 to 6 rad/s"]),
+        ("--alpha 0.2 --p 3 --shift 1", ["--shift", "--sample"]),
+        ("--width-m 4 --height-m 40", ["p 0.", "range of the surrogate"]),
+    ] {
+        refused_for(&place, &format!("fragility {arguments}"), &names);
     }
 }

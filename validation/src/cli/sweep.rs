@@ -1,5 +1,7 @@
 //! `rocking sweep`: many blocks over one suite, on one machine or many.
 
+mod surrogate;
+
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -40,6 +42,8 @@ enum Action {
     Status(StatusArgs),
     Merge(MergeArgs),
     Slurm(SlurmArgs),
+    Design(surrogate::DesignArgs),
+    Fit(surrogate::FitArgs),
 }
 
 /// Writes a plan, packs the suite into its folder, and says what to expect.
@@ -149,6 +153,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Action::Status(args) => status(args),
         Action::Merge(args) => merge(args),
         Action::Slurm(args) => slurm(args),
+        Action::Design(args) => surrogate::design(args),
+        Action::Fit(args) => surrogate::fit(args),
     }
 }
 

@@ -72,8 +72,12 @@ fn a_surface_of_its_own_form_is_found_again() {
         assert!((found - expected).abs() < 3e-3, "{mu:?}");
     }
     assert!(choices.windows(2).all(|c| c[0].terms <= c[1].terms));
-    // A plane leaves the curvature.
-    assert!(choices[0].error > 0.1, "{choices:?}");
+    // What has no v leaves 0.02, a plane 0.04; the ripple is 0.005.
+    for choice in &choices {
+        let Degrees { p, alpha } = choice.degrees;
+        let whole = p >= 2 && alpha >= 1;
+        assert_eq!(choice.error < 0.01, whole, "{choice:?}");
+    }
     let too_few = fit(&blocks[..20]).unwrap_err().to_string();
     assert!(too_few.contains("blocks: expected"), "{too_few}");
 }
@@ -152,11 +156,11 @@ fn coefficients_and_errors_are_those_of_another_program() {
                 (cells[2].parse().unwrap(), cells[3].parse().unwrap());
             model.terms.iter().position(|t| *t == degrees).unwrap()
         };
-        // Nine digits are kept; of a sum of a thousand terms twelve agree.
+        // Nine digits are kept of numbers below 10.
         // The grid of the largest difference has steps of 5e-4.
         let (found, tolerance) = match cells[1] {
-            "mu" => (model.coefficients[0][term()], 2e-9),
-            "ln_dispersion" => (model.coefficients[1][term()], 2e-9),
+            "mu" => (model.coefficients[0][term()], 5e-9),
+            "ln_dispersion" => (model.coefficients[1][term()], 5e-9),
             "median_rms" => (errors.median.rms, 1e-7),
             "median_largest" => (errors.median.largest, 1e-7),
             "dispersion_rms" => (errors.dispersion.rms, 1e-7),

@@ -129,10 +129,12 @@ mod tests {
         let sum: f64 = tiles.iter().map(|tile| tile.core_s).sum();
         let whole: f64 = seconds.iter().sum();
         assert!((sum - whole).abs() < 1e-9 * whole);
-        // By numbers of blocks the first tile would have 15 of 75 seconds.
-        for tile in &tiles[2..] {
-            assert!((2.0..6.1).contains(&tile.core_s), "{tile:?}");
+        // Of tiles with equal numbers of blocks the first would cost 45 s.
+        // Four blocks cost more than half a tile each.
+        for tile in &tiles[6..] {
+            assert!((3.5..4.5).contains(&tile.core_s), "{tile:?}");
         }
+        assert_eq!(tiles[0].blocks, 1);
         assert_eq!(super::tiles(&costs(&seconds), 1e9).len(), 1);
         assert_eq!(super::tiles(&costs(&[1.0; 7]), 1e-9).len(), 7);
         // One that costs nothing is in a tile, too.
@@ -159,7 +161,7 @@ mod tests {
             // In turn, the first of two tasks has 12 of 23 tiles.
             assert!(mean / most > 0.88, "{of}: {sums:?}");
             if of == 2 {
-                assert!(mean / most > 0.99, "{sums:?}");
+                assert!(mean / most > 0.98, "{sums:?}");
             }
         }
         assert_eq!(deal(&uneven[..1], 3), [vec![0], vec![], vec![]]);

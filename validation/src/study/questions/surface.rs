@@ -222,7 +222,7 @@ fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
                 y: ChartAxis::new(
                     label,
                     Scale::Logarithmic,
-                    Some([(1.0, 10.0), (0.3, 1.5)][kind]),
+                    Some([(1.0, 12.0), (0.4, 1.2)][kind]),
                 ),
                 series,
             });

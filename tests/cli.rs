@@ -15,6 +15,8 @@ mod limits;
 mod order;
 #[path = "cli/support.rs"]
 mod support;
+#[path = "cli/sweep.rs"]
+mod sweep;
 #[path = "cli/texts.rs"]
 mod texts;
 

@@ -97,9 +97,20 @@ impl Output {
     /// [`WriteError`]; a regular file is as it was before then.
     pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), WriteError> {
         let content = content.as_ref();
+        self.write_with(&|out| out.write_all(content))
+    }
+
+    /// Writes what `content` gives, piece by piece; it may be asked twice.
+    ///
+    /// # Errors
+    /// As [`Output::write`], and what `content` says.
+    pub fn write_with(self, content: Content<'_>) -> Result<(), WriteError> {
         self.sink.write(content).map_err(WriteError::at(&self.path))
     }
 }
+
+/// Writes pieces of a file to where they go.
+type Content<'a> = &'a dyn Fn(&mut dyn io::Write) -> io::Result<()>;
 
 impl Sink {
     fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
@@ -137,20 +148,20 @@ impl Sink {
         Ok(Self::File { target, part })
     }
 
-    fn write(self, content: &[u8]) -> io::Result<()> {
+    fn write(self, content: Content<'_>) -> io::Result<()> {
         match self {
             Self::Standard => {
                 let mut out = io::stdout().lock();
-                match out.write_all(content).and_then(|()| out.flush()) {
+                match content(&mut out).and_then(|()| out.flush()) {
                     Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
                     done => done,
                 }
             }
             Self::Stream(path) => {
-                File::options().write(true).open(path)?.write_all(content)
+                content(&mut File::options().write(true).open(path)?)
             }
             Self::File { target, mut part } => {
-                part.write_all(content)?;
+                content(&mut part)?;
                 part.as_file().sync_all()?;
                 match part.persist(&target).map_err(|e| e.error) {
                     Err(error)
@@ -160,7 +171,7 @@ impl Sink {
                         let mut options = File::options();
                         let file = options.write(true).truncate(true);
                         let mut file = file.open(&target)?;
-                        file.write_all(content)?;
+                        content(&mut file)?;
                         file.sync_all()
                     }
                     done => done.map(drop),

@@ -3,7 +3,8 @@
 //! Everything here stands on the core's public interface alone. It is built
 //! in stages, each of which uses those below it alone: [`cli`], [`report`],
 //! [`diff`], [`speed`], [`study`], [`draw`], [`proof`]; at the bottom
-//! [`exchange`], [`suites`], [`paper`], [`curves`], [`table`], [`files`],
+//! [`exchange`], [`sweep`], [`surrogate`], [`suites`], [`paper`], [`curves`],
+//! [`table`], [`files`],
 //! [`json`] and [`words`].
 
 pub mod cli;
@@ -20,6 +21,7 @@ pub mod report;
 pub mod speed;
 pub mod study;
 pub mod suites;
+pub mod surrogate;
 pub mod sweep;
 pub mod table;
 pub mod words;

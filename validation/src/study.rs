@@ -30,6 +30,7 @@ use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
 use crate::suites::StudySuiteError;
+use crate::surrogate::SurrogateError;
 
 /// Why a study could not be done.
 #[derive(Debug, Error)]
@@ -65,6 +66,9 @@ pub enum StudyError {
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),
+    /// A surrogate that cannot be asked.
+    #[error(transparent)]
+    Surrogate(#[from] SurrogateError),
     /// At least one arm must be run.
     #[error("no arm of the grid: expected one of A, B, C")]
     NoArm,

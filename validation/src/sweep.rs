@@ -8,6 +8,7 @@
 //! written whole or not at all, and names the plan and its own sum.
 
 mod blocks;
+mod cost;
 mod plan;
 mod tile;
 
@@ -20,6 +21,7 @@ use rocking::record::SuiteError;
 use thiserror::Error;
 
 pub use blocks::read_blocks;
+pub use cost::Tile;
 pub use plan::{Plan, Planned, Wanted};
 pub use tile::{Content, State, merge, run, state};
 

@@ -7,6 +7,7 @@ mod export;
 mod levels;
 mod limits;
 mod sample;
+mod surrogate;
 
 pub(super) use counts::COLUMNS as COUNTS;
 
@@ -30,9 +31,13 @@ use crate::paper::Intensity;
 /// eq7 from the same method's fit to the unshifted sample (USFL7), eq6 from
 /// the sample's 16 and 84 % quantiles. Medians, quantiles and shift are in
 /// the unit of the sample.
+///
+/// A block alone asks the surrogate: overturning under the embedded suites by
+/// a fitted surface, with its error at blocks that it was not fitted to.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("mode").required(true)
-    .args(["sample", "ida", "counts", "transform", "blocks"]).multiple(true))]
+    .args(["sample", "ida", "counts", "transform", "blocks", "alpha",
+        "width_m"]).multiple(true))]
 #[command(group = ArgGroup::new("draws").args(["bootstrap", "compare"]))]
 #[command(after_help = "Examples:\n  \
     rocking fragility --ida ida.csv --at 0.3,0.5,1 --shift 1\n  \
@@ -41,6 +46,7 @@ use crate::paper::Intensity;
     rocking fragility --sample capacities.txt --compare\n  \
     rocking fragility --counts counts.csv\n  \
     rocking fragility --transform --shift 1 --im50 2.5 --beta 0.4\n  \
+    rocking fragility --alpha 0.15 --p 3\n  \
     rocking fragility --sample capacities.txt --shift 1 --im pga \\\n      \
     --alpha 0.15 --p 3 --export nrml --out block.xml\n  \
     rocking fragility --blocks blocks.csv --shift 1 --export pelicun \\\n      \
@@ -206,6 +212,14 @@ enum Method {
 /// # Errors
 /// [`Failure`] for input that is refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
+    let given = args.sample.is_some() || args.ida.is_some();
+    if !given
+        && args.counts.is_none()
+        && !args.transform
+        && let Some(block) = args.export.alone()?
+    {
+        return surrogate::run(args, &block);
+    }
     if let Some(format) = args.export.format()? {
         return export::run(args, format);
     }

@@ -1,5 +1,7 @@
 //! `rocking sweep`: many blocks over one suite, on one machine or many.
 
+mod surrogate;
+
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -40,6 +42,8 @@ enum Action {
     Status(StatusArgs),
     Merge(MergeArgs),
     Slurm(SlurmArgs),
+    Design(surrogate::DesignArgs),
+    Fit(surrogate::FitArgs),
 }
 
 /// Writes a plan, packs the suite into its folder, and says what to expect.
@@ -149,6 +153,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Action::Status(args) => status(args),
         Action::Merge(args) => merge(args),
         Action::Slurm(args) => slurm(args),
+        Action::Design(args) => surrogate::design(args),
+        Action::Fit(args) => surrogate::fit(args),
     }
 }
 
@@ -183,16 +189,18 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let planned = sweep::Plan::write(&wanted, &args.out, SOFTWARE)?;
     let plan = &planned.plan;
     let (blocks, records) = (plan.blocks.len(), plan.records.len());
-    let tiles = plan.tiles();
-    let core_s = planned.tile_core_s * tiles as f64;
-    // About 60 levels a chain; 150 bytes a row of capacities.
-    let analyses = blocks * records * 60;
-    let bytes = blocks * records * 150 * if plan.rows { 60 } else { 1 };
+    let tiles = plan.tiles.len();
+    let analyses: u64 = plan.tiles.iter().map(|tile| tile.analyses).sum();
+    // Bytes of a row of capacities and of an analysis.
+    let mut bytes = blocks * records * (92 + 19 * plan.demands.len());
+    bytes += if plan.rows { 105 * analyses as usize } else { 0 };
     print(&format!(
         "{blocks} blocks, {records} records, {tiles} tiles\n\
-         about {analyses} analyses, {:.2} core-hours, {:.1} MB\n\
+         about {analyses} analyses, {:.3} core-hours, {:.1} MB\n\
+         (19 ns of a core a sample and level; levels guessed from p \
+         PGV/PGA)\n\
          plan: {}\n",
-        core_s / 3600.0,
+        plan.core_s() / 3600.0,
         bytes as f64 / 1e6,
         args.out.join("plan.json").display()
     ))
@@ -237,7 +245,7 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
         signal_hook::flag::register(signal, Arc::clone(&stop))?;
     }
     let go_on = || !stop.load(Ordering::Relaxed);
-    let total = planned.plan.tiles();
+    let total = planned.plan.tiles.len();
     let done = |tile: usize| {
         eprintln!("rocking: tile {tile} of {total} done");
     };
@@ -258,7 +266,7 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
 
 fn status(args: &StatusArgs) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
-    let states: Vec<State> = (0..planned.plan.tiles())
+    let states: Vec<State> = (0..planned.plan.tiles.len())
         .map(|tile| sweep::state(&planned, tile))
         .collect();
     let count = |state: State| states.iter().filter(|s| **s == state).count();
@@ -268,8 +276,11 @@ fn status(args: &StatusArgs) -> Result<(), Failure> {
         ("foreign", count(State::Foreign)),
         ("damaged", count(State::Damaged)),
     ];
-    let left = states.len() - counts[0].1;
-    let core_s = planned.tile_core_s * left as f64;
+    let core_s = states
+        .iter()
+        .zip(&planned.plan.tiles)
+        .filter(|(state, _)| **state != State::Done)
+        .fold(0.0, |sum, (_, tile)| sum + tile.core_s);
     if args.json {
         let mut value = json!({
             "plan": planned.hash,
@@ -306,16 +317,19 @@ fn merge(args: &MergeArgs) -> Result<(), Failure> {
 
 fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
-    let tiles = planned.plan.tiles();
+    let tiles = planned.plan.tiles.len();
     let tasks = args.tasks.unwrap_or(tiles.min(100));
     if !(tasks > 0 && tasks <= tiles) {
         return Err(Failure::input(format!(
             "--tasks {tasks}: expected 1 to {tiles}, the number of tiles"
         )));
     }
-    let tiles_a_task = tiles.div_ceil(tasks);
+    let longest = (0..tasks)
+        .map(|task| planned.plan.tiles_of(task, tasks))
+        .map(|own| own.iter().map(|t| planned.plan.tiles[*t].core_s).sum())
+        .fold(0.0, f64::max);
     // Three times the estimate, and ten minutes at least.
-    let minutes = 3.0 * planned.tile_core_s * tiles_a_task as f64 / 60.0;
+    let minutes = 3.0 * longest / 60.0;
     let minutes = 10 + minutes.ceil() as u64;
     print(&format!(
         "#!/bin/bash\n\

@@ -353,11 +353,11 @@ pub(super) fn trust(
     };
     let by_chance = |findings: &Findings| {
         let n = judged(findings);
-        format!("{n} results, about {:.0}", 0.025 * n as f64)
+        format!("about {:.0} of {n}", 0.025 * n as f64)
     };
     let counts = match recorded {
         Some(recorded) => format!(
-            "recorded suites: {}; embedded suites: {}",
+            "{} recorded, {} embedded",
             by_chance(recorded),
             by_chance(findings)
         ),
@@ -379,7 +379,7 @@ pub(super) fn not_checked(embedded: bool) -> String {
         ""
     };
     format!(
-        "Not checked: shaking tables, {records}sliding, bouncing, vertical \
+        "Shaking tables, {records}sliding, bouncing, vertical \
          motion, flexible supports, other machines than x86-64 Linux"
     )
 }

@@ -199,7 +199,10 @@ pub fn input(
                 title: "Limits and credibility".into(),
                 text: [
                     limits(results),
-                    vec![answers::not_checked(results.embedded()) + "."],
+                    vec![format!(
+                        "Not checked: {}.",
+                        answers::not_checked(results.embedded())
+                    )],
                     assessment.iter().map(credibility::levels).collect(),
                 ]
                 .concat(),
@@ -387,13 +390,8 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
 
 pub(super) fn limits(results: &Results) -> Vec<String> {
     let mut out = vec![
-        "The block is planar, rigid and slides nowhere; the paper's model."
-            .into(),
         "The paper does not list its records; these suites are like its \
          suites, not the same."
-            .into(),
-        "Percentages of accepted levels share records from level to level \
-         and are not independent."
             .into(),
     ];
     if results.embedded() {

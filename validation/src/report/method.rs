@@ -3,10 +3,8 @@
 /// A paragraph each: model, suites, arms, estimators, inference, verdicts.
 const METHOD: [&str; 6] = [
     "Model. A planar rigid block stands on a rigid base and rocks about \
-     either corner without sliding or bouncing (Eq. 1 of the paper). It is \
-     described by its slenderness angle alpha, its frequency parameter p and \
-     its coefficient of restitution. At each impact the angular velocity is \
-     multiplied by that coefficient. A Taylor series integrates the motion \
+     either corner without sliding or bouncing (Eq. 1 of the paper). At each \
+     impact the angular velocity is multiplied by eta. A Taylor series integrates the motion \
      between impacts.",
     "Suites. Fifteen blocks, p = 1, 3, 4 rad/s and alpha = 0.05 to 0.25 rad, \
      are rocked by every record of an ordinary and of a pulse-type suite. \
@@ -14,8 +12,7 @@ const METHOD: [&str; 6] = [
      incremental dynamic analysis.",
     "Intensity. Each arm is a grid of intensity. Arm A has the paper's steps \
      of 0.01 g. Arm C has the same dimensionless steps for every block, with \
-     the first overturning bisected. Differences between the arms are \
-     effects of the grid.",
+     the first overturning bisected.",
     "Estimators. Ratios are paired: the response of a block over that of the \
      block with alpha = 0.10 to the same record. Overturned counts as \
      infinite. A cell with fewer than 30 usable records is shown and decides \
@@ -28,15 +25,16 @@ const METHOD: [&str; 6] = [
      not surely outside.",
     "Verdicts. A claim is confirmed where its whole interval lies within the \
      limit, the smallest effect of engineering interest. It is not confirmed \
-     where the whole interval lies outside, and inconclusive otherwise. \
-     Where the paper states a criterion of its own, the verdict by that \
-     stands beside it.",
+     where the whole interval lies outside, and inconclusive otherwise.",
 ];
 
-const GLOSSARY: [(&str, &str); 20] = [
+const GLOSSARY: [(&str, &str); 18] = [
     ("alpha", "slenderness angle of a block, atan(width/height), in rad"),
-    ("p", "frequency parameter of a block, sqrt(3 g/(4 R)), in rad/s"),
-    ("R", "half the diagonal of a block, in m"),
+    (
+        "p",
+        "frequency parameter of a block, sqrt(3 g/(4 R)) with R half its \
+     diagonal, in rad/s",
+    ),
     (
         "eta",
         "coefficient of restitution: angular velocity after an impact over \
@@ -47,7 +45,6 @@ const GLOSSARY: [(&str, &str); 20] = [
         "intensity measure of a motion: here PGA/(g tan alpha) or p PGV/(g \
          tan alpha)",
     ),
-    ("PGA, PGV", "peak ground acceleration and velocity"),
     ("notch", "95 % interval of the median of a boxplot"),
     ("trimmed", "without the values above the 95 % quantile"),
     (

@@ -297,8 +297,6 @@ impl Timings {
     /// How fast, in a sentence.
     #[must_use]
     pub fn plain(&self) -> String {
-        let best = self.most_accurate();
-        let (fast, slow) = range(best.iter().map(|t| t.ratio));
         let peer = || {
             let rate = self.of_many(STOPPED.work)?.rate_per_s();
             let ratio = self.of_many(PAPER)?.rate_per_s() / rate;
@@ -320,12 +318,8 @@ impl Timings {
             )
         });
         format!(
-            "A single analysis takes {} ms of one core. The most accurate \
-             setting of each other tool takes {} to {} times as long.{many} \
-             {}",
+            "A single analysis takes {} ms of one core.{many} {}",
             self.own().map_or(String::new(), |t| digits(1e3 * t.cpu_s)),
-            digits(fast),
-            digits(slow),
             self.measured_on()
         )
     }

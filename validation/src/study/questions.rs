@@ -11,6 +11,7 @@ mod power;
 mod recorded;
 mod robustness;
 mod suites;
+mod surface;
 mod trimming;
 
 use super::StudyError;
@@ -69,6 +70,7 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         trimming::answer(results)?,
         suites::answer(results)?,
         recorded::answer(results)?,
+        surface::answer(results)?,
     ])
 }
 

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use rocking::block::{Block, Restitution};
+use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, REFINEMENT};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
@@ -11,17 +12,17 @@ use serde::{Deserialize, Serialize};
 
 use super::SweepError;
 use super::blocks::Given;
+use super::cost::{self, Cost, Tile};
 use crate::files::write_atomically;
 use crate::suites::export;
 use crate::suites::inputs::{read_suite, sha256_hex};
 
 /// Version of the plan's shape.
-const SCHEMA: u32 = 1;
+const SCHEMA: u32 = 2;
 
-/// Levels of a chain, about, and seconds that a sample of one takes a core:
-/// for the estimate of costs alone.
-const LEVELS: f64 = 60.0;
-const SAMPLE_S: f64 = 6e-9;
+/// Replicates of the bootstrap, and intensity measures: PGA and PGV.
+const REPLICATES: usize = 400;
+const INTENSITIES: usize = 2;
 
 /// Name of the suite in the plan's folder.
 const SUITE: &str = "suite";
@@ -45,11 +46,11 @@ pub struct Plan {
     pub blocks: Vec<[f64; 3]>,
     /// Study components: name and SHA-256 of the packed file.
     pub records: Vec<(String, String)>,
-    /// Blocks of a tile, the last one apart.
-    pub blocks_a_tile: usize,
+    /// The tiles, in the order of the blocks, with what they cost.
+    pub tiles: Vec<Tile>,
 }
 
-/// A plan with its folder, its hash and the time that it takes.
+/// A plan with its folder and its hash.
 #[derive(Clone, Debug)]
 pub struct Planned {
     /// The plan.
@@ -58,8 +59,6 @@ pub struct Planned {
     pub folder: PathBuf,
     /// SHA-256 of the plan's file.
     pub hash: String,
-    /// Seconds of one core that a tile takes, estimated.
-    pub tile_core_s: f64,
 }
 
 /// What a plan is made of.
@@ -95,10 +94,18 @@ impl Plan {
             .filter(|row| row.study_component)
             .collect();
         let files = export::files(SUITE, &rows)?;
-        let samples: usize =
-            rows.iter().map(|row| row.motion.samples_g().len()).sum();
-        let block_s = samples as f64 * LEVELS * SAMPLE_S;
-        let a_tile = (60.0 * wanted.tile_minutes / block_s).round();
+        let motions: Vec<NormalisedRecord> =
+            rows.iter().map(|row| NormalisedRecord::new(row.motion)).collect();
+        // A fit a demand and intensity measure.
+        let fits = (INTENSITIES * wanted.demands.len(), REPLICATES);
+        let costs: Vec<Cost> = wanted
+            .blocks
+            .iter()
+            .map(|given| {
+                let p = given.block.frequency_rad_s();
+                Cost::of(p, &motions, wanted.step_im, fits)
+            })
+            .collect();
         let records = files
             .iter()
             .filter(|(path, _)| path.extension().is_some_and(|e| e == "at2"))
@@ -115,11 +122,11 @@ impl Plan {
             software: software.into(),
             step_im: wanted.step_im,
             demands: wanted.demands.clone(),
-            replicates: 400,
+            replicates: REPLICATES,
             rows: wanted.rows,
             blocks: wanted.blocks.iter().map(one).collect(),
             records,
-            blocks_a_tile: (a_tile as usize).clamp(1, wanted.blocks.len()),
+            tiles: cost::tiles(&costs, 60.0 * wanted.tile_minutes),
         };
         let text = plan.text();
         let path = folder.join("plan.json");
@@ -144,23 +151,31 @@ impl Plan {
         Planned::read(folder)
     }
 
+    /// Seconds of one core that all of it takes, estimated.
+    #[must_use]
+    pub fn core_s(&self) -> f64 {
+        self.tiles.iter().fold(0.0, |sum, tile| sum + tile.core_s)
+    }
+
     fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
-    /// Number of tiles.
-    #[must_use]
-    pub fn tiles(&self) -> usize {
-        self.blocks.len().div_ceil(self.blocks_a_tile)
-    }
-
     /// The blocks of a tile.
     #[must_use]
     pub fn blocks_of(&self, tile: usize) -> &[[f64; 3]] {
-        let first = tile * self.blocks_a_tile;
-        let last = (first + self.blocks_a_tile).min(self.blocks.len());
-        &self.blocks[first..last]
+        let first: usize =
+            self.tiles[..tile].iter().map(|tile| tile.blocks).sum();
+        &self.blocks[first..first + self.tiles[tile].blocks]
+    }
+
+    /// The tiles of a task of `of`, the costliest first, dealt so that tasks
+    /// end together; none for a task that is not below `of`.
+    #[must_use]
+    pub fn tiles_of(&self, task: usize, of: usize) -> Vec<usize> {
+        let mut tasks = cost::deal(&self.tiles, of);
+        if task < of { tasks.swap_remove(task) } else { Vec::new() }
     }
 
     /// What is run of a block.
@@ -196,18 +211,14 @@ impl Planned {
         if plan.schema != SCHEMA {
             return Err(refused(format!("schema {}", plan.schema)));
         }
-        if plan.blocks.is_empty() || plan.blocks_a_tile == 0 {
-            return Err(refused("no tile".into()));
+        let tiled: usize = plan.tiles.iter().map(|tile| tile.blocks).sum();
+        if plan.blocks.is_empty() || tiled != plan.blocks.len() {
+            return Err(refused(format!(
+                "{} blocks, of which the tiles hold {tiled}",
+                plan.blocks.len()
+            )));
         }
-        let mut samples = 0;
-        for (name, _) in &plan.records {
-            let size = fs::metadata(record_path(folder, name));
-            // An AT2 file has about 15 bytes a sample.
-            samples += size.map_or(0, |m| m.len() / 15);
-        }
-        let block_s = samples as f64 * LEVELS * SAMPLE_S;
         Ok(Self {
-            tile_core_s: block_s * plan.blocks_a_tile as f64,
             hash: sha256_hex(text.as_bytes()),
             folder: folder.into(),
             plan,

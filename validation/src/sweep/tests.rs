@@ -71,7 +71,7 @@ fn any_tiles_and_any_tasks_give_the_same_bytes() {
         let place = tempfile::tempdir().unwrap();
         let planned = plan(place.path(), tile_minutes);
         let tiles = if tile_minutes > 1.0 { 1 } else { 7 };
-        assert_eq!(planned.plan.tiles(), tiles);
+        assert_eq!(planned.plan.tiles.len(), tiles);
         run_all(&planned, of);
         let contents = Content::kept(&planned.plan);
         assert_eq!(contents.len(), 3);

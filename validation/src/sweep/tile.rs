@@ -1,8 +1,9 @@
 //! Tiles: run, held to their plan and their sum, merged.
 
+use std::cell::RefCell;
 use std::fmt;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write as _};
+use std::fs;
+use std::io;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -16,7 +17,7 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::SweepError;
 use super::plan::{Plan, Planned};
-use crate::files::write_atomically;
+use crate::files::{Output, write_atomically};
 use crate::suites::inputs::sha256_hex;
 use crate::table::Table;
 
@@ -145,9 +146,8 @@ pub fn state(planned: &Planned, tile: usize) -> State {
         .unwrap_or(State::Done)
 }
 
-/// Runs the tiles of task `task` of `of` that are not done: tiles are dealt
-/// in turn, since they cost the same. `go_on` is asked after each chain;
-/// `done` is told each tile that was finished.
+/// Runs the tiles of task `task` of `of` that are not done. `go_on` is asked
+/// after each chain; `done` is told each tile that was finished.
 ///
 /// Returns the tiles that are left, where `go_on` ended the work.
 ///
@@ -161,8 +161,9 @@ pub fn run(
     done: &dyn Fn(usize),
 ) -> Result<Vec<usize>, SweepError> {
     let plan = &planned.plan;
-    let mut own: Vec<usize> = (0..plan.tiles())
-        .filter(|tile| tile % of == task)
+    let mut own: Vec<usize> = plan
+        .tiles_of(task, of)
+        .into_iter()
         .filter(|tile| state(planned, *tile) != State::Done)
         .collect();
     if own.is_empty() {
@@ -210,32 +211,29 @@ pub fn merge(
     content: Content,
     out: &Path,
 ) -> Result<(), SweepError> {
-    let failed = |source| SweepError::Read { path: out.to_owned(), source };
-    let folder = match out.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    let handle: &File = file.as_file();
-    let mut writer = BufWriter::new(handle);
-    for tile in 0..planned.plan.tiles() {
-        let (state, body) = read(planned, content, tile);
-        if state != State::Done {
-            let path = planned.tile_path(content, tile);
-            return Err(SweepError::Tile { path, state });
+    let output = Output::open(out, &[])?;
+    let refused = RefCell::new(None);
+    let written = output.write_with(&|file| {
+        for tile in 0..planned.plan.tiles.len() {
+            let (state, body) = read(planned, content, tile);
+            if state != State::Done {
+                *refused.borrow_mut() = Some((tile, state));
+                return Err(io::Error::other("a tile is not done"));
+            }
+            // The header stands once.
+            let rows = match tile {
+                0 => body.as_str(),
+                _ => body.split_once('\n').map_or("", |(_, rows)| rows),
+            };
+            file.write_all(rows.as_bytes())?;
         }
-        // The header stands once.
-        let rows = match tile {
-            0 => body.as_str(),
-            _ => body.split_once('\n').map_or("", |(_, rows)| rows),
-        };
-        writer.write_all(rows.as_bytes()).map_err(failed)?;
+        Ok(())
+    });
+    if let Some((tile, state)) = refused.into_inner() {
+        let path = planned.tile_path(content, tile);
+        return Err(SweepError::Tile { path, state });
     }
-    writer.flush().map_err(failed)?;
-    drop(writer);
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(out).map_err(|e| failed(e.error))?;
-    Ok(())
+    Ok(written?)
 }
 
 fn unresolved(curve: &IdaCurve) -> usize {

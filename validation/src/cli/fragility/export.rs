@@ -72,6 +72,17 @@ pub(super) struct ExportArgs {
 }
 
 impl ExportArgs {
+    /// A block that is given without a format.
+    ///
+    /// # Errors
+    /// [`Failure`] for parameters that are no block's.
+    pub(super) fn alone(&self) -> Result<Option<Block>, Failure> {
+        if self.export.is_some() || self.block.given().is_none() {
+            return Ok(None);
+        }
+        self.block.block(STANDARD_GRAVITY_M_S2).map(Some)
+    }
+
     /// The format asked for.
     ///
     /// # Errors

@@ -23,7 +23,7 @@ pub fn head(input: &ReportInput) -> Markup {
                         @if let Some(words) = given {
                             (words)
                         } @else {
-                            span.line { "to be filled in" }
+                            span.line { span.unseen { "to be filled in" } "\u{a0}" }
                         }
                     }
                 }
@@ -204,7 +204,7 @@ fn legend() -> Markup {
 fn counts(column: &Column) -> Markup {
     html! {
         p {
-            "Results on the " (column.name) ", " (column.suites) " records: "
+            "Results on the " (column.name) ", " (column.suites) ": "
             @for (k, (verdict, count)) in column.counts.iter().enumerate() {
                 @if k > 0 { ", " }
                 (count) " " (mark(*verdict))

@@ -144,12 +144,6 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             ));
         }
     }
-    out.push(
-        "So the embedded suites show how the procedure works. They do not \
-         show levels of capacity or of motion where an interval leaves 1 \
-         out."
-            .into(),
-    );
     out.join(" ")
 }
 

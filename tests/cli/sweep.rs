@@ -1,0 +1,187 @@
+//! `rocking sweep` as a program that is killed, and that finds no room.
+
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+use super::support::{
+    answer, at2, folder, json, motion, refused_for, rocking,
+};
+
+/// A folder with a plan of `blocks` blocks in as many tiles.
+fn planned(name: &str, blocks: usize) -> PathBuf {
+    let mut table = String::from("alpha,p\n");
+    for k in 0..blocks {
+        writeln!(table, "{},3", 0.05 + 0.4 * k as f64 / blocks as f64)
+            .unwrap();
+    }
+    let records = [7.0, 9.0, 11.0, 13.0].map(|rhythm| {
+        let samples = motion(rhythm);
+        (format!("records/{rhythm}.at2"), at2("0.02", samples.len(), &samples))
+    });
+    let mut files: Vec<(&str, &str)> = vec![("blocks.csv", &table)];
+    files.extend(records.iter().map(|(n, t)| (n.as_str(), t.as_str())));
+    let place = folder(name, &files);
+    answer(
+        &place,
+        "sweep plan --blocks blocks.csv --suite records --out plan \
+         --step-im 0.002 --tile-minutes 1e-9",
+    );
+    place
+}
+
+/// Names in the folder of tiles, hidden ones too.
+fn tiles(place: &Path) -> Vec<String> {
+    let entries = fs::read_dir(place.join("plan/tiles")).unwrap();
+    let name = |e: std::io::Result<fs::DirEntry>| {
+        e.unwrap().file_name().into_string().unwrap()
+    };
+    entries.map(name).collect()
+}
+
+fn run(place: &Path) {
+    let output = rocking(place, "sweep run plan").output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+}
+
+fn merged(place: &Path) -> [Vec<u8>; 2] {
+    ["fragilities", "capacities"].map(|what| {
+        answer(place, &format!("sweep merge plan --what {what} --out o.csv"));
+        let bytes = fs::read(place.join("o.csv")).unwrap();
+        fs::remove_file(place.join("o.csv")).unwrap();
+        bytes
+    })
+}
+
+#[test]
+fn what_was_killed_goes_on_to_the_same_bytes() {
+    let whole = planned("sweep-whole", 24);
+    run(&whole);
+    let expected = merged(&whole);
+    let place = planned("sweep-killed", 24);
+    // Killed (SIGKILL) in the middle of a tile, again and again.
+    let mut kills = 0;
+    while kills < 3 {
+        let mut child = rocking(&place, "sweep run plan --threads 1")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let before = tiles(&place).len();
+        while tiles(&place).len() < before + 3
+            && child.try_wait().unwrap().is_none()
+        {
+            sleep(Duration::from_micros(200));
+        }
+        child.kill().unwrap();
+        let ended = child.wait().unwrap();
+        assert_eq!(ended.code(), None, "it ended before it was killed");
+        kills += 1;
+    }
+    assert!(tiles(&place).len() < 48, "nothing was left to do");
+    // What a run leaves that is killed while it writes, of long ago.
+    let part = place.join("plan/tiles/.rocking-killed.part");
+    fs::write(&part, "alpha_rad,p_rad_s,et").unwrap();
+    let then = SystemTime::UNIX_EPOCH + Duration::from_secs(3600);
+    File::options()
+        .write(true)
+        .open(&part)
+        .unwrap()
+        .set_modified(then)
+        .unwrap();
+    run(&place);
+    assert_eq!(merged(&place), expected);
+    let mut names = tiles(&place);
+    // One killed at the moment of writing leaves its part for ten seconds.
+    names.retain(|name| name != ".rocking-killed.part" || part.exists());
+    let unfinished = names.iter().filter(|name| name.starts_with('.')).count();
+    assert!(!part.exists() && unfinished <= kills, "{names:?}");
+    assert_eq!(names.len() - unfinished, 48);
+}
+
+/// Runs a command where no file may grow beyond `kib` KiB.
+#[cfg(unix)]
+fn limited(place: &Path, arguments: &str, kib: usize) -> (bool, String) {
+    let script = format!(
+        "ulimit -f {kib} && trap '' XFSZ && exec '{}' {arguments}",
+        env!("CARGO_BIN_EXE_rocking")
+    );
+    let output = Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(place)
+        .output()
+        .unwrap();
+    (output.status.success(), String::from_utf8(output.stderr).unwrap())
+}
+
+#[cfg(unix)]
+#[test]
+fn without_room_it_says_so_and_leaves_nothing_half_written() {
+    let place = planned("sweep-room", 60);
+    let all = "sweep plan --blocks blocks.csv --suite records --out plan \
+               --step-im 0.002 --tile-minutes 1e9";
+    fs::remove_dir_all(place.join("plan")).unwrap();
+    answer(&place, all);
+    // The tile of capacities is larger than 8 KiB.
+    let (done, error) = limited(&place, "sweep run plan", 8);
+    assert!(!done);
+    let last = error.lines().last().unwrap();
+    assert!(last.starts_with("rocking: cannot write plan/tiles/"), "{error}");
+    assert!(last.contains("large"), "{error}");
+    assert!(tiles(&place).iter().all(|name| name.ends_with(".csv")));
+    let status = answer(&place, "sweep status plan");
+    assert!(status.contains("done     0"), "{status}");
+    run(&place);
+    // Neither does a merge.
+    let old = "an older table\n";
+    fs::write(place.join("o.csv"), old).unwrap();
+    let merge = "sweep merge plan --what capacities --out o.csv";
+    let (done, error) = limited(&place, merge, 8);
+    assert!(!done);
+    assert!(error.starts_with("rocking: cannot write o.csv: "), "{error}");
+    assert_eq!(fs::read_to_string(place.join("o.csv")).unwrap(), old);
+    let names = fs::read_dir(&place).unwrap();
+    let hidden = names
+        .filter(|e| {
+            let name = e.as_ref().unwrap().file_name();
+            name.to_string_lossy().starts_with('.')
+        })
+        .count();
+    assert_eq!(hidden, 0);
+    answer(&place, merge);
+    assert!(fs::read(place.join("o.csv")).unwrap().len() > 8 * 1024);
+    // A file system that is full, where the system has such a device.
+    if Path::new("/dev/full").exists() {
+        let merge = "sweep merge plan --out /dev/full";
+        let output = rocking(&place, merge).output().unwrap();
+        let error = String::from_utf8(output.stderr).unwrap();
+        assert!(error.contains("cannot write /dev/full: No space"), "{error}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+}
+
+#[test]
+fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
+    let place = folder("sweep-surrogate", &[]);
+    let found = json(&place, "fragility --alpha 0.15 --p 3 --json");
+    for suite in ["ordinary", "pulse-type"] {
+        let own = &found["suites"][suite];
+        let median = own["median"].as_f64().unwrap();
+        // PGA of uplift is g tan alpha.
+        let pga_g = own["median_pga_g"].as_f64().unwrap();
+        assert!((pga_g / median - libm::tan(0.15)).abs() < 1e-12);
+        assert!(median > 1.0 && own["prob_max"].as_f64().unwrap() < 0.1);
+        assert_eq!(own["unseen_blocks"], 100);
+    }
+    for (arguments, names) in [
+        ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),
+        ("--alpha 0.2 --p 8", ["p 8", "1 to 6 rad/s"]),
+        ("--alpha 0.2 --p 3 --shift 1", ["--shift", "--sample"]),
+        ("--width-m 4 --height-m 40", ["p 0.", "range of the surrogate"]),
+    ] {
+        refused_for(&place, &format!("fragility {arguments}"), &names);
+    }
+}

@@ -1,0 +1,116 @@
+//! `rocking sweep design` and `fit`: the surrogate of `rocking fragility
+//! --alpha --p`.
+
+use std::path::PathBuf;
+
+use crate::cli::{Failure, print};
+use crate::files::Output;
+use crate::paper::SuiteKind;
+use crate::surrogate::{self, Surrogate, SurrogateError};
+
+/// Writes a table of blocks that fill the surrogate's range of p and alpha:
+/// points of Halton's sequence in ln p and alpha.
+#[derive(clap::Args)]
+pub struct DesignArgs {
+    /// Number of blocks.
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1000,
+        value_parser = clap::value_parser!(u64).range(1..=1_000_000)
+    )]
+    blocks: u64,
+    /// Place of the first in the sequence, from 1.
+    #[arg(
+        long,
+        value_name = "K",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u64).range(1..=1_000_000_000)
+    )]
+    first: u64,
+    /// Where the table goes; `-` is standard output.
+    #[arg(long, value_name = "FILE.csv", default_value = "-")]
+    out: PathBuf,
+}
+
+/// Fits the surrogate to merged sweeps of both suites, and tells its error at
+/// the blocks of other sweeps.
+#[derive(clap::Args)]
+pub struct FitArgs {
+    /// Merged fragilities of the ordinary suite.
+    #[arg(long, value_name = "FILE.csv")]
+    ordinary: PathBuf,
+    /// Merged fragilities of the pulse-type suite.
+    #[arg(long, value_name = "FILE.csv")]
+    pulse: PathBuf,
+    /// The same of blocks that are not fitted to, ordinary suite.
+    #[arg(long, value_name = "FILE.csv")]
+    unseen_ordinary: PathBuf,
+    /// The same of blocks that are not fitted to, pulse-type suite.
+    #[arg(long, value_name = "FILE.csv")]
+    unseen_pulse: PathBuf,
+    /// Folder of design.csv, unseen.csv and coefficients.csv.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+pub(super) fn design(args: &DesignArgs) -> Result<(), Failure> {
+    let out = Output::open(&args.out, &[])?;
+    Ok(out.write(surrogate::design(args.first, args.blocks))?)
+}
+
+pub(super) fn fit(args: &FitArgs) -> Result<(), Failure> {
+    let read = |ordinary, pulse| -> Result<_, SurrogateError> {
+        let (a, b) = (SuiteKind::Ordinary, SuiteKind::PulseType);
+        let mut blocks = surrogate::read_merged(a, ordinary)?;
+        blocks.extend(surrogate::read_merged(b, pulse)?);
+        // What is kept is what is fitted.
+        let text = surrogate::table(&blocks);
+        let kept = surrogate::read_table("blocks", &text)?;
+        Ok((kept, text))
+    };
+    let (blocks, design) = read(&args.ordinary, &args.pulse)?;
+    let (_, unseen) = read(&args.unseen_ordinary, &args.unseen_pulse)?;
+    let (models, choices) = surrogate::fit(&blocks)?;
+    let coefficients = Surrogate::coefficients(&models);
+    let made = Surrogate::parse(&coefficients, &unseen)?;
+    let mut text = String::from(
+        "degree_p degree_alpha terms error_in_probability (leave one out)\n",
+    );
+    for choice in &choices {
+        let taken =
+            models.iter().any(|model| model.terms == choice.degrees.terms());
+        text += &format!(
+            "{:>8} {:>12} {:>5} {:.4}{}\n",
+            choice.degrees.p,
+            choice.degrees.alpha,
+            choice.terms,
+            choice.error,
+            if taken { " taken" } else { "" }
+        );
+    }
+    for (model, errors) in &made.models {
+        text += &format!(
+            "{}, {} unseen blocks: rms and largest error of the median \
+             {:.4} {:.4}, of the dispersion {:.4} {:.4}, in probability \
+             {:.4} {:.4}\n",
+            model.suite,
+            errors.blocks,
+            errors.median.rms,
+            errors.median.largest,
+            errors.dispersion.rms,
+            errors.dispersion.largest,
+            errors.probability.rms,
+            errors.probability.largest,
+        );
+    }
+    std::fs::create_dir_all(&args.out)?;
+    for (name, content) in [
+        ("design.csv", &design),
+        ("unseen.csv", &unseen),
+        ("coefficients.csv", &coefficients),
+    ] {
+        Output::open(&args.out.join(name), &[])?.write(content)?;
+    }
+    print(&text)
+}

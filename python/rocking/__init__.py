@@ -20,6 +20,7 @@ capacities                `fit_fragility`, `lilliefors`, `quantile`,
                           `boxplot_stats`, `paired_ratios`
 a record                  `intensity_measures`, `rotd50`
 an IDA                    `rank_ims`
+a result                  its `to_pandas` or `to_xarray`
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and

@@ -32,6 +32,17 @@ OUTCOMES = (
     "overturned-refined",
 )
 
+# Numbers of each analysis that differ by level.
+_UNITS = {
+    "alpha_rad": "rad",
+    "pga_g": "g",
+    "pgv_m_s": "m s-1",
+    "im_pga": "1",
+    "im_pgv": "1",
+    "edp": "1",
+    "margin": "1",
+}
+
 
 def _physics(
     eta: float | Literal["housner"], model: str, overturn: str
@@ -89,6 +100,27 @@ class Response(Frozen):
         index = pandas.Index(self.history[:, 0], name="t")
         columns = ["theta", "omega"]
         return pandas.DataFrame(self.history[:, 1:], index, columns)
+
+    def to_xarray(self) -> Any:
+        """The history as an `xarray.Dataset` over t, with the impacts over
+        impact_time."""
+        import xarray
+
+        t, theta, omega = self.history.T
+        time, before = self.impacts.T
+        speed = {"units": "rad s-1"}
+        return xarray.Dataset(
+            {
+                "theta": ("t", theta, {"units": "rad"}),
+                "omega": ("t", omega, speed),
+                "impact_omega": ("impact_time", before, speed),
+            },
+            {
+                "t": ("t", t, {"units": "s"}),
+                "impact_time": ("impact_time", time, {"units": "s"}),
+            },
+            {"outcome": self.outcome, "peak_ratio": self.peak_ratio},
+        )
 
     def _repr_html_(self) -> str:
         words = f"{self.outcome}, peak |theta|/alpha {self.peak_ratio:.6g}"
@@ -380,30 +412,78 @@ class Ida(Frozen):
         found = _rocking.demands(self._rows(kind), flat)
         return found.reshape(*levels.shape, len(self.records))
 
-    def to_pandas(self) -> Any:
-        """One row an analysis, as a `pandas.DataFrame` with the columns that
-        the command line writes."""
-        import pandas
+    def _columns(self) -> dict[str, Any]:
+        """The columns that the command line writes, one row an analysis."""
 
         def each(values: Any) -> Any:
             return np.repeat(np.asarray(values), self.sizes)
 
         ratio = each(self.velocity_ratio_s)
         names = np.asarray(OUTCOMES, dtype=object)
-        return pandas.DataFrame(
-            {
-                "record": each(np.asarray(self.records, dtype=object)),
-                "alpha_rad": self.row_alpha,
-                "p_rad_s": self.block.p,
-                "pga_g": self.row_pga_g,
-                "pgv_m_s": self.row_pga_g * ratio * self.gravity,
-                "im_pga": self.row_im,
-                "im_pgv": self.row_im * (self.block.p * ratio),
-                "edp": self.row_edp,
-                "outcome": names[self.row_outcome],
-                "margin": self.row_fate_margin,
-            }
-        )
+        return {
+            "record": each(np.asarray(self.records, dtype=object)),
+            "alpha_rad": self.row_alpha,
+            "p_rad_s": self.block.p,
+            "pga_g": self.row_pga_g,
+            "pgv_m_s": self.row_pga_g * ratio * self.gravity,
+            "im_pga": self.row_im,
+            "im_pgv": self.row_im * (self.block.p * ratio),
+            "edp": self.row_edp,
+            "outcome": names[self.row_outcome],
+            "margin": self.row_fate_margin,
+        }
+
+    def to_pandas(self) -> Any:
+        """One row an analysis, as a `pandas.DataFrame` with the columns that
+        the command line writes."""
+        import pandas
+
+        return pandas.DataFrame(self._columns())
+
+    def to_xarray(self) -> Any:
+        """The curves as an `xarray.Dataset` over (record, level).
+
+        Level 0 is the onset of rocking, the last level of a record its first
+        overturned one. Curves end at different levels: beyond its end a row
+        holds NaN, and the outcome "". The variables are the columns of
+        `to_pandas`. `overturning_im_pga` has the first overturning of each
+        record as `capacities` gives it, refined, and infinite where the
+        record never overturned the block.
+        """
+        import xarray
+
+        columns = self._columns()
+        scanned = self.row_outcome != OUTCOMES.index("overturned-refined")
+        curve = np.repeat(np.arange(len(self.records)), self.sizes)[scanned]
+        lengths = np.bincount(curve, minlength=len(self.records))
+        starts = np.cumsum(lengths) - lengths
+        level = np.arange(len(curve)) - np.repeat(starts, lengths)
+        shape = len(self.records), int(lengths.max())
+        variables: dict[str, Any] = {}
+        for name, unit in _UNITS.items():
+            table = np.full(shape, np.nan)
+            table[curve, level] = columns[name][scanned]
+            known = {"units": unit}
+            variables[name] = ("record", "level"), table, known
+        words = np.full(shape, "", dtype=f"<U{max(map(len, OUTCOMES))}")
+        words[curve, level] = columns["outcome"][scanned]
+        variables["outcome"] = ("record", "level"), words
+        overturning = self.capacities(np.inf)
+        known = {"units": "1"}
+        variables["overturning_im_pga"] = "record", overturning, known
+        places = {
+            "record": np.asarray(self.records),
+            "level": np.arange(shape[1]),
+        }
+        about = {
+            "block_alpha_rad": self.block.alpha,
+            "block_p_rad_s": self.block.p,
+            "eta": self.eta,
+            "model": self.model,
+            "overturn": self.overturn,
+            "by": self.by,
+        }
+        return xarray.Dataset(variables, places, about)
 
     def _repr_html_(self) -> str:
         words = (

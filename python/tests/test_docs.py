@@ -49,17 +49,6 @@ def test_the_python_of_the_readme_runs(
         run_python(tmp_path, script)
 
 
-def test_the_examples_run_and_draw(suites: Path, tmp_path: Path) -> None:
-    examples = PACKAGE / "examples"
-    said = run_python(tmp_path, examples / "one_block.py")
-    assert said.count("peak |theta|/alpha") == 3
-    index = suites / "ordinary.csv"
-    said = run_python(tmp_path, examples / "suite_to_fragility.py", index)
-    assert said.startswith("86 records")
-    for name in ("one-block.png", "fragility.png"):
-        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
-
-
 def test_every_public_name_says_what_it_is() -> None:
     for name in rk.__all__:
         value = getattr(rk, name)

@@ -217,6 +217,12 @@ def peak(
         missing where a single block, excitation or level was given. Peaks
         that rounding may have changed are not marked: `respond` says so.
 
+    Notes
+    -----
+    Records at `by="im"` and `by="pga_g"` run in the lanes of `ida`, about
+    three times as fast as alone. Pulses, and factors, run alone. The bits are
+    the same.
+
     >>> sine = Pulse("one-sine", amplitude_g=0.15, omega=12.0)
     >>> peak(Block(alpha=0.1, p=3.0), sine, levels=[1.2, 1.4]).shape
     (2,)

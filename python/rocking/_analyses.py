@@ -394,6 +394,13 @@ class Ida(Frozen):
         -------
         ndarray of shape (edp, record), or (record,) for a single edp
             Infinite (censored) where the record never got there.
+
+        >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+        >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
+        >>> found.capacities(np.inf).round(4)
+        array([2.299])
+        >>> found.capacities([0.2, 0.5, np.inf]).shape
+        (3, 1)
         """
         levels = np.asarray(edp, dtype=np.float64)
         flat = np.ravel(levels).tolist()
@@ -412,6 +419,11 @@ class Ida(Frozen):
         Returns
         -------
         ndarray of shape (im, record), or (record,) for a single im
+
+        >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+        >>> found = ida(Block(alpha=0.1, p=3.0), lobe, step_im=0.5)
+        >>> found.demands([1.5, 2.5]).round(4).tolist()
+        [[0.066], [inf]]
         """
         levels = np.asarray(im, dtype=np.float64)
         flat = np.ravel(levels).tolist()

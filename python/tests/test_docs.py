@@ -57,6 +57,7 @@ def test_every_public_name_says_what_it_is() -> None:
         text = inspect.getdoc(value)
         assert text and not text.startswith(f"{name}("), name
         if not inspect.isclass(value):
+            assert ">>>" in text, name
             continue
         for key, method in vars(value).items():
             if not key.startswith("_") and inspect.isfunction(method):

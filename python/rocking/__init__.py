@@ -33,7 +33,8 @@ overturns. Input that is refused raises `ValueError`, a missing file
 command line `rocking`, for any number of threads.
 """
 
-from ._analyses import Ida, Response, ida, peak, respond, spectrum
+from ._analyses import Response, peak, respond, spectrum
+from ._ida import Ida, ida
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,

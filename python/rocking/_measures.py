@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._analyses import Ida
+from ._ida import Ida
 from ._inputs import STANDARD_GRAVITY, Record, floats, given
 
 PERIODS = (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0)

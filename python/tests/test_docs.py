@@ -15,7 +15,14 @@ import pytest
 import rocking as rk
 
 PACKAGE = Path(__file__).resolve().parents[1]
-MODULES = ("", "._inputs", "._analyses", "._statistics", "._measures")
+MODULES = (
+    "",
+    "._inputs",
+    "._analyses",
+    "._ida",
+    "._statistics",
+    "._measures",
+)
 
 
 @pytest.mark.parametrize("name", MODULES)

@@ -114,7 +114,7 @@ const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
 const FOLDERS: &str = "src validation tests benches examples fixtures reports .ci python/src \
-     python/rocking python/tests python/examples";
+     python/rocking python/tests python/notebooks";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")

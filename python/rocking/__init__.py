@@ -20,6 +20,7 @@ capacities                `fit_fragility`, `lilliefors`, `quantile`,
                           `boxplot_stats`, `paired_ratios`
 a record                  `intensity_measures`, `rotd50`
 an IDA                    `rank_ims`
+a result                  its `to_pandas` or `to_xarray`
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
@@ -32,7 +33,8 @@ overturns. Input that is refused raises `ValueError`, a missing file
 command line `rocking`, for any number of threads.
 """
 
-from ._analyses import Ida, Response, ida, peak, respond, spectrum
+from ._analyses import Response, peak, respond, spectrum
+from ._ida import Ida, ida
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,

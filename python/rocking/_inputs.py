@@ -318,6 +318,11 @@ class Suite(Sequence[Record]):
     """Records read together: a sequence of `Record`.
 
     `records` may be any records; `name` is for messages.
+
+    >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+    >>> suite = Suite("two", (lobe, lobe))
+    >>> len(suite), suite[0].name, suite[:1]
+    (2, 'lobe', Suite(name='two'))
     """
 
     name: str
@@ -377,6 +382,15 @@ def read_record(
         There is no such file.
     ValueError
         The file is cut, miscounted, or of an unknown format or unit.
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     file = Path(folder, "column.txt")
+    ...     _ = file.write_text("0.0\\n9.80665\\n-1.0\\n")
+    ...     record = read_record(file, dt=0.1, units="m/s2")
+    >>> record.pga_g
+    1.0
     """
     return Record._read(*_rocking.read_record(path, dt, units, gravity))
 
@@ -399,6 +413,16 @@ def read_suite(
     ------
     FileNotFoundError, ValueError
         As `read_record`; with file and line.
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     for name in ("first", "second"):
+    ...         file = Path(folder, f"{name}.txt")
+    ...         _ = file.write_text("0.0\\n1.0\\n0.0\\n")
+    ...     suite = read_suite(folder, dt=0.1, units="m/s2")
+    >>> [record.name for record in suite]
+    ['first', 'second']
     """
     if component not in ("study", "both"):
         raise ValueError(

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._analyses import Ida
+from ._ida import Ida
 from ._inputs import STANDARD_GRAVITY, Record, floats, given
 
 PERIODS = (0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0)
@@ -43,7 +43,12 @@ def rotd50(
     damping: float = 0.05,
     gravity: float = STANDARD_GRAVITY,
 ) -> dict[str, Any]:
-    """The same measures of a pair: the median over all directions."""
+    """The same measures of a pair: the median over all directions.
+
+    >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g")
+    >>> round(rotd50(lobe, lobe, periods=[1.0])["pga_g"], 3)
+    0.2
+    """
     times = floats(periods, "periods").tolist()
     pair = given(first), given(second)
     return _rocking.rotd50(*pair, times, damping, gravity)
@@ -90,6 +95,15 @@ def rank_ims(
     -------
     list of RankedIm
         `pandas.DataFrame(rank_ims(...))` is a table.
+
+    >>> from rocking import Block, ida
+    >>> suite = [
+    ...     Record([0.0, 0.2, 0.0], dt, units="g", name=f"{dt} s")
+    ...     for dt in (0.2, 0.25, 0.3, 0.4)
+    ... ]
+    >>> best = rank_ims(ida(Block(alpha=0.1, p=3.0), suite), suite)[0]
+    >>> best.name, round(best.beta, 2)
+    ('SA(1 s)_g', 0.04)
     """
     names = tuple(record.name for record in suite)
     if names != ida.records:

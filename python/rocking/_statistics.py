@@ -75,7 +75,12 @@ class Fragility(Frozen):
         return self.shift, self.log_mean, self.beta
 
     def cdf(self, x: ArrayLike) -> Floats:
-        """Probability of exceedance at intensity x."""
+        """Probability of exceedance at intensity x.
+
+        >>> fit = fit_fragility([1.5, 2.0, 3.0], shift=1.0)
+        >>> fit.cdf([1.0, 2.0])
+        array([0. , 0.5])
+        """
         values = np.asarray(x, dtype=np.float64)
         flat = np.ascontiguousarray(values.ravel())
         return _rocking.cdf(self._law, flat).reshape(values.shape)
@@ -103,7 +108,13 @@ class Fragility(Frozen):
         method: Literal["BCa", "percentile"] = "BCa",
     ) -> ConfidenceInterval:
         """Bootstrap interval of `median`, `beta` or `log_mean`; records are
-        drawn with replacement."""
+        drawn with replacement.
+
+        >>> fit = fit_fragility([1.5, 2.0, 3.0, 4.0], n_resamples=200)
+        >>> low, high = fit.confidence_interval("median")
+        >>> low < fit.median < high
+        True
+        """
         columns = ("log_mean", "beta", "median")
         if quantity not in columns:
             raise ValueError(

@@ -8,6 +8,7 @@ mod given;
 mod ida;
 mod measures;
 mod mechanics;
+mod peak;
 mod statistics;
 mod work;
 
@@ -28,7 +29,7 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(files::read_record, m)?)?;
     m.add_function(wrap_pyfunction!(files::read_suite, m)?)?;
     m.add_function(wrap_pyfunction!(mechanics::respond, m)?)?;
-    m.add_function(wrap_pyfunction!(mechanics::peak, m)?)?;
+    m.add_function(wrap_pyfunction!(peak::peak, m)?)?;
     m.add_function(wrap_pyfunction!(ida::ida, m)?)?;
     m.add_function(wrap_pyfunction!(ida::capacities, m)?)?;
     m.add_function(wrap_pyfunction!(ida::demands, m)?)?;

@@ -1,24 +1,21 @@
-//! Single responses, and peaks of many.
+//! Single responses, and excitations at a level.
 
-use numpy::ndarray::{Array2, Array3};
-use numpy::{PyArray2, PyArray3};
+use numpy::PyArray2;
+use numpy::ndarray::Array2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
-use rocking::block::{Block, Restitution};
 use rocking::excitation::{NormalisedRecord, Pulse, ScaledRecord};
 use rocking::integrator::{
-    Assessment, Observe, Outcome, Solver, WorkLimit, certify, uplift_threshold,
+    Assessment, Observe, Outcome, WorkLimit, certify, uplift_threshold,
 };
 use rocking::record::Accelerogram;
 use rocking::{Excitation, Response, Scene, integrator};
 
 use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
-use crate::work;
 
 /// What is scaled to a level.
 #[derive(Clone, Copy, PartialEq)]
-enum By {
+pub enum By {
     /// PGA/(g tan alpha).
     Im,
     /// PGA in g.
@@ -27,17 +24,17 @@ enum By {
     Scale,
 }
 
-const BY: [(&str, By); 3] =
+pub const BY: [(&str, By); 3] =
     [("im", By::Im), ("pga_g", By::PgaG), ("scale", By::Scale)];
 
 /// An excitation, a record also divided by its peak.
-enum Motion<'a> {
+pub enum Motion<'a> {
     Record(&'a Accelerogram, NormalisedRecord),
     Pulse(&'a Pulse),
 }
 
 impl<'a> Motion<'a> {
-    fn of(ground: &'a Ground) -> Self {
+    pub fn of(ground: &'a Ground) -> Self {
         match ground {
             Ground::Record(record) => {
                 Self::Record(record, NormalisedRecord::new(record))
@@ -48,13 +45,13 @@ impl<'a> Motion<'a> {
 }
 
 /// An excitation at a level.
-enum Scaled<'a> {
+pub enum Scaled<'a> {
     Record(ScaledRecord<'a>),
     Pulse(Pulse),
 }
 
 impl<'a> Scaled<'a> {
-    fn of(
+    pub fn of(
         motion: &'a Motion<'_>,
         by: By,
         level: f64,
@@ -98,7 +95,7 @@ impl<'a> Scaled<'a> {
         })
     }
 
-    fn excitation(&self) -> Excitation<'_> {
+    pub fn excitation(&self) -> Excitation<'_> {
         match self {
             Self::Record(record) => Excitation::Record(*record),
             Self::Pulse(pulse) => Excitation::Pulse(pulse),
@@ -205,65 +202,5 @@ fn rows(
 ) -> PyResult<Bound<'_, PyArray2<f64>>> {
     Array2::from_shape_vec((values.len() / columns, columns), values)
         .map(|table| PyArray2::from_owned_array(py, table))
-        .map_err(refuse)
-}
-
-/// Peaks |theta|/alpha by block, excitation and level; infinite where it
-/// overturned.
-#[pyfunction]
-pub fn peak<'py>(
-    py: Python<'py>,
-    blocks: Vec<(f64, f64)>,
-    excitations: Vec<Given<'py>>,
-    levels: Vec<f64>,
-    by: &str,
-    physics: Physics,
-    threads: Option<usize>,
-    progress: Option<Py<PyAny>>,
-) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let model = physics.model()?;
-    let overturning = physics.overturning()?;
-    let by = choose("by", by, &BY)?;
-    let grounds = Ground::all(excitations)?;
-    let blocks: Vec<(Block, Restitution)> = blocks
-        .into_iter()
-        .map(|block| {
-            let block = block_of(block)?;
-            Ok((block, physics.restitution(&block)?))
-        })
-        .collect::<PyResult<_>>()?;
-    let shape = (blocks.len(), grounds.len(), levels.len());
-    let total = shape.0 * shape.1 * shape.2;
-    let solver = Solver { peak_only: true, ..Solver::default() };
-    let observe = Observe { work_limit: WorkLimit::IDA, ..Observe::default() };
-    let one = |motions: &[Motion<'_>], index: usize| {
-        let (block, restitution) = blocks[index / (shape.1 * shape.2)];
-        let motion = &motions[index / shape.2 % shape.1];
-        let threshold = uplift_threshold(&block, model);
-        let level = levels[index % shape.2];
-        let scaled = Scaled::of(motion, by, level, threshold)?;
-        let scene = Scene {
-            model,
-            overturning,
-            ..Scene::new(block, restitution, scaled.excitation())
-        };
-        let response = solver.respond(&scene, &observe);
-        let response = response.map_err(|e| e.to_string())?;
-        Ok(response.outcome.edp())
-    };
-    let peaks = work::run(py, threads, progress, total, |watch| {
-        let motion = |ground| watch.unless_stopped(|| Motion::of(ground));
-        let motions: Option<Vec<_>> = grounds.par_iter().map(motion).collect();
-        let motions = motions.ok_or("stopped")?;
-        let indices = (0..total).into_par_iter();
-        let made = indices.map(|index| match watch.tick() {
-            std::ops::ControlFlow::Continue(()) => one(&motions, index),
-            std::ops::ControlFlow::Break(()) => Err("stopped".to_owned()),
-        });
-        made.collect::<Result<Vec<f64>, String>>()
-    })?
-    .map_err(refuse)?;
-    Array3::from_shape_vec(shape, peaks)
-        .map(|table| PyArray3::from_owned_array(py, table))
         .map_err(refuse)
 }

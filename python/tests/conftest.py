@@ -14,11 +14,17 @@ Command = Callable[..., str]
 
 
 @pytest.fixture(scope="session")
-def command() -> Command:
-    """Runs the command line and gives what it printed."""
+def program() -> Path:
+    """The command line."""
     built = ROOT / "target" / "release" / "rocking"
-    program = Path(os.environ.get("ROCKING_COMMAND", built))
-    assert program.is_file(), f"{program}: build it by cargo build --release"
+    path = Path(os.environ.get("ROCKING_COMMAND", built))
+    assert path.is_file(), f"{path}: build it by cargo build --release"
+    return path
+
+
+@pytest.fixture(scope="session")
+def command(program: Path) -> Command:
+    """Runs the command line and gives what it printed."""
 
     def run(*arguments: object) -> str:
         words = [str(word) for word in arguments]

@@ -15,7 +15,14 @@ import pytest
 import rocking as rk
 
 PACKAGE = Path(__file__).resolve().parents[1]
-MODULES = ("", "._inputs", "._analyses", "._statistics", "._measures")
+MODULES = (
+    "",
+    "._inputs",
+    "._analyses",
+    "._ida",
+    "._statistics",
+    "._measures",
+)
 
 
 @pytest.mark.parametrize("name", MODULES)
@@ -42,22 +49,14 @@ def test_the_python_of_the_readme_runs(
     text = (PACKAGE / readme).read_text()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     assert blocks
+    for name in ("xarray", "distributed"):
+        if f"{name} import" in text or f"import {name}" in text:
+            pytest.importorskip(name)
     (tmp_path / "suites").symlink_to(suites)
     for number, code in enumerate(blocks):
         script = tmp_path / f"block-{number}.py"
         script.write_text(code)
         run_python(tmp_path, script)
-
-
-def test_the_examples_run_and_draw(suites: Path, tmp_path: Path) -> None:
-    examples = PACKAGE / "examples"
-    said = run_python(tmp_path, examples / "one_block.py")
-    assert said.count("peak |theta|/alpha") == 3
-    index = suites / "ordinary.csv"
-    said = run_python(tmp_path, examples / "suite_to_fragility.py", index)
-    assert said.startswith("86 records")
-    for name in ("one-block.png", "fragility.png"):
-        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
 
 
 def test_every_public_name_says_what_it_is() -> None:
@@ -68,6 +67,7 @@ def test_every_public_name_says_what_it_is() -> None:
         text = inspect.getdoc(value)
         assert text and not text.startswith(f"{name}("), name
         if not inspect.isclass(value):
+            assert ">>>" in text, name
             continue
         for key, method in vars(value).items():
             if not key.startswith("_") and inspect.isfunction(method):

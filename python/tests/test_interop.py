@@ -65,3 +65,49 @@ def test_right_censored_data_are_infinite_values() -> None:
     data._left = np.array([1.0])
     with pytest.raises(ValueError, match="left- or interval-censored"):
         rk.quantile(data, 0.5)
+
+
+def test_curves_are_an_xarray_dataset_by_record_and_level(
+    ida: rk.Ida,
+) -> None:
+    pytest.importorskip("xarray")
+    found = ida.to_xarray()
+    longest = max(len(curve) for curve in ida.im)
+    assert dict(found.sizes) == {"record": 86, "level": longest}
+    assert min(len(curve) for curve in ida.im) < longest
+    table = ida.to_pandas()
+    table = table[table.outcome != "overturned-refined"]
+    for i, (name, rows) in enumerate(table.groupby("record", sort=False)):
+        one = found.sel(record=name)
+        stands = one.outcome.values != ""
+        assert stands.tolist() == [j < len(rows) for j in range(longest)]
+        assert one.im_pga.values[stands].tolist() == ida.im[i].tolist()
+        assert one.edp.values[stands].tolist() == ida.edp[i].tolist()
+        for key in found.data_vars:
+            if key == "overturning_im_pga":
+                continue
+            values = one[key].values
+            assert values[stands].tolist() == rows[key].tolist(), key
+            if key != "outcome":
+                assert np.isnan(values[~stands]).all(), key
+    last = found.overturning_im_pga
+    assert last.values.tolist() == ida.capacities(np.inf).tolist()
+    # Refinement lies within the last step, whose end is the curve's.
+    ends = found.im_pga.max("level")
+    assert bool((last <= ends).all()) and not bool((last == ends).all())
+    assert found.attrs["block_p_rad_s"] == 3.0
+    assert found.edp.attrs["units"] == "1"
+
+
+def test_a_history_is_an_xarray_dataset_over_time(
+    block: rk.Block, packet: rk.Record
+) -> None:
+    pytest.importorskip("xarray")
+    response = rk.respond(block, packet, im=1.3, history_dt=0.01)
+    found = response.to_xarray()
+    history = np.column_stack([found.t, found.theta, found.omega])
+    assert history.tolist() == response.history.tolist()
+    impacts = np.column_stack([found.impact_time, found.impact_omega])
+    assert len(impacts) > 0
+    assert impacts.tolist() == response.impacts.tolist()
+    assert found.attrs["outcome"] == response.outcome

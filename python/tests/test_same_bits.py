@@ -3,6 +3,7 @@
 import csv
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -92,20 +93,31 @@ def test_a_response_has_the_bits_of_the_command_line(
     assert found.uplift_time == said["uplift_time_s"]
 
 
-def test_peaks_are_those_of_single_responses(
-    suite: rk.Suite, block: rk.Block
+@pytest.mark.parametrize("model", ["nonlinear", "linearized"])
+@pytest.mark.parametrize("by", ["im", "pga_g"])
+def test_peaks_in_lanes_are_those_of_single_responses(
+    by: str, model: str, suite: rk.Suite, block: rk.Block
 ) -> None:
     other = rk.Block(alpha=0.12, p=2.0)
-    levels = [0.9, 1.4, 3.0]
-    table = rk.peak([block, other], suite[:4], levels=levels)
-    assert table.shape == (2, 4, 3)
+    # At or hardly above the uplift threshold; by the last but one the grid
+    # of an IDA would round.
+    levels = [0.9, 1.0, 1.0 + 1e-9, 1.4, 3.0, 1.1 + 5e-14, 40.0]
+    if by == "pga_g":
+        levels = [0.01, 0.121, 0.25, 0.3, 1.0, 0.2 + 2e-14, 5.0]
+    pulse = rk.Pulse("one-sine", amplitude_g=0.3, omega=6.0)
+    motions = [suite[0], pulse, *suite[1:5]]
+    table = rk.peak([block, other], motions, levels=levels, by=by, model=model)
+    assert table.shape == (2, 6, 7)
     for i, one in enumerate([block, other]):
-        for j, record in enumerate(suite[:4]):
-            for k, im in enumerate(levels):
-                alone = rk.respond(one, record, im=im).peak_ratio
-                assert table[i, j, k] == alone
+        for j, motion in enumerate(motions):
+            for k, level in enumerate(levels):
+                scaled: Any = {by: level}
+                alone = rk.respond(one, motion, model=model, **scaled)
+                assert table[i, j, k] == alone.peak_ratio
     # At or below the uplift threshold nothing moves.
     assert (table[:, :, 0] == 0.0).all() and np.isinf(table).any()
+    stands = np.isfinite(table) & (table > 0.0)
+    assert stands.sum() > 10
 
 
 def test_a_spectrum_is_a_row_of_single_responses(packet: rk.Record) -> None:

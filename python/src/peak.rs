@@ -1,0 +1,207 @@
+//! Peaks of many blocks under many excitations at many levels.
+//!
+//! A record beyond the uplift threshold runs in the lanes of the core, as the
+//! only level of an IDA curve. Pulses, factors and what hardly lifts off run
+//! alone. The bits are the same.
+
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
+use numpy::PyArray3;
+use numpy::ndarray::Array3;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use rocking::Scene;
+use rocking::block::{Block, Restitution};
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::{Analysis, Batch, Grid, IdaCurve, for_each_curve};
+use rocking::integrator::{
+    Model, Observe, Overturning, Solver, WorkLimit, uplift_threshold,
+};
+
+use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
+use crate::mechanics::{BY, By, Motion, Scaled};
+use crate::work::{self, Watch};
+
+/// Nearer to the uplift threshold (IM = 1), a grid with this step would have
+/// more levels than the core allows.
+const LEAST_IM: f64 = 1.0 + 1e-6;
+
+/// Curves that are handed to the lanes at once: their list stays small.
+const MOST_CURVES: usize = 1 << 17;
+
+/// Peaks |theta|/alpha by block, excitation and level; infinite where it
+/// overturned.
+#[pyfunction]
+pub fn peak<'py>(
+    py: Python<'py>,
+    blocks: Vec<(f64, f64)>,
+    excitations: Vec<Given<'py>>,
+    levels: Vec<f64>,
+    by: &str,
+    physics: Physics,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let grounds = Ground::all(excitations)?;
+    let blocks = blocks.into_iter().map(|block| {
+        let block = block_of(block)?;
+        Ok((block, physics.restitution(&block)?))
+    });
+    let asked = Asked {
+        blocks: blocks.collect::<PyResult<_>>()?,
+        levels,
+        by: choose("by", by, &BY)?,
+        model: physics.model()?,
+        overturning: physics.overturning()?,
+    };
+    let shape = (asked.blocks.len(), grounds.len(), asked.levels.len());
+    let total = shape.0 * shape.1 * shape.2;
+    let peaks = work::run(py, threads, progress, total, |watch| {
+        let motion = |ground| watch.unless_stopped(|| Motion::of(ground));
+        let motions: Option<Vec<_>> = grounds.par_iter().map(motion).collect();
+        asked.peaks(&motions.ok_or("stopped")?, watch)
+    })?
+    .map_err(refuse)?;
+    Array3::from_shape_vec(shape, peaks)
+        .map(|table| PyArray3::from_owned_array(py, table))
+        .map_err(refuse)
+}
+
+/// What is asked, but for the excitations.
+struct Asked {
+    blocks: Vec<(Block, Restitution)>,
+    levels: Vec<f64>,
+    by: By,
+    model: Model,
+    overturning: Overturning,
+}
+
+/// An IDA curve with a single level.
+struct Single {
+    block: usize,
+    level: usize,
+    analysis: Analysis,
+}
+
+impl Asked {
+    fn peaks(
+        &self,
+        motions: &[Motion<'_>],
+        watch: &Watch,
+    ) -> Result<Vec<f64>, String> {
+        let (wide, high) = (motions.len(), self.levels.len());
+        let pairs = self.blocks.len() * high;
+        let cells: Vec<OnceLock<Result<f64, String>>> =
+            (0..pairs * wide).map(|_| OnceLock::new()).collect();
+        let singles: Vec<Option<Single>> =
+            (0..pairs).map(|k| self.single(k / high, k % high)).collect();
+        (0..cells.len()).into_par_iter().try_for_each(|index| {
+            let (row, level) = (index / high, index % high);
+            let (block, motion) = (row / wide, &motions[row % wide]);
+            let is_record = matches!(motion, Motion::Record(..));
+            if is_record && singles[block * high + level].is_some() {
+                return Ok(());
+            }
+            if watch.tick() == ControlFlow::Break(()) {
+                return Err("stopped".to_owned());
+            }
+            let peak = self.alone(block, motion, level)?;
+            // Each cell is filled once.
+            let _ = cells[index].set(Ok(peak));
+            Ok(())
+        })?;
+        let (rows, records): (Vec<usize>, Vec<NormalisedRecord>) = motions
+            .iter()
+            .enumerate()
+            .filter_map(|(row, motion)| match motion {
+                Motion::Record(_, unit) => Some((row, unit.clone())),
+                Motion::Pulse(_) => None,
+            })
+            .unzip();
+        let batch = Batch {
+            progress: &|| watch.tick(),
+            stop: Some(watch.flag()),
+            ..Batch::default()
+        };
+        let singles: Vec<Single> = singles.into_iter().flatten().collect();
+        for some in singles.chunks((MOST_CURVES / records.len().max(1)).max(1))
+        {
+            let analyses: Vec<Analysis> =
+                some.iter().map(|single| single.analysis).collect();
+            for_each_curve(&records, &analyses, &batch, &|a, r, curve| {
+                let Single { block, level, .. } = some[a];
+                let motion = &motions[rows[r]];
+                let peak = self.peak_of(&curve, level);
+                let peak =
+                    peak.map_or_else(|| self.alone(block, motion, level), Ok);
+                let index = (block * wide + rows[r]) * high + level;
+                let _ = cells[index].set(peak);
+            })
+            .map_err(|e| e.to_string())?;
+        }
+        let made = cells.into_iter().map(|cell| {
+            cell.into_inner().unwrap_or_else(|| Err("not made".to_owned()))
+        });
+        made.collect()
+    }
+
+    /// The curve whose only level is this one; none where it runs alone.
+    fn single(&self, block: usize, level: usize) -> Option<Single> {
+        let (body, restitution) = self.blocks[block];
+        let asked = self.levels[level];
+        let (grid, highest_im) = match self.by {
+            By::Im => (Grid::Im { step: asked - 1.0 }, asked),
+            By::PgaG => {
+                let threshold = uplift_threshold(&body, self.model);
+                (Grid::Pga { step_g: asked }, asked / threshold)
+            }
+            By::Scale => return None,
+        };
+        let analysis = Analysis {
+            model: self.model,
+            overturning: self.overturning,
+            grid,
+            highest_im,
+            ..Analysis::paper(body, restitution)
+        };
+        (highest_im > LEAST_IM && highest_im.is_finite()).then_some(Single {
+            block,
+            level,
+            analysis,
+        })
+    }
+
+    /// The peak of a curve at its level; none where rounding made another
+    /// level of it.
+    fn peak_of(&self, curve: &IdaCurve, level: usize) -> Option<f64> {
+        let [point] = curve.points[..] else { return None };
+        let made = match self.by {
+            By::Im => point.im,
+            By::PgaG | By::Scale => point.pga_g,
+        };
+        (made == self.levels[level]).then(|| point.edp())
+    }
+
+    fn alone(
+        &self,
+        block: usize,
+        motion: &Motion<'_>,
+        level: usize,
+    ) -> Result<f64, String> {
+        let (block, restitution) = self.blocks[block];
+        let threshold = uplift_threshold(&block, self.model);
+        let level = self.levels[level];
+        let scaled = Scaled::of(motion, self.by, level, threshold)?;
+        let scene = Scene {
+            model: self.model,
+            overturning: self.overturning,
+            ..Scene::new(block, restitution, scaled.excitation())
+        };
+        let solver = Solver { peak_only: true, ..Solver::default() };
+        let observe =
+            Observe { work_limit: WorkLimit::IDA, ..Observe::default() };
+        let response = solver.respond(&scene, &observe);
+        Ok(response.map_err(|e| e.to_string())?.outcome.edp())
+    }
+}

@@ -20,7 +20,9 @@ use thiserror::Error;
 
 use crate::block::{Block, BlockError, Restitution};
 use crate::excitation::NormalisedRecord;
-use crate::integrator::{Model, Order, Overturning, SceneError, WorkLimit};
+use crate::integrator::{
+    Forces, Model, Order, Overturning, SceneError, WorkLimit,
+};
 use crate::number::dispatch::Isa;
 pub use certification::{Certification, Told};
 use climb::Climb;
@@ -361,6 +363,39 @@ pub fn demand_at(
         return Err(IdaError::NotPositive { what: "intensity", found: im });
     }
     levels.at(im)?.run(Isa::best())
+}
+
+/// What the motion at one intensity asks of the pivot: a whole run, of which
+/// [`demand_at`] knows the outcome.
+///
+/// # Errors
+/// As [`demand_at`].
+///
+/// ```
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, forces_at};
+/// use rocking::record::Accelerogram;
+/// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
+/// let record = NormalisedRecord::new(&record);
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analysis = Analysis::paper(block, Restitution::constant(0.92)?);
+/// // Uplift takes the friction tan(alpha) at least.
+/// let forces = forces_at(&record, &analysis, 1.1)?;
+/// assert!(forces.friction >= libm::tan(0.1) && forces.friction < 0.12);
+/// assert!(forces.normal > 0.9 && forces.normal <= 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn forces_at(
+    record: &NormalisedRecord,
+    analysis: &Analysis,
+    im: f64,
+) -> Result<Forces, IdaError> {
+    if !(im > 0.0 && im.is_finite()) {
+        return Err(IdaError::NotPositive { what: "intensity", found: im });
+    }
+    Levels::new(record, analysis)?.at(im)?.forces()
 }
 
 #[cfg(test)]

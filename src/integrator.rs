@@ -30,6 +30,7 @@ pub use certificate::{
     CLEARANCE, Certificate, Clearance, Decision, LARGEST_ERROR,
 };
 pub use certify::{Arithmetic, Certified, certify};
+pub use driver::Forces;
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub(crate) use limits::check;
 pub use limits::{SceneError, WorkLimit};

@@ -208,3 +208,50 @@ fn shells_and_manual_pages_know_every_command() {
     assert!(answer(&place, "man risk").contains("\\-\\-hazard"));
     refused(&place, "man nothing", "nothing");
 }
+
+/// The fenced block after a mark in the README.
+fn of_readme(mark: &str) -> String {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../README.md");
+    let readme = fs::read_to_string(path).unwrap();
+    let after = readme.split(mark).nth(1).expect(mark);
+    let block = after.split("```").nth(1).expect("a fenced block");
+    block.split_once('\n').unwrap().1.to_owned()
+}
+
+/// The README's tour, as it stands there, on the three recorded pairs that
+/// are shipped.
+#[test]
+fn the_tour_of_the_readme_runs() {
+    let place = folder("tour");
+    let shipped = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../fixtures/records/ridgecrest.zip"
+    );
+    fs::copy(shipped, place.join("records.zip")).unwrap();
+    for name in ["objects.csv", "hazard.csv"] {
+        let text = of_readme(&format!("<!-- tour: {name} -->"));
+        fs::write(place.join(name), text).unwrap();
+    }
+    let tour = of_readme("<!-- tour -->");
+    let commands = tour.matches("rocking ").count();
+    assert!((6..=8).contains(&commands), "{commands} commands");
+    let program = PathBuf::from(env!("CARGO_BIN_EXE_rocking"));
+    let own = program.parent().unwrap().display().to_string();
+    let path = std::env::var("PATH").unwrap_or_default();
+    let mut shell = Command::new("bash");
+    shell.args(["-e", "-c", &tour]).current_dir(&place);
+    let output = shell.env("PATH", format!("{own}:{path}")).output().unwrap();
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{error}");
+    let said = String::from_utf8_lossy(&output.stdout);
+    for words in ["need friction > 0.5", "bands (95 %", "at least", "SA(1 s)"]
+    {
+        assert!(said.contains(words), "no `{words}` in {said}");
+    }
+    for (name, lines) in [("cabinet-band.csv", 26), ("fragility.csv", 4)] {
+        let text = fs::read_to_string(place.join(name)).unwrap();
+        assert_eq!(text.lines().count(), lines, "{name}");
+    }
+    let nrml = fs::read_to_string(place.join("objects.xml")).unwrap();
+    assert_eq!(nrml.matches("<fragilityFunction ").count(), 3);
+}

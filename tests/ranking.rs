@@ -264,6 +264,17 @@ fn censored_values_enter_by_their_own_limits() {
             assert_eq!(out["im50"], Value::Null);
         }
     }
+    // The risk of a censored sample is that of the same fit.
+    write("hazard.csv", "im,annual_frequency\n1.1,0.1\n9,0.001\n".into());
+    let own = "risk --hazard hazard.csv --sample own.txt";
+    let out = json(&place, &format!("{own} --shift 1"));
+    let fit = json(&place, "fragility --sample own.txt --shift 1");
+    for (row, key) in [(0, "beta"), (1, "unshifted_beta")] {
+        let found = &out["fragilities"][row]["dispersion"];
+        close(found, fit[key].as_f64().unwrap(), 1e-12);
+    }
+    let said = refused(&place, &format!("{own} --shift min"));
+    assert!(said.contains("own.txt: 6 values censored"), "{said}");
     let common = json(&place, "fragility --sample inf.txt --method censored");
     assert!(common["beta"].as_f64().unwrap() > 0.5, "{common}");
     let said = common["censored"].as_str().unwrap();

@@ -6,7 +6,7 @@ use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::ida::certification::{Told, WORTH_ASSESSING};
 use crate::ida::{Adjust, Analysis, Grid, IdaError, IdaPoint, Resurrections};
 use crate::integrator::{
-    self, DOUBTFUL, Model, Observe, Order, Outcome, Response, Scene,
+    self, DOUBTFUL, Forces, Model, Observe, Order, Outcome, Response, Scene,
     SceneError, Solver, WorkLimit, certify, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
@@ -169,6 +169,17 @@ impl Level<'_> {
         let solver = Solver { order, isa, peak_only: true };
         let response = solver.respond(&scene, &observe);
         self.point(&response.map_err(|error| self.refused(error))?)
+    }
+
+    /// What the motion asks of the pivot, by a whole run.
+    pub fn forces(&self) -> Result<Forces, IdaError> {
+        let Self { scene, work_limit, order, .. } = *self;
+        let observe =
+            Observe { forces: true, work_limit, ..Observe::default() };
+        let solver = Solver { order, ..Solver::default() };
+        let response = solver.respond_once(&scene, &observe);
+        let response = response.map_err(|error| self.refused(error))?;
+        Ok(response.forces.unwrap_or_else(|| Forces::at_rest(&scene)))
     }
 
     /// Which level a scene that is refused belongs to.

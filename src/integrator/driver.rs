@@ -4,10 +4,12 @@
 mod decisions;
 mod ending;
 mod events;
+mod forces;
 mod impact;
 mod limit;
 mod step;
 
+pub use forces::Forces;
 pub(crate) use impact::tail_speed;
 pub(crate) use step::last_term;
 
@@ -49,6 +51,7 @@ pub(crate) struct Tracked<N> {
     pub rest_time_s: Option<N>,
     pub impacts: Vec<Impact<N>>,
     pub history: Vec<HistoryPoint<N>>,
+    pub forces: Option<Forces>,
     pub work: Work,
     /// Why the run is refused, once its work passes the limit.
     pub exceeded: Option<SceneError>,
@@ -70,6 +73,7 @@ impl<N: Real> Tracked<N> {
             rest_time_s: None,
             impacts: Vec::new(),
             history: Vec::new(),
+            forces: None,
             work: Work::default(),
             exceeded: None,
             rest_error_s: None,
@@ -91,6 +95,8 @@ pub(crate) struct Driver<N, G, const F: usize, const HARD: usize> {
     record: Tracked<N>,
     events: bool,
     interval_s: Option<f64>,
+    /// A history or forces are asked for: each step is looked into.
+    watched: bool,
     until_s: Option<N>,
     limit: WorkLimit,
     /// Truncation allowed in a step, as a share of the velocity.
@@ -152,6 +158,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             record: Tracked::empty(),
             events: false,
             interval_s: None,
+            watched: false,
             until_s: None,
             limit: WorkLimit::default(),
             tolerance: N::from_f64(tolerance::<N>()),
@@ -208,6 +215,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     #[inline(always)]
     pub fn begin(&mut self, scene: &Scene<'_>, observe: &Observe) -> Stage<N> {
         self.observe(observe);
+        self.record.forces = observe.forces.then(|| Forces::at_rest(scene));
         let start = Place { piece: 0, offset: N::zero() };
         if !(scene.initial_ratio > 0.0) {
             return self.uplift(start, N::zero());
@@ -270,6 +278,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     fn observe(&mut self, observe: &Observe) {
         self.events = observe.events;
         self.interval_s = observe.history_interval_s;
+        self.watched = self.interval_s.is_some() || observe.forces;
         self.until_s = observe.until_s.map(N::from_f64);
         self.limit = observe.work_limit;
         if observe.accuracy {

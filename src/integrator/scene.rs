@@ -2,7 +2,7 @@
 
 use crate::block::{Block, Restitution};
 use crate::excitation::Excitation;
-use crate::integrator::{Certificate, Model, Overturning, WorkLimit};
+use crate::integrator::{Certificate, Forces, Model, Overturning, WorkLimit};
 
 /// A scene: what is integrated.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +65,8 @@ pub struct Observe {
     pub accuracy: bool,
     /// Rotation every so many seconds.
     pub history_interval_s: Option<f64>,
+    /// Forces at the pivot; every impact is followed for them.
+    pub forces: bool,
     /// Stop at this time (s) instead of when nothing more can happen.
     pub until_s: Option<f64>,
     /// Work beyond which the run is refused.
@@ -226,6 +228,8 @@ pub struct Response<N = f64> {
     pub work: Work,
     /// Signed rotation in time; recorded when asked for.
     pub history: Vec<HistoryPoint<N>>,
+    /// What the motion asks of the pivot; recorded when asked for.
+    pub forces: Option<Forces>,
 }
 
 impl<N> Response<N> {

@@ -291,3 +291,32 @@ fn silence_is_free_motion() {
         near(silent.peak_ratio, 0.1, 1e-15);
     }
 }
+
+/// Whoever asks for forces gets the same motion, and a block that does not
+/// lift needs the friction PGA/g alone.
+#[test]
+fn forces_are_observed_without_a_change_of_the_motion() {
+    let sample = |k: u32| 0.35 * libm::sin(0.09 * f64::from(k));
+    let samples = (0..400).map(sample).collect();
+    let record = Accelerogram::try_new("sines", 0.01, samples).unwrap();
+    let of = |factor: f64, forces: bool| {
+        let record = ScaledRecord::by_factor(&record, factor);
+        let scene = scene(Model::Nonlinear, Excitation::Record(record));
+        let observe = Observe {
+            events: true,
+            accuracy: true,
+            forces,
+            ..Observe::default()
+        };
+        respond(&scene, &observe).unwrap()
+    };
+    let mut seen = of(1.0, true);
+    let forces = seen.forces.take().unwrap();
+    assert_eq!(seen, of(1.0, false));
+    assert!(seen.work.impacts > 0 && forces.friction > libm::tan(0.2));
+    assert!(forces.normal < 1.0 && forces.normal > 0.0, "{forces:?}");
+    let rest = of(0.5, true).forces.unwrap();
+    assert_eq!((rest.friction_time_s, rest.normal_time_s), (None, None));
+    assert_eq!(rest.normal, 1.0);
+    near(rest.friction, 0.5 * record.pga_g(), 1e-16);
+}

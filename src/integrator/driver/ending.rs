@@ -109,8 +109,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 margin = fate.margin;
                 overturned = fate.overturned;
                 decided = Some((end_s * self.dynamics.p, fate.nearest));
-                if self.interval_s.is_some() && self.record.exceeded.is_none()
-                {
+                if self.watched && self.record.exceeded.is_none() {
                     self.trace(motion, end_s);
                 }
             }
@@ -124,8 +123,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let silence = Ground::endless(end_s, self.dynamics.p);
         let mut free =
             Driver::<N, _, HARD, HARD>::new(self.dynamics, silence, self.isa);
-        free.events = true;
+        free.events = self.interval_s.is_some();
         free.interval_s = self.interval_s;
+        free.watched = self.watched;
+        free.record.forces = self.record.forces;
         free.limit = self.limit;
         free.until_s = self.until_s.or_else(|| {
             // Without restitution the motion never ends: show some of it.
@@ -152,6 +153,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
         self.record.exceeded = free.record.exceeded;
         self.record.history = free.record.history;
+        self.record.forces = free.record.forces;
     }
 
     pub(super) fn answer(
@@ -210,6 +212,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             doubt,
             work: record.work,
             history: std::mem::take(&mut record.history),
+            forces: record.forces,
         }
     }
 }

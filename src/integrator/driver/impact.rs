@@ -22,6 +22,9 @@ pub(crate) fn tail_speed<N: Real>() -> f64 {
     }
 }
 
+/// The same of an observer of forces, which depend on the square of it.
+const TAIL_OF_FORCES: f64 = 1e-5;
+
 /// Rotation over alpha up to which a barrier is raised where larger ones do
 /// not end a run.
 const BELOW_SADDLE: f64 = 0.98;
@@ -166,8 +169,14 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         left: N,
     ) -> Option<Chatter<N>> {
         let chatter = self.accumulation(f, w, left)?;
-        let tail = self.dynamics.alpha * N::from_f64(tail_speed::<N>());
-        (!self.events || w < tail).then_some(chatter)
+        let tail = if self.events {
+            tail_speed::<N>()
+        } else if self.record.forces.is_some() {
+            TAIL_OF_FORCES
+        } else {
+            f64::INFINITY
+        };
+        (w < self.dynamics.alpha * N::from_f64(tail)).then_some(chatter)
     }
 
     /// The chatter after an impact that leaves speed `w`, if its impacts

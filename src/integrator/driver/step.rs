@@ -113,8 +113,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.assess(&series, x, &stepped, &drive, step.place);
         }
         self.turning_points(&series, x, (step.place, length));
-        if self.interval_s.is_some() {
+        if self.watched {
             self.sample_step(&series, (tau, length), step.place, side);
+            self.see_forces(&series, &oriented, (x, length), step.place);
         }
         step.at_threshold = false;
         step.place.offset = step.place.offset + tau;

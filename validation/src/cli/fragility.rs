@@ -1,11 +1,12 @@
 //! `rocking fragility`: lognormal fits of a sample and Eqs. 5 to 7.
 
+mod band;
 mod blocks;
 mod compare;
 mod counts;
 mod export;
 mod levels;
-mod limits;
+pub(super) mod limits;
 mod sample;
 mod surrogate;
 
@@ -42,6 +43,8 @@ use crate::paper::Intensity;
 #[command(after_help = "Examples:\n  \
     rocking fragility --ida ida.csv --at 0.3,0.5,1 --shift 1\n  \
     rocking fragility --sample capacities.txt --shift 1 --bootstrap 1000\n  \
+    rocking fragility --sample capacities.txt --shift 1 --bootstrap 1000 \\\n      \
+    --band 1.2:6:0.2 --band-csv band.csv\n  \
     rocking fragility --sample capacities.txt --shift free\n  \
     rocking fragility --sample capacities.txt --compare\n  \
     rocking fragility --counts counts.csv\n  \
@@ -122,6 +125,8 @@ pub struct Args {
     /// Bootstrap this many samples for intervals.
     #[arg(long, value_name = "N", conflicts_with_all = ["transform", "ida"])]
     bootstrap: Option<usize>,
+    #[command(flatten)]
+    band: band::BandArgs,
     /// Compare lognormal, shifted lognormal (its shift fitted too), Weibull,
     /// gamma and generalized extreme value distributions, fitted by maximum
     /// likelihood: AIC, BIC, and the p-values of D and A2 with the parameters

@@ -1,5 +1,6 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
+mod forces;
 mod summary;
 
 use std::path::PathBuf;
@@ -14,6 +15,7 @@ use rocking::ida::{
 use rocking::integrator::{Model, Order, WorkLimit};
 use rocking::record::{Suite, SuiteMember};
 
+use self::forces::{Audit, ForcesArgs};
 use super::limit::{LimitArgs, curve_refused};
 use super::names::{ADJUSTMENTS, ORDERS, name_of, named};
 use super::processing::{ProcessingArgs, words};
@@ -86,6 +88,8 @@ pub struct Args {
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     #[command(flatten)]
+    forces: ForcesArgs,
+    #[command(flatten)]
     way: WayArgs,
     #[command(flatten)]
     limit: LimitArgs,
@@ -122,7 +126,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let read = args.reading.options(gravity_m_s2);
     let processing = args.processing.processing()?;
     let suite = read_suite(&args.suite, read)?.processed(&processing)?;
-    let out = Output::open(&args.out, &files(&args.suite, &suite))?;
+    let inputs = files(&args.suite, &suite);
+    let out = Output::open(&args.out, &inputs)?;
+    let forces_out = Output::open_some(args.forces.forces.as_ref(), &inputs)?;
     let chosen = args.chosen(&suite)?;
     let remarks = remarks_on(&chosen);
     args.reading.judge(&remarks)?;
@@ -140,15 +146,23 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     .map_err(curve_refused)?;
     let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
     bar.finish_and_clear();
+    let audit = with_threads(args.threads, || {
+        args.forces.audit(&records, &table, &analysis)
+    })?
+    .map_err(curve_refused)?;
     let job = Job {
         args,
         table: &table,
         suite: &suite,
         processing: words(&processing),
         remarks,
+        audit,
     };
     let is_standard = out.is_standard();
     out.write(job.csv(&analysis, gravity_m_s2))?;
+    if let (Some(out), Some(audit)) = (forces_out, &job.audit) {
+        out.write(audit.csv(&table))?;
+    }
     if is_standard {
         eprint!("{}", job.summary());
         return Ok(());
@@ -173,6 +187,7 @@ struct Job<'a> {
     suite: &'a Suite,
     processing: Option<String>,
     remarks: Remarks,
+    audit: Option<Audit>,
 }
 
 impl Args {

@@ -48,6 +48,11 @@ pub struct Args {
     /// where double precision cannot, octuple precision beyond.
     #[arg(long, conflicts_with = "until")]
     certify: bool,
+    /// Largest friction |H|/N that the motion needs at the pivot, and the
+    /// least normal force N/(m g) there. The model holds where the ground
+    /// gives that friction and N stays above zero.
+    #[arg(long)]
+    forces: bool,
     #[command(flatten)]
     limit: LimitArgs,
     /// JSON for machines.
@@ -104,6 +109,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         history_interval_s: (history.is_some() || plot.is_some())
             .then_some(interval_s),
         until_s: args.until,
+        forces: args.forces,
         work_limit,
     };
     let response = respond(&scene, &observe).map_err(refused)?;
@@ -299,6 +305,12 @@ impl Setting<'_> {
                 "for_all_inputs_that_round_to_these":
                     fate.decided_for_inputs,
             })),
+            "forces": response.forces.map(|forces| json!({
+                "friction": forces.friction,
+                "friction_time_s": forces.friction_time_s,
+                "least_normal_over_weight": forces.normal,
+                "least_normal_time_s": forces.normal_time_s,
+            })),
             "error_estimate": response.error_estimate,
             "condition_number": response.condition_number,
             "reasons": self.reasons(response),
@@ -336,6 +348,9 @@ impl Setting<'_> {
         };
         if self.certified.is_none() {
             because("certified", "not asked for by --certify");
+        }
+        if response.forces.is_none() {
+            because("forces", "not asked for by --forces");
         }
         if !is_clear(response) {
             let text = "an error may have turned a decision: see certificate";
@@ -459,6 +474,17 @@ impl Setting<'_> {
             };
             row("it holds", inputs.to_owned());
             row("its least clear", clearance_text(&fate.least));
+        }
+        if let Some(forces) = response.forces {
+            let when = |t: Option<f64>| match t {
+                Some(t) => format!("at {t:.6} s"),
+                None => "at rest".to_owned(),
+            };
+            let (friction, normal) = (forces.friction, forces.normal);
+            let (slides, lifts) =
+                (when(forces.friction_time_s), when(forces.normal_time_s));
+            row("friction needed", format!("{friction:.6} {slides}"));
+            row("least N/(m g)", format!("{normal:.6} {lifts}"));
         }
         if let Some(certificate) = &response.certificate {
             row("least clear", clearance_text(&certificate.least()));

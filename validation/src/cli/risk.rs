@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::fragility::risk::{AnnualFrequency, HazardCurve, HazardError};
 use rocking::integrator::Model;
-use rocking::statistics::lognormal::{FitMethod, fit};
-use rocking::statistics::{ExtendedSample, Lognormal};
+use rocking::statistics::Lognormal;
+use rocking::statistics::lognormal::FitMethod;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde_json::{Value, json};
 
+use super::fragility::limits::Limited;
 use super::names::{INTENSITIES, named};
 use super::samples::{Opened, SampleFile, Shift};
 use super::scene::BlockArgs;
@@ -47,8 +48,9 @@ pub struct Args {
     /// Dispersion of the fragility, of the logarithm above the shift.
     #[arg(long, value_name = "B", requires = "median")]
     dispersion: Option<f64>,
-    /// Sample of dimensionless capacities, fitted by maximum likelihood, of
-    /// the block --alpha --p or --width-m --height-m; `-` is standard input.
+    /// Sample of dimensionless capacities, fitted by maximum likelihood
+    /// (`>3.2` is a value censored at 3.2), of the block --alpha --p or
+    /// --width-m --height-m; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
     /// Shift, below which nothing happens: in the unit of the hazard curve
@@ -241,19 +243,30 @@ fn of_sample(
             per_unit * unit_intensity(measure, &block, model, gravity)
         }
     };
-    let fitted = |values: &[f64], shift: f64| {
-        let sample = ExtendedSample::try_new(values)?;
-        let found = fit(&sample, shift, FitMethod::MaximumLikelihood);
+    let fitted = |values: &Limited, shift: f64| {
+        let found = values.fit(shift, FitMethod::MaximumLikelihood);
         let found = found.map_err(|e| at(e.to_string()))?;
         Ok::<_, Failure>(found.distribution.scaled(factor)?)
     };
-    let unshifted = ("not shifted", fitted(file.values(), 0.0)?);
+    let limited = Limited::new(file.values(), file.limits());
+    let unshifted = ("not shifted", fitted(&limited, 0.0)?);
     let shift = args.shift.unwrap_or(Shift::Given(0.0));
+    if shift != Shift::Given(0.0) && limited.count() > 0 {
+        let Shift::Given(shift) = shift else {
+            return Err(at(format!(
+                "{} values censored at limits of their own with --shift min \
+                 or free: expected a shift that is known, as --shift 1",
+                limited.count()
+            )));
+        };
+        return Ok(vec![("shifted", fitted(&limited, shift)?), unshifted]);
+    }
     let (shift, above) =
         shift.split(file.values()).map_err(|e| at(e.to_string()))?;
     if shift == 0.0 {
         return Ok(vec![unshifted]);
     }
+    let above = Limited::new(&above, &vec![None; above.len()]);
     Ok(vec![("shifted", fitted(&above, shift)?), unshifted])
 }
 

@@ -318,6 +318,7 @@ pub const FAMILIES: &[(&str, &str)] = families![
     "lilliefors",
     "nist-univariate",
     "overturning-spectrum",
+    "pivot-forces",
     "pulse-trajectories",
     "rectangular-pulse",
     "sampled-records",

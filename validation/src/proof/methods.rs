@@ -7,6 +7,7 @@ mod digits;
 mod edges;
 mod estimate;
 mod fates;
+mod forces;
 mod hard;
 mod intensity;
 mod invariance;
@@ -191,6 +192,9 @@ pub const METHODS: &[(&str, Run)] = &[
     ("restitution", edges::restitution),
     ("error-estimate", estimate::estimate),
     ("certificate-trials", trials::certificate),
+    ("forces-at-uplift", forces::uplift),
+    ("forces-in-free-motion", forces::free),
+    ("forces-by-momentum", forces::momentum),
     ("work-counters", solution::work),
     ("near-saddle", hard::saddle),
     ("chatter", hard::chatter),

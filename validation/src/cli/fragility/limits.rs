@@ -7,32 +7,32 @@ use rocking::statistics::{ExtendedSample, QuantileType};
 
 /// Values, infinite where censored, with the limits that are told.
 #[derive(Clone, Debug)]
-pub(super) struct Limited {
-    pub(super) values: Vec<f64>,
+pub(in crate::cli) struct Limited {
+    pub(in crate::cli) values: Vec<f64>,
     limits: Vec<Option<f64>>,
 }
 
 impl Limited {
     /// These values, and the limits of those that are censored at one.
-    pub(super) fn new(values: &[f64], limits: &[Option<f64>]) -> Self {
+    pub(in crate::cli) fn new(values: &[f64], limits: &[Option<f64>]) -> Self {
         Self { values: values.to_vec(), limits: limits.to_vec() }
     }
 
     /// Those at these places.
-    pub(super) fn at(&self, places: &[usize]) -> Self {
+    pub(in crate::cli) fn at(&self, places: &[usize]) -> Self {
         let pick = |&i: &usize| (self.values[i], self.limits[i]);
         let (values, limits) = places.iter().map(pick).unzip();
         Self { values, limits }
     }
 
     /// Number of values with a limit of their own.
-    pub(super) fn count(&self) -> usize {
+    pub(in crate::cli) fn count(&self) -> usize {
         self.limits.iter().flatten().count()
     }
 
     /// A quantile of the values, none where a value that is censored below
     /// it leaves it open.
-    pub(super) fn quantile(
+    pub(in crate::cli) fn quantile(
         &self,
         quantile_type: QuantileType,
         p: f64,
@@ -45,7 +45,7 @@ impl Limited {
 
     /// The fit above the shift: by [`fit_intervals`] where a value has a
     /// limit of its own and the method takes one.
-    pub(super) fn fit(
+    pub(in crate::cli) fn fit(
         &self,
         shift: f64,
         method: FitMethod,

@@ -10,10 +10,12 @@ use rocking::statistics::lognormal::{
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use serde_json::{Map, Value, json};
 
+use super::band::Band;
 use super::limits::Limited;
-use super::{Args, Method, insert, show};
+use super::{Args, Method, insert, rows, show};
 use crate::cli::samples::{SampleFile, Shift};
-use crate::cli::{Failure, with_threads};
+use crate::cli::{Failure, print, print_json, with_threads};
+use crate::files::Output;
 use crate::paper::Intensity;
 
 /// The fit asked for, and what the unshifted statistics give instead.
@@ -54,6 +56,18 @@ impl Plan {
             )));
         }
         Ok(Self { method, quantile_type, shift, c: args.c.unwrap_or(1.0) })
+    }
+
+    pub(super) fn method(&self) -> FitMethod {
+        self.method
+    }
+
+    /// A method above a known shift.
+    #[cfg(test)]
+    pub(super) fn of(method: FitMethod, shift: f64) -> Self {
+        let quantile_type = QuantileType::try_new(5).unwrap();
+        let shift = Shift::Given(shift);
+        Self { method, quantile_type, shift, c: 1.0 }
     }
 
     pub(super) fn fits(&self, values: &Limited) -> Result<Fits, FitError> {
@@ -205,8 +219,38 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
             bootstrap(&plan, &limited, &fits, replicates, seed)
         })?;
         out.insert("bootstrap".to_owned(), intervals);
+        if let Some(levels) = &args.band.band {
+            let band = with_threads(args.threads, || {
+                let drawn = (levels, replicates, seed);
+                Band::new(&plan, &limited, &fitted, drawn)
+            })?;
+            return banded(args, path, out, &band);
+        }
     }
     show(args, out)
+}
+
+/// Shows the fit with its band, and writes the band's table.
+fn banded(
+    args: &Args,
+    path: &Path,
+    mut out: Map<String, Value>,
+    band: &Band,
+) -> Result<(), Failure> {
+    let inputs = [path.to_owned()];
+    let table = Output::open_some(args.band.band_csv.as_ref(), &inputs)?;
+    if let Some(table) = table {
+        let is_standard = table.is_standard();
+        table.write(band.csv())?;
+        if is_standard {
+            return Ok(());
+        }
+    }
+    if args.json {
+        out.insert("band".to_owned(), band.json());
+        return print_json(Value::Object(out));
+    }
+    print(&(rows(&out) + &band.text()))
 }
 
 /// Percentile and BCa intervals (95 %) of the fit's numbers; the shift `min`

@@ -6,6 +6,7 @@ use rocking::ida::{Certification, HIGHEST_IM, IdaCurve};
 use serde_json::{Value, json};
 
 use super::Job;
+use super::forces::Audit;
 use crate::cli::names::{ORDERS, name_of};
 
 /// Median first overturning intensity, counting the curves that stand as
@@ -71,6 +72,7 @@ impl Job<'_> {
                 "fates_moved": told.moved,
                 "for_these_doubles_only": told.only_these_doubles,
             })),
+            "pivot": self.audit.as_ref().map(Audit::json),
             "resurrections": sought.then_some(counts.resurrections),
             "curves": table.iter().map(|c| json!({
                 "record": c.record,
@@ -129,6 +131,9 @@ impl Job<'_> {
         row("unresolved", format!("{unresolved} of {}", told.analyses));
         if args.resurrections_to.is_some() {
             row("resurrections", counts.resurrections.to_string());
+        }
+        for (name, value) in self.audit.iter().flat_map(Audit::rows) {
+            row(&name, value);
         }
         row("table", args.out.display().to_string());
         text

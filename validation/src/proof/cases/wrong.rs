@@ -59,6 +59,10 @@ named! {
         AngleAlone = "angle-alone",
         /// Energy times eta at an impact, not eta^2.
         EtaOnceInEnergy = "eta-once-in-energy",
+        /// No centripetal acceleration in the forces.
+        WithoutCentripetal = "without-centripetal",
+        /// All mass at the centre: R = g/p^2.
+        InertiaOfAPoint = "inertia-of-a-point",
         /// The series stops two terms early.
         OrderTooLow = "order-too-low",
         /// Pi/2 for alpha, or alpha for pi/2.

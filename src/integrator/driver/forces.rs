@@ -1,0 +1,179 @@
+//! Forces at the pivot: how much friction a motion needs, and whether the
+//! block stays on the ground.
+//!
+//! The pivot carries what moves the centre of mass, which lies at distance
+//! R = 3 g/(4 p^2) (a rectangle) from it. With u = |theta|, phi = alpha - u,
+//! primes for derivatives by p t, and f = s a/g,
+//!
+//! ```text
+//! s H/(m g) = f + 3/4 [ u'' cos phi + u'^2 sin phi ]
+//!   N/(m g) = 1 + 3/4 [ u'' sin phi - u'^2 cos phi ]
+//! ```
+//!
+//! and u'' from the equation of motion (the geometry is not linearized with
+//! Eq. 2). At uplift from rest H/N is the threshold: tan alpha. At rest H/N is
+//! a/g, and N = m g. Impacts are impulses, which no finite force describes.
+
+use crate::excitation::Excitation;
+use crate::integrator::Scene;
+use crate::integrator::driver::Driver;
+use crate::integrator::dynamics::{Dynamics, Model, uplift_threshold};
+use crate::integrator::forcing::{Forcing, Place};
+use crate::integrator::taylor::{Series, value};
+use crate::number::Real;
+
+/// R p^2/g of a rectangle.
+const ARM: f64 = 0.75;
+
+/// Parts of a step at whose ends the forces are looked at.
+const PARTS: usize = 4;
+
+/// Narrowings of the place of an extreme within a step.
+const NARROWINGS: usize = 40;
+
+/// What the motion of a run asks of the pivot.
+///
+/// Extremes over rest and flight; the impulses of impacts are not forces. They
+/// are found on the polynomials of the steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forces {
+    /// Largest |H|/N: the block does not slide where the coefficient of
+    /// friction is above it. Infinite where N is not positive.
+    pub friction: f64,
+    /// When it was reached, s; none at rest.
+    pub friction_time_s: Option<f64>,
+    /// Least N/(m g): the block leaves the ground where it is not positive.
+    pub normal: f64,
+    /// When it was reached, s; none at rest.
+    pub normal_time_s: Option<f64>,
+}
+
+impl Forces {
+    /// Before the first uplift of a scene. A block that is never released
+    /// rests under all of |a|/g up to the threshold.
+    pub(crate) fn at_rest(scene: &Scene<'_>) -> Self {
+        let pga_g = match scene.excitation {
+            Excitation::Record(record) => {
+                let samples = record.samples().iter();
+                let most = samples.fold(0.0, |most: f64, x| most.max(x.abs()));
+                most * record.amplitude().abs()
+            }
+            Excitation::Pulse(pulse) => pulse.pga_g(),
+            Excitation::Free => 0.0,
+        };
+        Self {
+            friction: pga_g.min(uplift_threshold(&scene.block, scene.model)),
+            friction_time_s: None,
+            normal: 1.0,
+            normal_time_s: None,
+        }
+    }
+
+    fn see(&mut self, (horizontal, normal): (f64, f64), time_s: f64) {
+        let friction = ratio(horizontal, normal);
+        if friction > self.friction {
+            self.friction = friction;
+            self.friction_time_s = Some(time_s);
+        }
+        if normal < self.normal {
+            self.normal = normal;
+            self.normal_time_s = Some(time_s);
+        }
+    }
+}
+
+/// |H|/N; infinite where the ground would have to pull.
+fn ratio(horizontal: f64, normal: f64) -> f64 {
+    if normal > 0.0 { horizontal.abs() / normal } else { f64::INFINITY }
+}
+
+/// s H/(m g) and N/(m g) at rotation u and velocity w under f.
+fn at_pivot<N: Real>(
+    dynamics: &Dynamics<N>,
+    (u, w): (f64, f64),
+    f: f64,
+) -> (f64, f64) {
+    let phi = dynamics.alpha.to_f64() - u;
+    let (sine, cosine) = libm::sincos(phi);
+    let push = match dynamics.model {
+        Model::Nonlinear => -sine - f * cosine,
+        Model::Linearized => -phi - f,
+    };
+    let horizontal = f + ARM * (push * cosine + w * w * sine);
+    let normal = 1.0 + ARM * (push * sine - w * w * cosine);
+    (horizontal, normal)
+}
+
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
+{
+    /// Forces within the part (0, `x`) of a step from a place, of some
+    /// length, under the series of f.
+    #[inline(never)]
+    pub(super) fn see_forces<const LEN: usize>(
+        &mut self,
+        series: &Series<N, LEN>,
+        f: &[N; F],
+        (x, length): (N, N),
+        place: Place<N>,
+    ) {
+        let Some(mut seen) = self.record.forces else { return };
+        let start_s = self.time_s(place).to_f64();
+        let span = (x * length).to_f64();
+        let per_s = self.dynamics.p.to_f64();
+        let time_s = |part: f64| start_s + part * span / per_s;
+        let at = |part: f64| {
+            let x = N::from_f64(part) * x;
+            let (u, w) = (value(&series.c, x), value(&series.v, x));
+            let f = value(f, x * length).to_f64();
+            at_pivot(&self.dynamics, (u.to_f64(), w.to_f64()), f)
+        };
+        let parts: [f64; PARTS + 1] =
+            std::array::from_fn(|k| k as f64 / PARTS as f64);
+        let found = parts.map(at);
+        for (part, forces) in parts.iter().zip(found) {
+            seen.see(forces, time_s(*part));
+        }
+        for friction in [true, false] {
+            let of = |forces: (f64, f64)| match friction {
+                true => ratio(forces.0, forces.1),
+                false => -forces.1,
+            };
+            for k in 1..PARTS {
+                let three = [k - 1, k, k + 1].map(|k| of(found[k]));
+                let best = if friction { seen.friction } else { -seen.normal };
+                if crest(three) > best {
+                    let ends = (parts[k - 1], parts[k + 1]);
+                    let top = highest(ends, |part| of(at(part)));
+                    seen.see(at(top), time_s(top));
+                }
+            }
+        }
+        self.record.forces = Some(seen);
+    }
+}
+
+/// Height of the parabola through three values of which the middle one is the
+/// highest, and a little more; minus infinity where it is not.
+fn crest([before, here, after]: [f64; 3]) -> f64 {
+    if !(here >= before && here >= after && here.is_finite()) {
+        return f64::NEG_INFINITY;
+    }
+    let (slope, bend) = (after - before, 2.0 * here - before - after);
+    let rise = if bend > 0.0 { slope * slope / (8.0 * bend) } else { 0.0 };
+    here + 2.0 * rise
+}
+
+/// Where a function of one hump is highest between two ends.
+fn highest((mut low, mut high): (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..NARROWINGS {
+        let third = (high - low) / 3.0;
+        let (left, right) = (low + third, high - third);
+        if of(left) < of(right) {
+            low = left;
+        } else {
+            high = right;
+        }
+    }
+    0.5 * (low + high)
+}

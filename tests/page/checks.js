@@ -121,9 +121,15 @@
     if (headers.some((header) => !header.scope)) {
       say(`table: ${where(table)} has a header without scope`);
     }
-    const widths = new Set([...table.rows].map((row) =>
-      [...row.cells].reduce((sum, cell) => sum + cell.colSpan, 0)));
-    if (widths.size > 1) say(`table: ${where(table)} has uneven rows`);
+    const widths = [...table.rows].map(() => 0);
+    [...table.rows].forEach((row, first) => {
+      for (const cell of row.cells) {
+        for (let k = 0; k < cell.rowSpan; k += 1) {
+          widths[first + k] += cell.colSpan;
+        }
+      }
+    });
+    if (new Set(widths).size > 1) say(`table: ${where(table)} has uneven rows`);
   }
   for (const element of all("*")) {
     const style = getComputedStyle(element);

@@ -97,7 +97,7 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
     let embedded = said_of(&Source::Embedded { streams: "x" });
     assert!(embedded.contains("Synthetic suites from two"), "{embedded}");
     assert!(embedded.contains("The embedded suites are synthetic"));
-    assert!(embedded.contains("recorded earthquakes in this run"));
+    assert!(embedded.contains("recorded motions anew"));
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     // The first case is named by an identity of the paper.
     let cases = load_all().expect("cases");
     let (id, table) = (&cases[cases.len() - 1].id, "table-precision");
-    assert!(page.contains(&proof.to_string()) && !page.contains("run here"));
+    assert!(page.contains(&proof.to_string()) && !page.contains(NOT_RUN));
     assert!(page.contains(id) && page.contains(table));
     assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
     assert!(!without.contains(id) && !without.contains(table));

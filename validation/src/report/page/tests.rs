@@ -6,7 +6,7 @@ use crate::draw::figures::{Figure, demonstration};
 
 fn made_up() -> ReportInput {
     let outcome = |k: usize| Outcome {
-        suite: "ordinary".into(),
+        suite: Tested::Ordinary,
         place: "ordinary, arm C".into(),
         value: "91.0 % (83.0 to 96.0 %)".into(),
         by_criterion: (k == 2).then_some(Verdict::NotConfirmed),
@@ -16,6 +16,7 @@ fn made_up() -> ReportInput {
     };
     let finding = |k: usize| Finding {
         id: format!("stage-{k}"),
+        plain: format!("median ratios are 1, claim {k}"),
         quote: "The median r conforms to 1.0 with 95 % confidence.".into(),
         source: format!("section {k}"),
         criterion: "the notch covers 1".into(),
@@ -79,6 +80,7 @@ fn made_up() -> ReportInput {
             question: "Does the slenderness drop out?".into(),
             paragraph: "On average it does.".into(),
             figures: demonstration().iter().map(shown).collect(),
+            more: Vec::new(),
             findings: (0..7).map(finding).collect(),
         }],
         proof: "By the results handed in: all cases pass.".into(),

@@ -18,7 +18,8 @@ const FINDINGS: &str = r#"{
     {
       "id": "ratios", "kind": "finding", "theme": "statistics",
       "section": { "number": 4, "shown": { "figure": 7 } },
-      "quote": "The same.", "plain": "the same", "measure": "median paired ratio",
+      "quote": "The same.", "plain": "the same",
+      "measure": "median paired ratio",
       "blocks": "p = 3 and 4", "quantifier": "one",
       "region": { "within": [0.95, 1.05] }, "reason": "5 %",
       "criterion": "", "case": "", "note": "",
@@ -35,7 +36,8 @@ const FINDINGS: &str = r#"{
     {
       "id": "energy-loss", "kind": "identity", "theme": "choices",
       "section": { "number": 3, "shown": "text" },
-      "quote": "15.36%.", "plain": "", "measure": "1 - eta^2", "blocks": "all 15",
+      "quote": "15.36%.", "plain": "",
+      "measure": "1 - eta^2", "blocks": "all 15",
       "quantifier": null, "region": null, "reason": "",
       "criterion": "", "case": "block-geometry/restitution", "note": "",
       "results": [

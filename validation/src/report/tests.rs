@@ -126,7 +126,7 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     // Up to what the proof says, they are the same.
     let findings = |page: &str| {
         let start = page.find("<section id=\"findings\"").expect("findings");
-        let end = page.find("<section id=\"evidence\"").expect("evidence");
+        let end = page.find("<section id=\"method\"").expect("method");
         page[start..end].to_owned()
     };
     assert!(findings(&page) == findings(&without));

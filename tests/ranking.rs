@@ -170,6 +170,14 @@ fn a_ranking_tells_the_dispersion_of_the_fits_and_the_slopes() {
         close(&own["on_ln_distance"]["slope"], slope(&km), 1e-9);
     }
     assert_eq!(out["measures"][0]["ratio_to_first"]["value"], 1.0);
+    // The drawing has every measure, and the numbers of the table.
+    text(&place, &format!("{words} --plot rank.svg"));
+    let drawn = fs::read_to_string(place.join("rank.svg")).unwrap();
+    for tick in ["PGA", "PGV", "SA(1)"] {
+        assert!(drawn.contains(tick), "{tick}");
+    }
+    let said = refused(&place, &format!("{words} --plot ida.csv"));
+    assert!(said.contains("is read: expected another file"), "{said}");
     let one = text(&place, &format!("{words} --threads 1"));
     assert_eq!(one, text(&place, &format!("{words} --threads 2")));
     assert!(one.contains("slope on ln R"), "{one}");

@@ -15,6 +15,7 @@ pub mod exchange;
 pub mod files;
 pub mod findings;
 pub mod json;
+pub mod measure;
 pub mod paper;
 pub mod proof;
 pub mod report;

@@ -4,6 +4,7 @@
 pub mod analyses;
 pub mod certainty;
 pub mod claims;
+pub mod contents;
 pub mod distributions;
 pub mod estimates;
 pub mod figures;

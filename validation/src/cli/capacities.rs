@@ -14,11 +14,12 @@ use rocking::capacity::{
 use rocking::statistics::{ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
-use super::measure::{GroundArgs, Measure};
+use super::measure::GroundArgs;
 use super::names::{CROSSINGS, named};
 use super::samples::SAMPLE_OF;
 use super::{Failure, print, print_json};
 use crate::files::Output;
+use crate::measure::Measure;
 use crate::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
@@ -45,10 +46,10 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     ida: Option<PathBuf>,
     /// Intensity measure, of --ida: pga, which is PGA/(g tan alpha), pgv,
-    /// which is p PGV/(g tan alpha); and with --suite pgd, arias, cav, sa:T,
-    /// avgsa:T1,T2,.. (geometric mean, periods in s, 5 % damping) or
-    /// column:NAME (of --attributes or the index, proportional to the
-    /// acceleration) [default: pga].
+    /// which is p PGV/(g tan alpha); and with --suite pgd, arias, cav,
+    /// pgv-d575 (PGV D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean,
+    /// periods in s, 5 % damping) or column:NAME (of --attributes or the
+    /// index, proportional to the acceleration) [default: pga].
     #[arg(long, value_name = "MEASURE", conflicts_with = "curve")]
     im: Option<Measure>,
     #[command(flatten)]

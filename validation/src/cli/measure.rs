@@ -1,11 +1,8 @@
-//! Intensity measures by name, and their values for the records of a suite.
+//! Intensity measures of the records of a suite.
 
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
-use libm::{exp, log};
 use rayon::prelude::*;
 use rocking::integrator::Model;
 use rocking::intensity::{Measures, Settings};
@@ -17,106 +14,8 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
 use super::{Failure, SOFTWARE};
+use crate::measure::Measure;
 use crate::suites::inputs::read_suite;
-
-/// An intensity measure of a record.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Measure {
-    /// PGA/(g tan alpha), as in the table.
-    Pga,
-    /// p PGV/(g tan alpha), as in the table.
-    Pgv,
-    /// Peak ground displacement.
-    Pgd,
-    /// Arias intensity.
-    Arias,
-    /// Cumulative absolute velocity.
-    Cav,
-    /// Spectral acceleration at a period, 5 % damping.
-    Sa(f64),
-    /// Geometric mean of spectral accelerations.
-    AverageSa(Vec<f64>),
-    /// A column of the suite's index or of --attributes.
-    Column(String),
-}
-
-impl FromStr for Measure {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let refuse = || {
-            format!(
-                "found `{text}`: expected pga, pgv, pgd, arias, cav, sa:T, \
-                 avgsa:T1,T2,.. with periods in s, or column:NAME"
-            )
-        };
-        let period = |text: &str| {
-            let period = text.trim().parse::<f64>().ok();
-            let positive = |t: &f64| *t > 0.0 && t.is_finite();
-            period.filter(positive).ok_or_else(refuse)
-        };
-        Ok(match text.split_once(':') {
-            None => match text {
-                "pga" => Self::Pga,
-                "pgv" => Self::Pgv,
-                "pgd" => Self::Pgd,
-                "arias" => Self::Arias,
-                "cav" => Self::Cav,
-                _ => return Err(refuse()),
-            },
-            Some(("sa", t)) => Self::Sa(period(t)?),
-            Some(("avgsa", list)) => {
-                let periods = list.split(',').map(period);
-                Self::AverageSa(periods.collect::<Result<_, _>>()?)
-            }
-            Some(("column", name)) if !name.is_empty() => {
-                Self::Column(name.to_owned())
-            }
-            Some(_) => return Err(refuse()),
-        })
-    }
-}
-
-impl fmt::Display for Measure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Pga => f.write_str("PGA/(g tan alpha)"),
-            Self::Pgv => f.write_str("p PGV/(g tan alpha)"),
-            Self::Pgd => f.write_str("PGD (m)"),
-            Self::Arias => f.write_str("Arias intensity (m/s)"),
-            Self::Cav => f.write_str("CAV (m/s)"),
-            Self::Sa(t) => write!(f, "SA({t} s) (g)"),
-            Self::AverageSa(list) => {
-                let list: Vec<_> = list.iter().map(f64::to_string).collect();
-                write!(f, "AvgSA({} s) (g)", list.join(", "))
-            }
-            Self::Column(name) => write!(f, "column {name}"),
-        }
-    }
-}
-
-impl Measure {
-    /// Whether the table of an IDA tells it.
-    #[must_use]
-    pub fn is_in_table(&self) -> bool {
-        matches!(self, Self::Pga | Self::Pgv)
-    }
-
-    /// Whether it grows with the square of the acceleration; all others grow
-    /// in proportion to it.
-    #[must_use]
-    pub fn is_squared(&self) -> bool {
-        matches!(self, Self::Arias)
-    }
-
-    fn periods(&self) -> &[f64] {
-        match self {
-            Self::Sa(period) => std::slice::from_ref(period),
-            Self::AverageSa(periods) => periods,
-            _ => &[],
-        }
-    }
-}
 
 /// Where the records are that the table was made of.
 #[derive(clap::Args, Clone, Debug)]
@@ -284,24 +183,19 @@ impl Ground {
     pub fn at_uplift(&self, measure: &Measure) -> Result<Vec<f64>, Failure> {
         let of = |record: &Unscaled| {
             let (m, factor) = (&record.measures, record.factor);
-            let at = |period: &f64| {
-                let place = self.periods_s.iter().position(|t| t == period);
+            let at = |period: f64| {
+                let place = self.periods_s.iter().position(|t| *t == period);
                 let place = place.unwrap_or(usize::MAX);
                 let all = &m.spectral_acceleration_g;
                 all.get(place).copied().unwrap_or(f64::NAN)
             };
+            let power = if measure.is_squared() { 2 } else { 1 };
+            let scaled = (0..power).fold(1.0, |all, _| all * factor);
             Ok(match measure {
                 Measure::Pga => 1.0,
                 Measure::Pgv => self.pgv_factor * factor * m.pgv_m_s,
-                Measure::Pgd => factor * m.pgd_m,
-                Measure::Arias => factor * factor * m.arias_intensity_m_s,
-                Measure::Cav => factor * m.cav_m_s,
-                Measure::Sa(period) => factor * at(period),
-                Measure::AverageSa(periods) => {
-                    let sum = periods.iter().fold(0.0, |s, t| s + log(at(t)));
-                    factor * exp(sum / periods.len() as f64)
-                }
                 Measure::Column(name) => factor * self.cell(record, name)?,
+                _ => scaled * measure.value(m, &at).unwrap_or(f64::NAN),
             })
         };
         self.records.iter().map(of).collect()

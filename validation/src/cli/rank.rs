@@ -12,10 +12,17 @@ use rocking::statistics::regression::{Line, line};
 use serde_json::{Value, json};
 
 use super::capacities::ida;
-use super::measure::{Ground, GroundArgs, Measure};
+use super::measure::{Ground, GroundArgs};
 use super::names::{CROSSINGS, named};
 use super::{Failure, print, print_json, with_threads};
+use crate::draw::figures::{
+    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
+};
+use crate::draw::markup;
+use crate::files::Output;
+use crate::measure::Measure;
 use crate::paper::Intensity;
+use crate::words::range;
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -35,7 +42,7 @@ const LEVEL: f64 = 0.95;
 #[command(after_help = "Examples:\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1 --im pga --im sa:1 \
-    --im avgsa:0.5,1,2 --magnitude mw --distance rrup_km")]
+    --im avgsa:0.5,1,2 --magnitude mw --distance rrup_km --plot rank.svg")]
 pub struct Args {
     /// Table of `rocking ida`; `-` is standard input.
     #[arg(long, value_name = "FILE")]
@@ -44,11 +51,12 @@ pub struct Args {
     /// its corner.
     #[arg(long, value_name = "E")]
     at: f64,
-    /// An intensity measure: pga, pgv, pgd, arias, cav, sa:T,
-    /// avgsa:T1,T2,.. (geometric mean, periods in s) or column:NAME (of
-    /// --attributes or the index, proportional to the acceleration); again
-    /// for each one [default: pga, pgv, pgd, arias, cav, sa at 0.5, 1, 2, 3
-    /// and 4 s, and avgsa:0.5,1,1.5,2,3]. Ratios are to the first one.
+    /// An intensity measure: pga, pgv, pgd, arias, cav,
+    /// pgv-d575 (PGV D5-75^(1/4)), sa:T, avgsa:T1,T2,.. (geometric mean,
+    /// periods in s) or column:NAME (of --attributes or the index,
+    /// proportional to the acceleration); again for each one [default: pga,
+    /// pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1, 2, 3 and 4 s, and
+    /// avgsa:0.5,1,1.5,2,3]. Ratios are to the first one.
     #[arg(long, value_name = "MEASURE")]
     im: Vec<Measure>,
     #[command(flatten)]
@@ -73,6 +81,9 @@ pub struct Args {
     /// Repetition of the bootstrap.
     #[arg(long, value_name = "S", default_value_t = 0)]
     seed: u64,
+    /// Draw the dispersions with their intervals.
+    #[arg(long, value_name = "FILE.svg")]
+    plot: Option<PathBuf>,
     /// Threads; the result doesn't depend on them.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
@@ -110,13 +121,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let measures = if args.im.is_empty() {
         let sa = [0.5, 1.0, 2.0, 3.0, 4.0].map(Measure::Sa);
         let mut all = vec![Measure::Pga, Measure::Pgv, Measure::Pgd];
-        all.extend([Measure::Arias, Measure::Cav]);
+        all.extend([Measure::Arias, Measure::Cav, Measure::PgvDuration]);
         all.extend(sa);
         all.push(Measure::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
         all
     } else {
         args.im.clone()
     };
+    let mut inputs = args.ground.inputs();
+    inputs.push(args.ida.clone());
+    let plot = Output::open_some(args.plot.as_ref(), &inputs)?;
     let table = ida::read(&args.ida, Intensity::Pga)?;
     let mut capacities = Vec::new();
     for (_, curve) in &table.curves {
@@ -129,6 +143,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let ground = args.ground.ground(&table, &measures)?;
         rank(args, &ground, &capacities, measures)
     })??;
+    if let Some(out) = plot {
+        out.write(args.chart(&rows).figure(String::new()).svg())?;
+    }
     if args.json {
         return print_json(args.to_json(&rows, capacities.len(), censored));
     }
@@ -253,6 +270,55 @@ impl Args {
             "remark": self.no_lines(censored),
             "measures": rows.iter().map(row).collect::<Vec<_>>(),
         })
+    }
+
+    /// The dispersions, side by side.
+    fn chart(&self, rows: &[Row]) -> Chart {
+        let none = (f64::NAN, f64::NAN);
+        let beta = rows.iter().map(|row| row.beta.as_ref());
+        let x = ChartAxis {
+            label: String::new(),
+            scale: Scale::Linear,
+            range: None,
+            categories: rows
+                .iter()
+                .map(|row| markup::escape(&row.measure.short()))
+                .collect(),
+            second: None,
+        };
+        let label = format!("dispersion at EDP {}", self.at);
+        let series = Series {
+            label: "95 % interval by the bootstrap of records".into(),
+            mark: Mark::Points,
+            x: (1..=rows.len()).map(|k| k as f64).collect(),
+            y: beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
+            interval: beta
+                .map(|b| b.map_or(none, |e| (e.low, e.high)))
+                .collect(),
+        };
+        let (_, most) = range(series.interval.iter().map(|ends| ends.1));
+        let top = if most > 0.0 { 1.1 * most } else { 1.0 };
+        let y = ChartAxis::new(label, Scale::Linear, Some((0.0, top)));
+        Chart {
+            heading: Heading::new(
+                "rank",
+                "Efficiency of intensity measures",
+                format!(
+                    "Dispersion of the intensity at EDP {} in {} intensity \
+                     measures, with 95 % intervals.",
+                    self.at,
+                    rows.len()
+                ),
+                None,
+            ),
+            panels: vec![ChartPanel {
+                title: String::new(),
+                x,
+                y,
+                series: vec![series],
+            }],
+            columns: 1,
+        }
     }
 
     fn to_text(

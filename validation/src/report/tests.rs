@@ -48,6 +48,7 @@ fn empty(source: &Source) -> Results {
         single: Vec::new(),
         stripes: Vec::new(),
         adjusted: Vec::new(),
+        contents: Vec::new(),
     };
     Results {
         plan: plan(Execution::default()),

@@ -28,6 +28,10 @@ pub const SPECTRUM_PERIODS_S: [f64; 14] = [
     0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0,
 ];
 
+/// Periods T of a block's own spectrum, as p T: half an octave apart.
+pub const OWN_PERIODS: [f64; 10] =
+    [0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.2];
+
 /// What a study knows of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
@@ -42,6 +46,9 @@ pub struct Facts {
     /// Intensity measures of the component applied, its spectrum at
     /// [`SPECTRUM_PERIODS_S`].
     pub measures: Measures,
+    /// Spectral acceleration in g, 5 % damping, by frequency parameter p,
+    /// then by period T with p T from [`OWN_PERIODS`].
+    pub own_spectra_g: [Vec<f64>; 3],
 }
 
 /// What the chains of a suite took.
@@ -106,6 +113,8 @@ pub struct SuiteResults {
     /// Slenderness-adjusted curves by arm; by frequency instead of block,
     /// then by record.
     pub adjusted: Vec<ArmCurves>,
+    /// Curves of the contents by item, then by record, in the common arm.
+    pub contents: Vec<Vec<ResponseCurve>>,
 }
 
 impl SuiteResults {
@@ -192,6 +201,7 @@ impl Plan {
             single: Vec::new(),
             stripes: Vec::new(),
             adjusted: Vec::new(),
+            contents: self.contents(&records, progress)?,
         };
         for frequency in 0..FREQUENCIES_RAD_S.len() {
             let single =
@@ -248,11 +258,13 @@ impl Plan {
 pub fn facts(motion: &Motion) -> Result<Facts, StudyError> {
     let study = &motion.study;
     let pga_g = study.pga_g();
-    let settings = Settings::try_new(
-        STANDARD_GRAVITY_M_S2,
-        0.05,
-        SPECTRUM_PERIODS_S.to_vec(),
-    )?;
+    let own = FREQUENCIES_RAD_S.map(|p| OWN_PERIODS.map(|t| t / p));
+    let periods_s = [&SPECTRUM_PERIODS_S[..], own.as_flattened()].concat();
+    let settings = Settings::try_new(STANDARD_GRAVITY_M_S2, 0.05, periods_s)?;
+    let mut measures = Measures::of(study, &settings)?;
+    let spectrum = &mut measures.spectral_acceleration_g;
+    let own = spectrum.split_off(SPECTRUM_PERIODS_S.len());
+    let mut own = own.chunks(OWN_PERIODS.len()).map(<[f64]>::to_vec);
     Ok(Facts {
         name: study.name().to_owned(),
         pga_g,
@@ -261,6 +273,7 @@ pub fn facts(motion: &Motion) -> Result<Facts, StudyError> {
             .other
             .as_ref()
             .map(|other| (other.pga_g() / pga_g).sqrt()),
-        measures: Measures::of(study, &settings)?,
+        measures,
+        own_spectra_g: std::array::from_fn(|_| own.next().unwrap_or_default()),
     })
 }

@@ -1,10 +1,12 @@
 //! What the paper's procedure does: questions that the paper leaves open,
 //! answered with figures beside its claims.
 
+mod contents;
 mod equivalence;
 pub(super) mod grid;
 mod inversion;
 mod levels;
+mod measures;
 mod nulls;
 mod options;
 mod power;
@@ -17,6 +19,7 @@ mod trimming;
 use super::StudyError;
 use super::analyses::SuiteResults;
 use super::figures::Results;
+use super::inference::Draws;
 use crate::draw::figures::Figure;
 use crate::findings::Question;
 use crate::table::{PlainTable, Table};
@@ -57,7 +60,11 @@ impl Answer {
 ///
 /// # Errors
 /// [`StudyError`] where a number cannot be computed.
-pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
+pub fn all(
+    results: &Results,
+    draws: &Draws,
+    full: bool,
+) -> Result<Vec<Answer>, StudyError> {
     Ok(vec![
         grid::answer(results)?,
         nulls::answer(results)?,
@@ -71,6 +78,8 @@ pub fn all(results: &Results, full: bool) -> Result<Vec<Answer>, StudyError> {
         suites::answer(results)?,
         recorded::answer(results)?,
         surface::answer(results)?,
+        measures::answer(results, draws)?,
+        contents::answer(results, draws)?,
     ])
 }
 

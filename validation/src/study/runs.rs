@@ -189,6 +189,14 @@ pub fn capacities(
     levels.iter().map(|e| Ok(curve.capacity(*e, rule)?.im())).collect()
 }
 
+/// What is known of a curve's first overturning: the intensity twice, or the
+/// last one that was run and infinity.
+#[must_use]
+pub fn overturning(curve: &ResponseCurve) -> (f64, f64) {
+    let last = (curve.last_im(), f64::INFINITY);
+    curve.overturning_im().map_or(last, |im| (im, im))
+}
+
 /// What an arm counts as the first overturning.
 fn overturned(arm: Arm) -> Overturned {
     match arm {

@@ -48,7 +48,7 @@ impl Study {
         let results = Results { plan, ordinary, pulse, distributions, varied };
         let draws = results.draws();
         let mut figures = results.figures(&draws)?;
-        let mut answers = questions::all(&results, full)?;
+        let mut answers = questions::all(&results, &draws, full)?;
         for answer in &mut answers {
             figures.append(&mut answer.figures);
         }

@@ -89,6 +89,7 @@ fn capacities(
         single: Vec::new(),
         stripes: Vec::new(),
         adjusted: Vec::new(),
+        contents: Vec::new(),
     })
 }
 

@@ -1,0 +1,100 @@
+//! Contents of buildings: FEMA P-58's overturning fragilities of bookcases
+//! and filing cabinets, and the same items as blocks under the study's suites.
+
+use std::sync::LazyLock;
+
+use indicatif::ProgressBar;
+use rocking::block::Block;
+use rocking::capacity::ResponseCurve;
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::Adjust;
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use serde::Deserialize;
+
+use super::StudyError;
+use super::analyses::Plan;
+
+const INCH_M: f64 = 0.0254;
+
+/// An item of FEMA P-58 with its overturning fragility.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    /// Name in FEMA P-58.
+    pub id: String,
+    /// What it is.
+    pub item: String,
+    depth_in: f64,
+    height_in: f64,
+    /// Median peak floor velocity at overturning, in m/s.
+    pub median_m_s: f64,
+    /// Dispersion, all uncertainties together.
+    pub dispersion: f64,
+}
+
+impl Item {
+    /// Depth, the width of the base, in m.
+    #[must_use]
+    pub fn depth_m(&self) -> f64 {
+        self.depth_in * INCH_M
+    }
+
+    /// Height in m.
+    #[must_use]
+    pub fn height_m(&self) -> f64 {
+        self.height_in * INCH_M
+    }
+
+    /// Half the diagonal, in m.
+    #[must_use]
+    pub fn half_diagonal_m(&self) -> f64 {
+        0.5 * libm::hypot(self.depth_m(), self.height_m())
+    }
+
+    /// The homogeneous block of this size.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a size that is not positive.
+    pub fn block(&self) -> Result<Block, StudyError> {
+        let (depth, height) = (self.depth_m(), self.height_m());
+        Ok(Block::from_dimensions(depth, height, STANDARD_GRAVITY_M_S2)?)
+    }
+}
+
+/// The nine items that FEMA P-58 gives with their sizes.
+///
+/// # Panics
+/// If the table is not of the expected form: it is compiled in.
+#[must_use]
+pub fn items() -> &'static [Item] {
+    const TABLE: &str =
+        include_str!("../../../fixtures/comparison/fema-p58.csv");
+    static ITEMS: LazyLock<Vec<Item>> = LazyLock::new(|| {
+        let mut reader = csv::Reader::from_reader(TABLE.as_bytes());
+        let rows = reader.deserialize::<Item>();
+        rows.map(|row| row.unwrap_or_else(|e| panic!("fema-p58: {e}")))
+            .collect()
+    });
+    &ITEMS
+}
+
+impl Plan {
+    /// Curves of the [`items`], by item, then by record, in the common arm.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub(super) fn contents(
+        &self,
+        records: &[NormalisedRecord],
+        progress: &ProgressBar,
+    ) -> Result<Vec<Vec<ResponseCurve>>, StudyError> {
+        let blocks: Vec<Block> =
+            items().iter().map(Item::block).collect::<Result<_, _>>()?;
+        progress.inc_length((blocks.len() * records.len()) as u64);
+        let (arm, method) = ([self.common()], Adjust::RecordScaling);
+        let done = || progress.inc(1);
+        let chains =
+            self.setup.chains(&blocks, records, &arm, method, done)?;
+        Ok(chains.curves.into_iter().flatten().collect())
+    }
+}

@@ -1,5 +1,6 @@
 //! The lognormal distribution, with or without a shift, and its fits.
 
+mod band;
 mod censored;
 mod counts;
 mod fit;

@@ -321,6 +321,7 @@ pub const FAMILIES: &[(&str, &str)] = families![
     "pivot-forces",
     "pulse-trajectories",
     "rectangular-pulse",
+    "risk",
     "sampled-records",
     "similarity-defect",
     "sine-pulse-similarity",

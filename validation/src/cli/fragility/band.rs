@@ -4,9 +4,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use rocking::statistics::Lognormal;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::FitMethod;
-use rocking::statistics::{Lognormal, normal};
 use serde_json::{Value, json};
 
 use super::limits::Limited;
@@ -51,20 +51,6 @@ pub(super) struct Band {
     seed: u64,
 }
 
-/// Delta method: the score z = (ln(x - shift) - mu)/beta of a fit to n values
-/// has the variance (1 + z^2/2)/n, since mu has beta^2/n, beta has
-/// beta^2/(2 n), and both are independent.
-fn delta(fitted: &Lognormal, n: usize, im: f64) -> (f64, f64) {
-    let z = fitted.score(im);
-    let wide = normal::quantile(0.5 * (1.0 + LEVEL));
-    let half = wide * ((1.0 + 0.5 * z * z) / n as f64).sqrt();
-    if z.is_finite() {
-        (normal::cdf(z - half), normal::cdf(z + half))
-    } else {
-        (fitted.cdf(im), fitted.cdf(im))
-    }
-}
-
 impl Band {
     /// The band of a fit, whose records are drawn anew.
     pub(super) fn new(
@@ -94,7 +80,8 @@ impl Band {
                 im,
                 probability,
                 bootstrap: found.map(|e| (e.low, e.high)),
-                delta: (complete && known).then(|| delta(fitted, n, im)),
+                delta: (complete && known)
+                    .then(|| fitted.interval_of_cdf(n, im, LEVEL)),
             }
         };
         let rows = levels.0.iter().map(row).collect();
@@ -168,61 +155,5 @@ impl Band {
             ]);
         }
         table.finish()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rocking::statistics::ExtendedSample;
-    use rocking::statistics::lognormal::fit;
-
-    /// By Python: N = statistics.NormalDist(); z = (log(1.5) - 0.2)/0.5;
-    /// N.cdf(z -+ N.inv_cdf(0.975)*sqrt((1 + z*z/2)/86)).
-    #[test]
-    fn the_delta_method_is_its_formula() {
-        let fitted = Lognormal::try_new(1.0, 0.2, 0.5).unwrap();
-        let (low, high) = delta(&fitted, 86, 2.5);
-        assert!((low - LOW).abs() < 1e-12, "{low}");
-        assert!((high - HIGH).abs() < 1e-12, "{high}");
-        assert_eq!(delta(&fitted, 86, 1.0), (0.0, 0.0));
-        assert_eq!(delta(&fitted, 86, 0.5), (0.0, 0.0));
-    }
-
-    const LOW: f64 = 0.575_674_673_392_426_2;
-    const HIGH: f64 = 0.735_986_294_185_030_7;
-
-    /// For many records both are normal: 1000 values at the quantiles of a
-    /// lognormal. An end of a percentile interval from 4000 samples has a
-    /// standard deviation of 4 % of the half width, both ends of 3 % of the
-    /// width, so that 10 % are passed once in a thousand. Without the
-    /// uncertainty of beta the width is 1/sqrt(3) at two deviations.
-    #[test]
-    fn bootstrap_and_delta_method_agree_for_many_records() {
-        let truth = Lognormal::try_new(1.0, 0.2, 0.5).unwrap();
-        let n = 1000;
-        let place = |k: usize| (k as f64 + 0.5) / n as f64;
-        let values: Vec<f64> =
-            (0..n).map(|k| truth.quantile(place(k))).collect();
-        let sample = ExtendedSample::try_new(&values).unwrap();
-        let method = FitMethod::MaximumLikelihood;
-        let fitted = fit(&sample, 1.0, method).unwrap().distribution;
-        let limits = vec![None; n];
-        let values = Limited::new(&values, &limits);
-        let at = |z: f64| 1.0 + libm::exp(0.2 + 0.5 * z);
-        let levels = Levels([-2.0, -1.0, 0.0, 1.0, 2.0].map(at).to_vec());
-        let plan = Plan::of(method, 1.0);
-        let band = Band::new(&plan, &values, &fitted, (&levels, 4000, 0));
-        for row in &band.rows {
-            let z = normal::quantile;
-            let width = |(low, high): (f64, f64)| z(high) - z(low);
-            let own = width(row.bootstrap.unwrap());
-            let ratio = own / width(row.delta.unwrap());
-            assert!((ratio - 1.0).abs() < 0.1, "{}: {ratio}", row.im);
-            let score = z(row.probability);
-            let plain = 2.0 * 1.96 / (n as f64).sqrt();
-            let beyond = score.abs() > 1.9;
-            assert!(!beyond || own / plain > 1.5, "{}", own / plain);
-        }
     }
 }

@@ -62,14 +62,6 @@ impl Plan {
         self.method
     }
 
-    /// A method above a known shift.
-    #[cfg(test)]
-    pub(super) fn of(method: FitMethod, shift: f64) -> Self {
-        let quantile_type = QuantileType::try_new(5).unwrap();
-        let shift = Shift::Given(shift);
-        Self { method, quantile_type, shift, c: 1.0 }
-    }
-
     pub(super) fn fits(&self, values: &Limited) -> Result<Fits, FitError> {
         let (shift, above) = self.shift.split(&values.values)?;
         let fit = if above.len() < values.values.len() {

@@ -113,6 +113,14 @@ named! {
         Equation7AsPrinted = "equation-7-as-printed",
         /// Eq. 7's limit for every c.
         DeltaMethod = "delta-method",
+        /// The fragility of the same median and dispersion from 0.
+        WithoutShift = "without-shift",
+        /// No motion beyond the last point of a hazard curve.
+        NothingBeyond = "nothing-beyond",
+        /// The hazard at the median for the annual frequency.
+        HazardAtTheMedian = "hazard-at-the-median",
+        /// An interval of a probability as if the dispersion were known.
+        KnownDispersion = "known-dispersion",
         /// Eq. 7 made up beyond its end.
         Clamped = "clamped",
         /// McGill's notch as 95 % interval.

@@ -9,6 +9,7 @@ mod inference;
 mod inversion;
 mod lilliefors;
 mod nist;
+mod risk;
 mod truths;
 mod two_samples;
 
@@ -22,6 +23,7 @@ pub(super) use lilliefors::{
     asymptotics, draws, largest, null, published, table,
 };
 pub(super) use nist::moments;
+pub(super) use risk::{annual_frequency, cornell, interval};
 pub(super) use two_samples::two_samples;
 
 use super::MethodError;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use rocking::block::Block;
 use rocking::integrator::Model;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::{BlockFragility, Format, Id, unit, unit_intensity};
 use serde_json::json;
 
 use super::limits::Limited;
@@ -16,7 +17,6 @@ use crate::cli::names::{Named, named};
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
-use crate::exchange::{BlockFragility, Format, Id, unit, unit_intensity};
 use crate::files::Output;
 use crate::paper::Intensity;
 

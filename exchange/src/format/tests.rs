@@ -1,7 +1,12 @@
 //! Each trap that the readers were found to set.
 
+use rocking::block::Block;
+use rocking::integrator::Model;
+use rocking::statistics::{Lognormal, normal};
+
 use super::*;
-use rocking::statistics::normal;
+use crate::fragility::unit_intensity;
+use crate::intensity::Intensity;
 
 /// A block whose fragility in its own PGA or PGV has a shift or none.
 fn one(intensity: Intensity, shift: f64) -> BlockFragility {

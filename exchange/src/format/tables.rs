@@ -1,7 +1,8 @@
 //! Tables of parameters: for PACT, and for any program.
 
-use super::{BlockFragility, ExchangeError, Id, unit};
-use crate::paper::Intensity;
+use super::ExchangeError;
+use crate::fragility::{BlockFragility, Id, unit};
+use crate::intensity::Intensity;
 use crate::table::{Table, number, optional};
 
 /// Median and dispersion as FEMA P-58's PACT is told them by hand.

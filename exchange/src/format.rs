@@ -4,6 +4,8 @@ mod nrml;
 mod pelicun;
 mod tables;
 
+pub use tables::Pact;
+
 use rocking::fragility::points::PointsError;
 use rocking::statistics::lognormal::LognormalError;
 use thiserror::Error;

@@ -54,12 +54,22 @@ impl fmt::Display for Id {
 impl Id {
     /// The name of a block by its parameters, in all their digits, so that
     /// two blocks never share one.
-    #[must_use]
-    pub fn of(block: &Block) -> Self {
+    ///
+    /// ```
+    /// use rocking::Block;
+    /// use rocking_exchange::Id;
+    /// let block = Block::try_new(0.15, 3.0)?;
+    /// assert_eq!(Id::of(&block)?.to_string(), "block_a0_15_p3");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where the digits make it too long.
+    pub fn of(block: &Block) -> Result<Self, String> {
         let digits = |x: f64| x.to_string().replace('.', "_");
         let alpha = digits(block.slenderness_rad());
         let p = digits(block.frequency_rad_s());
-        Self(format!("block_a{alpha}_p{p}"))
+        format!("block_a{alpha}_p{p}").parse()
     }
 }
 
@@ -114,4 +124,18 @@ pub fn unit(intensity: Intensity) -> &'static str {
         Intensity::Pga => "g",
         Intensity::Pgv => "m/s",
     }
+}
+
+/// Where a fragility comes from, of whose sample the size and the measure
+/// alone are known.
+///
+/// ```
+/// use rocking_exchange::{Intensity, unstated_origin};
+/// let words = unstated_origin(86, Intensity::Pga);
+/// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
+/// ```
+#[must_use]
+pub fn unstated_origin(capacities: usize, intensity: Intensity) -> String {
+    let measure = intensity.words();
+    format!("{capacities} capacities in {measure}, response level not stated")
 }

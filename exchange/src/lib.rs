@@ -16,7 +16,7 @@
 //! let unit_g = unit_intensity(pga, &block, Model::Nonlinear, 9.80665);
 //! let fragility = Lognormal::try_new(1.0, 0.92, 0.71)?.scaled(unit_g)?;
 //! let one = BlockFragility {
-//!     id: Id::of(&block),
+//!     id: Id::of(&block)?,
 //!     block,
 //!     eta: Some(0.92),
 //!     intensity: pga,
@@ -34,6 +34,8 @@ mod fragility;
 mod intensity;
 pub mod table;
 
-pub use format::{ExchangeError, Format, Texts};
-pub use fragility::{BlockFragility, Id, unit, unit_intensity};
+pub use format::{ExchangeError, Format, Pact, Texts};
+pub use fragility::{
+    BlockFragility, Id, unit, unit_intensity, unstated_origin,
+};
 pub use intensity::Intensity;

@@ -1,11 +1,51 @@
 //! Tables of parameters: for PACT, and for any program.
 
+use rocking::statistics::Lognormal;
+
 use super::ExchangeError;
 use crate::fragility::{BlockFragility, Id, unit};
 use crate::intensity::Intensity;
 use crate::table::{Table, number, optional};
 
 /// Median and dispersion as FEMA P-58's PACT is told them by hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pact {
+    /// What of the ground motion: PGA or PGV.
+    pub demand: &'static str,
+    /// Unit of the median: g or m/s.
+    pub unit: &'static str,
+    /// Median.
+    pub median: f64,
+    /// Standard deviation of the logarithm.
+    pub dispersion: f64,
+}
+
+impl Pact {
+    /// Of a fragility in g or m/s; none where it has a shift, which PACT does
+    /// not know.
+    ///
+    /// ```
+    /// use rocking::statistics::Lognormal;
+    /// use rocking_exchange::{Intensity, Pact};
+    /// let fitted = Lognormal::try_new(0.0, 0.0, 0.5)?;
+    /// let told = Pact::of(Intensity::Pgv, &fitted).expect("no shift");
+    /// assert_eq!((told.demand, told.unit), ("PGV", "m/s"));
+    /// assert_eq!((told.median, told.dispersion), (1.0, 0.5));
+    /// let shifted = Lognormal::try_new(0.1, 0.0, 0.5)?;
+    /// assert_eq!(Pact::of(Intensity::Pgv, &shifted), None);
+    /// # Ok::<(), rocking::statistics::lognormal::LognormalError>(())
+    /// ```
+    #[must_use]
+    pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
+        (fragility.shift() == 0.0).then(|| Self {
+            demand: demand(intensity),
+            unit: unit(intensity),
+            median: fragility.median(),
+            dispersion: fragility.dispersion(),
+        })
+    }
+}
+
 pub(super) fn pact(
     fragilities: &[BlockFragility],
     limit_state: &Id,
@@ -20,18 +60,16 @@ pub(super) fn pact(
         "dispersion",
     ]);
     for one in fragilities {
-        let fragility = &one.fragility;
-        if fragility.shift() > 0.0 {
-            return Err(ExchangeError::Shifted { id: one.id.clone() });
-        }
+        let told = Pact::of(one.intensity, &one.fragility)
+            .ok_or_else(|| ExchangeError::Shifted { id: one.id.clone() })?;
         table.row([
             one.id.to_string(),
             limit_state.to_string(),
-            demand(one.intensity).into(),
-            unit(one.intensity).into(),
+            told.demand.into(),
+            told.unit.into(),
             "yes".into(),
-            number(fragility.median()),
-            number(fragility.dispersion()),
+            number(told.median),
+            number(told.dispersion),
         ]);
     }
     Ok(table.finish())

@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use rocking::block::Block;
 use rocking::integrator::Model;
 use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_exchange::{BlockFragility, Format, Id, unit, unit_intensity};
+use rocking_exchange::{
+    BlockFragility, Format, Id, unit, unit_intensity, unstated_origin,
+};
 use serde_json::json;
 
 use super::limits::Limited;
@@ -225,7 +227,7 @@ fn made(
     let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
     let id = match &wanted.id {
         Some(id) => id.clone(),
-        None => Id::of(&block).to_string().parse().map_err(at)?,
+        None => Id::of(&block).map_err(at)?,
     };
     Ok(BlockFragility {
         id,
@@ -241,11 +243,7 @@ fn made(
 fn origin(file: &SampleFile, intensity: Intensity) -> String {
     let mut text = match file.of() {
         Some(of) => format!("{} capacities, {of}", file.values().len()),
-        None => format!(
-            "{} capacities in {}, response level not stated",
-            file.values().len(),
-            intensity.words()
-        ),
+        None => unstated_origin(file.values().len(), intensity),
     };
     let setting = file.setting();
     for (name, value, unit) in [

@@ -20,6 +20,12 @@ Given = tuple[str, Floats | None, float, dict[str, float]]
 
 def floats(values: ArrayLike, what: str) -> Floats:
     """One-dimensional doubles; without a copy where `values` are some."""
+    if np.ma.is_masked(values):
+        # numpy would give what lies below the mask.
+        raise ValueError(
+            f"{what}: masked values, as in a gap of an ObsPy stream: expected "
+            "none"
+        )
     array = np.ascontiguousarray(values, dtype=np.float64)
     if np.ndim(values) != 1:
         found = np.ndim(values)

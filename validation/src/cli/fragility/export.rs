@@ -19,7 +19,7 @@ use crate::cli::names::{Named, named};
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::paper::Intensity;
 
 /// Formats of other programs.
@@ -121,8 +121,9 @@ pub(super) fn run(args: &Args, format: Format) -> Result<(), Failure> {
     let mut inputs: Vec<PathBuf> = export.blocks.iter().cloned().collect();
     inputs.extend(wanted.iter().map(|one| one.sample.clone()));
     let beside = beside(format, out)?;
-    let file = Output::open(out, &inputs)?;
-    let second = Output::open_some(beside.as_ref(), &inputs)?;
+    let mut outputs = Outputs::of(inputs);
+    let file = outputs.open(out)?;
+    let second = outputs.open_some(beside.as_ref())?;
     let mut fragilities = Vec::new();
     let mut names = BTreeSet::new();
     // Each file is read once: standard input has no second time.

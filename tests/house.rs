@@ -46,6 +46,17 @@ const EXCHANGE: Edges = &[
     ("table", &[]),
 ];
 
+/// The modules of the embedded suites.
+const SYNTHESIS: Edges = &[
+    ("near_fault", &["draws", "noise", "pair", "special"]),
+    ("ordinary", &["draws", "noise", "pair", "special"]),
+    ("pair", &["noise"]),
+    ("noise", &["draws"]),
+    ("draws", &[]),
+    ("special", &[]),
+    ("tests", &["near_fault", "ordinary", "pair"]),
+];
+
 /// The stages of the harness, the last one first.
 const HARNESS: Edges = &[
     (
@@ -91,7 +102,7 @@ const HARNESS: Edges = &[
         ],
     ),
     ("draw", &["paper", "table", "words"]),
-    ("proof", &["json", "suites", "table", "words"]),
+    ("proof", &["json", "table", "words"]),
     ("surrogate", &["paper", "table"]),
     ("sweep", &["files", "suites", "table"]),
     ("findings", &["json", "paper"]),
@@ -105,12 +116,28 @@ const HARNESS: Edges = &[
 ];
 
 /// Each source folder with its table.
-const TREES: [(&str, Edges); 3] =
-    [("src", CORE), ("exchange/src", EXCHANGE), ("validation/src", HARNESS)];
+const TREES: [(&str, Edges); 4] = [
+    ("src", CORE),
+    ("exchange/src", EXCHANGE),
+    ("synthesis/src", SYNTHESIS),
+    ("validation/src", HARNESS),
+];
+
+/// Libraries between the core and those who use them: manifest and sources.
+const LIBRARIES: [(&str, &[&str]); 2] = [
+    ("exchange/Cargo.toml", &["exchange/src"]),
+    ("synthesis/Cargo.toml", &["synthesis/src"]),
+];
 
 /// Folders of sources that follow the same rules.
-const SOURCES: [&str; 5] =
-    ["src", "exchange/src", "validation/src", "tests", "benches"];
+const SOURCES: [&str; 6] = [
+    "src",
+    "exchange/src",
+    "synthesis/src",
+    "validation/src",
+    "tests",
+    "benches",
+];
 
 /// Dependencies of the core. Whoever uses the core gets all of them.
 const CORE_DEPENDENCIES: &[&str] =
@@ -124,7 +151,7 @@ const UNSAFE: &str = "src/number/dispatch";
 const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
-const FOLDERS: &str = "src exchange validation tests benches examples fixtures reports .ci python/src \
+const FOLDERS: &str = "src exchange synthesis validation tests benches examples fixtures reports .ci python/src \
      python/rocking python/tests python/notebooks";
 
 fn root() -> PathBuf {
@@ -281,11 +308,8 @@ fn the_core_has_six_dependencies_and_no_features() {
 #[test]
 fn every_dependency_is_used_and_in_the_readme() {
     let readme = read("README.md");
-    let (core, exchange, harness) = (
-        manifest("Cargo.toml"),
-        manifest("exchange/Cargo.toml"),
-        manifest("validation/Cargo.toml"),
-    );
+    let (core, harness) =
+        (manifest("Cargo.toml"), manifest("validation/Cargo.toml"));
     let mut problems = Vec::new();
     let mut direct = BTreeSet::new();
     let harness_all: Vec<String> = harness
@@ -295,16 +319,17 @@ fn every_dependency_is_used_and_in_the_readme() {
         .chain(core.dev_dependencies.into_keys())
         .collect();
     let core_all: Vec<String> = core.dependencies.into_keys().collect();
-    let exchange_all: Vec<String> = exchange
-        .dependencies
-        .into_keys()
-        .chain(exchange.dev_dependencies.into_keys())
-        .collect();
-    for (names, folders) in [
-        (core_all, &["src"] as &[&str]),
-        (exchange_all, &["exchange/src"]),
+    let mut packages: Vec<(Vec<String>, &[&str])> = vec![
+        (core_all, &["src"]),
         (harness_all, &["validation/src", "tests", "benches"]),
-    ] {
+    ];
+    for (path, folders) in LIBRARIES {
+        let library = manifest(path);
+        let all = library.dependencies.into_keys();
+        let all = all.chain(library.dev_dependencies.into_keys()).collect();
+        packages.push((all, folders));
+    }
+    for (names, folders) in packages {
         let words: BTreeSet<String> = sources(folders)
             .iter()
             .flat_map(|path| tokens(&read(path)))
@@ -383,10 +408,11 @@ fn every_test_file_is_a_target_and_lints_are_the_same() {
         .filter(|path| path.ends_with(".rs") && path.matches('/').count() == 1)
         .collect();
     assert_eq!(targets, on_disk);
-    for lints in [core.lints, harness.lints] {
-        assert!(lints.is_some());
+    assert!(core.lints.is_some());
+    assert!(harness.lints.is_some());
+    for (path, _) in LIBRARIES {
+        assert!(manifest(path).lints.is_some(), "{path}");
     }
-    assert!(manifest("exchange/Cargo.toml").lints.is_some());
 }
 
 #[test]
@@ -430,7 +456,7 @@ fn the_harness_stands_on_the_public_core() {
             problems.push(format!("{path}: an oracle uses the core"));
         }
     }
-    for path in sources(&["src", "exchange/src"]) {
+    for path in sources(&["src", "exchange/src", "synthesis/src"]) {
         let tokens = tokens(&read(&path));
         if tokens.iter().any(|token| token == "rocking_validation") {
             problems.push(format!("{path}: a library knows the harness"));
@@ -449,7 +475,7 @@ fn the_program_compiles_in_no_result_of_its_own() {
     // The one pin that is an expected value, not a result.
     let expected = "/tests/pins/work-counters.csv\"";
     let (mut problems, mut seen) = (Vec::new(), 0);
-    for path in sources(&["src", "exchange/src", "validation/src"]) {
+    for path in sources(&SOURCES[..4]) {
         let text = read(&path);
         for (at, _) in text.match_indices(concat!("incl", "ude_")) {
             let call = text[at..].split(')').next().unwrap_or_default();

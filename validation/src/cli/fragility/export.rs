@@ -90,7 +90,11 @@ impl ExportArgs {
     /// # Errors
     /// [`Failure`] for a block without a format.
     pub(super) fn format(&self) -> Result<Option<Format>, Failure> {
-        match (self.export, self.block.given()) {
+        // Beside a flag that conflicts with --export, the parser lets --out
+        // pass, which requires it.
+        let out = self.out.as_ref().map(|_| "--out");
+        let given = self.block.given().or(out);
+        match (self.export, given) {
             (None, Some(flag)) => Err(Failure::input(format!(
                 "{flag} is not used without --export"
             ))),

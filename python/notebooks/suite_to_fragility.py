@@ -16,9 +16,8 @@
 # How likely does a block overturn at a given intensity? This takes a suite of
 # records, an incremental dynamic analysis (IDA), a fit, and a file.
 #
-# The suite is the embedded one: 86 synthetic records that the command line
-# writes by `rocking suite export --out suites`. A folder of your own records
-# does as well.
+# The suite is the embedded one: 86 synthetic records. `rk.read_suite` takes a
+# folder of your own.
 
 # %%
 import xml.etree.ElementTree as ET
@@ -27,7 +26,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import rocking as rk
 
-suite = rk.read_suite("suites/ordinary.csv")
+suite = rk.embedded_suite("ordinary")
 block = rk.Block(alpha=0.2, p=3.0)
 suite.to_pandas()[["record", "dt", "samples", "pga_g"]].head()
 

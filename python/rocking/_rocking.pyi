@@ -71,6 +71,7 @@ def read_suite(
     gravity: float,
     both: bool,
 ) -> tuple[str, list[_Read]]: ...
+def embedded_suite(name: str, both: bool) -> list[_Read]: ...
 def respond(
     block: _Block,
     excitation: _Given,

@@ -29,6 +29,7 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(given::pulse, m)?)?;
     m.add_function(wrap_pyfunction!(files::read_record, m)?)?;
     m.add_function(wrap_pyfunction!(files::read_suite, m)?)?;
+    m.add_function(wrap_pyfunction!(files::embedded_suite, m)?)?;
     m.add_function(wrap_pyfunction!(mechanics::respond, m)?)?;
     m.add_function(wrap_pyfunction!(peak::peak, m)?)?;
     m.add_function(wrap_pyfunction!(ida::ida, m)?)?;

@@ -98,7 +98,7 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
     });
     add("every-fixture-is-used", {
         let mut texts: Vec<String> = Vec::new();
-        for folder in ["src", "validation/src", "tests"] {
+        for folder in ["src", "synthesis/src", "validation/src", "tests"] {
             gather(&root.join(folder), &mut |path| {
                 if path.extension().is_some_and(|e| e == "rs") {
                     texts.extend(std::fs::read_to_string(path).ok());

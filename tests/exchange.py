@@ -3,18 +3,22 @@
     python3 tests/exchange.py target/release/rocking
 
 writes the fragility of a block as NRML and as a pelicun library, shifted and
-unshifted, in PGA and in PGV; reads them with openquake.engine 3.26 and
-pelicun 3.10; and compares their probabilities with the lognormal's own at
-forty intensities. Both come from PyPI. openquake.engine has dependencies that
-need GDAL, none of which is used here:
+unshifted, in PGA and in PGV; runs the README's tour from records to
+decisions; reads all these files with openquake.engine 3.26 and pelicun 3.10;
+and compares their probabilities with the lognormal's own at forty
+intensities. Both come from PyPI. openquake.engine has dependencies that need
+GDAL, none of which is used here:
 
     pip install --no-deps openquake.engine==3.26.2
     pip install pelicun==3.10.0 toml psutil pyzmq h5py shapely pyproj numba \
         requests docutils "h3<4" fiona matplotlib decorator alpha_shapes
 """
 
+import csv
 import json
 import math
+import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -29,6 +33,7 @@ from pelicun.assessment import Assessment
 
 assert read_nrml
 BINARY = Path(sys.argv[1]).resolve()
+ROOT = Path(__file__).resolve().parents[1]
 ALPHA, P, GRAVITY = 0.15, 3.0, 9.80665
 SAMPLE = """1.32 1.41 1.56 1.63 1.77 1.9 2.04 2.1 2.31 2.5 2.64 2.77 2.92
 3.1 3.3 3.43 3.6 3.88 4.2 4.5 4.9 5.3 6.1 7.2 9.4""".split()
@@ -38,8 +43,8 @@ TOLERANCE = 5e-4
 
 def rocking(folder, *flags):
     done = subprocess.run(
-        [BINARY, "fragility", "--sample", "sample.txt", *flags],
-        cwd=folder, check=True, capture_output=True, text=True)
+        [BINARY, "fragility", *flags], cwd=folder, check=True,
+        capture_output=True, text=True)
     return done.stdout
 
 
@@ -52,16 +57,19 @@ def truth(fitted, factor, im):
     return 0.5 * math.erfc(-score / math.sqrt(2))
 
 
-def openquake(path, im):
+def openquake(path):
+    """Measure and probability of each block by its name."""
     model = nrml.to_python(str(path))
-    [((imt, _), functions)] = model.items()
-    [function] = functions.build(model.limitStates)
-    return imt, function(numpy.array(im))
+    found = {}
+    for (imt, name), functions in model.items():
+        [function] = functions.build(model.limitStates)
+        found[name] = imt, function
+    return found
 
 
-def pelicun(path, im):
+def pelicun(path, name, im):
     """Probabilities as the reader's own random variables give them."""
-    row = pandas.read_csv(path, index_col=0).iloc[0]
+    row = pandas.read_csv(path, index_col=0).loc[name]
     theta = row["LS1-Theta_0"], row["LS1-Theta_1"]
     if row["LS1-Family"] == "multilinear_CDF":
         parts = [numpy.array(part.split(","), dtype=float)
@@ -74,9 +82,9 @@ def pelicun(path, im):
     return row["Demand-Unit"], variable.cdf(numpy.array(im))
 
 
-def damaged(path, demand, im, sample_size=20_000):
+def damaged(path, block, demand, im, sample_size=20_000):
     """The share of damaged components in a whole assessment."""
-    row = pandas.read_csv(path, index_col=0).iloc[0]
+    row = pandas.read_csv(path, index_col=0).loc[block]
     run = Assessment({"PrintLog": False, "Seed": 1, "Verbose": False})
     name = f"{demand}-0-1"
     unit = row["Demand-Unit"]
@@ -97,47 +105,90 @@ def damaged(path, demand, im, sample_size=20_000):
     return float(found.loc[:, states == "1"].sum(axis=1).mean())
 
 
-def main():
+def compare(folder, name, nrml_file, library, fitted, metres, measure):
+    """The largest error of both readers; `metres` is the number of g or m/s
+    that makes a dimensionless intensity of 1."""
+    pga = measure == "PGA"
+    units = numpy.linspace(0.05, 12, 40)
+    expected = numpy.array([
+        truth(fitted, metres, x * metres) for x in units])
+    imt, function = openquake(folder / nrml_file)[name]
+    assert imt == measure, imt
+    percent = 1 if pga else 100
+    error = abs(function(units * metres * percent) - expected).max()
+    unit, found = pelicun(folder / library, name, units * metres)
+    assert unit == ("g" if pga else "mps"), unit
+    other = abs(found - expected).max()
+    print(f"{name}, {measure}: openquake {error:.1e}, pelicun {other:.1e}")
+    # Four standard errors of 20,000 draws.
+    x = 3.0 * metres
+    share = damaged(folder / library, name, measure, x)
+    p = truth(fitted, metres, x)
+    bound = TOLERANCE + 4 * math.sqrt(p * (1 - p) / 20_000)
+    print(f"{name}, {measure}: assessment {share:.5f}, expected {p:.5f}")
+    assert abs(share - p) < bound, (share, p)
+    return max(error, other)
+
+
+def single(folder):
+    """One block, each measure, with a shift and without."""
+    (folder / "sample.txt").write_text("\n".join(SAMPLE) + "\n")
+    threshold = math.tan(ALPHA)
     worst = 0.0
-    with tempfile.TemporaryDirectory() as folder:
-        folder = Path(folder)
-        (folder / "sample.txt").write_text("\n".join(SAMPLE) + "\n")
-        threshold = math.tan(ALPHA)
-        for measure, shift in [
-                ("pga", "0"), ("pga", "1"), ("pgv", "0"), ("pgv", "0.4")]:
-            fitted = json.loads(rocking(folder, "--shift", shift, "--json"))
-            block = ["--shift", shift, "--im", measure, "--alpha", str(ALPHA),
-                     "--p", str(P)]
-            pga = measure == "pga"
-            metres = threshold if pga else threshold * GRAVITY / P
-            name = f"{measure}-{shift}"
-            rocking(folder, *block, "--export", "nrml", "--out",
-                    f"{name}.xml")
-            rocking(folder, *block, "--export", "pelicun", "--out",
-                    f"{name}.csv")
-            library = json.loads((folder / f"{name}.json").read_text())
-            assert len(library) == 1
-            units = numpy.linspace(0.05, 12, 40)
-            expected = numpy.array([
-                truth(fitted, metres, x * metres) for x in units])
-            percent = 1 if pga else 100
-            imt, found = openquake(
-                folder / f"{name}.xml", units * metres * percent)
-            assert imt == measure.upper(), imt
-            error = abs(found - expected).max()
-            unit, found = pelicun(folder / f"{name}.csv", units * metres)
-            assert unit == ("g" if pga else "mps"), unit
-            other = abs(found - expected).max()
-            print(f"{name}: openquake {error:.1e}, pelicun {other:.1e}")
-            worst = max(worst, error, other)
-            # Four standard errors of 20,000 draws.
-            x = 3.0 * metres
-            share = damaged(folder / f"{name}.csv", imt, x)
-            p = truth(fitted, metres, x)
-            bound = TOLERANCE + 4 * math.sqrt(p * (1 - p) / 20_000)
-            print(f"{name}: assessment {share:.5f}, expected {p:.5f}")
-            assert abs(share - p) < bound, (share, p)
-    assert worst < TOLERANCE, worst
+    for measure, shift in [
+            ("pga", "0"), ("pga", "1"), ("pgv", "0"), ("pgv", "0.4")]:
+        sample = ["--sample", "sample.txt", "--shift", shift]
+        fitted = json.loads(rocking(folder, *sample, "--json"))
+        block = ["--im", measure, "--alpha", str(ALPHA), "--p", str(P)]
+        files = "block.xml", "block.csv"
+        for form, file in zip(["nrml", "pelicun"], files):
+            rocking(folder, *sample, *block, "--id", "block", "--export",
+                    form, "--out", file)
+        library = json.loads((folder / "block.json").read_text())
+        assert list(library) == ["block"]
+        pga = measure == "pga"
+        metres = threshold if pga else threshold * GRAVITY / P
+        worst = max(worst, compare(
+            folder, "block", *files, fitted, metres, measure.upper()))
+    return worst
+
+
+def of_readme(mark):
+    """The fenced block after a mark in the README."""
+    after = (ROOT / "README.md").read_text().split(mark)[1]
+    return after.split("```")[1].partition("\n")[2]
+
+
+def tour(folder):
+    """The README's tour, on the three recorded pairs that are shipped."""
+    shutil.copy(ROOT / "fixtures/records/ridgecrest.zip",
+                folder / "records.zip")
+    for name in ["objects.csv", "hazard.csv"]:
+        (folder / name).write_text(of_readme(f"<!-- tour: {name} -->"))
+    path = os.pathsep.join([str(BINARY.parent), os.environ["PATH"]])
+    subprocess.run(
+        ["bash", "-e", "-c", of_readme("<!-- tour -->")], cwd=folder,
+        check=True, capture_output=True, env={**os.environ, "PATH": path})
+    worst = 0.0
+    with (folder / "objects.csv").open() as file:
+        objects = list(csv.DictReader(file))
+    assert len(objects) == len(openquake(folder / "objects.xml")) == 3
+    for row in objects:
+        fitted = json.loads(rocking(
+            folder, "--sample", row["sample"], "--shift", "1", "--json"))
+        # tan alpha is width over height.
+        metres = float(row["width_m"]) / float(row["height_m"])
+        worst = max(worst, compare(
+            folder, row["id"], "objects.xml", "fragility.csv", fitted,
+            metres, "PGA"))
+    return worst
+
+
+def main():
+    for each in [single, tour]:
+        with tempfile.TemporaryDirectory() as folder:
+            worst = each(Path(folder))
+        assert worst < TOLERANCE, worst
 
 
 if __name__ == "__main__":

@@ -110,6 +110,12 @@ fn an_export_that_would_be_wrong_is_refused_and_writes_nothing() {
         "beside",
     );
     refused(&place, &format!("{one} --alpha 0.1 --p 3"), "--export");
+    let band = format!("{one} --bootstrap 20 --band 2,3 --band-csv x.csv");
+    for flags in ["--out x.csv", "--out x.csv --id a"] {
+        let told = "--out is not used without --export";
+        refused(&place, &format!("{band} {flags}"), told);
+    }
+    assert!(!place.join("x.csv").exists());
     // A sample without a head does not say its measure.
     fs::write(place.join("bare.txt"), "1.4\n1.8\n2.5\n").unwrap();
     let bare = "fragility --sample bare.txt --alpha 0.1 --p 3";

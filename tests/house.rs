@@ -38,6 +38,25 @@ const CORE: Edges = &[
     ("units", &[]),
 ];
 
+/// The modules of the texts that other programs read.
+const EXCHANGE: Edges = &[
+    ("format", &["fragility", "intensity", "table"]),
+    ("fragility", &["intensity"]),
+    ("intensity", &[]),
+    ("table", &[]),
+];
+
+/// The modules of the embedded suites.
+const SYNTHESIS: Edges = &[
+    ("near_fault", &["draws", "noise", "pair", "special"]),
+    ("ordinary", &["draws", "noise", "pair", "special"]),
+    ("pair", &["noise"]),
+    ("noise", &["draws"]),
+    ("draws", &[]),
+    ("special", &[]),
+    ("tests", &["near_fault", "ordinary", "pair"]),
+];
+
 /// The stages of the harness, the last one first.
 const HARNESS: Edges = &[
     (
@@ -46,10 +65,10 @@ const HARNESS: Edges = &[
             "curves",
             "diff",
             "draw",
-            "exchange",
             "files",
             "findings",
             "json",
+            "measure",
             "paper",
             "proof",
             "report",
@@ -76,6 +95,7 @@ const HARNESS: Edges = &[
             "curves",
             "draw",
             "findings",
+            "measure",
             "paper",
             "suites",
             "surrogate",
@@ -84,12 +104,12 @@ const HARNESS: Edges = &[
         ],
     ),
     ("draw", &["paper", "table", "words"]),
-    ("proof", &["json", "suites", "table", "words"]),
+    ("proof", &["json", "table", "words"]),
     ("surrogate", &["paper", "table"]),
     ("sweep", &["files", "suites", "table"]),
     ("findings", &["json", "paper"]),
-    ("exchange", &["paper", "table"]),
     ("suites", &["paper", "table"]),
+    ("measure", &[]),
     ("paper", &["words"]),
     ("curves", &[]),
     ("table", &[]),
@@ -99,7 +119,28 @@ const HARNESS: Edges = &[
 ];
 
 /// Each source folder with its table.
-const TREES: [(&str, Edges); 2] = [("src", CORE), ("validation/src", HARNESS)];
+const TREES: [(&str, Edges); 4] = [
+    ("src", CORE),
+    ("exchange/src", EXCHANGE),
+    ("synthesis/src", SYNTHESIS),
+    ("validation/src", HARNESS),
+];
+
+/// Libraries between the core and those who use them: manifest and sources.
+const LIBRARIES: [(&str, &[&str]); 2] = [
+    ("exchange/Cargo.toml", &["exchange/src"]),
+    ("synthesis/Cargo.toml", &["synthesis/src"]),
+];
+
+/// Folders of sources that follow the same rules.
+const SOURCES: [&str; 6] = [
+    "src",
+    "exchange/src",
+    "synthesis/src",
+    "validation/src",
+    "tests",
+    "benches",
+];
 
 /// Dependencies of the core. Whoever uses the core gets all of them.
 const CORE_DEPENDENCIES: &[&str] =
@@ -113,7 +154,7 @@ const UNSAFE: &str = "src/number/dispatch";
 const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
-const FOLDERS: &str = "src validation tests benches examples fixtures reports .ci python/src \
+const FOLDERS: &str = "src exchange synthesis validation tests benches examples fixtures reports .ci python/src \
      python/rocking python/tests python/notebooks";
 
 fn root() -> PathBuf {
@@ -281,10 +322,17 @@ fn every_dependency_is_used_and_in_the_readme() {
         .chain(core.dev_dependencies.into_keys())
         .collect();
     let core_all: Vec<String> = core.dependencies.into_keys().collect();
-    for (names, folders) in [
-        (core_all, &["src"] as &[&str]),
+    let mut packages: Vec<(Vec<String>, &[&str])> = vec![
+        (core_all, &["src"]),
         (harness_all, &["validation/src", "tests", "benches"]),
-    ] {
+    ];
+    for (path, folders) in LIBRARIES {
+        let library = manifest(path);
+        let all = library.dependencies.into_keys();
+        let all = all.chain(library.dev_dependencies.into_keys()).collect();
+        packages.push((all, folders));
+    }
+    for (names, folders) in packages {
         let words: BTreeSet<String> = sources(folders)
             .iter()
             .flat_map(|path| tokens(&read(path)))
@@ -365,12 +413,15 @@ fn every_test_file_is_a_target_and_lints_are_the_same() {
     assert_eq!(targets, on_disk);
     assert!(core.lints.is_some());
     assert!(harness.lints.is_some());
+    for (path, _) in LIBRARIES {
+        assert!(manifest(path).lints.is_some(), "{path}");
+    }
 }
 
 #[test]
 fn nothing_is_unsafe_unfinished_or_skipped() {
     let mut problems = Vec::new();
-    for path in sources(&["src", "validation/src", "tests", "benches"]) {
+    for path in sources(&SOURCES) {
         let tokens = tokens(&read(&path));
         let mut refuse = |sequence: &[&str]| {
             if holds(&tokens, sequence) {
@@ -408,10 +459,10 @@ fn the_harness_stands_on_the_public_core() {
             problems.push(format!("{path}: an oracle uses the core"));
         }
     }
-    for path in sources(&["src"]) {
+    for path in sources(&["src", "exchange/src", "synthesis/src"]) {
         let tokens = tokens(&read(&path));
         if tokens.iter().any(|token| token == "rocking_validation") {
-            problems.push(format!("{path}: the core knows the harness"));
+            problems.push(format!("{path}: a library knows the harness"));
         }
         if holds(&tokens, &["doc", "(", "hidden", ")"]) {
             problems.push(format!("{path}: public but hidden"));
@@ -427,7 +478,7 @@ fn the_program_compiles_in_no_result_of_its_own() {
     // The one pin that is an expected value, not a result.
     let expected = "/tests/pins/work-counters.csv\"";
     let (mut problems, mut seen) = (Vec::new(), 0);
-    for path in sources(&["src", "validation/src"]) {
+    for path in sources(&SOURCES[..4]) {
         let text = read(&path);
         for (at, _) in text.match_indices(concat!("incl", "ude_")) {
             let call = text[at..].split(')').next().unwrap_or_default();
@@ -446,8 +497,7 @@ fn the_program_compiles_in_no_result_of_its_own() {
 #[test]
 fn files_stay_on_one_topic() {
     let mut problems = Vec::new();
-    let folders = ["src", "validation/src", "tests", "benches", "python/src"];
-    for path in sources(&folders) {
+    for path in sources(&SOURCES).into_iter().chain(sources(&["python/src"])) {
         let lines = read(&path).lines().count();
         if lines > MOST_LINES {
             problems

@@ -16,22 +16,17 @@
 # How likely does a block overturn at a given intensity? This takes a suite of
 # records, an incremental dynamic analysis (IDA), a fit, and a file.
 #
-# The suite is the embedded one: 86 synthetic records that the command line
-# writes by `rocking suite export --out suites`. A folder of your own records
-# does as well.
+# The suite is the embedded one: 86 synthetic records. `rk.read_suite` takes a
+# folder of your own.
 
 # %%
-import json
-import os
-import subprocess
 import xml.etree.ElementTree as ET
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 import rocking as rk
 
-suite = rk.read_suite("suites/ordinary.csv")
+suite = rk.embedded_suite("ordinary")
 block = rk.Block(alpha=0.2, p=3.0)
 suite.to_pandas()[["record", "dt", "samples", "pga_g"]].head()
 
@@ -83,21 +78,15 @@ for im in rk.rank_ims(ida, suite)[:4]:
 # %% [markdown]
 # ## The file
 #
-# The command line knows the formats of OpenQuake (NRML), pelicun and PACT. It
-# takes the capacities as a sample file, one a line, and makes the same fit to
-# the last bit. The file then has intensities in g.
+# OpenQuake reads fragilities in its format NRML. A fit is dimensionless; the
+# file has this block's own PGA in g. `to_pelicun` writes a library of pelicun
+# in the same way.
 
 # %%
-rocking = os.environ.get("ROCKING_COMMAND", "rocking")
-Path("capacities.txt").write_text("\n".join(map(repr, capacities.tolist())))
-fit = [rocking, "fragility", "--sample", "capacities.txt", "--shift", "1"]
-said = subprocess.run([*fit, "--json"], check=True, capture_output=True)
-assert json.loads(said.stdout)["median"] == fragility.median
-
-size = ["--alpha", repr(block.alpha), "--p", repr(block.p)]
-file = ["--export", "nrml", "--out", "block.xml"]
-subprocess.run([*fit, "--im", "pga", *size, *file], check=True)
-print(Path("block.xml").read_text()[:500], "...")
+nrml = fragility.to_nrml(
+    block, "block.xml", im="pga", limit_state="overturning"
+)
+print(nrml[:500], "...")
 
 # %% [markdown]
 # OpenQuake has no lognormal with a shift, so the file has points, between

@@ -31,7 +31,6 @@ from distributed import Client, LocalCluster, as_completed
 
 alphas, ps = (0.1, 0.15, 0.2, 0.25), (1.5, 3.0, 4.5)
 blocks = [rk.Block(alpha=alpha, p=p) for alpha in alphas for p in ps]
-source = os.path.abspath("suites/ordinary.csv")
 
 # %% [markdown]
 # ## On this process alone
@@ -40,7 +39,7 @@ source = os.path.abspath("suites/ordinary.csv")
 # processors.
 
 # %%
-suite = rk.read_suite(source)
+suite = rk.embedded_suite("ordinary")
 alone = [rk.ida(block, suite).capacities(np.inf) for block in blocks]
 fits_alone = [rk.fit_fragility(sample, shift=1.0) for sample in alone]
 
@@ -48,7 +47,7 @@ fits_alone = [rk.fit_fragility(sample, shift=1.0) for sample in alone]
 # ## On the cluster
 #
 # The same three calls as tasks. `threads=1`, because each worker has one
-# processor. The suite is read by a task: a worker that lost it reads it again.
+# processor. The suite is made by a task: a worker that lost it makes it again.
 
 # %%
 cluster = LocalCluster(
@@ -57,7 +56,7 @@ cluster = LocalCluster(
 client = Client(cluster)
 workers = client.run(os.getpid)
 
-read = client.submit(rk.read_suite, source)
+read = client.submit(rk.embedded_suite, "ordinary")
 idas = client.map(rk.ida, blocks, suite=read, threads=1)
 samples = client.map(rk.Ida.capacities, idas, edp=np.inf)
 fits = client.map(rk.fit_fragility, samples, shift=1.0)

@@ -13,6 +13,7 @@ you have                  call
 a size                    `Block.from_dimensions`
 an array or a trace       `Record`, `Record.of`
 a file, a folder          `read_record`, `read_suite`
+none of these             `embedded_suite`
 a block and a motion      `respond`: what the block does
 many of both              `peak`, `spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
@@ -21,6 +22,7 @@ capacities                `fit_fragility`, `lilliefors`, `quantile`,
 a record                  `intensity_measures`, `rotd50`
 an IDA                    `rank_ims`
 a result                  its `to_pandas` or `to_xarray`
+a fragility               its `to_nrml` or `to_pelicun`
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
@@ -41,6 +43,7 @@ from ._inputs import (
     Pulse,
     Record,
     Suite,
+    embedded_suite,
     read_record,
     read_suite,
 )
@@ -73,6 +76,7 @@ __all__ = [
     "TestResult",
     "__version__",
     "boxplot_stats",
+    "embedded_suite",
     "fit_fragility",
     "ida",
     "intensity_measures",

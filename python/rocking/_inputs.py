@@ -20,6 +20,12 @@ Given = tuple[str, Floats | None, float, dict[str, float]]
 
 def floats(values: ArrayLike, what: str) -> Floats:
     """One-dimensional doubles; without a copy where `values` are some."""
+    if np.ma.is_masked(values):
+        # numpy would give what lies below the mask.
+        raise ValueError(
+            f"{what}: masked values, as in a gap of an ObsPy stream: expected "
+            "none"
+        )
     array = np.ascontiguousarray(values, dtype=np.float64)
     if np.ndim(values) != 1:
         found = np.ndim(values)
@@ -424,13 +430,34 @@ def read_suite(
     >>> [record.name for record in suite]
     ['first', 'second']
     """
+    both = _both(component)
+    name, records = _rocking.read_suite(path, dt, units, gravity, both)
+    return Suite(name, tuple(Record._read(*record) for record in records))
+
+
+def embedded_suite(name: str, *, component: str = "study") -> Suite:
+    """A suite of synthetic motions that needs no file.
+
+    "ordinary" has 86 pairs whose PGA, PGV, duration and response spectra
+    have the mean and the scatter of 86 recorded pairs. "pulse" has 44 pairs
+    of a published near-fault model. `component` is as in `read_suite`; the
+    study's is the first of each pair. Magnitude, distance and site are the
+    records' `attributes`.
+
+    >>> suite = embedded_suite("pulse")
+    >>> len(suite), suite[0].name, suite[0].dt
+    (44, 'pulse-01-a', 0.01)
+    """
+    records = _rocking.embedded_suite(name, _both(component))
+    return Suite(name, tuple(Record._read(*record) for record in records))
+
+
+def _both(component: str) -> bool:
     if component not in ("study", "both"):
         raise ValueError(
             f"component {component!r}: expected one of study, both"
         )
-    both = component == "both"
-    name, records = _rocking.read_suite(path, dt, units, gravity, both)
-    return Suite(name, tuple(Record._read(*record) for record in records))
+    return component == "both"
 
 
 def given(excitation: Record | Pulse) -> Given:

@@ -27,6 +27,15 @@ class Scan(TypedDict):
     certify: bool
     highest_im: float
 
+class Wanted(TypedDict):
+    block: _Block
+    im: str
+    id: str | None
+    limit_state: str
+    model: str
+    gravity: float
+    origin: str | None
+
 class Rows(TypedDict):
     sizes: NDArray[np.int64]
     im: _Floats
@@ -62,6 +71,7 @@ def read_suite(
     gravity: float,
     both: bool,
 ) -> tuple[str, list[_Read]]: ...
+def embedded_suite(name: str, both: bool) -> list[_Read]: ...
 def respond(
     block: _Block,
     excitation: _Given,
@@ -116,6 +126,9 @@ def interval(
 ) -> tuple[float, float, float]: ...
 def cdf(parameters: _Law, x: _Floats) -> _Floats: ...
 def ppf(parameters: _Law, q: _Floats) -> _Floats: ...
+def exchange(
+    format: str, law: _Law, n: int, wanted: Wanted
+) -> tuple[str, str | None]: ...
 def lilliefors(
     values: _Floats,
     log: bool,

@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _draw, _rocking
-from ._inputs import Floats, Frozen, floats, frozen
+from ._inputs import (
+    STANDARD_GRAVITY,
+    Block,
+    Floats,
+    Frozen,
+    floats,
+    frozen,
+)
+from ._outputs import replace
 
 
 def _sample(values: Any) -> Floats:
@@ -138,12 +148,130 @@ class Fragility(Frozen):
         )
         return ConfidenceInterval(low, high)
 
+    def to_nrml(
+        self,
+        block: Block,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        im: str,
+        id: str | None = None,
+        limit_state: str = "exceeded",
+        model: str = "nonlinear",
+        gravity: float = STANDARD_GRAVITY,
+        origin: str | None = None,
+    ) -> str:
+        """The fragility of one block as OpenQuake's NRML 0.5.
+
+        A fit is dimensionless. The file has the block's own PGA in g, or its
+        PGV in cm/s. OpenQuake has no lognormal with a shift: such a fit is
+        written as points, which are off by at most 5e-4 in probability.
+
+        Parameters
+        ----------
+        block : Block
+            The block whose fragility it is.
+        path : path-like
+            Where to write the text, too.
+        im : "pga" or "pgv"
+            What the sample was: PGA/(g tan alpha), or p PGV/(g tan alpha).
+        id : str
+            Name of the block in the file; from alpha and p unless given.
+            ASCII letters, digits, `_` and `:`.
+        limit_state : str
+            Name of the damage in the file.
+        model : "nonlinear" or "linearized"
+            The linearized equation has alpha in place of tan alpha.
+        gravity : float
+            In m/s2, for PGV.
+        origin : str
+            Where the fragility comes from, in words.
+
+        Returns
+        -------
+        str
+            The text, with the bytes of `rocking fragility --export nrml`.
+
+        >>> fit = fit_fragility([1.5, 2.0, 3.0], shift=1.0)
+        >>> text = fit.to_nrml(Block(alpha=0.2, p=3.0), im="pga")
+        >>> print(text.splitlines()[5])
+        <fragilityFunction id="block_a0_2_p3" format="discrete">
+        """
+        wanted = _wanted(block, im, id, limit_state, model, gravity, origin)
+        text, _ = _rocking.exchange("nrml", self._law, self.n, wanted)
+        if path is not None:
+            replace(Path(path), text)
+        return text
+
+    def to_pelicun(
+        self,
+        block: Block,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        im: str,
+        id: str | None = None,
+        limit_state: str = "exceeded",
+        model: str = "nonlinear",
+        gravity: float = STANDARD_GRAVITY,
+        origin: str | None = None,
+    ) -> tuple[str, str]:
+        """The fragility of one block as a library of pelicun.
+
+        PGA is in g, PGV in m/s. A fit with a shift is written as points.
+        `path` is that of the CSV; the JSON is written beside it, with the
+        extension .json. Parameters are as in `to_nrml`.
+
+        Returns
+        -------
+        tuple of str
+            The CSV with the parameters, and the JSON that describes them.
+
+        >>> fit = fit_fragility([1.5, 2.0, 3.0])
+        >>> table, _ = fit.to_pelicun(Block(alpha=0.2, p=3.0), im="pga")
+        >>> table.splitlines()[1].split(",")[2:7]
+        ['Peak Ground Acceleration', 'g', '0', '1', 'lognormal']
+        """
+        wanted = _wanted(block, im, id, limit_state, model, gravity, origin)
+        table, about = _rocking.exchange(
+            "pelicun", self._law, self.n, wanted
+        )
+        assert about is not None
+        if path is not None:
+            beside = Path(path).with_suffix(".json")
+            if beside == Path(path):
+                raise ValueError(
+                    f"{path}: expected a file .csv, beside which a file "
+                    ".json is written"
+                )
+            replace(Path(path), table)
+            replace(beside, about)
+        return table, about
+
     def _repr_html_(self) -> str:
         x = np.linspace(self.shift, float(self.ppf(0.98)), 100)
         words = f"median {self.median:.4g}, beta {self.beta:.4g}"
         if self.shift > 0.0:
             words += f", shift {self.shift:.4g}"
         return _draw.lines([(x, self.cdf(x))], "intensity", "P", words)
+
+
+def _wanted(
+    block: Block,
+    im: str,
+    id: str | None,
+    limit_state: str,
+    model: str,
+    gravity: float,
+    origin: str | None,
+) -> _rocking.Wanted:
+    return {
+        "block": (block.alpha, block.p),
+        "im": im,
+        "id": id,
+        "limit_state": limit_state,
+        "model": model,
+        "gravity": gravity,
+        "origin": origin,
+    }
 
 
 def fit_fragility(

@@ -6,10 +6,13 @@ use std::path::{Path, PathBuf};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
-use rocking::record::{self, Accelerogram, ReadOptions, Suite, SuiteOptions};
+use rocking::record::{
+    self, Accelerogram, AccelerogramError, ReadOptions, Suite, SuiteOptions,
+};
+use rocking_synthesis::{Pair, ordinary, pulse};
 use sha2::{Digest, Sha256};
 
-use crate::given::{refuse, unit};
+use crate::given::{choose, refuse, unit};
 
 /// Name, samples in g, interval in s, and what the file says of itself.
 type Read<'py> =
@@ -98,6 +101,34 @@ pub fn read_suite<'py>(
             to_python(py, &member.accelerogram, attributes)
         });
     Ok((suite.name().to_owned(), records.collect()))
+}
+
+/// An embedded suite, as `read_suite` gives one from files.
+#[pyfunction]
+pub fn embedded_suite<'py>(
+    py: Python<'py>,
+    name: &str,
+    both: bool,
+) -> PyResult<Vec<Read<'py>>> {
+    type Make = fn() -> Result<Vec<Pair>, AccelerogramError>;
+    let suites: [(&str, Make); 2] = [("ordinary", ordinary), ("pulse", pulse)];
+    let make = choose("suite", name, &suites)?;
+    let pairs = py.detach(make).map_err(refuse)?;
+    let mut records = Vec::new();
+    for Pair { components, scenario, .. } in &pairs {
+        let kept = if both { &components[..] } else { &components[..1] };
+        for component in kept {
+            let known = scenario.columns();
+            let known = known.map(|(key, text)| (key.to_owned(), text));
+            let mut attributes = BTreeMap::from(known);
+            let pair = component.name().rsplit_once('-');
+            attributes.extend(
+                pair.map(|(pair, _)| ("pair".to_owned(), pair.to_owned())),
+            );
+            records.push(to_python(py, component, attributes));
+        }
+    }
+    Ok(records)
 }
 
 fn sha256_hex(bytes: &[u8]) -> String {

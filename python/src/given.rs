@@ -51,13 +51,26 @@ pub struct Physics {
     overturn: String,
 }
 
+/// The equation of motion, as Python names it.
+pub fn model_of(name: &str) -> PyResult<Model> {
+    let models =
+        [("nonlinear", Model::Nonlinear), ("linearized", Model::Linearized)];
+    choose("model", name, &models)
+}
+
+/// Gravity in m/s2, checked.
+pub fn positive_gravity(gravity_m_s2: f64) -> PyResult<f64> {
+    if gravity_m_s2 > 0.0 && gravity_m_s2.is_finite() {
+        return Ok(gravity_m_s2);
+    }
+    Err(refuse(format!(
+        "gravity {gravity_m_s2} m/s2: expected a positive number"
+    )))
+}
+
 impl Physics {
     pub fn model(&self) -> PyResult<Model> {
-        let models = [
-            ("nonlinear", Model::Nonlinear),
-            ("linearized", Model::Linearized),
-        ];
-        choose("model", &self.model, &models)
+        model_of(&self.model)
     }
 
     pub fn overturning(&self) -> PyResult<Overturning> {
@@ -230,12 +243,7 @@ pub fn samples<'py>(
     units: &str,
     gravity: f64,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    if !(gravity > 0.0 && gravity.is_finite()) {
-        let text =
-            format!("gravity {gravity} m/s2: expected a positive number");
-        return Err(refuse(text));
-    }
-    let per_gravity = unit(units)?.per_gravity(gravity);
+    let per_gravity = unit(units)?.per_gravity(positive_gravity(gravity)?);
     let samples: Vec<f64> =
         acc.as_slice()?.iter().map(|a| a / per_gravity).collect();
     let record = Accelerogram::try_new("", dt, samples).map_err(refuse)?;

@@ -3,6 +3,7 @@
 //! Functions on numbers and numpy arrays; `python/rocking` makes the objects
 //! that people see of them. Errors carry the core's text.
 
+mod exchange;
 mod files;
 mod given;
 mod ida;
@@ -28,6 +29,7 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(given::pulse, m)?)?;
     m.add_function(wrap_pyfunction!(files::read_record, m)?)?;
     m.add_function(wrap_pyfunction!(files::read_suite, m)?)?;
+    m.add_function(wrap_pyfunction!(files::embedded_suite, m)?)?;
     m.add_function(wrap_pyfunction!(mechanics::respond, m)?)?;
     m.add_function(wrap_pyfunction!(peak::peak, m)?)?;
     m.add_function(wrap_pyfunction!(ida::ida, m)?)?;
@@ -39,6 +41,7 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(statistics::interval, m)?)?;
     m.add_function(wrap_pyfunction!(statistics::cdf, m)?)?;
     m.add_function(wrap_pyfunction!(statistics::ppf, m)?)?;
+    m.add_function(wrap_pyfunction!(exchange::exchange, m)?)?;
     m.add_function(wrap_pyfunction!(statistics::lilliefors, m)?)?;
     m.add_function(wrap_pyfunction!(statistics::quantile, m)?)?;
     m.add_function(wrap_pyfunction!(statistics::boxplot, m)?)?;

@@ -44,7 +44,7 @@ def run_python(folder: Path, *arguments: object) -> str:
 
 @pytest.mark.parametrize("readme", ["README.md", "../README.md"])
 def test_the_python_of_the_readme_runs(
-    readme: str, suites: Path, tmp_path: Path
+    readme: str, tmp_path: Path
 ) -> None:
     text = (PACKAGE / readme).read_text()
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
@@ -52,7 +52,6 @@ def test_the_python_of_the_readme_runs(
     for name in ("xarray", "distributed"):
         if f"{name} import" in text or f"import {name}" in text:
             pytest.importorskip(name)
-    (tmp_path / "suites").symlink_to(suites)
     for number, code in enumerate(blocks):
         script = tmp_path / f"block-{number}.py"
         script.write_text(code)

@@ -1,6 +1,7 @@
 """Objects of other packages, by their shape."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -20,6 +21,42 @@ def test_an_obspy_trace_is_a_record() -> None:
 def test_an_eqsig_signal_is_a_record() -> None:
     signal = SimpleNamespace(values=ACC, dt=0.01, label="one")
     assert rk.Record.of(signal, units="m/s2") == SAME
+
+
+def test_a_trace_of_obspy_itself_is_a_record() -> None:
+    obspy: Any = pytest.importorskip("obspy")
+    header = {"sampling_rate": 100.0, "network": "CI", "station": "CCC"}
+    trace = obspy.Trace(ACC.copy(), {**header, "channel": "HNE"})
+    record = rk.Record.of(trace, units="m/s2")
+    assert record.name == "CI.CCC..HNE"
+    assert (record.dt, record.acc_g.tolist()) == (0.01, SAME.acc_g.tolist())
+    # Counts are whole numbers in four bytes.
+    counts = obspy.Trace(np.array([0, 2, -1], dtype=np.int32), header)
+    found = rk.Record.of(counts, units="g", name="counts")
+    assert found.acc_g.tolist() == [0.0, 2.0, -1.0]
+
+
+def test_a_gap_in_a_trace_of_obspy_is_refused() -> None:
+    obspy: Any = pytest.importorskip("obspy")
+    header = {"sampling_rate": 100.0, "station": "CCC"}
+    later = {**header, "starttime": obspy.UTCDateTime(0) + 0.1}
+    stream = obspy.Stream(
+        [obspy.Trace(ACC.copy(), header), obspy.Trace(ACC.copy(), later)]
+    )
+    [gap] = stream.merge()
+    assert np.ma.is_masked(gap.data)
+    with pytest.raises(ValueError, match="masked"):
+        rk.Record.of(gap, units="m/s2")
+
+
+def test_a_signal_of_eqsig_itself_is_a_record() -> None:
+    eqsig: Any = pytest.importorskip("eqsig")
+    signal = eqsig.AccSignal(ACC.copy(), 0.01, label="one")
+    record = rk.Record.of(signal, units="m/s2")
+    assert record == SAME
+    # eqsig integrates from rest by the same trapezoid.
+    pgv_m_s = rk.intensity_measures(record)["pgv_m_s"]
+    assert pgv_m_s == pytest.approx(abs(signal.velocity).max(), rel=1e-12)
 
 
 def test_a_pandas_series_of_seconds_or_of_time_steps_is_a_record() -> None:

@@ -25,15 +25,11 @@ def test_no_notebook_is_left_out() -> None:
 @pytest.mark.parametrize("name", NOTEBOOKS)
 def test_a_notebook_runs_and_draws(
     name: str,
-    suites: Path,
-    program: Path,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     if name == "sweep_on_dask":
         pytest.importorskip("distributed")
-    (tmp_path / "suites").symlink_to(suites)
-    monkeypatch.setenv("ROCKING_COMMAND", str(program))
     monkeypatch.setenv("JUPYTER_RUNTIME_DIR", str(tmp_path / "runtime"))
     notebook = jupytext.read(FOLDER / f"{name}.py")
     runner = nbclient.NotebookClient(

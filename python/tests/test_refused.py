@@ -32,6 +32,14 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
         lambda: rk.Pulse("one-sine", amplitude_g=1.0, omega=1.0, gamma=1.0),
         "has no use for gamma",
     ),
+    (
+        lambda: rk.embedded_suite("near"),
+        'suite "near": expected one of ordinary, pulse',
+    ),
+    (
+        lambda: rk.embedded_suite("pulse", component="b"),
+        "component 'b': expected one of study, both",
+    ),
     (lambda: rk.respond(BLOCK, PULSE, eta=1.1), "restitution 1.1"),
     (lambda: rk.respond(BLOCK, PULSE, im=1.0, scale=1.0), "at most one"),
     (lambda: rk.respond(BLOCK, PULSE, im=-1.0), "im -1: expected"),

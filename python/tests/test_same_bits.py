@@ -29,6 +29,25 @@ def test_an_ida_has_the_bits_of_the_command_line(
             assert found[name].tolist() == [float(x) for x in column], name
 
 
+@pytest.mark.parametrize("name", ["ordinary", "pulse"])
+@pytest.mark.parametrize("component", ["study", "both"])
+def test_an_embedded_suite_is_what_the_command_line_exports(
+    name: str, component: str, suites: Path
+) -> None:
+    read = rk.read_suite(suites / f"{name}.csv", component=component)
+    own = rk.embedded_suite(name, component=component)
+    assert own.name == name == read.name
+    count = {"ordinary": 86, "pulse": 44}[name]
+    assert len(own) == len(read) == count * (1 + (component == "both"))
+    assert [r.name for r in own] == [r.name for r in read]
+    for record, other in zip(own, read):
+        assert record.dt == other.dt
+        assert record.acc_g.tolist() == other.acc_g.tolist()
+        assert set(record.attributes) > {"mw", "rrup_km", "pair"}
+        for key, text in record.attributes.items():
+            assert other.attributes[key] == text, key
+
+
 def test_capacities_and_a_fragility_have_the_bits_of_the_command_line(
     ida: rk.Ida, command: Command, suites: Path, tmp_path: Path
 ) -> None:

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use rocking::record::{Accelerogram, ReadOptions};
-use rocking_validation::suites::{inputs, synthesis};
+use rocking_validation::suites::inputs;
 
 use super::folder;
 
@@ -25,8 +25,8 @@ fn exported_suites_are_read_back_bit_for_bit() {
         rocking(&folder, &["suite", "export", "--out", "out"]);
     assert_eq!((status, error.as_str()), (0, ""));
     let suites = [
-        ("ordinary", synthesis::ordinary().unwrap()),
-        ("pulse", synthesis::pulse().unwrap()),
+        ("ordinary", rocking_synthesis::ordinary().unwrap()),
+        ("pulse", rocking_synthesis::pulse().unwrap()),
     ];
     for (name, pairs) in suites {
         let path = folder.join("out").join(format!("{name}.csv"));

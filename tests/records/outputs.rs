@@ -128,6 +128,40 @@ fn an_input_is_never_an_output() {
     assert!(error.contains("1.0e11 levels up to the highest IM"), "{error}");
 }
 
+#[cfg(unix)]
+#[test]
+fn two_outputs_never_go_to_one_file() {
+    let folder = folder("two-outputs", &[("x.AT2", AT2.as_bytes())]);
+    std::fs::write(folder.join("old"), "old").unwrap();
+    std::os::unix::fs::symlink("old", folder.join("link")).unwrap();
+    std::os::unix::fs::symlink("new", folder.join("dangling")).unwrap();
+    // It would take an hour.
+    let ida = format!("{IDA} --suite x.AT2 --step-im 1e-5");
+    let respond = "respond --alpha 0.1 --p 3 --record x.AT2";
+    for (one, other) in [
+        ("old", "old"),
+        ("old", "link"),
+        ("new", "./new"),
+        ("new", "dangling"),
+        ("-", "-"),
+    ] {
+        for command in [
+            format!("{ida} --out {one} --forces {other}"),
+            format!("{respond} --history {one} --plot {other}"),
+        ] {
+            let (status, out, error) = rocking(&folder, &command, "");
+            assert_eq!((status, out.as_str()), (2, ""), "{command}");
+            let told = format!(
+                "cannot write {other}: another output goes there: expected \
+                 a file of its own"
+            );
+            assert!(error.contains(&told), "{command}: {error}");
+        }
+    }
+    assert_eq!(std::fs::read(folder.join("old")).unwrap(), b"old");
+    assert!(!folder.join("new").exists());
+}
+
 /// From one record to a fragility, through pipes.
 #[test]
 fn tables_and_samples_know_what_they_are() {

@@ -63,28 +63,97 @@ enum Sink {
     },
 }
 
-impl Output {
-    /// Opens `path` for a result that is made of the files `inputs`.
+/// The outputs of one command: none of them is a file that it reads, and no
+/// two of them go to one place.
+///
+/// ```
+/// use std::path::Path;
+/// use rocking_validation::files::Outputs;
+/// let mut outputs = Outputs::default();
+/// assert!(outputs.open(Path::new("-"))?.is_standard());
+/// let twice = outputs.open(Path::new("-")).unwrap_err().to_string();
+/// assert!(twice.contains("another output goes there"));
+/// # Ok::<(), rocking_validation::files::WriteError>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct Outputs {
+    inputs: Vec<PathBuf>,
+    /// Where those opened so far go.
+    taken: Vec<Place>,
+}
+
+/// Where an output goes that nothing else may go to: a device or a pipe
+/// keeps nothing that could be lost.
+#[derive(Debug, PartialEq, Eq)]
+enum Place {
+    Standard,
+    File(PathBuf),
+}
+
+impl Place {
+    fn of(sink: &Sink) -> io::Result<Option<Self>> {
+        Ok(match sink {
+            Sink::Standard => Some(Self::Standard),
+            Sink::Stream(_) => None,
+            Sink::File { target, .. } => {
+                let folder = fs::canonicalize(folder_of(target))?;
+                let name = target.file_name().unwrap_or_default();
+                Some(Self::File(folder.join(name)))
+            }
+        })
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::File(a), Self::File(b)) => a == b || is_same_file(a, b),
+            _ => self == other,
+        }
+    }
+}
+
+impl Outputs {
+    /// Outputs of a command that reads the files `inputs`.
+    #[must_use]
+    pub fn of(inputs: Vec<PathBuf>) -> Self {
+        Self { inputs, taken: Vec::new() }
+    }
+
+    /// Opens `path`.
     ///
     /// # Errors
-    /// [`WriteError`] for a folder, a place that cannot be written to, and
-    /// one of `inputs`.
-    pub fn open(path: &Path, inputs: &[PathBuf]) -> Result<Self, WriteError> {
-        let sink = Sink::open(path, inputs).map_err(WriteError::at(path))?;
-        Ok(Self { path: path.to_owned(), sink })
+    /// [`WriteError`] for a folder, a place that cannot be written to, a file
+    /// that is read, and the place of another output.
+    pub fn open(&mut self, path: &Path) -> Result<Output, WriteError> {
+        let sink = self.sink(path).map_err(WriteError::at(path))?;
+        Ok(Output { path: path.to_owned(), sink })
     }
 
     /// Opens `path`, where a place is given.
     ///
     /// # Errors
-    /// As [`Output::open`].
+    /// As [`Outputs::open`].
     pub fn open_some(
+        &mut self,
         path: Option<&PathBuf>,
-        inputs: &[PathBuf],
-    ) -> Result<Option<Self>, WriteError> {
-        path.map(|path| Self::open(path, inputs)).transpose()
+    ) -> Result<Option<Output>, WriteError> {
+        path.map(|path| self.open(path)).transpose()
     }
 
+    fn sink(&mut self, path: &Path) -> io::Result<Sink> {
+        let sink = Sink::open(path, &self.inputs)?;
+        if let Some(place) = Place::of(&sink)? {
+            if self.taken.iter().any(|other| place.is(other)) {
+                return Err(io::Error::other(
+                    "another output goes there: expected a file of its own",
+                ));
+            }
+            self.taken.push(place);
+        }
+        Ok(sink)
+    }
+}
+
+impl Output {
     /// Whether it is standard output.
     #[must_use]
     pub fn is_standard(&self) -> bool {
@@ -281,12 +350,12 @@ fn unfinished(folder: &Path) -> Vec<PathBuf> {
 /// Writes one file whole or not at all, of which nothing is read.
 ///
 /// # Errors
-/// As [`Output::open`] and [`Output::write`].
+/// As [`Outputs::open`] and [`Output::write`].
 pub fn write_atomically(
     path: &Path,
     content: impl AsRef<[u8]>,
 ) -> Result<(), WriteError> {
-    Output::open(path, &[])?.write(content)
+    Outputs::default().open(path)?.write(content)
 }
 
 #[cfg(test)]

@@ -3,15 +3,13 @@
 //! Everything here stands on the core's public interface alone. It is built
 //! in stages, each of which uses those below it alone: [`cli`], [`report`],
 //! [`diff`], [`speed`], [`study`], [`draw`], [`proof`]; at the bottom
-//! [`exchange`], [`sweep`], [`surrogate`], [`suites`], [`paper`], [`curves`],
-//! [`table`], [`files`],
-//! [`json`] and [`words`].
+//! [`sweep`], [`surrogate`], [`suites`], [`paper`], [`curves`], [`table`],
+//! [`files`], [`json`] and [`words`].
 
 pub mod cli;
 pub mod curves;
 pub mod diff;
 pub mod draw;
-pub mod exchange;
 pub mod files;
 pub mod findings;
 pub mod json;

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use rocking::block::Block;
+pub use rocking_exchange::Intensity;
 use serde::{Deserialize, Serialize};
 
 use crate::words::named;
@@ -135,27 +136,6 @@ impl Arm {
             Self::A => "A: steps of 0.01 g",
             Self::B => "B: steps of 0.01 g, first overturning bisected",
             Self::C => "C: steps of 0.02 in intensity, bisected",
-        }
-    }
-}
-
-named! {
-    /// Dimensionless intensity measure.
-    pub enum Intensity {
-        /// PGA/(g tan alpha).
-        Pga = "pga",
-        /// p PGV/(g tan alpha).
-        Pgv = "pgv",
-    }
-}
-
-impl Intensity {
-    /// The measure as the paper writes it.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Pga => "PGA/(g tan alpha)",
-            Self::Pgv => "p PGV/(g tan alpha)",
         }
     }
 }

@@ -26,6 +26,7 @@ use rocking::integrator::SceneError;
 use rocking::intensity::IntensityError;
 use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
+use rocking::statistics::lognormal::LognormalError;
 use rocking::statistics::paired::PairedError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
@@ -64,6 +65,9 @@ pub enum StudyError {
     /// A box that reaches infinity.
     #[error(transparent)]
     Boxplot(#[from] BoxplotError),
+    /// A fragility that a change of unit makes none.
+    #[error(transparent)]
+    Lognormal(#[from] LognormalError),
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),

@@ -3,7 +3,6 @@
 pub mod export;
 pub mod inputs;
 pub mod remarks;
-pub mod synthesis;
 
 use crate::paper::SuiteKind;
 use std::fmt;
@@ -13,12 +12,12 @@ use rocking::record::{
     Accelerogram, AccelerogramError, Processing, ProcessingError, ReadOptions,
     SuiteError,
 };
+use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
 use thiserror::Error;
 
 use inputs::{hex, read_suite};
 use remarks::Remarks;
-use synthesis::Pair;
 
 /// Why a suite of the study could not be had.
 #[derive(Debug, Error)]
@@ -122,13 +121,13 @@ impl StudySuite {
         Ok([
             of(
                 SuiteKind::Ordinary,
-                synthesis::ORDINARY_SEED,
-                synthesis::ordinary()?,
+                rocking_synthesis::ORDINARY_SEED,
+                rocking_synthesis::ordinary()?,
             ),
             of(
                 SuiteKind::PulseType,
-                synthesis::PULSE_SEED,
-                synthesis::pulse()?,
+                rocking_synthesis::PULSE_SEED,
+                rocking_synthesis::pulse()?,
             ),
         ])
     }

@@ -1,86 +1,9 @@
-//! Tables: as CSV text (one header line, long format, stable bytes), and
-//! as a page shows them.
+//! Tables: as CSV text, which [`rocking_exchange::table`] writes, and as a
+//! page shows them.
 
-/// Rows under one header line, as CSV.
-///
-/// ```
-/// use rocking_validation::table::{Table, number};
-/// let mut table = Table::new(&["record", "im"]);
-/// table.row([String::from("A, B"), number(1.0 / 3.0)]);
-/// assert_eq!(table.finish(), "record,im\n\"A, B\",0.333333333\n");
-/// ```
-pub struct Table {
-    csv: csv::Writer<Vec<u8>>,
-}
-
-impl Table {
-    /// A table with this header line, whose cells need no quotes.
-    #[must_use]
-    pub fn headed(line: &str) -> Self {
-        Self::new(&line.split(',').collect::<Vec<_>>())
-    }
-
-    /// A table with the cells of its header line.
-    #[must_use]
-    pub fn new(header: &[&str]) -> Self {
-        let mut csv = csv::WriterBuilder::new();
-        let mut table = Self { csv: csv.flexible(true).from_writer(vec![]) };
-        table.row(header);
-        table
-    }
-
-    /// Adds a row; a cell with a comma, a quote or a line break is quoted.
-    pub fn row<C: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = C>) {
-        // Writing to memory cannot fail, and rows may differ in length.
-        let _ = self.csv.write_record(cells);
-    }
-
-    /// The CSV text.
-    #[must_use]
-    pub fn finish(self) -> String {
-        // Only text was written.
-        let bytes = self.csv.into_inner().unwrap_or_default();
-        String::from_utf8(bytes).unwrap_or_default()
-    }
-}
-
-/// A number as a cell: nine significant digits at most, `inf` or `-inf`,
-/// empty where there is none (NaN).
-#[must_use]
-pub fn number(x: f64) -> String {
-    digits(x, 9)
-}
-
-/// A coordinate of a curve as a cell: five digits place it to less than a
-/// hundredth of a pixel.
-#[must_use]
-pub fn point(x: f64) -> String {
-    digits(x, 5)
-}
-
-/// A number as a cell with at most `digits` significant digits.
-#[must_use]
-pub fn digits(x: f64, digits: usize) -> String {
-    if x.is_nan() {
-        return String::new();
-    }
-    if x.is_infinite() {
-        return String::from(if x > 0.0 { "inf" } else { "-inf" });
-    }
-    let rounded = format!("{x:.0$e}", digits.saturating_sub(1));
-    match rounded.parse::<f64>() {
-        Ok(0.0) => String::from("0"),
-        Ok(y) if (1e-5..1e15).contains(&y.abs()) => y.to_string(),
-        Ok(y) => format!("{y:e}"),
-        Err(_) => rounded,
-    }
-}
-
-/// A number that may be missing, as a cell.
-#[must_use]
-pub fn optional(x: Option<f64>) -> String {
-    x.map_or_else(String::new, number)
-}
+pub use rocking_exchange::table::{
+    Table, cells, digits, number, optional, point,
+};
 
 /// A table with its title.
 #[derive(Debug, Clone, Default)]
@@ -115,13 +38,4 @@ impl PlainTable {
             rows: lines.collect(),
         }
     }
-}
-
-/// Cells of a line of CSV; a quoted cell has no line break in it.
-#[must_use]
-pub fn cells(line: &str) -> Vec<String> {
-    let mut reader = csv::ReaderBuilder::new();
-    let mut reader = reader.has_headers(false).from_reader(line.as_bytes());
-    let record = reader.records().next().and_then(Result::ok);
-    record.iter().flatten().map(String::from).collect()
 }

@@ -18,7 +18,7 @@ use super::measure::GroundArgs;
 use super::names::{CROSSINGS, named};
 use super::samples::SAMPLE_OF;
 use super::{Failure, print, print_json};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::measure::Measure;
 use crate::paper::Intensity;
 
@@ -225,10 +225,10 @@ fn levels(
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let measure = args.im.as_ref().unwrap_or(&Measure::Pga);
     let rule = args.point.unwrap_or(InversionRule::Median);
+    let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
+    let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
     let suite = suite(args, path, measure)?;
-    if let (Some(level), Some(out)) = (args.at, &args.out) {
-        let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
-        let out = Output::open(out, &inputs)?;
+    if let (Some(level), Some(out)) = (args.at, out) {
         let is_standard = out.is_standard();
         out.write(sample(&suite, measure, level, rule)?)?;
         if is_standard {

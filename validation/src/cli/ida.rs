@@ -27,7 +27,7 @@ use super::way::WayArgs;
 use super::{
     Failure, SOFTWARE, logged, print, print_json, progress, with_threads,
 };
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::suites::inputs::{files, read_suite};
 use crate::suites::remarks::Remarks;
 use crate::table::Table;
@@ -126,9 +126,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let read = args.reading.options(gravity_m_s2);
     let processing = args.processing.processing()?;
     let suite = read_suite(&args.suite, read)?.processed(&processing)?;
-    let inputs = files(&args.suite, &suite);
-    let out = Output::open(&args.out, &inputs)?;
-    let forces_out = Output::open_some(args.forces.forces.as_ref(), &inputs)?;
+    let mut outputs = Outputs::of(files(&args.suite, &suite));
+    let out = outputs.open(&args.out)?;
+    let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
     let chosen = args.chosen(&suite)?;
     let remarks = remarks_on(&chosen);
     args.reading.judge(&remarks)?;

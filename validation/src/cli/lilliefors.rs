@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 
 use super::samples::{SampleFile, Shift};
 use super::{Failure, print, print_json, progress, with_threads};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::table::Table as Csv;
 
 /// Values of a simulated sample, at most: each thread holds one.
@@ -359,7 +359,7 @@ fn to_text(assessment: &Assessment, others: &[Option<Other>; 3]) -> String {
 /// # Errors
 /// [`Failure`] if the file cannot be written.
 fn write_table(path: &Path) -> Result<(), Failure> {
-    let out = Output::open(path, &[])?;
+    let out = Outputs::default().open(path)?;
     let sizes = Table::sizes();
     let progress = progress(sizes.len() as u64);
     let mut csv =

@@ -19,7 +19,7 @@ use crate::draw::figures::{
     Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
 use crate::draw::markup;
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::measure::Measure;
 use crate::paper::Intensity;
 use crate::words::range;
@@ -130,7 +130,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     };
     let mut inputs = args.ground.inputs();
     inputs.push(args.ida.clone());
-    let plot = Output::open_some(args.plot.as_ref(), &inputs)?;
+    let mut outputs = Outputs::of(inputs);
+    let plot = outputs.open_some(args.plot.as_ref())?;
     let table = ida::read(&args.ida, Intensity::Pga)?;
     let mut capacities = Vec::new();
     for (_, curve) in &table.curves {

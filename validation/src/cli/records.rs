@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, print, print_json};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::suites::inputs;
 use crate::suites::remarks::Remarks;
 use measures::{Found, MeasureArgs};
@@ -142,8 +142,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     listing.processing = words(&processing);
     listing.remark();
-    let inputs: Vec<PathBuf> = listing.inputs.clone();
-    let plot = Output::open_some(args.plot.as_ref(), &inputs)?;
+    let mut outputs = Outputs::of(listing.inputs.clone());
+    let plot = outputs.open_some(args.plot.as_ref())?;
     if let Some(out) = plot
         && listing.refused.is_empty()
     {

@@ -16,7 +16,7 @@ use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, print, print_json};
 use crate::draw::figures::{Heading, Histories, History, HistoryPanel};
-use crate::files::Output;
+use crate::files::{Output, Outputs};
 use crate::paper::Intensity;
 use crate::suites::remarks::Remarks;
 use crate::table::Table;
@@ -74,9 +74,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let threshold = uplift_threshold(&block, args.model.model());
     let p = block.frequency_rad_s();
     let ground = args.excitation.ground(gravity_m_s2, threshold, p)?;
-    let inputs = args.excitation.inputs();
-    let history = Output::open_some(args.history.as_ref(), &inputs)?;
-    let plot = Output::open_some(args.plot.as_ref(), &inputs)?;
+    let mut outputs = Outputs::of(args.excitation.inputs());
+    let history = outputs.open_some(args.history.as_ref())?;
+    let plot = outputs.open_some(args.plot.as_ref())?;
     let (excitation, initial_ratio) = match &ground {
         Ground::Factor(record, factor, _) => {
             let scaled = ScaledRecord::by_factor(record, *factor);

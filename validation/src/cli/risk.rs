@@ -10,6 +10,7 @@ use rocking::integrator::Model;
 use rocking::statistics::Lognormal;
 use rocking::statistics::lognormal::FitMethod;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::unit_intensity;
 use serde_json::{Value, json};
 
 use super::fragility::limits::Limited;
@@ -17,7 +18,6 @@ use super::names::{INTENSITIES, named};
 use super::samples::{Opened, SampleFile, Shift};
 use super::scene::BlockArgs;
 use super::{Failure, print, print_json};
-use crate::exchange::unit_intensity;
 use crate::paper::Intensity;
 
 /// Mean annual frequency of overturning, or of exceeding a demand, from a

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::{Failure, print, print_json, progress};
 use crate::curves::Execution;
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::paper::BLOCKS;
 use crate::speed::answers::Answer;
 use crate::speed::cases::{self, Case};
@@ -101,8 +101,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         return Ok(());
     }
-    let out = Output::open_some(args.out.as_ref(), &args.answers)?;
-    let table = Output::open_some(args.throughput.as_ref(), &args.answers)?;
+    let mut outputs = Outputs::of(args.answers.clone());
+    let out = outputs.open_some(args.out.as_ref())?;
+    let table = outputs.open_some(args.throughput.as_ref())?;
     let cases = with_references(cases)?;
     let bar = progress(((ORDERS.len() + 1) * cases.len()) as u64);
     let (_, rows) = on_threads(1, || singles::measure(&cases, || bar.inc(1)))?;

@@ -12,7 +12,7 @@ use super::capacities::{Levels, ida};
 use super::fragility::COUNTS;
 use super::names::{INTENSITIES, named};
 use super::{Failure, print, print_json};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::json;
 use crate::paper::Intensity;
 use crate::table::Table;
@@ -73,6 +73,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--at: expected a positive number, or inf",
         ));
     }
+    let mut outputs = Outputs::of(vec![args.ida.clone()]);
+    let counts = outputs.open_some(args.counts.as_ref())?;
     let suite = ida::read(&args.ida, args.im)?;
     let curves = suite.curves.into_iter().map(|(_, curve)| curve);
     let curves: Vec<ResponseCurve> = curves.collect();
@@ -80,8 +82,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for &im in &args.levels.0 {
         stripes.push(stripe(&curves, im, args.at)?);
     }
-    if let Some(path) = &args.counts {
-        let out = Output::open(path, std::slice::from_ref(&args.ida))?;
+    if let Some(out) = counts {
         let is_standard = out.is_standard();
         let mut table = Table::new(&COUNTS);
         for s in &stripes {

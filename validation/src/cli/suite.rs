@@ -8,8 +8,8 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, print};
 use crate::files::Folder;
+use crate::suites::export;
 use crate::suites::inputs::read_suite;
-use crate::suites::{export, synthesis};
 
 /// Suites of records as files.
 #[derive(clap::Args)]
@@ -77,8 +77,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                      suites need no correction"
                 )));
             }
-            add("ordinary", export::pairs(&synthesis::ordinary()?))?;
-            add("pulse", export::pairs(&synthesis::pulse()?))?;
+            add("ordinary", export::pairs(&rocking_synthesis::ordinary()?))?;
+            add("pulse", export::pairs(&rocking_synthesis::pulse()?))?;
         }
     }
     let folder = Folder::open_new(&args.out)?;

@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::{Failure, print, print_json};
 use crate::diff::{self, Results};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::proof::cases::{Case, Cost, FAMILIES, load_all};
 use crate::proof::methods::{digits, digits_csv};
 use crate::proof::verdict::{Outcome, Verdict, run_all, snapshot};
@@ -52,9 +52,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                     folder.display()
                 ))
             })?;
+            let mut outputs = Outputs::default();
             Some([
-                Output::open(&folder.join("validation.json"), &[])?,
-                Output::open(&folder.join("precision.csv"), &[])?,
+                outputs.open(&folder.join("validation.json"))?,
+                outputs.open(&folder.join("precision.csv"))?,
             ])
         }
         _ => None,

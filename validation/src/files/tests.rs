@@ -25,12 +25,12 @@ fn names(folder: &Path) -> Vec<String> {
 fn a_file_is_old_until_it_is_new() {
     let root = folder();
     let path = root.path().join("a.csv");
-    let output = Output::open(&path, &[]).unwrap();
+    let output = Outputs::default().open(&path).unwrap();
     assert!(!path.exists());
     drop(output);
     assert!(names(root.path()).is_empty(), "nothing is left of a failure");
     write_atomically(&path, "old").unwrap();
-    let output = Output::open(&path, &[]).unwrap();
+    let output = Outputs::default().open(&path).unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"old");
     output.write("new").unwrap();
     assert_eq!(fs::read(&path).unwrap(), b"new");
@@ -39,7 +39,7 @@ fn a_file_is_old_until_it_is_new() {
     let long = root.path().join("x".repeat(251) + ".csv");
     write_atomically(&long, "y").unwrap();
     for bad in [root.path().to_owned(), root.path().join("no/such/a.csv")] {
-        assert!(Output::open(&bad, &[]).is_err());
+        assert!(Outputs::default().open(&bad).is_err());
     }
 }
 
@@ -81,11 +81,54 @@ fn what_is_read_is_not_written() {
     let again = root.path().join("again.csv");
     fs::hard_link(&input, &again).unwrap();
     for name in [&input, &again, &root.path().join("./in.csv")] {
-        let error =
-            Output::open(name, std::slice::from_ref(&input)).unwrap_err();
+        let mut outputs = Outputs::of(vec![input.clone()]);
+        let error = outputs.open(name).unwrap_err();
         assert!(error.to_string().contains("is read"), "{error}");
     }
     assert_eq!(fs::read(&input).unwrap(), b"data");
+}
+
+#[cfg(unix)]
+#[test]
+fn two_outputs_do_not_go_to_one_place() {
+    use std::os::unix::fs::symlink;
+    let root = folder();
+    let at = |name: &str| root.path().join(name);
+    fs::create_dir(at("sub")).unwrap();
+    fs::write(at("old"), "old").unwrap();
+    symlink("old", at("link")).unwrap();
+    fs::hard_link(at("old"), at("hard")).unwrap();
+    symlink("new", at("dangling")).unwrap();
+    symlink(".", at("here")).unwrap();
+    for (one, other) in [
+        ("old", "old"),
+        ("old", "link"),
+        ("hard", "old"),
+        ("old", "sub/../old"),
+        ("here/old", "link"),
+        ("new", "new"),
+        ("new", "sub/../new"),
+        ("new", "dangling"),
+        ("dangling", "here/new"),
+    ] {
+        let mut outputs = Outputs::default();
+        let first = outputs.open(&at(one)).unwrap();
+        let error = outputs.open(&at(other)).unwrap_err().to_string();
+        assert!(error.starts_with("cannot write "), "{error}");
+        assert!(error.contains("another output"), "{one}, {other}: {error}");
+        // Others are free, and so is the same file for another command.
+        assert!(outputs.open(&at("sub/old")).is_ok(), "{one}, {other}");
+        drop(first);
+        assert!(Outputs::default().open(&at(other)).is_ok());
+    }
+    assert_eq!(fs::read(at("old")).unwrap(), b"old");
+    assert_eq!(names(&at("sub")), [""; 0]);
+    let mut outputs = Outputs::default();
+    assert!(outputs.open(Path::new("-")).is_ok());
+    assert!(outputs.open(Path::new("-")).is_err());
+    for _ in 0..2 {
+        assert!(outputs.open(Path::new("/dev/null")).is_ok());
+    }
 }
 
 fn files(text: &str) -> BTreeMap<String, Vec<u8>> {

@@ -6,10 +6,10 @@ use std::path::PathBuf;
 
 use rocking::record::{Accelerogram, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_synthesis::Pair;
 use thiserror::Error;
 
 use super::inputs::sha256_hex;
-use super::synthesis::Pair;
 use crate::table::Table;
 
 /// A suite that cannot be written as files.
@@ -59,20 +59,13 @@ pub fn members<'a>(suite: &'a Suite, done: Option<&str>) -> Vec<Row<'a>> {
 pub fn pairs(pairs: &[Pair]) -> Vec<Row<'_>> {
     let mut rows = Vec::with_capacity(2 * pairs.len());
     for Pair { components, scenario, .. } in pairs {
-        let reverse = scenario.reverse;
-        let mechanism = if reverse { "reverse" } else { "strike slip" };
         for (k, motion) in components.iter().enumerate() {
             let name = motion.name();
             rows.push(Row {
                 motion,
                 pair: name.rsplit_once('-').map(|(pair, _)| pair),
                 study_component: k == 0,
-                attributes: vec![
-                    ("mechanism", mechanism.to_owned()),
-                    ("mw", scenario.mw.to_string()),
-                    ("rrup_km", scenario.rrup_km.to_string()),
-                    ("vs30_m_s", scenario.vs30_m_s.to_string()),
-                ],
+                attributes: scenario.columns().to_vec(),
             });
         }
     }

@@ -17,7 +17,7 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::SweepError;
 use super::plan::{Plan, Planned};
-use crate::files::{Output, write_atomically};
+use crate::files::{Outputs, write_atomically};
 use crate::suites::inputs::sha256_hex;
 use crate::table::Table;
 
@@ -211,7 +211,9 @@ pub fn merge(
     content: Content,
     out: &Path,
 ) -> Result<(), SweepError> {
-    let output = Output::open(out, &[])?;
+    let tiles = 0..planned.plan.tiles.len();
+    let tiles = tiles.map(|tile| planned.tile_path(content, tile));
+    let output = Outputs::of(tiles.collect()).open(out)?;
     let refused = RefCell::new(None);
     let written = output.write_with(&|file| {
         for tile in 0..planned.plan.tiles.len() {

@@ -5,9 +5,9 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use rocking::block::Block;
+use rocking_exchange::Id;
 
 use crate::cli::Failure;
-use crate::exchange::Id;
 
 /// Columns that a table of blocks may have.
 const COLUMNS: [&str; 7] =

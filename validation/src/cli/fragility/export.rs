@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use rocking::block::Block;
 use rocking::integrator::Model;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::{
+    BlockFragility, Format, Id, unit, unit_intensity, unstated_origin,
+};
 use serde_json::json;
 
 use super::limits::Limited;
@@ -16,8 +19,7 @@ use crate::cli::names::{Named, named};
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
-use crate::exchange::{BlockFragility, Format, Id, unit, unit_intensity};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::paper::Intensity;
 
 /// Formats of other programs.
@@ -88,7 +90,11 @@ impl ExportArgs {
     /// # Errors
     /// [`Failure`] for a block without a format.
     pub(super) fn format(&self) -> Result<Option<Format>, Failure> {
-        match (self.export, self.block.given()) {
+        // Beside a flag that conflicts with --export, the parser lets --out
+        // pass, which requires it.
+        let out = self.out.as_ref().map(|_| "--out");
+        let given = self.block.given().or(out);
+        match (self.export, given) {
             (None, Some(flag)) => Err(Failure::input(format!(
                 "{flag} is not used without --export"
             ))),
@@ -119,8 +125,9 @@ pub(super) fn run(args: &Args, format: Format) -> Result<(), Failure> {
     let mut inputs: Vec<PathBuf> = export.blocks.iter().cloned().collect();
     inputs.extend(wanted.iter().map(|one| one.sample.clone()));
     let beside = beside(format, out)?;
-    let file = Output::open(out, &inputs)?;
-    let second = Output::open_some(beside.as_ref(), &inputs)?;
+    let mut outputs = Outputs::of(inputs);
+    let file = outputs.open(out)?;
+    let second = outputs.open_some(beside.as_ref())?;
     let mut fragilities = Vec::new();
     let mut names = BTreeSet::new();
     // Each file is read once: standard input has no second time.
@@ -225,7 +232,7 @@ fn made(
     let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
     let id = match &wanted.id {
         Some(id) => id.clone(),
-        None => Id::of(&block).to_string().parse().map_err(at)?,
+        None => Id::of(&block).map_err(at)?,
     };
     Ok(BlockFragility {
         id,
@@ -241,11 +248,7 @@ fn made(
 fn origin(file: &SampleFile, intensity: Intensity) -> String {
     let mut text = match file.of() {
         Some(of) => format!("{} capacities, {of}", file.values().len()),
-        None => format!(
-            "{} capacities in {}, response level not stated",
-            file.values().len(),
-            intensity.words()
-        ),
+        None => unstated_origin(file.values().len(), intensity),
     };
     let setting = file.setting();
     for (name, value, unit) in [

@@ -15,7 +15,7 @@ use super::limits::Limited;
 use super::{Args, Method, insert, rows, show};
 use crate::cli::samples::{SampleFile, Shift};
 use crate::cli::{Failure, print, print_json, with_threads};
-use crate::files::Output;
+use crate::files::{Output, Outputs};
 use crate::paper::Intensity;
 
 /// The fit asked for, and what the unshifted statistics give instead.
@@ -206,6 +206,8 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
                 "--bootstrap {replicates}: expected 2 to 1000000 samples"
             )));
         }
+        let mut outputs = Outputs::of(vec![path.to_owned()]);
+        let table = outputs.open_some(args.band.band_csv.as_ref())?;
         let seed = args.seed.unwrap_or(0);
         let intervals = with_threads(args.threads, || {
             bootstrap(&plan, &limited, &fits, replicates, seed)
@@ -216,7 +218,7 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
                 let drawn = (levels, replicates, seed);
                 Band::new(&plan, &limited, &fitted, drawn)
             })?;
-            return banded(args, path, out, &band);
+            return banded(args, table, out, &band);
         }
     }
     show(args, out)
@@ -225,12 +227,10 @@ pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
 /// Shows the fit with its band, and writes the band's table.
 fn banded(
     args: &Args,
-    path: &Path,
+    table: Option<Output>,
     mut out: Map<String, Value>,
     band: &Band,
 ) -> Result<(), Failure> {
-    let inputs = [path.to_owned()];
-    let table = Output::open_some(args.band.band_csv.as_ref(), &inputs)?;
     if let Some(table) = table {
         let is_standard = table.is_standard();
         table.write(band.csv())?;

@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use crate::cli::{Failure, print};
-use crate::files::Output;
+use crate::files::Outputs;
 use crate::paper::SuiteKind;
 use crate::surrogate::{self, Surrogate, SurrogateError};
 
@@ -55,7 +55,7 @@ pub struct FitArgs {
 }
 
 pub(super) fn design(args: &DesignArgs) -> Result<(), Failure> {
-    let out = Output::open(&args.out, &[])?;
+    let out = Outputs::default().open(&args.out)?;
     Ok(out.write(surrogate::design(args.first, args.blocks))?)
 }
 
@@ -69,6 +69,17 @@ pub(super) fn fit(args: &FitArgs) -> Result<(), Failure> {
         let kept = surrogate::read_table("blocks", &text)?;
         Ok((kept, text))
     };
+    std::fs::create_dir_all(&args.out)?;
+    let inputs = [
+        &args.ordinary,
+        &args.pulse,
+        &args.unseen_ordinary,
+        &args.unseen_pulse,
+    ];
+    let mut outputs = Outputs::of(inputs.map(PathBuf::clone).to_vec());
+    let mut open = |name| outputs.open(&args.out.join(name));
+    let files =
+        [open("design.csv")?, open("unseen.csv")?, open("coefficients.csv")?];
     let (blocks, design) = read(&args.ordinary, &args.pulse)?;
     let (_, unseen) = read(&args.unseen_ordinary, &args.unseen_pulse)?;
     let (models, choices) = surrogate::fit(&blocks)?;
@@ -104,13 +115,10 @@ pub(super) fn fit(args: &FitArgs) -> Result<(), Failure> {
             errors.probability.largest,
         );
     }
-    std::fs::create_dir_all(&args.out)?;
-    for (name, content) in [
-        ("design.csv", &design),
-        ("unseen.csv", &unseen),
-        ("coefficients.csv", &coefficients),
-    ] {
-        Output::open(&args.out.join(name), &[])?.write(content)?;
+    for (file, content) in
+        files.into_iter().zip([design, unseen, coefficients])
+    {
+        file.write(content)?;
     }
     print(&text)
 }

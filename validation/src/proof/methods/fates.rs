@@ -11,7 +11,6 @@ use crate::proof::engine::Core;
 use crate::proof::scene::{
     Engine as _, Forcing, Model, Overturning, PulseKind, Scene,
 };
-use crate::suites::synthesis;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -170,8 +169,8 @@ struct SuiteInput {
 pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
     let input: SuiteInput = context.input()?;
     let suite = match input.suite.as_str() {
-        "ordinary" => synthesis::ordinary(),
-        "pulse" => synthesis::pulse(),
+        "ordinary" => rocking_synthesis::ordinary(),
+        "pulse" => rocking_synthesis::pulse(),
         other => return Err(MethodError::Input(format!("suite `{other}`"))),
     };
     let suite = suite.map_err(|e| MethodError::Oracle(e.to_string()))?;

@@ -10,7 +10,6 @@ use super::wrong::scale;
 use super::{Answer, Context, MethodError};
 use crate::proof::engine::Core;
 use crate::proof::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
-use crate::suites::synthesis;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -232,8 +231,8 @@ struct BiasInput {
 /// grows with (p t)^2, t the time of uplift.
 pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
     let input: BiasInput = context.input()?;
-    let suite =
-        synthesis::pulse().map_err(|e| MethodError::Oracle(e.to_string()))?;
+    let suite = rocking_synthesis::pulse()
+        .map_err(|e| MethodError::Oracle(e.to_string()))?;
     let mut answer = Answer::default();
     let mut left = Vec::new();
     for &p in &input.frequencies_rad_s {

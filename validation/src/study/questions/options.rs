@@ -4,11 +4,14 @@
 mod drawing;
 
 use rayon::prelude::*;
+use rocking::block::Block;
 use rocking::fragility::options::{Centre, Recipe};
+use rocking::integrator::Model;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::{Pact, unit_intensity};
 
 use super::{Answer, Cell, Rows};
 use crate::paper::{
@@ -120,7 +123,7 @@ pub(super) fn answer(
     );
     answer.files = vec![
         ("options-by-block.csv".into(), by_block(&entries)),
-        ("options-pact.csv".into(), pact(&entries)),
+        ("options-pact.csv".into(), pact(&entries)?),
     ];
     answer.figures.push(drawing::figure(&summaries, arm));
     Ok(answer)
@@ -335,7 +338,7 @@ fn short(x: f64) -> String {
 
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
 /// unshifted lognormal, dimensionless and in physical units.
-fn pact(entries: &[Entry]) -> String {
+fn pact(entries: &[Entry]) -> Result<String, StudyError> {
     let mut table = Table::new(&[
         "p_rad_s",
         "alpha_rad",
@@ -353,27 +356,22 @@ fn pact(entries: &[Entry]) -> String {
         else {
             continue;
         };
-        let median = fragility.median();
-        let threshold = libm::tan(e.alpha_rad);
-        let (demand, value, unit) = match e.intensity {
-            Intensity::Pga => ("PGA", median * threshold, "g"),
-            Intensity::Pgv => (
-                "PGV",
-                median * threshold * STANDARD_GRAVITY_M_S2 / e.p_rad_s,
-                "m/s",
-            ),
-        };
+        let block = Block::try_new(e.alpha_rad, e.p_rad_s)?;
+        let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
+        let unit = unit_intensity(e.intensity, &block, model, gravity);
+        let own = fragility.scaled(unit)?;
+        let Some(told) = Pact::of(e.intensity, &own) else { continue };
         table.row([
             number(e.p_rad_s),
             number(e.alpha_rad),
             number(e.edp),
             method.to_string(),
-            demand.into(),
-            short(median),
-            short(value),
-            unit.into(),
-            short(fragility.dispersion()),
+            told.demand.into(),
+            short(fragility.median()),
+            short(told.median),
+            told.unit.into(),
+            short(told.dispersion),
         ]);
     }
-    table.finish()
+    Ok(table.finish())
 }

@@ -1,7 +1,12 @@
 //! Each trap that the readers were found to set.
 
+use rocking::block::Block;
+use rocking::integrator::Model;
+use rocking::statistics::{Lognormal, normal};
+
 use super::*;
-use rocking::statistics::normal;
+use crate::fragility::unit_intensity;
+use crate::intensity::Intensity;
 
 /// A block whose fragility in its own PGA or PGV has a shift or none.
 fn one(intensity: Intensity, shift: f64) -> BlockFragility {
@@ -10,7 +15,7 @@ fn one(intensity: Intensity, shift: f64) -> BlockFragility {
     // Ordinary records, p = 3 rad/s: median 2.51 above the shift.
     let fitted = Lognormal::try_new(shift, libm::log(2.51), 0.713).unwrap();
     BlockFragility {
-        id: Id::of(&block),
+        id: Id::of(&block).unwrap(),
         block,
         eta: Some(0.92),
         intensity,
@@ -153,10 +158,12 @@ fn names_are_those_that_every_reader_takes() {
     }
     assert!("x".repeat(75).parse::<Id>().is_ok());
     assert!("x".repeat(76).parse::<Id>().is_err());
-    let named = |alpha, p| Id::of(&Block::try_new(alpha, p).unwrap());
+    let named = |alpha, p| Id::of(&Block::try_new(alpha, p).unwrap()).unwrap();
     let id = named(0.15, 3.0);
     assert_eq!(id.to_string(), "block_a0_15_p3");
     assert_eq!(id.to_string().parse::<Id>().unwrap(), id);
+    // A name with all digits that would be too long is none.
+    assert!(Id::of(&Block::try_new(1e-90, 3.0).unwrap()).is_err());
     // Blocks that differ in the last digit have names that differ.
     assert_ne!(id, named(0.15, 3.0f64.next_up()));
 }

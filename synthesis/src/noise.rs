@@ -122,7 +122,7 @@ pub(super) fn corner_hz(mw: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::suites::synthesis::draws::Stream;
+    use crate::draws::Stream;
 
     #[test]
     fn filtered_noise_has_unit_variance_and_the_filter_frequency() {

@@ -11,8 +11,9 @@
 use rocking::fragility::points::points;
 use serde_json::{Map, json};
 
-use super::{BlockFragility, ExchangeError, Id, TOLERANCE, unit};
-use crate::paper::Intensity;
+use super::{ExchangeError, TOLERANCE};
+use crate::fragility::{BlockFragility, Id, unit};
+use crate::intensity::Intensity;
 use crate::table::{Table, number};
 
 /// Steps that pelicun tells from none.

@@ -1,12 +1,12 @@
 //! Earthquakes, sites and target spectra of the suite.
 
-use super::super::draws::{Stream, cholesky, correlate};
-use super::super::{LEAST_PGA_G, Role, Scenario, stream_index};
 use super::attenuation::{
     DRAWN, DURATION, PERIODS_S, PGV, QUANTITIES, between_components,
     between_periods, deviation, median, with_duration,
 };
 use super::moments::Conditioning;
+use crate::draws::{Stream, cholesky, correlate};
+use crate::pair::{LEAST_PGA_G, Role, Scenario, stream_index};
 
 /// Quantiles of the moment magnitude: probability, magnitude. They follow the
 /// record list, whose 22 events have Mw 6.3 to 7.62.

@@ -61,60 +61,22 @@ mod draws;
 mod near_fault;
 mod noise;
 mod ordinary;
+mod pair;
 mod special;
 
-use noise::{DT_S, settle};
-use rocking::record::{Accelerogram, AccelerogramError};
+pub use pair::{ORDINARY_SEED, PULSE_SEED, Pair, Scenario};
 
-/// Standard gravity, in m/s2.
-const GRAVITY_M_S2: f64 = 9.80665;
-
-/// Least peak ground acceleration of a component, in g.
-const LEAST_PGA_G: f64 = 0.14;
-
-/// Earthquake and site of one pair.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Scenario {
-    /// Moment magnitude.
-    pub mw: f64,
-    /// Distance to the rupture, in km.
-    pub rrup_km: f64,
-    /// Shear-wave velocity of the upper 30 m, in m/s.
-    pub vs30_m_s: f64,
-    /// Reverse faulting; strike slip otherwise.
-    pub reverse: bool,
-    /// Length of rupture towards the site, in km; zero for ordinary motions.
-    pub towards_site_km: f64,
-}
-
-/// Two horizontal components and where they came from.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Pair {
-    /// The components; the first is the one that the study uses.
-    pub components: [Accelerogram; 2],
-    /// Earthquake and site.
-    pub scenario: Scenario,
-    /// How many draws were refused before this one.
-    pub refused: u64,
-}
-
-/// What a random stream is for.
-#[derive(Clone, Copy, Debug)]
-enum Role {
-    Scenario,
-    Parameters,
-    First,
-    Second,
-}
-
-/// Name of the random streams of the ordinary suite.
-pub const ORDINARY_SEED: &str = "rocking/synthesis/ordinary/2";
-
-/// Name of the random streams of the pulse-type suite.
-pub const PULSE_SEED: &str = "rocking/synthesis/pulse/1";
+use rocking::record::AccelerogramError;
 
 /// The embedded suite of 86 ordinary pairs, named `ordinary-01-a`,
 /// `ordinary-01-b` and so on.
+///
+/// ```
+/// let pairs = rocking_synthesis::ordinary()?;
+/// assert_eq!(pairs.len(), 86);
+/// assert_eq!(pairs[0].components[1].name(), "ordinary-01-b");
+/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// ```
 ///
 /// # Errors
 /// None in practice: samples are finite by construction.
@@ -125,43 +87,16 @@ pub fn ordinary() -> Result<Vec<Pair>, AccelerogramError> {
 /// The embedded suite of 44 pulse-type pairs, named `pulse-01-a`,
 /// `pulse-01-b` and so on.
 ///
+/// ```
+/// let pairs = rocking_synthesis::pulse()?;
+/// assert_eq!(pairs.len(), 44);
+/// # Ok::<(), rocking::record::AccelerogramError>(())
+/// ```
+///
 /// # Errors
 /// None in practice: samples are finite by construction.
 pub fn pulse() -> Result<Vec<Pair>, AccelerogramError> {
     near_fault::suite()
-}
-
-/// Number of the stream of a pair, an attempt and a purpose.
-fn stream_index(pair: u64, attempt: u64, role: Role) -> u64 {
-    pair << 32 | attempt << 2 | role as u64
-}
-
-/// Both components at rest at their ends, rounded and named; `None` where
-/// one has PGA of at most 0.14 g.
-fn finished(
-    suite: &str,
-    pair: u64,
-    [mut a, mut b]: [Vec<f64>; 2],
-) -> Result<Option<[Accelerogram; 2]>, AccelerogramError> {
-    settle(&mut a);
-    settle(&mut b);
-    let a = component(suite, pair, 'a', a)?;
-    let b = component(suite, pair, 'b', b)?;
-    let strong = a.pga_g() > LEAST_PGA_G && b.pga_g() > LEAST_PGA_G;
-    Ok(strong.then_some([a, b]))
-}
-
-fn component(
-    suite: &str,
-    pair: u64,
-    letter: char,
-    samples_g: Vec<f64>,
-) -> Result<Accelerogram, AccelerogramError> {
-    Accelerogram::try_new(
-        format!("{suite}-{pair:02}-{letter}"),
-        DT_S,
-        samples_g,
-    )
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 
 use std::f64::consts::{LN_10, PI};
 
-use super::super::Scenario;
+use crate::pair::{GRAVITY_M_S2, Scenario};
 
 /// Periods of the target spectrum in s. The first stands for PGA.
 pub(super) const PERIODS_S: [f64; 14] =
@@ -106,7 +106,7 @@ pub(super) fn median(scenario: &Scenario) -> [f64; DRAWN] {
             + site * libm::log10(v / va)
             + style;
         let w = 2.0 * PI / PERIODS_S[k];
-        let to_g = w * w / (100.0 * super::super::GRAVITY_M_S2);
+        let to_g = w * w / (100.0 * GRAVITY_M_S2);
         out[k] = LN_10 * displacement_cm + libm::log(to_g);
     }
     let ln_r = 0.5 * libm::log(r * r + 2.3316 * 2.3316);

@@ -1,6 +1,8 @@
 //! Tests of the embedded suites as wholes.
 
-use super::*;
+use crate::near_fault;
+use crate::ordinary;
+use crate::pair::Pair;
 
 fn check(pairs: &[Pair], count: usize, name: &str) {
     assert_eq!(pairs.len(), count);
@@ -29,8 +31,8 @@ fn check(pairs: &[Pair], count: usize, name: &str) {
 
 #[test]
 fn suites_have_their_size_names_peaks_and_rest() {
-    check(&ordinary().expect("suite"), 86, "ordinary");
-    check(&pulse().expect("suite"), 44, "pulse");
+    check(&ordinary::suite().expect("suite"), 86, "ordinary");
+    check(&near_fault::suite().expect("suite"), 44, "pulse");
 }
 
 #[test]
@@ -40,7 +42,10 @@ fn suites_are_the_same_for_any_number_of_threads() {
             .num_threads(threads)
             .build()
             .expect("pool")
-            .install(|| [ordinary(), pulse()].map(|s| s.expect("suite")))
+            .install(|| {
+                [ordinary::suite(), near_fault::suite()]
+                    .map(|suite| suite.expect("suite"))
+            })
     };
     assert_eq!(with(1), with(3));
 }

@@ -12,12 +12,14 @@ use rocking::statistics::normal;
 use rayon::prelude::*;
 use rocking::record::AccelerogramError;
 
-use super::draws::{Stream, cholesky, correlate, dot};
-use super::noise::{
+use crate::draws::{Stream, cholesky, correlate, dot};
+use crate::noise::{
     DT_S, Filter, corner_hz, energy, filtered_noise, high_pass,
 };
-use super::special::{beta_quantile, two_sided_exponential_quantile};
-use super::{PULSE_SEED, Pair, Role, Scenario, finished, stream_index};
+use crate::pair::{
+    GRAVITY_M_S2, PULSE_SEED, Pair, Role, Scenario, finished, stream_index,
+};
+use crate::special::{beta_quantile, two_sided_exponential_quantile};
 
 /// Pairs of the suite.
 const PAIRS: u64 = 44;
@@ -329,8 +331,8 @@ pub(super) fn pair(
     let mut second = across.samples(&noise(Role::Second), scenario.mw);
     let (sin, cos) = libm::sincos(draws.uniform(0.0, 2.0 * PI));
     for (k, (a, b)) in first.iter_mut().zip(&mut second).enumerate() {
-        let with_pulse = *a
-            + pulse.acceleration_m_s2(k as f64 * DT_S) / super::GRAVITY_M_S2;
+        let with_pulse =
+            *a + pulse.acceleration_m_s2(k as f64 * DT_S) / GRAVITY_M_S2;
         let other = *b;
         *a = cos * with_pulse - sin * other;
         *b = sin * with_pulse + cos * other;

@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::RangeInclusive;
 
-use super::super::draws::Stream;
-use super::super::noise::{DT_S, corner_hz, high_pass};
-use super::super::special::gamma_quantile;
-use super::super::{GRAVITY_M_S2, Role};
 use super::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
+use crate::draws::Stream;
+use crate::noise::{DT_S, corner_hz, high_pass};
+use crate::pair::{GRAVITY_M_S2, Role};
+use crate::special::gamma_quantile;
 
 /// Bands of noise, and the centre frequencies of the lowest and the highest,
 /// in Hz; the others lie between them at equal ratios.

@@ -12,11 +12,12 @@ use super::attenuation::{
 use super::moments::{RECORDED, moments};
 use super::targets::{self, Target};
 use super::waves::{Envelope, matched_peak};
-use crate::suites::synthesis::{ORDINARY_SEED, Scenario, ordinary};
+use crate::ordinary;
+use crate::pair::{ORDINARY_SEED, Scenario};
 
 /// Medians of the recorded suite, written by a study of it.
 const COMPARISON: &str =
-    include_str!("../../../../../fixtures/comparison/suites.csv");
+    include_str!("../../../fixtures/comparison/suites.csv");
 
 /// Measures by their names in the comparison, with the recorded standard
 /// deviation of the logarithm: of Tm from `rocking records`, of the others

@@ -10,7 +10,7 @@ mod waves;
 use rayon::prelude::*;
 use rocking::record::AccelerogramError;
 
-use super::{ORDINARY_SEED, Pair, Role, finished, stream_index};
+use crate::pair::{ORDINARY_SEED, Pair, Role, finished, stream_index};
 use targets::Target;
 
 /// Pairs of the suite.

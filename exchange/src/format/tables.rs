@@ -1,0 +1,117 @@
+//! Tables of parameters: for PACT, and for any program.
+
+use rocking::statistics::Lognormal;
+
+use super::ExchangeError;
+use crate::fragility::{BlockFragility, Id, unit};
+use crate::intensity::Intensity;
+use crate::table::{Table, number, optional};
+
+/// Median and dispersion as FEMA P-58's PACT is told them by hand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pact {
+    /// What of the ground motion: PGA or PGV.
+    pub demand: &'static str,
+    /// Unit of the median: g or m/s.
+    pub unit: &'static str,
+    /// Median.
+    pub median: f64,
+    /// Standard deviation of the logarithm.
+    pub dispersion: f64,
+}
+
+impl Pact {
+    /// Of a fragility in g or m/s; none where it has a shift, which PACT does
+    /// not know.
+    ///
+    /// ```
+    /// use rocking::statistics::Lognormal;
+    /// use rocking_exchange::{Intensity, Pact};
+    /// let fitted = Lognormal::try_new(0.0, 0.0, 0.5)?;
+    /// let told = Pact::of(Intensity::Pgv, &fitted).expect("no shift");
+    /// assert_eq!((told.demand, told.unit), ("PGV", "m/s"));
+    /// assert_eq!((told.median, told.dispersion), (1.0, 0.5));
+    /// let shifted = Lognormal::try_new(0.1, 0.0, 0.5)?;
+    /// assert_eq!(Pact::of(Intensity::Pgv, &shifted), None);
+    /// # Ok::<(), rocking::statistics::lognormal::LognormalError>(())
+    /// ```
+    #[must_use]
+    pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
+        (fragility.shift() == 0.0).then(|| Self {
+            demand: demand(intensity),
+            unit: unit(intensity),
+            median: fragility.median(),
+            dispersion: fragility.dispersion(),
+        })
+    }
+}
+
+pub(super) fn pact(
+    fragilities: &[BlockFragility],
+    limit_state: &Id,
+) -> Result<String, ExchangeError> {
+    let mut table = Table::new(&[
+        "id",
+        "damage_state",
+        "demand",
+        "unit",
+        "directional",
+        "median",
+        "dispersion",
+    ]);
+    for one in fragilities {
+        let told = Pact::of(one.intensity, &one.fragility)
+            .ok_or_else(|| ExchangeError::Shifted { id: one.id.clone() })?;
+        table.row([
+            one.id.to_string(),
+            limit_state.to_string(),
+            told.demand.into(),
+            told.unit.into(),
+            "yes".into(),
+            number(told.median),
+            number(told.dispersion),
+        ]);
+    }
+    Ok(table.finish())
+}
+
+/// All parameters, with units.
+pub(super) fn csv(fragilities: &[BlockFragility], limit_state: &Id) -> String {
+    let mut table = Table::new(&[
+        "id",
+        "alpha_rad",
+        "p_rad_s",
+        "eta",
+        "limit_state",
+        "intensity",
+        "unit",
+        "shift",
+        "median",
+        "dispersion",
+        "origin",
+    ]);
+    for one in fragilities {
+        let fragility = &one.fragility;
+        table.row([
+            one.id.to_string(),
+            number(one.block.slenderness_rad()),
+            number(one.block.frequency_rad_s()),
+            optional(one.eta),
+            limit_state.to_string(),
+            demand(one.intensity).into(),
+            unit(one.intensity).into(),
+            number(fragility.shift()),
+            number(fragility.median()),
+            number(fragility.dispersion()),
+            one.origin.clone(),
+        ]);
+    }
+    table.finish()
+}
+
+fn demand(intensity: Intensity) -> &'static str {
+    match intensity {
+        Intensity::Pga => "PGA",
+        Intensity::Pgv => "PGV",
+    }
+}

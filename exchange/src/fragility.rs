@@ -1,0 +1,141 @@
+//! A fragility of one block, in the unit of the ground motion.
+//!
+//! A fragility of the statistics is dimensionless. Other programs take one
+//! block's own PGA or PGV, each in the unit that it expects: OpenQuake PGA in
+//! g and PGV in cm/s, pelicun and PACT in g and m/s.
+
+use std::fmt;
+use std::str::FromStr;
+
+use rocking::block::Block;
+use rocking::integrator::{Model, uplift_threshold};
+use rocking::statistics::Lognormal;
+
+use crate::intensity::Intensity;
+
+/// Most characters of a name that OpenQuake takes.
+const LONGEST: usize = 75;
+
+/// A name that every reader takes: ASCII letters, digits, `_` and `:`, at
+/// most 75. OpenQuake takes no dot and no slash in a name, and pelicun splits
+/// one at `-`.
+///
+/// ```
+/// use rocking_exchange::Id;
+/// assert!("BLOCK_p300_a015".parse::<Id>().is_ok());
+/// assert!("BLOCK-p300-a015".parse::<Id>().is_err());
+/// assert!("BLOCK/p3.0/a0.15".parse::<Id>().is_err());
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Id(String);
+
+impl FromStr for Id {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let taken = |c: char| c.is_ascii_alphanumeric() || "_:".contains(c);
+        if text.is_empty() || text.len() > LONGEST || !text.chars().all(taken)
+        {
+            return Err(format!(
+                "found `{text}`: expected a name of at most {LONGEST} ASCII \
+                 letters, digits, _ and :"
+            ));
+        }
+        Ok(Self(text.to_owned()))
+    }
+}
+
+impl fmt::Display for Id {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.0)
+    }
+}
+
+impl Id {
+    /// The name of a block by its parameters, in all their digits, so that
+    /// two blocks never share one.
+    ///
+    /// ```
+    /// use rocking::Block;
+    /// use rocking_exchange::Id;
+    /// let block = Block::try_new(0.15, 3.0)?;
+    /// assert_eq!(Id::of(&block)?.to_string(), "block_a0_15_p3");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Where the digits make it too long.
+    pub fn of(block: &Block) -> Result<Self, String> {
+        let digits = |x: f64| x.to_string().replace('.', "_");
+        let alpha = digits(block.slenderness_rad());
+        let p = digits(block.frequency_rad_s());
+        format!("block_a{alpha}_p{p}").parse()
+    }
+}
+
+/// How a fragility of one block is written.
+#[derive(Clone, Debug)]
+pub struct BlockFragility {
+    /// Its name.
+    pub id: Id,
+    /// The block.
+    pub block: Block,
+    /// Coefficient of restitution, where it is known.
+    pub eta: Option<f64>,
+    /// What of the ground motion it is a function of.
+    pub intensity: Intensity,
+    /// In g for PGA, in m/s for PGV.
+    pub fragility: Lognormal,
+    /// Where it comes from, in words.
+    pub origin: String,
+}
+
+/// The number of g (PGA) or of m/s (PGV) that makes a dimensionless
+/// intensity of 1: tan alpha, and g tan alpha/p; Eq. 2 has alpha in place of
+/// tan alpha.
+///
+/// ```
+/// use rocking::Block;
+/// use rocking::integrator::Model;
+/// use rocking_exchange::{Intensity, unit_intensity};
+/// let block = Block::try_new(0.15, 3.0)?;
+/// let pgv = unit_intensity(Intensity::Pgv, &block, Model::Nonlinear, 9.81);
+/// assert!((pgv - 9.81 * 0.151_135_218_058 / 3.0).abs() < 1e-11);
+/// # Ok::<(), rocking::block::BlockError>(())
+/// ```
+#[must_use]
+pub fn unit_intensity(
+    intensity: Intensity,
+    block: &Block,
+    model: Model,
+    gravity_m_s2: f64,
+) -> f64 {
+    let threshold_g = uplift_threshold(block, model);
+    match intensity {
+        Intensity::Pga => threshold_g,
+        Intensity::Pgv => threshold_g * gravity_m_s2 / block.frequency_rad_s(),
+    }
+}
+
+/// Unit of [`BlockFragility::fragility`].
+#[must_use]
+pub fn unit(intensity: Intensity) -> &'static str {
+    match intensity {
+        Intensity::Pga => "g",
+        Intensity::Pgv => "m/s",
+    }
+}
+
+/// Where a fragility comes from, of whose sample the size and the measure
+/// alone are known.
+///
+/// ```
+/// use rocking_exchange::{Intensity, unstated_origin};
+/// let words = unstated_origin(86, Intensity::Pga);
+/// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
+/// ```
+#[must_use]
+pub fn unstated_origin(capacities: usize, intensity: Intensity) -> String {
+    let measure = intensity.words();
+    format!("{capacities} capacities in {measure}, response level not stated")
+}

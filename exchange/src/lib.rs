@@ -1,0 +1,41 @@
+//! Results of [`rocking`] as texts that other programs read: tables as CSV,
+//! and fragilities in the formats of OpenQuake, pelicun and PACT.
+//!
+//! The command line and the Python package write these files, and both call
+//! this crate. It gives texts: it opens no file.
+//!
+//! ```
+//! use rocking::Block;
+//! use rocking::integrator::Model;
+//! use rocking::statistics::Lognormal;
+//! use rocking_exchange::{
+//!     BlockFragility, Format, Id, Intensity, unit_intensity,
+//! };
+//! let block = Block::try_new(0.15, 3.0)?;
+//! let pga = Intensity::Pga;
+//! let unit_g = unit_intensity(pga, &block, Model::Nonlinear, 9.80665);
+//! let fragility = Lognormal::try_new(1.0, 0.92, 0.71)?.scaled(unit_g)?;
+//! let one = BlockFragility {
+//!     id: Id::of(&block)?,
+//!     block,
+//!     eta: Some(0.92),
+//!     intensity: pga,
+//!     fragility,
+//!     origin: String::from("86 capacities"),
+//! };
+//! let state = "overturning".parse()?;
+//! let nrml = Format::Nrml.texts(&[one], &state)?.main;
+//! assert!(nrml.contains("<fragilityFunction id=\"block_a0_15_p3\""));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod format;
+mod fragility;
+mod intensity;
+pub mod table;
+
+pub use format::{ExchangeError, Format, Pact, Texts};
+pub use fragility::{
+    BlockFragility, Id, unit, unit_intensity, unstated_origin,
+};
+pub use intensity::Intensity;

@@ -1,0 +1,60 @@
+//! Fragilities as texts of other programs.
+
+use pyo3::prelude::*;
+use rocking::statistics::Lognormal;
+use rocking_exchange::{
+    BlockFragility, Format, Id, Intensity, unit_intensity, unstated_origin,
+};
+
+use crate::given::{block_of, choose, model_of, positive_gravity, refuse};
+
+/// What a fragility does not say of itself.
+#[derive(FromPyObject)]
+pub struct Wanted {
+    #[pyo3(item)]
+    block: (f64, f64),
+    #[pyo3(item)]
+    im: String,
+    #[pyo3(item)]
+    id: Option<String>,
+    #[pyo3(item)]
+    limit_state: String,
+    #[pyo3(item)]
+    model: String,
+    #[pyo3(item)]
+    gravity: f64,
+    #[pyo3(item)]
+    origin: Option<String>,
+}
+
+/// The text of a format, and that of a second file beside it, where the
+/// format has one. `law` is (shift, log_mean, beta) of a sample of `n`.
+#[pyfunction]
+pub fn exchange(
+    format: &str,
+    law: (f64, f64, f64),
+    n: usize,
+    wanted: Wanted,
+) -> PyResult<(String, Option<String>)> {
+    let formats = [("nrml", Format::Nrml), ("pelicun", Format::Pelicun)];
+    let format = choose("format", format, &formats)?;
+    let measures = Intensity::ALL.map(|im| (im.name(), im));
+    let intensity = choose("im", &wanted.im, &measures)?;
+    let block = block_of(wanted.block)?;
+    let gravity_m_s2 = positive_gravity(wanted.gravity)?;
+    let model = model_of(&wanted.model)?;
+    let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
+    let fragility = Lognormal::try_new(law.0, law.1, law.2).map_err(refuse)?;
+    let id = wanted.id.map_or_else(|| Id::of(&block), |id| id.parse());
+    let limit_state: Id = wanted.limit_state.parse().map_err(refuse)?;
+    let one = BlockFragility {
+        id: id.map_err(refuse)?,
+        block,
+        eta: None,
+        intensity,
+        fragility: fragility.scaled(factor).map_err(refuse)?,
+        origin: wanted.origin.unwrap_or_else(|| unstated_origin(n, intensity)),
+    };
+    let texts = format.texts(&[one], &limit_state).map_err(refuse)?;
+    Ok((texts.main, texts.beside.map(|(_, text)| text)))
+}

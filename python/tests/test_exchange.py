@@ -1,0 +1,173 @@
+"""Files for OpenQuake and pelicun: the command line's bytes, and what their
+own readers find in them."""
+
+import re
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rocking as rk
+from conftest import Command
+
+SAMPLE = [1.32, 1.41, 1.56, 1.77, 2.04, 2.31, 2.64, 3.1, 3.6, 4.2, 5.3, 7.2]
+SHIFTS = {"pga": (0.0, 1.0), "pgv": (0.0, 0.4)}
+CASES = [(im, shift) for im, both in SHIFTS.items() for shift in both]
+
+
+@pytest.mark.parametrize(("im", "shift"), CASES)
+def test_a_text_has_the_bytes_of_the_command_line(
+    im: str, shift: float, command: Command, tmp_path: Path
+) -> None:
+    block = rk.Block.from_dimensions(width_m=0.45, height_m=1.6)
+    sample = tmp_path / "sample.txt"
+    sample.write_text("\n".join(map(repr, SAMPLE)) + "\n")
+    flags = ["--sample", sample, "--shift", shift, "--im", im]
+    flags += ["--alpha", block.alpha, "--p", block.p, "--gravity", 9.81]
+    said = {}
+    for name in ("nrml", "pelicun"):
+        out = tmp_path / f"{name}.csv"
+        command("fragility", *flags, "--export", name, "--out", out)
+        said[name] = out.read_bytes()
+    fit = rk.fit_fragility(SAMPLE, shift=shift)
+    text = fit.to_nrml(block, tmp_path / "own.xml", im=im, gravity=9.81)
+    assert text.encode() == said["nrml"]
+    assert (tmp_path / "own.xml").read_bytes() == said["nrml"]
+    own = tmp_path / "own.csv"
+    table, about = fit.to_pelicun(block, own, im=im, gravity=9.81)
+    assert table.encode() == said["pelicun"] == own.read_bytes()
+    expected = (tmp_path / "pelicun.json").read_bytes()
+    assert about.encode() == expected
+    assert own.with_suffix(".json").read_bytes() == expected
+
+
+def test_names_and_origin_are_those_given() -> None:
+    block = rk.Block(alpha=0.2, p=3.0)
+    fit = rk.fit_fragility(SAMPLE)
+    text = fit.to_nrml(
+        block, im="pga", id="statue", limit_state="fallen", origin="A & B"
+    )
+    assert '<fragilityFunction id="statue" ' in text
+    assert "<limitStates>fallen</limitStates>" in text
+    assert "<description>A &amp; B</description>" in text
+    own = fit.to_nrml(block, im="pga")
+    assert "12 capacities in PGA/(g tan alpha), response level" in own
+    linearized = fit.to_nrml(block, im="pga", model="linearized")
+    mean = [
+        float(re.findall(r' mean="([^"]+)"', one)[0])
+        for one in (own, linearized)
+    ]
+    # Uplift at tan(0.2) g, and in the linearized equation at 0.2 g.
+    assert mean[0] / mean[1] == pytest.approx(np.tan(0.2) / 0.2, rel=1e-8)
+
+
+def test_what_no_reader_takes_is_refused_as_the_command_line_says(
+    program: Path, tmp_path: Path
+) -> None:
+    sample = tmp_path / "sample.txt"
+    sample.write_text("\n".join(map(repr, SAMPLE)) + "\n")
+    fit: Any = rk.fit_fragility(SAMPLE, shift=1.0)
+    tiny: Any = rk.fit_fragility([1e-9, 1.1e-9, 1.2e-9], shift=9e-10)
+    block = rk.Block(alpha=0.2, p=3.0)
+    small = tmp_path / "small.txt"
+    small.write_text("1e-9\n1.1e-9\n1.2e-9\n")
+    out = tmp_path / "out.csv"
+    calls: list[tuple[Any, list[object]]] = [
+        (
+            lambda: fit.to_nrml(block, out, im="pga", id="a.b"),
+            ["--sample", sample, "--shift", 1, "--id", "a.b"],
+        ),
+        (
+            lambda: fit.to_nrml(block, out, im="pga", limit_state="x" * 76),
+            ["--sample", sample, "--shift", 1, "--limit-state", "x" * 76],
+        ),
+        (
+            lambda: tiny.to_pelicun(block, out, im="pga"),
+            ["--sample", small, "--shift", 9e-10, "--export", "pelicun"],
+        ),
+    ]
+    for call, flags in calls:
+        with pytest.raises(ValueError) as refused:
+            call()
+        flags += ["--im", "pga", "--alpha", 0.2, "--p", 3, "--out", out]
+        if "--export" not in flags:
+            flags += ["--export", "nrml"]
+        words = [str(program), "fragility", *(str(flag) for flag in flags)]
+        done = subprocess.run(words, capture_output=True, text=True)
+        assert done.returncode == 2, done.stdout
+        assert str(refused.value) in done.stderr
+    wrongs: list[tuple[dict[str, Any], str]] = [
+        ({"im": "sa"}, 'im "sa": expected one of pga, pgv'),
+        ({"im": "pgv", "gravity": 0.0}, "gravity 0 m/s2: expected"),
+        ({"im": "pga", "model": "both"}, "expected one of nonlinear"),
+    ]
+    for wrong, text in wrongs:
+        with pytest.raises(ValueError, match=re.escape(text)):
+            fit.to_nrml(block, out, **wrong)
+    with pytest.raises(TypeError, match="im"):
+        fit.to_nrml(block)
+    with pytest.raises(ValueError, match="beside which a file"):
+        fit.to_pelicun(block, tmp_path / "out.json", im="pga")
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        fit.to_nrml(block, tmp_path / "nowhere" / "out.xml", im="pga")
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == {"sample.txt", "small.txt"}
+
+
+def test_a_file_that_is_there_keeps_its_mode_and_its_link(
+    tmp_path: Path,
+) -> None:
+    fit = rk.fit_fragility(SAMPLE)
+    block = rk.Block(alpha=0.2, p=3.0)
+    file, link = tmp_path / "file.xml", tmp_path / "link.xml"
+    file.write_text("old")
+    file.chmod(0o640)
+    link.symlink_to("file.xml")
+    text = fit.to_nrml(block, link, im="pga")
+    assert link.is_symlink() and file.read_text() == text
+    assert file.stat().st_mode & 0o777 == 0o640
+
+
+@pytest.mark.parametrize(("im", "shift"), CASES)
+def test_openquake_reads_the_probabilities(
+    im: str, shift: float, tmp_path: Path
+) -> None:
+    nrml: Any = pytest.importorskip("openquake.hazardlib.nrml")
+    pytest.importorskip("openquake.risklib.read_nrml")
+    fit = rk.fit_fragility(SAMPLE, shift=shift)
+    block = rk.Block(alpha=0.15, p=3.0)
+    path = tmp_path / "block.xml"
+    fit.to_nrml(block, path, im=im)
+    model = nrml.to_python(str(path))
+    [((measure, _), functions)] = model.items()
+    [function] = functions.build(model.limitStates)
+    assert measure == im.upper()
+    x = np.linspace(0.05, 12.0, 40)
+    # OpenQuake's PGV is in cm/s.
+    unit = np.tan(0.15) * (1.0 if im == "pga" else 100 * 9.80665 / 3.0)
+    assert abs(function(x * unit) - fit.cdf(x)).max() < 5e-4
+
+
+@pytest.mark.parametrize(("im", "shift"), CASES)
+def test_pelicun_reads_the_probabilities(
+    im: str, shift: float, tmp_path: Path
+) -> None:
+    uq: Any = pytest.importorskip("pelicun.uq")
+    pandas: Any = pytest.importorskip("pandas")
+    fit = rk.fit_fragility(SAMPLE, shift=shift)
+    path = tmp_path / "block.csv"
+    fit.to_pelicun(rk.Block(alpha=0.15, p=3.0), path, im=im)
+    row = pandas.read_csv(path, index_col=0).iloc[0]
+    theta = row["LS1-Theta_0"]
+    if shift > 0.0:
+        parts = theta.split("|")
+        columns = [np.array(part.split(","), dtype=float) for part in parts]
+        theta = np.column_stack(columns)
+    else:
+        theta = np.array([float(theta), float(row["LS1-Theta_1"])])
+    law = uq.rv_class_map(row["LS1-Family"])(name="capacity", theta=theta)
+    assert row["Demand-Unit"] == ("g" if im == "pga" else "mps")
+    x = np.linspace(0.05, 12.0, 40)
+    unit = np.tan(0.15) * (1.0 if im == "pga" else 9.80665 / 3.0)
+    assert abs(law.cdf(x * unit) - fit.cdf(x)).max() < 5e-4

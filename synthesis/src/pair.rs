@@ -1,0 +1,99 @@
+//! A pair of components, and the earthquake and site that it is of.
+
+use rocking::record::{Accelerogram, AccelerogramError};
+
+use crate::noise::{DT_S, settle};
+
+/// Standard gravity, in m/s2.
+pub(crate) const GRAVITY_M_S2: f64 = 9.80665;
+
+/// Least peak ground acceleration of a component, in g.
+pub(crate) const LEAST_PGA_G: f64 = 0.14;
+
+/// Earthquake and site of one pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scenario {
+    /// Moment magnitude.
+    pub mw: f64,
+    /// Distance to the rupture, in km.
+    pub rrup_km: f64,
+    /// Shear-wave velocity of the upper 30 m, in m/s.
+    pub vs30_m_s: f64,
+    /// Reverse faulting; strike slip otherwise.
+    pub reverse: bool,
+    /// Length of rupture towards the site, in km; zero for ordinary motions.
+    pub towards_site_km: f64,
+}
+
+impl Scenario {
+    /// Names and texts of what an index says of it.
+    #[must_use]
+    pub fn columns(&self) -> [(&'static str, String); 4] {
+        let mechanism = if self.reverse { "reverse" } else { "strike slip" };
+        [
+            ("mechanism", mechanism.to_owned()),
+            ("mw", self.mw.to_string()),
+            ("rrup_km", self.rrup_km.to_string()),
+            ("vs30_m_s", self.vs30_m_s.to_string()),
+        ]
+    }
+}
+
+/// Two horizontal components and where they came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// The components; the first is the one that the study uses.
+    pub components: [Accelerogram; 2],
+    /// Earthquake and site.
+    pub scenario: Scenario,
+    /// How many draws were refused before this one.
+    pub refused: u64,
+}
+
+/// What a random stream is for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Role {
+    Scenario,
+    Parameters,
+    First,
+    Second,
+}
+
+/// Name of the random streams of the ordinary suite.
+pub const ORDINARY_SEED: &str = "rocking/synthesis/ordinary/2";
+
+/// Name of the random streams of the pulse-type suite.
+pub const PULSE_SEED: &str = "rocking/synthesis/pulse/1";
+
+/// Number of the stream of a pair, an attempt and a purpose.
+pub(crate) fn stream_index(pair: u64, attempt: u64, role: Role) -> u64 {
+    pair << 32 | attempt << 2 | role as u64
+}
+
+/// Both components at rest at their ends, rounded and named; `None` where
+/// one has PGA of at most 0.14 g.
+pub(crate) fn finished(
+    suite: &str,
+    pair: u64,
+    [mut a, mut b]: [Vec<f64>; 2],
+) -> Result<Option<[Accelerogram; 2]>, AccelerogramError> {
+    settle(&mut a);
+    settle(&mut b);
+    let a = component(suite, pair, 'a', a)?;
+    let b = component(suite, pair, 'b', b)?;
+    let strong = a.pga_g() > LEAST_PGA_G && b.pga_g() > LEAST_PGA_G;
+    Ok(strong.then_some([a, b]))
+}
+
+fn component(
+    suite: &str,
+    pair: u64,
+    letter: char,
+    samples_g: Vec<f64>,
+) -> Result<Accelerogram, AccelerogramError> {
+    Accelerogram::try_new(
+        format!("{suite}-{pair:02}-{letter}"),
+        DT_S,
+        samples_g,
+    )
+}

@@ -113,7 +113,7 @@ const UNSAFE: &str = "src/number/dispatch";
 const MOST_LINES: usize = 600;
 
 /// Folders of the root that people see in a clone.
-const FOLDERS: &str = "src validation tests benches examples fixtures reports .ci python/src \
+const FOLDERS: &str = "src validation parquet tests benches examples fixtures reports .ci python/src \
      python/rocking python/tests python/notebooks";
 
 fn root() -> PathBuf {
@@ -272,6 +272,7 @@ fn every_dependency_is_used_and_in_the_readme() {
     let readme = read("README.md");
     let (core, harness) =
         (manifest("Cargo.toml"), manifest("validation/Cargo.toml"));
+    let parquet = manifest("parquet/Cargo.toml");
     let mut problems = Vec::new();
     let mut direct = BTreeSet::new();
     let harness_all: Vec<String> = harness
@@ -281,8 +282,14 @@ fn every_dependency_is_used_and_in_the_readme() {
         .chain(core.dev_dependencies.into_keys())
         .collect();
     let core_all: Vec<String> = core.dependencies.into_keys().collect();
+    let parquet_all: Vec<String> = parquet
+        .dependencies
+        .into_keys()
+        .chain(parquet.dev_dependencies.into_keys())
+        .collect();
     for (names, folders) in [
         (core_all, &["src"] as &[&str]),
+        (parquet_all, &["parquet/src"]),
         (harness_all, &["validation/src", "tests", "benches"]),
     ] {
         let words: BTreeSet<String> = sources(folders)
@@ -364,13 +371,15 @@ fn every_test_file_is_a_target_and_lints_are_the_same() {
         .collect();
     assert_eq!(targets, on_disk);
     assert!(core.lints.is_some());
+    assert!(manifest("parquet/Cargo.toml").lints.is_some());
     assert!(harness.lints.is_some());
 }
 
 #[test]
 fn nothing_is_unsafe_unfinished_or_skipped() {
     let mut problems = Vec::new();
-    for path in sources(&["src", "validation/src", "tests", "benches"]) {
+    let folders = ["src", "validation/src", "parquet/src", "tests", "benches"];
+    for path in sources(&folders) {
         let tokens = tokens(&read(&path));
         let mut refuse = |sequence: &[&str]| {
             if holds(&tokens, sequence) {
@@ -446,7 +455,14 @@ fn the_program_compiles_in_no_result_of_its_own() {
 #[test]
 fn files_stay_on_one_topic() {
     let mut problems = Vec::new();
-    let folders = ["src", "validation/src", "tests", "benches", "python/src"];
+    let folders = [
+        "src",
+        "validation/src",
+        "parquet/src",
+        "tests",
+        "benches",
+        "python/src",
+    ];
     for path in sources(&folders) {
         let lines = read(&path).lines().count();
         if lines > MOST_LINES {

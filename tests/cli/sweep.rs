@@ -163,6 +163,18 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
     }
 }
 
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn parquet_is_refused_where_the_program_has_none() {
+    let place = planned("sweep-parquet", 1);
+    run(&place);
+    fs::write(place.join("o.parquet"), "an older table\n").unwrap();
+    let names = ["o.parquet", "--features parquet"];
+    refused_for(&place, "sweep merge plan --out o.parquet", &names);
+    let old = fs::read_to_string(place.join("o.parquet")).unwrap();
+    assert_eq!(old, "an older table\n");
+}
+
 #[test]
 fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     let place = folder("sweep-surrogate", &[]);

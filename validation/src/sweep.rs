@@ -8,7 +8,9 @@
 //! written whole or not at all, and names the plan and its own sum.
 
 mod blocks;
+mod content;
 mod cost;
+mod merge;
 mod plan;
 mod tile;
 
@@ -21,9 +23,11 @@ use rocking::record::SuiteError;
 use thiserror::Error;
 
 pub use blocks::read_blocks;
+pub use content::{Content, Kind};
 pub use cost::Tile;
-pub use plan::{Plan, Planned, Wanted};
-pub use tile::{Content, State, merge, run, state};
+pub use merge::merge;
+pub use plan::{Levels, Plan, Planned, Wanted};
+pub use tile::{State, run, state};
 
 use crate::files::WriteError;
 use crate::suites::export::ExportError;
@@ -90,6 +94,15 @@ pub enum SweepError {
         path: PathBuf,
         /// What is wrong with it.
         state: State,
+    },
+    /// Parquet from a program without it.
+    #[error(
+        "{}: this program writes no Parquet; expected another ending for CSV, or a program built by `cargo install --path validation --features parquet`",
+        path.display()
+    )]
+    NoParquet {
+        /// The file asked for.
+        path: PathBuf,
     },
     /// A suite that was refused.
     #[error(transparent)]

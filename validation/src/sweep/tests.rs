@@ -41,7 +41,7 @@ fn plan(folder: &Path, tile_minutes: f64) -> Planned {
         blocks: &blocks,
         suite: &suite,
         demands: vec![0.35, 1.0],
-        step_im: 0.05,
+        levels: Levels::StepIm(0.05),
         rows: true,
         tile_minutes,
     };

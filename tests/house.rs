@@ -79,6 +79,7 @@ const HARNESS: Edges = &[
             "paper",
             "suites",
             "surrogate",
+            "sweep",
             "table",
             "words",
         ],

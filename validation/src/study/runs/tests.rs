@@ -94,12 +94,14 @@ fn sweep(folder: &Path, name: &str, levels: Levels) -> Planned {
     planned
 }
 
-/// Three records: one overturns every block, one none at low levels, and one
-/// of a single step.
+/// Name and samples (multiples of g, by their number) of a record.
+type Shape = (&'static str, fn(i32) -> f64);
+
+/// Three records of half a second: a lobe, a sine, and a short strong pulse.
 fn records(folder: &Path) -> Vec<Accelerogram> {
     let place = folder.join("records");
     fs::create_dir_all(&place).expect("folder");
-    let shapes: [(&str, fn(i32) -> f64); 3] = [
+    let shapes: [Shape; 3] = [
         ("lobe", |k| 0.2 - 0.008 * f64::from((k - 25).abs())),
         ("sine", |k| 0.3 * libm::sin(0.4 * f64::from(k))),
         ("step", |k| if k < 3 { 0.9 } else { -0.01 }),

@@ -163,6 +163,33 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
     }
 }
 
+#[cfg(not(feature = "parquet"))]
+#[test]
+fn parquet_is_refused_where_the_program_has_none() {
+    let place = planned("sweep-parquet", 1);
+    run(&place);
+    fs::write(place.join("o.parquet"), "an older table\n").unwrap();
+    let names = ["o.parquet", "--features parquet"];
+    refused_for(&place, "sweep merge plan --out o.parquet", &names);
+    let old = fs::read_to_string(place.join("o.parquet")).unwrap();
+    assert_eq!(old, "an older table\n");
+}
+
+#[test]
+fn a_study_takes_no_curves_of_a_sweep_that_lacks_some() {
+    let place = planned("sweep-study", 2);
+    let names = ["plan: this sweep keeps no rows", "--rows"];
+    refused_for(&place, "study --sweep plan --out report", &names);
+    answer(
+        &place,
+        "sweep plan --blocks blocks.csv --suite records --out kept --rows \
+         --tile-minutes 1e-9",
+    );
+    let names = ["kept/tiles/rows-00000.csv: missing", "run the sweep again"];
+    refused_for(&place, "study --sweep kept --out report", &names);
+    assert!(!place.join("report").exists());
+}
+
 #[test]
 fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     let place = folder("sweep-surrogate", &[]);

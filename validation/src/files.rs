@@ -179,7 +179,7 @@ impl Output {
 }
 
 /// Writes pieces of a file to where they go.
-type Content<'a> = &'a dyn Fn(&mut dyn io::Write) -> io::Result<()>;
+type Content<'a> = &'a dyn Fn(&mut (dyn io::Write + Send)) -> io::Result<()>;
 
 impl Sink {
     fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
@@ -220,7 +220,7 @@ impl Sink {
     fn write(self, content: Content<'_>) -> io::Result<()> {
         match self {
             Self::Standard => {
-                let mut out = io::stdout().lock();
+                let mut out = io::stdout();
                 match content(&mut out).and_then(|()| out.flush()) {
                     Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
                     done => done,

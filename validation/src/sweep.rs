@@ -8,7 +8,10 @@
 //! written whole or not at all, and names the plan and its own sum.
 
 mod blocks;
+mod content;
 mod cost;
+mod kept;
+mod merge;
 mod plan;
 mod tile;
 
@@ -21,9 +24,12 @@ use rocking::record::SuiteError;
 use thiserror::Error;
 
 pub use blocks::read_blocks;
+pub use content::{Content, Kind};
 pub use cost::Tile;
-pub use plan::{Plan, Planned, Wanted};
-pub use tile::{Content, State, merge, run, state};
+pub use kept::Kept;
+pub use merge::merge;
+pub use plan::{Levels, Plan, Planned, Wanted};
+pub use tile::{State, run, state};
 
 use crate::files::WriteError;
 use crate::suites::export::ExportError;
@@ -91,6 +97,23 @@ pub enum SweepError {
         /// What is wrong with it.
         state: State,
     },
+    /// Parquet from a program without it.
+    #[error(
+        "{}: this program writes no Parquet; expected another ending for CSV, or a program built by `cargo install --path validation --features parquet`",
+        path.display()
+    )]
+    NoParquet {
+        /// The file asked for.
+        path: PathBuf,
+    },
+    /// A sweep whose curves cannot be taken.
+    #[error("{}: {flaw}", path.display())]
+    Kept {
+        /// The folder.
+        path: PathBuf,
+        /// What is wrong with it.
+        flaw: Flaw,
+    },
     /// A suite that was refused.
     #[error(transparent)]
     Suite(#[from] SuiteError),
@@ -106,6 +129,23 @@ pub enum SweepError {
     /// A statistic that cannot be computed.
     #[error("{0}")]
     Statistics(String),
+}
+
+/// Why the curves of a sweep cannot be taken.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Flaw {
+    /// It keeps no curves.
+    #[error("this sweep keeps no rows; expected a plan of `--rows`")]
+    NoRows,
+    /// Another program may find another number.
+    #[error("a sweep of {found}; expected one of {expected}, as this is")]
+    Software {
+        /// Program of the plan.
+        found: String,
+        /// This program.
+        expected: String,
+    },
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! `rocking study`: the whole paper, from records to findings.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -12,7 +13,7 @@ use super::names::{ARMS, OVERTURNING, named};
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
-use super::{Failure, logged, print, with_threads};
+use super::{Failure, SOFTWARE, logged, print, with_threads};
 use crate::files::{Folder, is_interrupted};
 use crate::paper::{Arm, RESTITUTION, SuiteKind};
 use crate::report::evidence::{NOT_RUN, Proof};
@@ -23,6 +24,7 @@ use crate::study::Study;
 use crate::study::analyses::Plan;
 use crate::study::runs::Setup;
 use crate::suites::StudySuite;
+use crate::sweep::Kept;
 
 /// Folder that a study writes to unless told otherwise.
 pub const REPORT: &str = "rocking-report";
@@ -74,6 +76,11 @@ pub struct Args {
     threads: Option<usize>,
     #[command(flatten)]
     way: WayArgs,
+    /// Folder of a finished `rocking sweep` with `--rows`, of which curves
+    /// with the same settings and records are taken instead of made; may be
+    /// given again. The report is the same, byte for byte.
+    #[arg(long, value_name = "DIR")]
+    sweep: Vec<PathBuf>,
     /// Folder into which `rocking validate --out` wrote validation.json and
     /// precision.csv, the results of the declared cases, which the page
     /// then shows; the folder data of the report if it holds them.
@@ -111,7 +118,7 @@ pub(super) fn default_report(proof: &Proof) -> Result<Files, Failure> {
         args: Args,
     }
     let args = Line::try_parse_from(["study"])?.args;
-    let study = computed(&args, &suites(&args)?)?;
+    let study = computed(plan(&args)?, &args, &suites(&args)?)?;
     Ok(output::files(&study, Some(proof), &args.signatures)?)
 }
 
@@ -140,8 +147,11 @@ fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
 }
 
 /// The study that the options ask for.
-fn computed(args: &Args, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
-    let plan = plan(args)?;
+fn computed(
+    plan: Plan,
+    args: &Args,
+    suites: &[StudySuite; 2],
+) -> Result<Study, Failure> {
     // Drawn on a terminal only.
     let progress = ProgressBar::new(0);
     if let Ok(style) =
@@ -152,11 +162,18 @@ fn computed(args: &Args, suites: &[StudySuite; 2]) -> Result<Study, Failure> {
     let study =
         logged(&progress, || Study::run(plan, suites, args.full, &progress))?;
     progress.finish_and_clear();
+    if !args.sweep.is_empty() {
+        let (taken, made) = study.results.plan.setup.kept.counts();
+        eprintln!(
+            "rocking: {taken} of {} analyses of curves are from sweeps",
+            taken + made
+        );
+    }
     Ok(study)
 }
 
 fn in_threads(args: &Args) -> Result<(), Failure> {
-    plan(args)?;
+    let plan = plan(args)?;
     let suites = suites(args)?;
     if args.check {
         // Refused before minutes are spent.
@@ -175,7 +192,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
     };
-    let study = computed(args, &suites)?;
+    let study = computed(plan, args, &suites)?;
     let files = output::files(&study, proof.as_ref(), &args.signatures)?;
     let Some(folder) = folder else { return check(&args.out, &files) };
     folder.write(&files, output::PAGE)?;
@@ -242,6 +259,7 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
         overturning: args.overturn,
         tolerance: args.refine,
         way: args.way.way()?,
+        kept: Arc::new(Kept::read(&args.sweep, SOFTWARE)?),
     };
     Ok(Plan { setup, arms })
 }

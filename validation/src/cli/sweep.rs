@@ -14,7 +14,9 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use super::reading::ReadArgs;
 use super::{Failure, SOFTWARE, print, print_json, with_threads};
 use crate::suites::inputs::read_suite;
-use crate::sweep::{self, Content, Planned, State, Wanted, read_blocks};
+use crate::sweep::{
+    self, Content, Levels, Planned, State, Wanted, read_blocks,
+};
 
 /// Runs many blocks over one suite in tiles: plan once, run on any number of
 /// tasks, merge.
@@ -71,7 +73,11 @@ struct PlanArgs {
     /// Step of the levels in PGA/(g tan alpha), from 1.
     #[arg(long, value_name = "X", default_value_t = 0.02)]
     step_im: f64,
-    /// Keep every analysis, not capacities and fragilities alone.
+    /// Step of the levels in PGA (multiples of g) instead, as the paper has
+    /// it: 0.01.
+    #[arg(long, value_name = "G", conflicts_with = "step_im")]
+    step_pga_g: Option<f64>,
+    /// Keep every level, not capacities and fragilities alone.
     #[arg(long)]
     rows: bool,
     /// What a tile should take, in minutes of one core.
@@ -117,8 +123,9 @@ struct MergeArgs {
     /// What is merged.
     #[arg(long, value_enum, default_value_t = Merged::Fragilities)]
     what: Merged,
-    /// Where the table goes.
-    #[arg(long, value_name = "FILE.csv")]
+    /// Where the table goes: CSV, or Parquet if it ends in .parquet and the
+    /// program was built with `--features parquet`.
+    #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
 
@@ -138,7 +145,8 @@ enum Merged {
     Fragilities,
     /// A row a block and record.
     Capacities,
-    /// A row an analysis; for plans with `--rows`.
+    /// A row a level, and one for the refined end of a curve; for plans
+    /// with `--rows`.
     Rows,
 }
 
@@ -160,9 +168,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let positive = |x: f64| x > 0.0 && x.is_finite();
-    for (flag, x) in
-        [("--tile-minutes", args.tile_minutes), ("--step-im", args.step_im)]
-    {
+    for (flag, x) in [
+        ("--tile-minutes", args.tile_minutes),
+        ("--step-im", args.step_im),
+        ("--step-pga-g", args.step_pga_g.unwrap_or(1.0)),
+    ] {
         if !positive(x) {
             let message = format!("{flag} {x}: expected a positive number");
             return Err(Failure::input(message));
@@ -182,7 +192,9 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
         blocks: &blocks,
         suite: &suite,
         demands: args.demands.clone(),
-        step_im: args.step_im,
+        levels: args
+            .step_pga_g
+            .map_or(Levels::StepIm(args.step_im), Levels::StepPgaG),
         rows: args.rows,
         tile_minutes: args.tile_minutes,
     };

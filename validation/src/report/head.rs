@@ -89,7 +89,7 @@ pub fn revisions() -> String {
 
 /// The command that makes the page again.
 fn command(results: &Results) -> String {
-    let setup = results.plan.setup;
+    let setup = &results.plan.setup;
     let arms: Vec<&str> =
         results.plan.arms.iter().map(|arm| arm.letter()).collect();
     let suites = match results.embedded() {

@@ -28,6 +28,7 @@ fn plan(way: Execution) -> Plan {
         overturning: Overturning::Alpha,
         tolerance: 1e-3,
         way,
+        kept: Default::default(),
     };
     Plan { setup, arms: vec![Arm::A, Arm::B] }
 }

@@ -1,10 +1,12 @@
 //! The analyses of the study: chains of rising intensity, stripes,
 //! histories.
 
+use std::sync::Arc;
+
 use rocking::block::{Block, Restitution};
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use rocking::ida::{self, Adjust, Analysis, Grid, Overturned};
+use rocking::ida::{self, Adjust, Analysis, Grid, IdaCurve, Overturned};
 use rocking::integrator::{
     Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
 };
@@ -13,9 +15,10 @@ use super::StudyError;
 use super::certainty::{Certainty, certainty};
 use crate::curves::Execution;
 use crate::paper::Arm;
+use crate::sweep::Kept;
 
 /// What holds for every analysis of a study.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Setup {
     /// Restitution: constant for the paper's study.
     pub restitution: Restitution,
@@ -26,6 +29,8 @@ pub struct Setup {
     pub tolerance: f64,
     /// How curves are made.
     pub way: Execution,
+    /// Curves that need not be made.
+    pub kept: Arc<Kept>,
 }
 
 /// The curves of blocks under records, and what they took.
@@ -77,7 +82,7 @@ impl Setup {
             .flat_map(|arm| blocks.iter().map(move |b| (*b, *arm)))
             .map(|(block, arm)| self.analysis(block, arm, adjust))
             .collect();
-        let runs = self.way.curves(records, &analyses, &done)?;
+        let runs = self.curves(records, &analyses, &done)?;
         let all = || runs.iter().flatten();
         let curves = arms
             .iter()
@@ -100,6 +105,39 @@ impl Setup {
             analyses: all().map(|run| run.analyses).sum(),
             certainty: certainty(&analyses, records, &runs)?,
         })
+    }
+
+    /// The curves of every record under every analysis: those that are kept,
+    /// and the others made.
+    fn curves(
+        &self,
+        records: &[NormalisedRecord],
+        analyses: &[Analysis],
+        done: &(dyn Fn() + Sync),
+    ) -> Result<Vec<Vec<IdaCurve>>, StudyError> {
+        let mut runs: Vec<Option<Vec<IdaCurve>>> =
+            analyses.iter().map(|a| self.kept.find(a, records)).collect();
+        let lacking: Vec<Analysis> = analyses
+            .iter()
+            .zip(&runs)
+            .filter(|(_, found)| found.is_none())
+            .map(|(analysis, _)| *analysis)
+            .collect();
+        let taken = runs.iter().flatten().flatten().map(|run| {
+            done();
+            run.analyses
+        });
+        let taken: u64 = taken.sum();
+        let made = self.way.curves(records, &lacking, done)?;
+        let own = made.iter().flatten().map(|run| run.analyses);
+        self.kept.count(taken, own.sum());
+        let mut made = made.into_iter();
+        for run in &mut runs {
+            if run.is_none() {
+                *run = made.next();
+            }
+        }
+        Ok(runs.into_iter().flatten().collect())
     }
 
     /// Arms as they are scanned: A and B once, bisected if B is asked for.

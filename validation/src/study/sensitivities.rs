@@ -123,7 +123,7 @@ impl Plan {
                         SLENDERNESSES_RAD[slenderness],
                         FREQUENCIES_RAD_S[frequency],
                     )?;
-                    let setup = choice.setup(self.setup, &block)?;
+                    let setup = choice.setup(self.setup.clone(), &block)?;
                     let arm = [self.common()];
                     let present: Vec<NormalisedRecord> =
                         records.iter().flatten().cloned().collect();

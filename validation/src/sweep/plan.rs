@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Grid, REFINEMENT};
+use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
+use rocking::integrator::{Model, uplift_threshold};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::{Deserialize, Serialize};
@@ -18,7 +19,7 @@ use crate::suites::export;
 use crate::suites::inputs::{read_suite, sha256_hex};
 
 /// Version of the plan's shape.
-const SCHEMA: u32 = 2;
+const SCHEMA: u32 = 3;
 
 /// Replicates of the bootstrap, and intensity measures: PGA and PGV.
 const REPLICATES: usize = 400;
@@ -34,13 +35,13 @@ pub struct Plan {
     schema: u32,
     /// Program that made the plan.
     pub software: String,
-    /// Step of the levels in PGA/(g tan alpha).
-    pub step_im: f64,
+    /// Levels of a curve.
+    pub levels: Levels,
     /// Demands at which capacities are told.
     pub demands: Vec<f64>,
     /// Replicates of the bootstrap of a fragility's parameters.
     pub replicates: usize,
-    /// Whether every analysis is kept.
+    /// Whether every level is kept.
     pub rows: bool,
     /// Alpha (rad), p (rad/s) and coefficient of restitution of each block.
     pub blocks: Vec<[f64; 3]>,
@@ -48,6 +49,35 @@ pub struct Plan {
     pub records: Vec<(String, String)>,
     /// The tiles, in the order of the blocks, with what they cost.
     pub tiles: Vec<Tile>,
+}
+
+/// Steps in which the levels of a curve rise.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Levels {
+    /// In PGA/(g tan alpha), from 1.
+    StepIm(f64),
+    /// In PGA, multiples of gravity, from 0.
+    StepPgaG(f64),
+}
+
+impl Levels {
+    fn grid(self) -> Grid {
+        match self {
+            Self::StepIm(step) => Grid::Im { step },
+            Self::StepPgaG(step_g) => Grid::Pga { step_g },
+        }
+    }
+
+    /// The step in PGA/(g tan alpha) for a block.
+    fn step_im(self, block: &Block) -> f64 {
+        match self {
+            Self::StepIm(step) => step,
+            Self::StepPgaG(step) => {
+                step / uplift_threshold(block, Model::Nonlinear)
+            }
+        }
+    }
 }
 
 /// A plan with its folder and its hash.
@@ -69,9 +99,9 @@ pub struct Wanted<'a> {
     pub suite: &'a Suite,
     /// Demands.
     pub demands: Vec<f64>,
-    /// Step of the levels.
-    pub step_im: f64,
-    /// Whether every analysis is kept.
+    /// Levels of a curve.
+    pub levels: Levels,
+    /// Whether every level is kept.
     pub rows: bool,
     /// What a tile should take, in minutes of a core.
     pub tile_minutes: f64,
@@ -103,7 +133,8 @@ impl Plan {
             .iter()
             .map(|given| {
                 let p = given.block.frequency_rad_s();
-                Cost::of(p, &motions, wanted.step_im, fits)
+                let step_im = wanted.levels.step_im(&given.block);
+                Cost::of(p, &motions, step_im, fits)
             })
             .collect();
         let records = files
@@ -120,7 +151,7 @@ impl Plan {
         let plan = Self {
             schema: SCHEMA,
             software: software.into(),
-            step_im: wanted.step_im,
+            levels: wanted.levels,
             demands: wanted.demands.clone(),
             replicates: REPLICATES,
             rows: wanted.rows,
@@ -157,6 +188,24 @@ impl Plan {
         self.tiles.iter().fold(0.0, |sum, tile| sum + tile.core_s)
     }
 
+    /// The settings as JSON: all but blocks, records and tiles.
+    #[must_use]
+    pub fn settings(&self) -> String {
+        serde_json::json!({
+            "levels": self.levels,
+            "refinement_im": REFINEMENT,
+            "highest_im": HIGHEST_IM,
+            "equation": "nonlinear",
+            "overturn": "alpha",
+            "gravity_m_s2": STANDARD_GRAVITY_M_S2,
+            "demands": self.demands,
+            "replicates": self.replicates,
+            "blocks": self.blocks.len(),
+            "records": self.records.len(),
+        })
+        .to_string()
+    }
+
     fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
@@ -186,7 +235,7 @@ impl Plan {
         let [alpha, p, eta] = block;
         let restitution = Restitution::constant(eta)?;
         Ok(Analysis {
-            grid: Grid::Im { step: self.step_im },
+            grid: self.levels.grid(),
             refine: Some(REFINEMENT),
             ..Analysis::paper(Block::try_new(alpha, p)?, restitution)
         })

@@ -1,85 +1,22 @@
-//! Tiles: run, held to their plan and their sum, merged.
+//! Tiles: run, and held to their plan and their sum.
 
-use std::cell::RefCell;
 use std::fmt;
 use std::fs;
-use std::io;
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use rocking::capacity::InversionRule;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Batch, IdaCurve, IdaError, Overturned, curves};
-use rocking::integrator::Outcome;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::SweepError;
+use super::content::Content;
 use super::plan::{Plan, Planned};
-use crate::files::{Outputs, write_atomically};
+use crate::files::write_atomically;
 use crate::suites::inputs::sha256_hex;
 use crate::table::Table;
-
-/// What a file of a tile holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
-    /// A row a block, intensity measure and demand.
-    Fragilities,
-    /// A row a block and record: first overturning and capacities.
-    Capacities,
-    /// A row an analysis.
-    Rows,
-}
-
-impl Content {
-    /// What a sweep keeps.
-    #[must_use]
-    pub fn kept(plan: &Plan) -> Vec<Self> {
-        let mut out = vec![Self::Fragilities, Self::Capacities];
-        if plan.rows {
-            out.push(Self::Rows);
-        }
-        out
-    }
-
-    /// Name in file names.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Fragilities => "fragilities",
-            Self::Capacities => "capacities",
-            Self::Rows => "rows",
-        }
-    }
-
-    fn table(self, plan: &Plan) -> Table {
-        match self {
-            Self::Fragilities => Table::headed(
-                "alpha_rad,p_rad_s,eta,im,demand,records,reached,shift,\
-                 median,dispersion,median_low,median_high,dispersion_low,\
-                 dispersion_high,unresolved",
-            ),
-            Self::Capacities => {
-                let mut header: Vec<String> =
-                    ["alpha_rad", "p_rad_s", "eta", "record"]
-                        .map(String::from)
-                        .into();
-                header.push("velocity_factor".into());
-                header.push("first_overturning".into());
-                header.push("unresolved".into());
-                header
-                    .extend(plan.demands.iter().map(|d| format!("im_at_{d}")));
-                let cells: Vec<&str> =
-                    header.iter().map(String::as_str).collect();
-                Table::new(&cells)
-            }
-            Self::Rows => Table::headed(
-                "alpha_rad,p_rad_s,eta,record,im,pga_g,edp,resolved",
-            ),
-        }
-    }
-}
 
 /// How a tile stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -114,7 +51,11 @@ fn footer(hash: &str, tile: usize, body: &str) -> String {
 }
 
 /// How a tile's file stands, and its text without the last line.
-fn read(planned: &Planned, content: Content, tile: usize) -> (State, String) {
+pub(super) fn read(
+    planned: &Planned,
+    content: Content,
+    tile: usize,
+) -> (State, String) {
     let path = planned.tile_path(content, tile);
     let Ok(text) = fs::read_to_string(path) else {
         // A file that is there and is no text was written by nobody here.
@@ -187,7 +128,10 @@ pub fn run(
             found => found?,
         };
         for content in Content::kept(plan) {
-            let mut table = content.table(plan);
+            let columns = content.columns(plan);
+            let header: Vec<&str> =
+                columns.iter().map(|(name, _)| name.as_str()).collect();
+            let mut table = Table::new(&header);
             for (block, curves) in blocks.iter().zip(&found) {
                 fill(&mut table, plan, content, *block, curves)?;
             }
@@ -199,43 +143,6 @@ pub fn run(
         own.remove(0);
     }
     Ok(own)
-}
-
-/// Puts the tiles together in the plan's order, one after the other.
-///
-/// # Errors
-/// [`SweepError::Tile`] for a tile that is missing, of another plan, or
-/// damaged; `out` is then as it was.
-pub fn merge(
-    planned: &Planned,
-    content: Content,
-    out: &Path,
-) -> Result<(), SweepError> {
-    let tiles = 0..planned.plan.tiles.len();
-    let tiles = tiles.map(|tile| planned.tile_path(content, tile));
-    let output = Outputs::of(tiles.collect()).open(out)?;
-    let refused = RefCell::new(None);
-    let written = output.write_with(&|file| {
-        for tile in 0..planned.plan.tiles.len() {
-            let (state, body) = read(planned, content, tile);
-            if state != State::Done {
-                *refused.borrow_mut() = Some((tile, state));
-                return Err(io::Error::other("a tile is not done"));
-            }
-            // The header stands once.
-            let rows = match tile {
-                0 => body.as_str(),
-                _ => body.split_once('\n').map_or("", |(_, rows)| rows),
-            };
-            file.write_all(rows.as_bytes())?;
-        }
-        Ok(())
-    });
-    if let Some((tile, state)) = refused.into_inner() {
-        let path = planned.tile_path(content, tile);
-        return Err(SweepError::Tile { path, state });
-    }
-    Ok(written?)
 }
 
 fn unresolved(curve: &IdaCurve) -> usize {
@@ -266,19 +173,18 @@ fn fill(
     match content {
         Content::Rows => {
             for curve in curves {
-                for point in &curve.points {
-                    let edp = match point.outcome {
-                        Outcome::Overturned { .. } => f64::INFINITY,
-                        _ => point.edp(),
-                    };
-                    let numbers = [point.im, point.pga_g, edp];
-                    let resolved = point.told.resolved.to_string();
+                let refined = curve.overturning.and_then(|o| o.refined);
+                let scanned = curve.points.iter().map(|point| (point, false));
+                let all = scanned.chain(refined.iter().map(|p| (p, true)));
+                for (point, refined) in all {
+                    let numbers = [point.im, point.pga_g, point.edp()];
+                    let flags = [refined, point.told.resolved];
                     let cells = name
                         .iter()
                         .cloned()
                         .chain([curve.record.clone()])
                         .chain(numbers.map(|x| x.to_string()))
-                        .chain([resolved]);
+                        .chain(flags.map(|x| x.to_string()));
                     table.row(cells);
                 }
             }
@@ -289,12 +195,13 @@ fn fill(
                     curve.overturning.map_or(f64::INFINITY, |o| o.im());
                 let numbers = [curve.velocity_factor(block[1]), first];
                 let found = capacities(plan, curve)?;
+                let counts = [curve.analyses, unresolved(curve) as u64];
                 let cells = name
                     .iter()
                     .cloned()
                     .chain([curve.record.clone()])
                     .chain(numbers.map(|x| x.to_string()))
-                    .chain([unresolved(curve).to_string()])
+                    .chain(counts.map(|x| x.to_string()))
                     .chain(found.iter().map(ToString::to_string));
                 table.row(cells);
             }

@@ -39,7 +39,7 @@ pub fn ridgecrest() -> Result<Suite, StudySuiteError> {
 }
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
-    let setup = results.plan.setup;
+    let setup = &results.plan.setup;
     let suite = ridgecrest()?;
     let settings = Settings::default();
     let block = Block::try_new(ALPHA_RAD, P_RAD_S)?;

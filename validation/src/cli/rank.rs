@@ -22,7 +22,6 @@ use crate::draw::markup;
 use crate::files::Outputs;
 use crate::measure::Measure;
 use crate::paper::Intensity;
-use crate::words::range;
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -297,7 +296,8 @@ impl Args {
                 .map(|b| b.map_or(none, |e| (e.low, e.high)))
                 .collect(),
         };
-        let (_, most) = range(series.interval.iter().map(|ends| ends.1));
+        let ends = series.interval.iter().map(|ends| ends.1);
+        let most = ends.fold(0.0, f64::max);
         let top = if most > 0.0 { 1.1 * most } else { 1.0 };
         let y = ChartAxis::new(label, Scale::Linear, Some((0.0, top)));
         Chart {

@@ -32,8 +32,9 @@ pub enum IntensityError {
     /// Gravity must be positive and finite.
     #[error("gravity {0} m/s2: expected a positive number")]
     Gravity(f64),
-    /// A period must be positive and finite.
-    #[error("period {0} s: expected a positive number")]
+    /// A period is finite and at least 0.001 s: an oscillator takes steps in
+    /// proportion to its period.
+    #[error("period {0} s: expected at least 0.001 s")]
     Period(f64),
     /// The damping ratio must be at least 0 and below 1.
     #[error("damping ratio {0}: expected a number from 0 to below 1")]

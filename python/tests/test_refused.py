@@ -64,7 +64,7 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.paired_ratios([1.0], [1.0, 2.0]), "as many on either side"),
     (
         lambda: rk.intensity_measures(LOBE, periods=[-1.0]),
-        "period -1 s: expected a positive number",
+        "period -1 s: expected at least 0.001 s",
     ),
 ]
 

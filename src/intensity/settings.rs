@@ -25,12 +25,16 @@ impl Default for Settings {
     }
 }
 
+/// The shortest period of an oscillator, in s.
+const LEAST_PERIOD_S: f64 = 1e-3;
+
 impl Settings {
     /// Settings of one's own; there may be no period at all.
     ///
     /// # Errors
-    /// [`IntensityError`] for gravity or a period that is not positive and
-    /// finite, or a damping ratio outside 0 to below 1.
+    /// [`IntensityError`] for gravity that is not positive and finite, a
+    /// period that is not finite or below 0.001 s, or a damping ratio outside
+    /// 0 to below 1.
     pub fn try_new(
         gravity_m_s2: f64,
         damping_ratio: f64,
@@ -42,8 +46,8 @@ impl Settings {
         if !(0.0..1.0).contains(&damping_ratio) {
             return Err(IntensityError::Damping(damping_ratio));
         }
-        let positive = |t: &f64| *t > 0.0 && t.is_finite();
-        if let Some(wrong) = periods_s.iter().find(|t| !positive(t)) {
+        let fits = |t: &f64| *t >= LEAST_PERIOD_S && t.is_finite();
+        if let Some(wrong) = periods_s.iter().find(|t| !fits(t)) {
             return Err(IntensityError::Period(*wrong));
         }
         Ok(Self { gravity_m_s2, damping_ratio, periods_s })

@@ -176,6 +176,26 @@ fn parquet_is_refused_where_the_program_has_none() {
 }
 
 #[test]
+fn a_merge_replaces_no_file_of_its_plan_and_a_plan_has_an_end() {
+    let place = planned("sweep-own", 1);
+    run(&place);
+    let suite = fs::read_dir(place.join("plan/suite")).unwrap();
+    let record = suite.map(|e| e.unwrap().path()).next().unwrap();
+    let record =
+        format!("plan/suite/{}", record.file_name().unwrap().display());
+    for own in ["plan/plan.json", "plan/suite.csv", &record] {
+        let old = fs::read(place.join(own)).unwrap();
+        let merge = format!("sweep merge plan --out {own}");
+        refused_for(&place, &merge, &["is read: expected another file"]);
+        assert_eq!(fs::read(place.join(own)).unwrap(), old);
+    }
+    let endless = "sweep plan --blocks blocks.csv --suite records --out more \
+                   --step-pga-g 1e-14";
+    refused_for(&place, endless, &["expected at most 1e12"]);
+    assert!(!place.join("more/plan.json").exists());
+}
+
+#[test]
 fn a_study_takes_no_curves_of_a_sweep_that_lacks_some() {
     let place = planned("sweep-study", 2);
     let names = ["plan: this sweep keeps no rows", "--rows"];

@@ -103,18 +103,22 @@ impl Measure {
         matches!(self, Self::Arias)
     }
 
-    /// A few letters, for the tick of an axis.
+    /// A few letters, for the tick of an axis; Arias intensity by its root.
     #[must_use]
     pub fn short(&self) -> String {
         match self {
             Self::Pga => "PGA".into(),
             Self::Pgv => "PGV".into(),
             Self::Pgd => "PGD".into(),
-            Self::Arias => "Arias".into(),
+            Self::Arias => "√Arias".into(),
             Self::Cav => "CAV".into(),
             Self::PgvDuration => "PGV D".into(),
             Self::Sa(period_s) => format!("SA({period_s})"),
-            Self::AverageSa(_) => "AvgSA".into(),
+            Self::AverageSa(periods_s) => {
+                let (first, last) = (periods_s.first(), periods_s.last());
+                let of = |t: Option<&f64>| t.copied().unwrap_or(f64::NAN);
+                format!("SA({}–{})", of(first), of(last))
+            }
             Self::Column(name) => name.clone(),
         }
     }

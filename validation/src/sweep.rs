@@ -28,6 +28,7 @@ pub use content::{Content, Kind};
 pub use cost::Tile;
 pub use kept::Kept;
 pub use merge::merge;
+use plan::MOST_ANALYSES;
 pub use plan::{Levels, Plan, Planned, Wanted};
 pub use tile::{State, run, state};
 
@@ -78,6 +79,15 @@ pub enum SweepError {
     OtherPlan {
         /// The folder.
         path: PathBuf,
+    },
+    /// More work than any cluster does.
+    #[error(
+        "about {found:e} analyses: expected at most {MOST_ANALYSES:e}; a \
+         larger step of the levels makes fewer"
+    )]
+    Work {
+        /// Analyses of the plan.
+        found: f64,
     },
     /// Records of the folder that are not those of the plan.
     #[error("{record}: found hash {found}; expected {expected}, as planned")]

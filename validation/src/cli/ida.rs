@@ -43,7 +43,7 @@ pub struct Args {
     block: BlockArgs,
     #[command(flatten)]
     model: ModelArgs,
-    /// Folder of records, index CSV, or one record file.
+    /// Folder of records, index CSV, zip, or one record file.
     #[arg(long, value_name = "PATH")]
     suite: PathBuf,
     #[command(flatten)]

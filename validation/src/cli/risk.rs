@@ -232,7 +232,9 @@ fn of_sample(
                 return Err(at(format!(
                     "a sample of {}, a hazard of {}: expected the same \
                      measure",
-                    own.map_or("a measure not stated", Intensity::words),
+                    own.map(Intensity::words)
+                        .or(file.of())
+                        .unwrap_or("a measure not stated"),
                     measure.name().to_uppercase(),
                 )));
             }

@@ -54,7 +54,7 @@ struct PlanArgs {
     /// Table of blocks: alpha,p or width_m,height_m, and optionally eta.
     #[arg(long, value_name = "FILE.csv")]
     blocks: PathBuf,
-    /// Folder of records, index CSV, or one record file.
+    /// Folder of records, index CSV, zip, or one record file.
     #[arg(long, value_name = "PATH")]
     suite: PathBuf,
     #[command(flatten)]

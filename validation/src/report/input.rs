@@ -117,7 +117,7 @@ pub fn input(
         tables: questions
             .iter()
             .filter(|q| q.id != "suites")
-            .flat_map(|q| q.tables.clone())
+            .flat_map(|q| answered(q, recorded))
             .collect(),
         figures: drawn(figures, |f| {
             !is_paper_s(f) && !f.heading.name.starts_with("figure-suites")
@@ -270,6 +270,25 @@ pub fn input(
         .filter(|c| !(c.tables.is_empty() && c.figures.is_empty()))
         .collect(),
     })
+}
+
+/// The tables of a question, with what the recorded suites answer.
+fn answered(
+    question: &Answer,
+    recorded: Option<&Findings>,
+) -> Vec<PlainTable> {
+    let mut tables = question.tables.clone();
+    let kept = recorded.iter().flat_map(|found| &found.questions);
+    let kept = kept.into_iter().find(|q| q.id == question.id);
+    if let (Some(kept), Some(table)) = (kept, tables.first_mut())
+        && kept.answer != question.answer
+    {
+        table.reading = format!(
+            "Embedded suites: {} Recorded suites: {}",
+            table.reading, kept.answer
+        );
+    }
+    tables
 }
 
 /// Whether it is one of the paper's, by its number.

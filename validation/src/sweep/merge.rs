@@ -27,9 +27,7 @@ pub fn merge(
     if parquet && !cfg!(feature = "parquet") {
         return Err(SweepError::NoParquet { path: out.to_owned() });
     }
-    let tiles = 0..planned.plan.tiles.len();
-    let tiles = tiles.map(|tile| planned.tile_path(content, tile));
-    let output = Outputs::of(tiles.collect()).open(out)?;
+    let output = Outputs::of(planned.files()).open(out)?;
     let refused = RefCell::new(None);
     let written = output.write_with(&|file| {
         let body = &|tile| match tile::read(planned, content, tile) {

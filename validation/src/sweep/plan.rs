@@ -28,6 +28,9 @@ const INTENSITIES: usize = 2;
 /// Name of the suite in the plan's folder.
 const SUITE: &str = "suite";
 
+/// Analyses of a plan at most: ten million core-hours and more.
+pub(super) const MOST_ANALYSES: f64 = 1e12;
+
 /// Everything that a task must know.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -112,6 +115,7 @@ impl Plan {
     ///
     /// # Errors
     /// [`SweepError::OtherPlan`] where the folder has another plan already;
+    /// [`SweepError::Work`] for more than 1e12 analyses;
     /// [`SweepError`] where a record cannot be packed or a file cannot be
     /// written.
     pub fn write(
@@ -159,6 +163,11 @@ impl Plan {
             records,
             tiles: cost::tiles(&costs, 60.0 * wanted.tile_minutes),
         };
+        let analyses = plan.tiles.iter().map(|tile| tile.analyses as f64);
+        let analyses = analyses.fold(0.0, |sum, x| sum + x);
+        if !(analyses <= MOST_ANALYSES) {
+            return Err(SweepError::Work { found: analyses });
+        }
         let text = plan.text();
         let path = folder.join("plan.json");
         match fs::read_to_string(&path) {
@@ -243,6 +252,18 @@ impl Plan {
 }
 
 impl Planned {
+    /// The files of the folder: plan, suite, and tiles.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        let own = ["plan.json".to_owned(), format!("{SUITE}.csv")];
+        let own = own.map(|name| self.folder.join(name));
+        let inner = [SUITE, "tiles"].into_iter().flat_map(|part| {
+            let listed = fs::read_dir(self.folder.join(part)).into_iter();
+            listed.flatten().flatten().map(|entry| entry.path())
+        });
+        own.into_iter().chain(inner).collect()
+    }
+
     /// Reads the plan of a folder.
     ///
     /// # Errors

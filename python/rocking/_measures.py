@@ -88,6 +88,9 @@ def rank_ims(
         Of the records of `suite`, in their order.
     edp : float
         Response whose capacities are compared; infinite for overturning.
+    periods : array_like
+        Periods in s of the spectral accelerations; `AvgSA_g` is their
+        geometric mean. `pgv_d575` is PGV times the fourth root of D5-75.
     against : mapping of name to array_like
         Magnitudes, logarithms of distances, ..., one value a record.
 
@@ -124,6 +127,11 @@ def rank_ims(
         own[key] = np.array(
             [measures["spectral_acceleration_g"][i] for measures in found]
         )
+    if times:
+        spectra = [list(m["spectral_acceleration_g"]) for m in found]
+        own["AvgSA_g"] = np.exp(np.log(np.array(spectra)).mean(axis=1))
+    duration = [m["significant_duration_5_75_s"] for m in found]
+    own["pgv_d575"] = own["pgv_m_s"] * np.array(duration) ** 0.25
     quantities = {
         key: floats(values, key) for key, values in (against or {}).items()
     }

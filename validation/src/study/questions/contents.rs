@@ -203,66 +203,59 @@ fn words(ours: &[Ours; 2]) -> String {
 fn figure(ours: &[Ours; 2]) -> Figure {
     let all: Vec<usize> = (0..items().len()).collect();
     let shelves: Vec<usize> = (0..BOOKCASES).collect();
-    let panel =
-        |title: &str,
-         of: &[usize],
-         x: (&str, fn(&Item) -> f64, (f64, f64)),
-         y: (&str, fn(&Item, f64) -> f64, (f64, f64))| {
-            let places: Vec<f64> =
-                of.iter().map(|k| x.1(&items()[*k])).collect();
-            let mark = Mark::Points;
-            let mut series = Vec::new();
-            for (label, kind) in [("bookcases", true), ("cabinets", false)] {
-                let own: Vec<&Item> = of
-                    .iter()
-                    .filter(|k| (**k < BOOKCASES) == kind)
-                    .map(|k| &items()[*k])
-                    .collect();
-                if !own.is_empty() {
-                    series.push(Series::new(
-                        format!("FEMA P-58, {label}"),
-                        mark,
-                        own.iter().map(|i| x.1(i)).collect(),
-                        own.iter().map(|i| y.1(i, i.median_m_s)).collect(),
-                    ));
-                }
-            }
-            for one in ours {
-                let scaled = |k: &usize, v| y.1(&items()[*k], v);
-                let ends = |k: &usize| {
-                    let (low, high) = one.interval_m_s(*k);
-                    (scaled(k, low), scaled(k, high))
-                };
-                series.push(Series {
-                    label: format!("blocks, {} motions", one.suite),
+    let panel = |title: &str,
+                 of: &[usize],
+                 x: (ChartAxis, fn(&Item) -> f64),
+                 y: (ChartAxis, fn(&Item, f64) -> f64)| {
+        let places: Vec<f64> = of.iter().map(|k| x.1(&items()[*k])).collect();
+        let mark = Mark::Points;
+        let mut series = Vec::new();
+        for (label, kind) in [("bookcases", true), ("cabinets", false)] {
+            let own: Vec<&Item> = of
+                .iter()
+                .filter(|k| (**k < BOOKCASES) == kind)
+                .map(|k| &items()[*k])
+                .collect();
+            if !own.is_empty() {
+                series.push(Series::new(
+                    format!("FEMA P-58, {label}"),
                     mark,
-                    x: places.clone(),
-                    y: of
-                        .iter()
-                        .map(|k| scaled(k, one.median_m_s(*k)))
-                        .collect(),
-                    interval: of.iter().map(ends).collect(),
-                });
+                    own.iter().map(|i| x.1(i)).collect(),
+                    own.iter().map(|i| y.1(i, i.median_m_s)).collect(),
+                ));
             }
-            ChartPanel {
-                title: title.into(),
-                x: ChartAxis::new(x.0, Scale::Linear, Some(x.2)),
-                y: ChartAxis::new(y.0, Scale::Linear, Some(y.2)),
-                series,
-            }
-        };
+        }
+        for one in ours {
+            let scaled = |k: &usize, v| y.1(&items()[*k], v);
+            let ends = |k: &usize| {
+                let (low, high) = one.interval_m_s(*k);
+                (scaled(k, low), scaled(k, high))
+            };
+            series.push(Series {
+                label: format!("blocks, {} motions", one.suite),
+                mark,
+                x: places.clone(),
+                y: of.iter().map(|k| scaled(k, one.median_m_s(*k))).collect(),
+                interval: of.iter().map(ends).collect(),
+            });
+        }
+        ChartPanel { title: title.into(), x: x.0, y: y.0, series }
+    };
+    let axis =
+        |label: &str, ends| ChartAxis::new(label, Scale::Linear, Some(ends));
+    let scaled = "median *PGV* / (*g* depth/height) (s)";
     let panels = vec![
         panel(
             "Bookcases of 0.32 m depth",
             &shelves,
-            ("height (m)", Item::height_m, (0.5, 2.3)),
-            ("median *PGV* (m/s)", |_, v| v, (0.0, 1.2)),
+            (axis("height (m)", (0.5, 2.3)), Item::height_m),
+            (axis("median *PGV* (m/s)", (0.0, 1.2)), |_, v| v),
         ),
         panel(
             "All nine items",
             &all,
-            ("half diagonal (m)", Item::half_diagonal_m, (0.3, 1.1)),
-            ("median *PGV* / (*g* depth/height) (s)", scaled_s, (0.0, 0.4)),
+            (axis("half diagonal (m)", (0.3, 1.1)), Item::half_diagonal_m),
+            (axis(scaled, (0.0, 0.4)), scaled_s),
         ),
     ];
     let heading = Heading::new(

@@ -14,6 +14,7 @@ pub mod multiple;
 pub mod normal;
 pub mod normality;
 pub mod paired;
+pub mod proportion;
 pub mod quantile;
 pub mod regression;
 pub mod resampling;
@@ -23,5 +24,6 @@ pub mod two_sample;
 
 pub use boxplot::Boxplot;
 pub use lognormal::Lognormal;
+pub use proportion::Proportion;
 pub use quantile::QuantileType;
 pub use sample::{ExtendedSample, Sample, SampleError};

@@ -132,10 +132,14 @@ impl Subsampling {
 /// `replicates[b][k]` is measure k of replicate b, s_k the standard deviation
 /// over the replicates, and c the quantile of type 7 at `level` of
 /// `max_k |replicates[b][k] - points[k]|/s_k` (Romano and Wolf, Econometrica
-/// 73 (2005) 1237, single step). A measure that no replicate moves has its
-/// point as interval. A replicate in which a measure is not finite leaves
-/// that measure out; a measure that is not finite in one of ten replicates,
-/// or whose point is not finite, has no interval.
+/// 73 (2005) 1237, single step). A replicate in which a measure is not finite
+/// leaves that measure out.
+///
+/// A measure has no interval where its point is not finite, where it is not
+/// finite in one of ten replicates, and where no replicate moves it: that
+/// shows no certainty, since what none of n records did has still a
+/// probability of up to about 3/n. [`Proportion`](super::Proportion) has the
+/// interval of such a count.
 ///
 /// ```
 /// use rocking::statistics::bootstrap::Bootstrap;
@@ -167,9 +171,7 @@ pub fn simultaneous(
             for ((x, point), spread) in
                 replicate.iter().zip(points).zip(&spreads)
             {
-                let Some(spread) = spread.filter(|s| *s > 0.0) else {
-                    continue;
-                };
+                let Some(spread) = spread else { continue };
                 let distance = (x - point).abs() / spread;
                 if distance.is_finite() && distance > most {
                     most = distance;
@@ -187,7 +189,7 @@ pub fn simultaneous(
 }
 
 /// Standard deviation of measure `k` over the replicates in which it is
-/// finite; none where too many are not.
+/// finite; none where too many are not, and where it is 0.
 fn spread(point: f64, replicates: &[Vec<f64>], k: usize) -> Option<f64> {
     let values: Vec<f64> =
         replicates.iter().map(|r| r[k]).filter(|x| x.is_finite()).collect();
@@ -196,7 +198,8 @@ fn spread(point: f64, replicates: &[Vec<f64>], k: usize) -> Option<f64> {
         return None;
     }
     let sample = Sample::try_new(&values).ok()?;
-    Some((sample.sum_of_squares() / (values.len() as f64 - 1.0)).sqrt())
+    let variance = sample.sum_of_squares() / (values.len() as f64 - 1.0);
+    (variance > 0.0).then_some(variance.sqrt())
 }
 
 fn quantile_7(values: &[f64], p: f64) -> Option<f64> {
@@ -383,10 +386,11 @@ mod tests {
     }
 
     #[test]
-    fn a_measure_that_cannot_move_keeps_its_point() {
+    fn a_measure_that_no_replicate_moves_has_no_interval() {
+        // Both replicates give the first measure its point.
         let replicates = vec![vec![1.0, 0.0], vec![1.0, 2.0]];
         let band = simultaneous(&[1.0, 1.0], &replicates, 0.95);
-        assert_eq!(band[0], Some((1.0, 1.0)));
+        assert!(band[0].is_none() && band[1].is_some(), "{band:?}");
         let replicates = vec![vec![f64::NAN, 0.0], vec![1.0, 2.0]];
         let band = simultaneous(&[1.0, 1.0], &replicates, 0.95);
         assert_eq!(band[0], None);

@@ -218,6 +218,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("tests-of-normality", statistics::tests),
     ("paired-procedures", statistics::paired),
     ("two-samples", statistics::two_samples),
+    ("proportions", statistics::proportions),
     ("inversion", statistics::inversion),
     ("equations-5-to-7", statistics::transforms),
     ("annual-frequency", statistics::annual_frequency),

@@ -125,6 +125,8 @@ named! {
         Clamped = "clamped",
         /// McGill's notch as 95 % interval.
         NotchForInterval = "notch-for-interval",
+        /// Wilson's interval for the exact one.
+        WilsonInterval = "wilson-interval",
         /// Another interval, too narrow.
         OtherInterval = "other-interval",
     /// An interval for each cell alone where all are meant.

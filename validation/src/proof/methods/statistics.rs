@@ -9,6 +9,7 @@ mod inference;
 mod inversion;
 mod lilliefors;
 mod nist;
+mod proportion;
 mod risk;
 mod truths;
 mod two_samples;
@@ -23,6 +24,7 @@ pub(super) use lilliefors::{
     asymptotics, draws, largest, null, published, table,
 };
 pub(super) use nist::moments;
+pub(super) use proportion::intervals as proportions;
 pub(super) use risk::{annual_frequency, cornell, interval};
 pub(super) use two_samples::two_samples;
 

@@ -28,6 +28,7 @@ use rocking::statistics::SampleError;
 use rocking::statistics::boxplot::BoxplotError;
 use rocking::statistics::lognormal::LognormalError;
 use rocking::statistics::paired::PairedError;
+use rocking::statistics::proportion::ProportionError;
 use rocking::statistics::quantile::QuantileError;
 use thiserror::Error;
 
@@ -68,6 +69,9 @@ pub enum StudyError {
     /// A fragility that a change of unit makes none.
     #[error(transparent)]
     Lognormal(#[from] LognormalError),
+    /// A count of nothing.
+    #[error(transparent)]
+    Proportion(#[from] ProportionError),
     /// Pairs that cannot be compared.
     #[error(transparent)]
     Paired(#[from] PairedError),

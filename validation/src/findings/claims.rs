@@ -326,6 +326,10 @@ pub enum Interval {
     Simultaneous,
     /// Subsamples of records without replacement.
     Subsampling,
+    /// Exact binomial, of a count of records.
+    Exact,
+    /// Exact binomial, simultaneous over all cells.
+    ExactSimultaneous,
 }
 
 impl Interval {
@@ -341,6 +345,11 @@ impl Interval {
             Self::Subsampling => {
                 "subsamples of 90 % of the records, with the range of \
                  leaving one out"
+            }
+            Self::Exact => "exact binomial (Clopper and Pearson)",
+            Self::ExactSimultaneous => {
+                "exact binomial (Clopper and Pearson), simultaneous over all \
+                 cells by Bonferroni"
             }
         }
     }

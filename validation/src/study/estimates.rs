@@ -17,21 +17,6 @@ use crate::paper::{FREQUENCIES_RAD_S, position};
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
 
-/// Standard normal quantile of 97.5 %.
-const NORMAL_975: f64 = 1.959_963_984_540_054;
-
-/// Wilson's 95 % interval of a share: `count` of `of` records, which are
-/// independent of each other.
-#[must_use]
-pub fn wilson(count: usize, of: usize) -> (f64, f64) {
-    let (n, z2) = (of as f64, NORMAL_975 * NORMAL_975);
-    let share = count as f64 / n;
-    let middle = (share + z2 / (2.0 * n)) / (1.0 + z2 / n);
-    let spread = share * (1.0 - share) / n + z2 / (4.0 * n * n);
-    let half = NORMAL_975 * spread.sqrt() / (1.0 + z2 / n);
-    (middle - half, middle + half)
-}
-
 /// Median with its exact order-statistic interval; what was never reached
 /// counts as infinite, what is NaN does not count.
 #[must_use]
@@ -113,17 +98,6 @@ pub fn varied_ratios(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn wilson_agrees_with_its_closed_ends_and_r() {
-        // At 0 of n the upper end is z^2/(n + z^2).
-        let (low, high) = wilson(0, 20);
-        assert!(low.abs() < 1e-15 && (high - 0.161_125_158).abs() < 1e-8);
-        // R 4: prop.test(5, 10, correct = FALSE).
-        let (low, high) = wilson(5, 10);
-        assert!((low - 0.236_593_1).abs() < 1e-7, "{low}");
-        assert!((high - 0.763_406_9).abs() < 1e-7, "{high}");
-    }
 
     #[test]
     fn a_median_counts_what_was_never_reached() {

@@ -1,10 +1,12 @@
 //! Everything that a study found, as [`Findings`].
 
 use rocking::integrator::Overturning;
+use rocking::statistics::Proportion;
 
 use super::analyses::{Plan, SuiteResults};
-use super::estimates::{self, wilson};
+use super::estimates;
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
+use super::inference::LEVEL;
 use super::questions::{self, Answer};
 use super::{StudyError, normality};
 use crate::draw::figures::Stripe;
@@ -274,7 +276,7 @@ fn varied(results: &Results) -> Result<Table, StudyError> {
     })
 }
 
-/// Figure 9, a row a box: usable count with Wilson's 95 % interval, and
+/// Figure 9, a row a box: usable count with its exact 95 % interval, and
 /// median; the same apart by whether the adjusted slenderness is within the
 /// paper's.
 fn adjustment(results: &Results) -> Result<Table, StudyError> {
@@ -299,7 +301,7 @@ fn adjustment(results: &Results) -> Result<Table, StudyError> {
                     },
                     values: vec![
                         count(stripe.records),
-                        usable(stripe),
+                        usable(stripe)?,
                         Measured::exact(median.unwrap_or(f64::NAN)),
                         part(&split.within),
                         part(&split.above),
@@ -340,13 +342,14 @@ fn adjustment(results: &Results) -> Result<Table, StudyError> {
 }
 
 /// Of as many records of the kind, how many would be usable.
-fn usable(stripe: &Stripe) -> Measured {
-    let (low, high) = wilson(stripe.usable, stripe.records);
+fn usable(stripe: &Stripe) -> Result<Measured, StudyError> {
+    let share = Proportion::try_new(stripe.usable, stripe.records)?;
+    let (low, high) = share.interval(LEVEL)?;
     let n = stripe.records as f64;
-    Measured {
+    Ok(Measured {
         value: stripe.usable as f64,
         interval: Some((low * n, high * n)),
-    }
+    })
 }
 
 /// Median overturning intensities, a row a block, suite and measure, in the

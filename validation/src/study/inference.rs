@@ -8,6 +8,7 @@
 mod drawn;
 
 use rayon::prelude::*;
+use rocking::statistics::Proportion;
 use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
 use rocking::statistics::resampling::{
     Subsampling, share_inside, simultaneous,
@@ -171,6 +172,7 @@ impl Draws {
             replicates: self.bootstrap.map(f),
             without_one,
             halves: Vec::new(),
+            counts: Vec::new(),
         }
     }
 
@@ -190,17 +192,21 @@ impl Draws {
             replicates: self.subsamples.map(f),
             without_one,
             halves: self.halves.map(f),
+            counts: Vec::new(),
         }
     }
 }
 
-/// How replicates were drawn.
+/// Where the intervals of a measure's cells come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
-    /// With replacement.
+    /// Replicates drawn with replacement.
     Bootstrap,
-    /// Without.
+    /// Replicates drawn without.
     Subsampling,
+    /// The cells are counts of records, which have exact intervals: no
+    /// replicate is drawn.
+    Counted,
 }
 
 /// The cells of a measure: of all records, and of every replicate.
@@ -211,10 +217,37 @@ pub struct Replicated {
     replicates: Vec<Vec<f64>>,
     without_one: Vec<Vec<f64>>,
     halves: Vec<Vec<f64>>,
+    /// The cells where they are counts; empty otherwise.
+    counts: Vec<Proportion>,
 }
 
 impl Replicated {
-    /// Other measures made of this one's cells.
+    /// Probabilities from counts of records.
+    #[must_use]
+    pub fn counted(counts: Vec<Proportion>) -> Self {
+        Self {
+            scheme: Scheme::Counted,
+            points: counts.iter().map(|count| count.share()).collect(),
+            replicates: Vec::new(),
+            without_one: Vec::new(),
+            halves: Vec::new(),
+            counts,
+        }
+    }
+
+    /// Some of the cells.
+    fn select(&self, places: &[usize]) -> Self {
+        let counts = || places.iter().map(|k| self.counts[*k]).collect();
+        let counts = match self.scheme {
+            Scheme::Counted => counts(),
+            Scheme::Bootstrap | Scheme::Subsampling => Vec::new(),
+        };
+        let own = self.map(|row| places.iter().map(|k| row[*k]).collect());
+        Self { counts, ..own }
+    }
+
+    /// Other measures made of this one's cells; of counts they have no
+    /// interval.
     #[must_use]
     pub fn map(&self, f: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         let all = |rows: &[Vec<f64>]| rows.iter().map(|row| f(row)).collect();
@@ -224,6 +257,7 @@ impl Replicated {
             replicates: all(&self.replicates),
             without_one: all(&self.without_one),
             halves: all(&self.halves),
+            counts: Vec::new(),
         }
     }
 
@@ -280,6 +314,10 @@ impl Replicated {
                 let rule = &rules[usize::from(tested == Tested::PulseType)];
                 let e = rule.interval(point, &values, &others, level)?;
                 Some((e.low, e.high, Interval::Subsampling))
+            }
+            Scheme::Counted => {
+                let (low, high) = self.counts.get(k)?.interval(level).ok()?;
+                Some((low, high, Interval::Exact))
             }
         }
     }
@@ -341,7 +379,9 @@ pub fn judge(
         // No interval, no verdict.
         result.by_equivalence = None;
     }
-    if result.by_equivalence == Some(Verdict::Inconclusive) {
+    // Exact ends do not shrink by the root of the number of records.
+    let scales = measured.scheme != Scheme::Counted;
+    if scales && result.by_equivalence == Some(Verdict::Inconclusive) {
         let n = draws.size(tested);
         result.records_needed = needed(n, rule, &result);
     }
@@ -434,6 +474,10 @@ fn band(
             let ends = |k| own.interval(k, &draws.rules, tested, level);
             (0..count).map(|k| ends(k).map(|e| (e.0, e.1))).collect()
         }
+        Scheme::Counted => {
+            let band = Proportion::band(&own.counts, LEVEL);
+            band.unwrap_or_default().into_iter().map(Some).collect()
+        }
     };
     band.into_iter()
         .map(|ends| ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
@@ -453,10 +497,11 @@ fn many(
     result: &mut ClaimResult,
 ) {
     let deciding = deciding(cells, measured);
-    let own = measured.map(|row| deciding.iter().map(|k| row[*k]).collect());
+    let own = measured.select(&deciding);
     result.interval = Some(match own.scheme {
         Scheme::Bootstrap => Interval::Simultaneous,
         Scheme::Subsampling => Interval::Subsampling,
+        Scheme::Counted => Interval::ExactSimultaneous,
     });
     let band = band(draws, result.suite, rule.range, &own);
     let verdicts: Vec<Verdict> =

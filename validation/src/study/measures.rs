@@ -269,7 +269,7 @@ impl Source<'_> {
             | M::StripeOutliers
             | M::AdjustmentRatios
             | M::AdjustmentRatiosSlender
-            | M::AdjustmentRatiosStocky => Ok(stripes::prepare(self, measure)),
+            | M::AdjustmentRatiosStocky => stripes::prepare(self, measure),
             M::GeometricMeanShares
             | M::ShareOriginalPga
             | M::ShareLargeMinusSmall

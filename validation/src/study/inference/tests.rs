@@ -124,3 +124,65 @@ fn one_record_that_carries_a_share_keeps_it_open() {
     assert_eq!((found.value, found.low), (1.0, 0.0));
     assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
 }
+
+/// Counts of records, judged in every cell at once.
+fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
+    let draws = Draws::new([86, 44]);
+    let cell = |(k, (_, records)): (usize, &(usize, usize))| Cell {
+        at: format!("cell {k}"),
+        records: *records,
+    };
+    let cells: Vec<Cell> = counts.iter().enumerate().map(cell).collect();
+    let all = counts.iter().map(|(k, n)| Proportion::try_new(*k, *n).unwrap());
+    let measured = Replicated::counted(all.collect());
+    let rule =
+        Rule { range: (0.0, 1.0), ..rule(quantifier, Region::Below(0.05)) };
+    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+}
+
+#[test]
+fn none_of_a_few_records_is_not_shown_to_be_below_a_limit() {
+    // 0 of 44: the probability may be 8 %.
+    let found = counted(&[(0, 44)], Quantifier::One);
+    assert_eq!(found.interval, Some(Interval::Exact));
+    assert!(found.low == 0.0 && (found.high - 0.0804).abs() < 1e-4);
+    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(found.records_needed, None);
+    // 0 of 86 is below 5 % alone, and not with 240 others at once.
+    let alone = counted(&[(0, 86)], Quantifier::One);
+    assert_eq!(alone.by_equivalence, Some(Verdict::Confirmed));
+    let many = counted(&[(0, 86); 240], Quantifier::All);
+    assert_eq!(many.interval, Some(Interval::ExactSimultaneous));
+    assert_eq!(many.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(many.cells.map(|c| (c.inside, c.outside)), Some((0, 0)));
+}
+
+#[test]
+fn a_count_far_above_a_limit_is_seen_among_many_cells() {
+    for above in [16, 19] {
+        let mut counts = vec![(0, 86); 239];
+        counts.push((above, 86));
+        let found = counted(&counts, Quantifier::All);
+        assert_eq!(found.by_equivalence, Some(Verdict::NotConfirmed));
+        assert_eq!(found.at, "cell 239");
+        assert!(found.low > 0.05, "{}", found.low);
+    }
+}
+
+#[test]
+fn a_cell_that_no_replicate_moves_is_open() {
+    // All records have the value 1: the bootstrap knows no error.
+    let draws = Draws::new([80, 40]);
+    let (cells, ranked) = cells(&[0.0, 0.01]);
+    let constant = Ranked::new(&[1.0; 80]);
+    let medians = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(SuiteKind::Ordinary);
+        vec![constant.median(counts), ranked[1].median(counts)]
+    };
+    let measured = draws.smooth(Tested::Ordinary, &medians);
+    let rule = rule(Quantifier::All, Region::Within(0.8, 1.2));
+    let found =
+        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured);
+    assert_eq!(found.cells.map(|c| c.inside), Some(1));
+    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+}

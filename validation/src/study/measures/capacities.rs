@@ -12,9 +12,10 @@ use crate::paper::{
 use crate::study::StudyError;
 use crate::study::distributions::factors;
 use crate::study::figures::of_arm;
-use crate::study::inference::{Cell, Draw};
+use crate::study::inference::{Cell, Draw, Replicated};
 use crate::study::runs::capacities;
 use crate::study::sensitivities::{Choice, Varied};
+use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 
 /// Demands at which intensities are compared.
@@ -103,7 +104,7 @@ pub(super) fn prepare(
         Measure::ComponentEffect => component(source).map(Some),
         Measure::InversionBias => inversion(source),
         Measure::HousnerSpread => housner(source),
-        Measure::UpliftUnscaled => Ok(Some(uplift(source))),
+        Measure::UpliftUnscaled => uplift(source).map(Some),
         Measure::DemandRatios => Ok(demand_ratios(source)),
         Measure::Quantiles => Ok(quantiles(source)),
         Measure::AdjustmentQuantiles => adjusted_quantiles(source),
@@ -400,18 +401,16 @@ fn housner(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
     })))
 }
 
-fn uplift(source: &Source<'_>) -> Prepared {
-    let kind = source.kind();
-    let records = &source.results.suite(kind).records;
+fn uplift(source: &Source<'_>) -> Result<Prepared, StudyError> {
+    let records = &source.results.suite(source.kind()).records;
     let stockiest = SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1];
-    let moves: Vec<bool> =
-        records.iter().map(|r| r.pga_g > tan(stockiest)).collect();
-    source.value("alpha = 0.25", records.len(), |draw| {
-        let counts = draw.of(kind);
-        let each = moves.iter().zip(counts);
-        let moved: u32 =
-            each.filter(|(moves, _)| **moves).map(|(_, count)| count).sum();
-        f64::from(moved) / f64::from(counts.iter().sum::<u32>())
+    let moved = records.iter().filter(|r| r.pga_g > tan(stockiest));
+    let share = Proportion::try_new(moved.count(), records.len())?;
+    let cell = Cell { at: "alpha = 0.25".into(), records: records.len() };
+    Ok(Prepared {
+        cells: vec![cell],
+        measured: Replicated::counted(vec![share]),
+        criterion: None,
     })
 }
 

@@ -7,9 +7,11 @@ use super::{Measure, Prepared, Source, block};
 use crate::paper::{
     FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, position,
 };
+use crate::study::StudyError;
 use crate::study::analyses::StripeDemands;
 use crate::study::figures::of_arm;
-use crate::study::inference::{Cell, Draw, LEAST_DECIDING};
+use crate::study::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
+use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 
 /// Ratios of one cell of Figure 6, 7 or 9, by record.
@@ -134,9 +136,9 @@ pub fn closed_form(alpha_rad: f64) -> f64 {
 pub(super) fn prepare(
     source: &Source<'_>,
     measure: Measure,
-) -> Option<Prepared> {
+) -> Result<Option<Prepared>, StudyError> {
     let suite = source.results.suite(source.kind());
-    let stripes = of_arm(suite, source.arm)?;
+    let Some(stripes) = of_arm(suite, source.arm) else { return Ok(None) };
     let of = |frequencies: &[usize], corrected: bool| -> Vec<Ratios> {
         let mut out = Vec::new();
         for frequency in frequencies {
@@ -160,57 +162,46 @@ pub(super) fn prepare(
     let stocky = SLENDERNESSES_RAD.len() - 1;
     let exception =
         |r: &Ratios| r.at == stripe_ratios(stripes, 0, stocky, 1.0)[0].at;
-    match measure {
+    Ok(Some(match measure {
         Measure::StripeRatiosLarge => {
             let mut ratios = of(&[0], false);
             ratios.retain(|r| !exception(r));
-            Some(medians(source, &ratios))
+            medians(source, &ratios)
         }
         Measure::StripeRatioException => {
             let mut ratios = of(&[0], false);
             ratios.retain(exception);
-            Some(medians(source, &ratios))
+            medians(source, &ratios)
         }
-        Measure::StripeRatiosSmall => {
-            Some(medians(source, &of(&[1, 2], false)))
-        }
+        Measure::StripeRatiosSmall => medians(source, &of(&[1, 2], false)),
         Measure::StripeRatiosCorrected => {
-            Some(medians(source, &of(&[0, 1, 2], true)))
+            medians(source, &of(&[0, 1, 2], true))
         }
-        Measure::StripeOutliers => {
-            Some(outliers(source, &of(&[0, 1, 2], false)))
-        }
+        Measure::StripeOutliers => outliers(source, &of(&[0, 1, 2], false)),
         Measure::AdjustmentRatios => {
-            Some(medians(source, &adjusted_ratios(source, stripes, None)))
+            medians(source, &adjusted_ratios(source, stripes, None))
         }
         Measure::AdjustmentRatiosSlender => {
             let part = Some(true);
-            Some(medians(source, &adjusted_ratios(source, stripes, part)))
+            medians(source, &adjusted_ratios(source, stripes, part))
         }
         Measure::AdjustmentRatiosStocky => {
             let part = Some(false);
-            Some(medians(source, &adjusted_ratios(source, stripes, part)))
+            medians(source, &adjusted_ratios(source, stripes, part))
         }
-        Measure::ResurrectionProbability => {
-            Some(probabilities(source, stripes))
-        }
-        Measure::ResurrectionMedian => Some(median_again(source, stripes)),
+        Measure::ResurrectionProbability => probabilities(stripes)?,
+        Measure::ResurrectionMedian => median_again(source, stripes),
         Measure::ResurrectionsBySize => {
             let large = |f: usize, _: usize| Some(f == 0);
-            Some(again_apart(
-                source,
-                stripes,
-                "p = 1 minus p = 3 and 4",
-                large,
-            ))
+            again_apart(source, stripes, "p = 1 minus p = 3 and 4", large)
         }
         Measure::ResurrectionsBySlenderness => {
             let at = "alpha = 0.20 and 0.25 minus 0.05 and 0.10";
             let stocky = |_: usize, s: usize| (s != 2).then_some(s > 2);
-            Some(again_apart(source, stripes, at, stocky))
+            again_apart(source, stripes, at, stocky)
         }
-        _ => None,
-    }
+        _ => return Ok(None),
+    }))
 }
 
 /// Share of the ratios of all cells that lie more than 10 % from 1.
@@ -234,39 +225,23 @@ fn outliers(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
 
 /// By block and stripe, the share of the records that overturned at or below
 /// and stand there again.
-fn probabilities(source: &Source<'_>, stripes: &StripeDemands) -> Prepared {
-    let kind = source.kind();
-    let mut cells = Vec::new();
-    let mut again: Vec<Vec<usize>> = Vec::new();
+fn probabilities(stripes: &StripeDemands) -> Result<Prepared, StudyError> {
+    let (mut cells, mut counts) = (Vec::new(), Vec::new());
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         for slenderness in 0..SLENDERNESSES_RAD.len() {
             let own = &stripes.stands_again[position(frequency, slenderness)];
+            let name = block(frequency, slenderness);
             for (im, flags) in STRIPES.iter().zip(own) {
-                cells.push(Cell {
-                    at: format!(
-                        "{}, intensity {im}",
-                        block(frequency, slenderness)
-                    ),
-                    records: flags.len(),
-                });
-                again.push((0..flags.len()).filter(|r| flags[*r]).collect());
+                let records = flags.len();
+                let again = flags.iter().filter(|again| **again).count();
+                counts.push(Proportion::try_new(again, records)?);
+                let at = format!("{name}, intensity {im}");
+                cells.push(Cell { at, records });
             }
         }
     }
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        let n = f64::from(counts.iter().sum::<u32>());
-        let share = |records: &Vec<usize>| {
-            let sum: u32 = records.iter().map(|r| counts[*r]).sum();
-            f64::from(sum) / n
-        };
-        again.iter().map(share).collect()
-    };
-    Prepared {
-        cells,
-        measured: source.draws.smooth(source.tested, &of),
-        criterion: None,
-    }
+    let measured = Replicated::counted(counts);
+    Ok(Prepared { cells, measured, criterion: None })
 }
 
 /// By block, the intensity at which half of the records lie overturned, with

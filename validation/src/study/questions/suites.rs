@@ -6,7 +6,7 @@ mod compare;
 mod drawing;
 mod row;
 
-use row::{Group, Row};
+use row::{Group, Row, Shown};
 
 use super::Answer;
 use crate::draw::markup;
@@ -36,6 +36,10 @@ const MOTIONS: [(&str, &str); 8] = [
 ];
 
 const QUESTION: &str = "What can the embedded suites show, and what not?";
+
+/// Medians and dispersions are alike within this share of the recorded ones:
+/// the smallest effect of interest, as for the claims.
+const LIMIT: f64 = 0.1;
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let own = results.embedded();
@@ -111,40 +115,58 @@ fn of_group<'a>(
 fn words(rows: &[Row], kinds: [&str; 2]) -> String {
     let mut out = Vec::new();
     for kind in kinds {
-        let motions: Vec<String> = MOTIONS
+        let found: Vec<(&Row, &str)> = MOTIONS
             .iter()
-            .filter_map(|(quantity, label)| {
-                let ratio = of_motion(rows, kind, quantity)?.ratio;
-                (!ratio.holds(1.0)).then(|| {
-                    format!("{} {:.2}", markup::plain(label), ratio.value)
-                })
+            .filter_map(|(name, label)| {
+                Some((of_motion(rows, kind, name)?, *label))
             })
             .collect();
-        let motions = if motions.is_empty() {
-            "no measure's median differs".to_owned()
-        } else {
-            format!(
-                "medians that differ, embedded over recorded: {}",
-                motions.join(", ")
-            )
+        let apart: Vec<String> = found
+            .iter()
+            .filter(|(row, _)| row.medians(LIMIT) == Shown::Apart)
+            .map(|(row, label)| {
+                let label = markup::plain(label);
+                format!("{label} {:.2}", row.ratio.value)
+            })
+            .collect();
+        let apart = match apart.as_slice() {
+            [] => String::new(),
+            some => format!(" (embedded over recorded {})", some.join(", ")),
         };
-        out.push(format!("{} motions: {motions}.", capital(kind)));
+        let shown = found.iter().map(|(row, _)| row.medians(LIMIT));
+        out.push(format!(
+            "{} motions, medians of measures: {}{apart}.",
+            capital(kind),
+            counted(shown),
+        ));
         for intensity in [Intensity::Pga, Intensity::Pgv] {
             let own = of_group(rows, Group::Capacity, kind, intensity.name());
             let (low, high) = range(own.iter().map(|r| r.ratio.value));
-            let same = own.iter().filter(|r| r.ratio.holds(1.0)).count();
-            let alike = own.iter().filter(|r| r.spread.holds(0.0)).count();
             out.push(format!(
                 "Capacities in {}: medians {low:.2} to {high:.2} times the \
-                 recorded ones, {same} of {} intervals hold 1; dispersions \
-                 agree in {alike} of {}.",
+                 recorded ones, {}; dispersions, {}.",
                 intensity.name().to_uppercase(),
-                own.len(),
-                own.len(),
+                counted(own.iter().map(|r| r.medians(LIMIT))),
+                counted(own.iter().map(|r| r.dispersions(LIMIT))),
             ));
         }
     }
     out.join(" ")
+}
+
+/// In how many comparisons what is shown: `of 45 5 differ, 0 agree within
+/// 10 %, 40 are open`.
+fn counted(all: impl Iterator<Item = Shown>) -> String {
+    let all: Vec<Shown> = all.collect();
+    let count = |shown| all.iter().filter(|s| **s == shown).count();
+    format!(
+        "{} of {} shown to differ, {} to agree within {:.0} %, {} open",
+        count(Shown::Apart),
+        all.len(),
+        count(Shown::Alike),
+        100.0 * LIMIT,
+        count(Shown::Open),
+    )
 }
 
 fn header(names: &[&str]) -> Vec<String> {
@@ -176,9 +198,13 @@ fn motions(rows: &[Row], answer: &str, origin: &str) -> PlainTable {
         reading: format!(
             "{answer} {origin} Study components; dispersion is half the \
              logarithm of the 84 over the 16 % quantile; intervals are of 95 \
-             %, from 2000 bootstrap draws of the records of both suites; D \
-             is Kolmogorov's and Smirnov's distance of the two samples. All \
-             rows: suites.csv."
+             %, from 2000 bootstrap draws of the records of both suites. Two \
+             numbers are shown to agree where the whole interval lies within \
+             {:.0} % of the recorded one, and to differ where it leaves out \
+             equality and does not lie there; an interval that holds \
+             equality shows no agreement. D is Kolmogorov's and Smirnov's \
+             distance of the two samples. All rows: suites.csv.",
+            100.0 * LIMIT
         ),
         header: header(&[
             "suite",
@@ -306,11 +332,70 @@ fn accepted(rows: &[Row]) -> PlainTable {
 
 #[cfg(test)]
 mod tests {
+    use super::row::{Interval, Side};
     use super::*;
     use crate::study::analyses::facts;
     use crate::suites::StudySuite;
     use rocking::statistics::ExtendedSample;
     use rocking::statistics::QuantileType;
+
+    /// A row of capacities with intervals of the ratio of medians and of
+    /// the difference of dispersions, about a recorded dispersion of 0.5.
+    fn capacity(ratio: (f64, f64), spread: (f64, f64)) -> Row {
+        let interval = |(low, high): (f64, f64)| Interval {
+            value: 0.5 * (low + high),
+            low,
+            high,
+        };
+        let side = Side {
+            records: 86,
+            low: libm::exp(-0.5),
+            middle: 1.0,
+            high: libm::exp(0.5),
+        };
+        Row {
+            suite: "ordinary".into(),
+            group: Group::Capacity,
+            quantity: "pga".into(),
+            p_rad_s: 1.0,
+            alpha_rad: 0.1,
+            edp: 1.0,
+            embedded: side,
+            recorded: side,
+            ratio: interval(ratio),
+            spread: interval(spread),
+            distance: f64::NAN,
+            p_value: f64::NAN,
+        }
+    }
+
+    #[test]
+    fn an_interval_that_holds_equality_shows_no_agreement() {
+        let nan = (f64::NAN, f64::NAN);
+        let rows = [
+            // Wide about equality: nothing is shown.
+            capacity((0.6, 1.6), (-0.4, 0.4)),
+            // Away from equality.
+            capacity((0.6, 0.95), (0.01, 0.4)),
+            // Within 10 %, and of 0.5: with equality, and without.
+            capacity((0.95, 1.05), (-0.04, 0.04)),
+            capacity((1.01, 1.09), (0.01, 0.04)),
+            // Within 0.1, but not within a tenth of 0.5.
+            capacity((0.6, 1.6), (-0.09, 0.09)),
+            capacity(nan, nan),
+        ];
+        let said = words(&rows, ["ordinary", "pulse-type"]);
+        let medians = "1 of 6 shown to differ, 2 to agree within 10 %, 3 open";
+        assert!(said.contains(&format!("recorded ones, {medians};")));
+        assert!(said.contains(&format!("dispersions, {medians}.")), "{said}");
+        let motion = Row {
+            group: Group::Motion,
+            quantity: "pga_g".into(),
+            ..capacity((0.6, 1.6), (-0.4, 0.4))
+        };
+        let said = words(&[motion], ["ordinary", "pulse-type"]);
+        assert!(said.contains("0 of 1 shown to differ, 0 to agree"), "{said}");
+    }
 
     #[test]
     fn the_committed_comparison_is_of_these_embedded_suites() {

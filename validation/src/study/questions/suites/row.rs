@@ -61,10 +61,30 @@ impl Interval {
     pub(super) const NONE: Self =
         Self { value: f64::NAN, low: f64::NAN, high: f64::NAN };
 
-    /// Whether the interval holds a value; false without one.
-    pub(super) fn holds(&self, value: f64) -> bool {
-        self.low <= value && value <= self.high
+    /// What the interval shows of two numbers that are equal where the value
+    /// is `equal`, and alike where it is at most `limit` from there.
+    pub(super) fn shows(&self, equal: f64, limit: f64) -> Shown {
+        let (low, high) = (self.low - equal, self.high - equal);
+        if low >= -limit && high <= limit {
+            Shown::Alike
+        } else if low > 0.0 || high < 0.0 {
+            Shown::Apart
+        } else {
+            Shown::Open
+        }
     }
+}
+
+/// What an interval shows of two numbers. One that holds equality shows no
+/// agreement: it may be wide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// They differ, and perhaps by more than the limit.
+    Apart,
+    /// They differ by less than the limit.
+    Alike,
+    /// Neither, or there is no interval.
+    Open,
 }
 
 /// One quantity on both sides.
@@ -85,6 +105,20 @@ pub(super) struct Row {
     /// Distance of the two empirical distributions, and its p-value.
     pub(super) distance: f64,
     pub(super) p_value: f64,
+}
+
+impl Row {
+    /// What is shown of the medians, alike within `limit` of the recorded
+    /// one.
+    pub(super) fn medians(&self, limit: f64) -> Shown {
+        self.ratio.shows(1.0, limit)
+    }
+
+    /// What is shown of the dispersions, alike within `limit` of the
+    /// recorded one.
+    pub(super) fn dispersions(&self, limit: f64) -> Shown {
+        self.spread.shows(0.0, limit * self.recorded.dispersion())
+    }
 }
 
 const HEADER: [&str; 24] = [

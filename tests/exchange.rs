@@ -155,8 +155,8 @@ fn risk_is_that_of_fine_quadrature_and_tells_what_lies_beyond() {
     let out: Value = serde_json::from_str(&out).unwrap();
     let row = &out["fragilities"][0];
     for (key, expected) in [
-        ("annual_frequency_low", 0.001_432_991_648_350_582_2),
-        ("annual_frequency_high", 0.001_433_143_758_818_638_4),
+        ("annual_frequency_truncation_lower", 0.001_432_991_648_350_582_2),
+        ("annual_frequency_truncation_upper", 0.001_433_143_758_818_638_4),
         ("annual_frequency_covered", 0.001_423_143_758_818_638_4),
     ] {
         let found = row[key].as_f64().unwrap();

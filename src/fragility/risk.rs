@@ -49,15 +49,20 @@ pub struct HazardCurve {
     points: Vec<(f64, f64)>,
 }
 
-/// Mean annual frequency of damage. What the hazard curve does not tell
-/// beyond its last point lies between two bounds.
+/// Mean annual frequency of damage, of one fragility and one hazard curve.
+///
+/// The hazard curve ends at its last point (intensity x_n, frequency H_n).
+/// The frequency lies between two bounds of that truncation. They are no
+/// confidence interval: neither the records nor the hazard are uncertain in
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AnnualFrequency {
-    /// 1/year, at least: beyond the last intensity x_n damage has the
+    /// Lower bound of truncation in 1/year: beyond x_n damage has the
     /// probability F(x_n) or more.
-    pub low: f64,
-    /// 1/year, at most: every motion beyond x_n does the damage.
-    pub high: f64,
+    pub truncation_lower: f64,
+    /// Upper bound of truncation in 1/year: every motion beyond x_n does the
+    /// damage. It lies (1 - F(x_n)) H_n above the lower one.
+    pub truncation_upper: f64,
     /// 1/year, of that, what the points cover: the integral from the first
     /// to the last.
     pub covered: f64,
@@ -133,7 +138,7 @@ impl HazardCurve {
     /// let fragility = Lognormal::try_new(0.0, 0.0, 0.5)?;
     /// let found = hazard.annual_frequency(&fragility);
     /// let cornell = 1e-4 * 0.5f64.exp();
-    /// assert!((found.low / cornell - 1.0).abs() < 1e-12);
+    /// assert!((found.truncation_lower / cornell - 1.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -149,8 +154,8 @@ impl HazardCurve {
         });
         let low = first_probability * first.1 + inner;
         AnnualFrequency {
-            low,
-            high: low + fragility.survival(last.0) * last.1,
+            truncation_lower: low,
+            truncation_upper: low + fragility.survival(last.0) * last.1,
             covered: low - fragility.cdf(last.0) * last.1,
             first_probability,
         }

@@ -220,8 +220,17 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
         // PGA of uplift is g tan alpha.
         let pga_g = own["median_pga_g"].as_f64().unwrap();
         assert!((pga_g / median - libm::tan(0.15)).abs() < 1e-12);
-        assert!(median > 1.0 && own["prob_max"].as_f64().unwrap() < 0.1);
-        assert_eq!(own["unseen_blocks"], 100);
+        assert!(median > 1.0);
+        // Three errors, of which that of the surface is the least.
+        let of = |what: &str, key: &str| found[what][suite][key].as_f64();
+        let surface = of("surface", "median_rms").unwrap();
+        let records = of("records", "median_half").unwrap();
+        let recorded = of("recorded", "prob_max").unwrap();
+        assert!(surface < 0.02 && (0.05..0.15).contains(&records));
+        assert!(of("surface", "prob_max").unwrap() < recorded);
+        assert!((0.05..0.2).contains(&recorded), "{recorded}");
+        assert_eq!(found["surface"][suite]["blocks"], 100);
+        assert_eq!(found["recorded"][suite]["blocks"], 15);
     }
     for (arguments, names) in [
         ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),

@@ -289,6 +289,13 @@ pub enum Unit {
     /// A part of a whole, from 0 to 1.
     #[serde(rename = "share")]
     Share,
+    /// A difference of two shares, from -1 to 1, in percentage points when
+    /// shown.
+    #[serde(rename = "points")]
+    Points,
+    /// A distance of curves or histories, or a difference of two.
+    #[serde(rename = "distance")]
+    Distance,
     /// A probability, or a difference of two.
     #[serde(rename = "probability")]
     Probability,

@@ -11,6 +11,7 @@
 //! suite with eta = 0.92; the error is that at 100 other blocks.
 //! `validation/surrogate/run` makes all of it again.
 
+mod beside;
 mod blocks;
 mod design;
 mod fit;
@@ -20,10 +21,11 @@ use rocking::statistics::SampleError;
 use rocking::statistics::lognormal::LognormalError;
 use thiserror::Error;
 
+pub use beside::{Recorded, Sampling, ToRecorded};
 pub use blocks::{Fitted, read_merged, read_table, table};
 pub use design::{design, point};
 pub use fit::{Choice, fit};
-pub use model::{Degrees, Errors, Model, Surrogate, apart};
+pub use model::{Degrees, Errors, Model, Size, Surrogate, apart};
 
 /// Range of p in rad/s: from the paper's largest block, whose diagonal is
 /// 14.7 m, to contents with a diagonal of 0.41 m. Below 1 some records would

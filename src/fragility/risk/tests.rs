@@ -6,13 +6,19 @@ fn what_lies_beyond_the_last_point_is_bounded_and_below_the_first_told() {
     let certain = Lognormal::try_new(0.0, -9.0, 0.1).unwrap();
     let found = hazard.annual_frequency(&certain);
     // Every motion that the curve has does the damage.
-    assert!((found.low / 0.004 - 1.0).abs() < 1e-13);
+    assert!((found.truncation_lower / 0.004 - 1.0).abs() < 1e-13);
     assert!((found.covered / 0.0037 - 1.0).abs() < 1e-13);
-    assert_eq!((found.high, found.first_probability), (found.low, 1.0));
+    assert_eq!(
+        (found.truncation_upper, found.first_probability),
+        (found.truncation_lower, 1.0)
+    );
     // None of them does it, and those beyond may or may not.
     let never = Lognormal::try_new(5.0, 0.0, 0.1).unwrap();
     let found = hazard.annual_frequency(&never);
-    assert_eq!((found.low, found.high), (0.0, 0.0003));
+    assert_eq!(
+        (found.truncation_lower, found.truncation_upper),
+        (0.0, 0.0003)
+    );
     assert_eq!((found.covered, found.first_probability), (0.0, 0.0));
 }
 

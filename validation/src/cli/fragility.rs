@@ -34,7 +34,8 @@ use crate::paper::Intensity;
 /// the unit of the sample.
 ///
 /// A block alone asks the surrogate: overturning under the embedded suites by
-/// a fitted surface, with its error at blocks that it was not fitted to.
+/// a fitted surface, with three errors: of the surface at blocks that it was
+/// not fitted to, of the choice of records, and to recorded suites.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("mode").required(true)
     .args(["sample", "ida", "counts", "transform", "blocks", "alpha",

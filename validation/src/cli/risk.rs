@@ -27,7 +27,8 @@ use crate::paper::Intensity;
 /// exceedance, between whose points the frequency is a power of the
 /// intensity. Its first column is `pga_g`, `pgv_m_s`, `pgv_cm_s`, or `im` for
 /// the unit of the fragility. Nothing is assumed beyond its last point: the
-/// frequency lies between bounds.
+/// frequency lies between two bounds of that truncation, which are no
+/// confidence interval.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true)
     .args(["median", "sample"]))]
@@ -283,8 +284,10 @@ fn to_json(
             "shift": json!(f.shift()),
             "median": json!(f.median()),
             "dispersion": json!(f.dispersion()),
-            "annual_frequency_low": json!(found.low),
-            "annual_frequency_high": json!(found.high),
+            "annual_frequency_truncation_lower":
+                json!(found.truncation_lower),
+            "annual_frequency_truncation_upper":
+                json!(found.truncation_upper),
             "annual_frequency_covered": json!(found.covered),
             "probability_at_first_point":
                 json!(found.first_probability),
@@ -334,15 +337,17 @@ fn to_text(
             f.shift(),
             f.median(),
             f.dispersion(),
-            found.low,
-            found.high,
+            found.truncation_lower,
+            found.truncation_upper,
             found.covered,
             found.first_probability,
         )?;
     }
     text += "mean annual frequencies, 1/year: at least with the damage of \
              the last point beyond it,\nat most with damage for certain \
-             there; covered: between the points\n";
+             there; covered: between the points\nbounds of where the curve \
+             ends, no confidence interval: records and hazard count as \
+             known\n";
     if rows.iter().any(|(.., found)| found.first_probability > 0.0) {
         text += "weaker motions than the first point add to it where F is \
                  not 0 there: how much, the curve does not tell\n";

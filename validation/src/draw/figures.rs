@@ -27,7 +27,7 @@ pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
 pub use fates::{Fate, FateMap};
 pub use fragilities::{
-    ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
+    BandOf, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
     Fragilities, FragilityPanel, Limit,
 };
 pub use histories::{Histories, History, HistoryPanel};

@@ -135,13 +135,19 @@ pub fn identities(here: &Findings) -> PlainTable {
         let quote = format!("\u{201c}{}\u{201d}", claim.quote);
         Some(vec![quote, claim.section.to_string(), is])
     };
+    let count = |kind| here.claims.iter().filter(|c| c.kind == kind).count();
     let header = ["the paper's words", "section", "what it is"];
     PlainTable {
         name: "identities".into(),
         title: "Identities and descriptions".into(),
-        reading: "These statements cannot come out either way. They count \
-                  nowhere."
-            .into(),
+        reading: format!(
+            "{} of these statements are true by definition or arithmetic: \
+             they cannot come out either way. {} describe what could come \
+             out either way, but name no measure: they are quoted and not \
+             judged. None is counted among the results.",
+            count(Kind::Identity),
+            count(Kind::Description),
+        ),
         header: header.map(String::from).into(),
         rows: here.claims.iter().filter_map(row).collect(),
     }

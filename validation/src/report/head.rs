@@ -50,9 +50,10 @@ impl Signatures {
     }
 }
 
-/// The paper, the program and its input.
+/// The paper, the program and its input; whether results of the declared
+/// cases were handed in.
 #[must_use]
-pub fn head(results: &Results) -> Vec<(String, String)> {
+pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
     let mut out = vec![
         ("Paper".into(), PAPER.into()),
         (
@@ -75,7 +76,7 @@ pub fn head(results: &Results) -> Vec<(String, String)> {
             ),
         ));
     }
-    out.push(("Command".into(), command(results)));
+    out.push(("Command".into(), command(results, proved)));
     out
 }
 
@@ -88,7 +89,7 @@ pub fn revisions() -> String {
 }
 
 /// The command that makes the page again.
-fn command(results: &Results) -> String {
+fn command(results: &Results, proved: bool) -> String {
     let setup = &results.plan.setup;
     let arms: Vec<&str> =
         results.plan.arms.iter().map(|arm| arm.letter()).collect();
@@ -100,10 +101,13 @@ fn command(results: &Results) -> String {
         Overturning::Alpha => "alpha",
         Overturning::HalfPi => "half-pi",
     };
+    let proof = match proved {
+        true => " --proof FOLDER/data, after rocking validate --out FOLDER",
+        false => "",
+    };
     format!(
         "rocking study{suites} --eta {} --overturn {overturn} --refine {} \
-         --arms {}, after rocking validate --out FOLDER, with --proof \
-         FOLDER/data",
+         --arms {}{proof}",
         setup.restitution.velocity_ratio(),
         setup.tolerance,
         arms.join(",")

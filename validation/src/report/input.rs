@@ -126,8 +126,8 @@ pub fn input(
     };
     let claims = &found.claims;
     let (ledger, mut trust) = (
-        ledger::table(proof.map(Proof::results), claims)?,
-        credibility::tables(results, claims, proof)?,
+        ledger::table(proof.map(Proof::results), claims, figures)?,
+        credibility::tables(results, claims, proof, recorded)?,
     );
     // The assessment is short; the comparison has a row for each result.
     let assessment = trust.split_off(trust.len().saturating_sub(1));
@@ -142,7 +142,7 @@ pub fn input(
                    block response, repeated from records to findings"
             .into(),
         head: [
-            head::head(results),
+            head::head(results, proof.is_some()),
             recorded.map(findings::kept).unwrap_or_default(),
         ]
         .concat(),

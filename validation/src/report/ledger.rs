@@ -6,7 +6,9 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 use thiserror::Error;
 
+use crate::draw::figures::Figure;
 use crate::findings::Claim;
+use crate::paper::Verdict;
 use crate::table::PlainTable;
 
 /// The requirements, embedded.
@@ -45,6 +47,9 @@ pub struct Requirement {
     /// Functions of the gate: `file::function`.
     #[serde(default)]
     pub tests: Vec<String>,
+    /// Numbers of the paper's figures, first and last, each of which the run
+    /// draws and writes with its numbers.
+    pub figures: Option<(u32, u32)>,
     /// What the evidence leaves open; may be empty.
     #[serde(default)]
     pub gap: String,
@@ -119,21 +124,25 @@ impl Requirement {
     pub fn is_tests_alone(&self) -> bool {
         self.cases.is_empty()
             && self.findings.is_empty()
+            && self.figures.is_none()
             && !self.tests.is_empty()
     }
 
     /// How it stands, given the results of the declared cases, if there are
-    /// any, and whether a claim was measured, a test is part of the gate.
+    /// any, and whether a claim was measured, a test is part of the gate, a
+    /// figure was drawn.
     #[must_use]
     pub fn standing(
         &self,
         results: Option<&Map<String, Value>>,
         measured: &dyn Fn(&str) -> bool,
         is_test: &dyn Fn(&str) -> bool,
+        drawn: &dyn Fn(u32) -> bool,
     ) -> Standing {
         let named = [&self.cases, &self.findings, &self.tests];
         let mut out = Standing {
-            named: named.iter().any(|list| !list.is_empty()),
+            named: named.iter().any(|list| !list.is_empty())
+                || self.figures.is_some(),
             not_run: results.is_none() && !self.cases.is_empty(),
             ..Standing::default()
         };
@@ -162,6 +171,9 @@ impl Requirement {
         };
         out.missing.extend(missing(&self.findings, measured));
         out.missing.extend(missing(&self.tests, is_test));
+        let figures = self.figures.into_iter().flat_map(|(a, b)| a..=b);
+        let gone = figures.filter(|number| !drawn(*number));
+        out.missing.extend(gone.map(|number| format!("Figure {number}")));
         out
     }
 }
@@ -178,20 +190,27 @@ fn fit(pattern: &str, id: &str) -> bool {
     }
 }
 
-/// The ledger for the page: what was required, and what proves it.
+/// The ledger for the page: what was required, and what proves it; `figures`
+/// are those that the run drew.
 ///
 /// # Errors
 /// [`LedgerError`] where the requirements cannot be read.
 pub fn table(
     results: Option<&Map<String, Value>>,
     claims: &[Claim],
+    figures: &[Figure],
 ) -> Result<PlainTable, LedgerError> {
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
+    let drawn = |number: u32| {
+        let stem = format!("figure-{number:02}");
+        let is = |f: &Figure| f.heading.name.starts_with(&stem);
+        figures.iter().any(|f| is(f) && !f.csv.is_empty())
+    };
     let requirements = requirements()?;
     let mut rows = Vec::with_capacity(requirements.len());
     let (mut met, mut by_tests) = (0, 0);
     for r in &requirements {
-        let standing = r.standing(results, &measured, &|_| true);
+        let standing = r.standing(results, &measured, &|_| true, &drawn);
         let tests_alone = r.is_tests_alone();
         met += usize::from(standing.is_met() && !tests_alone);
         by_tests += usize::from(tests_alone);
@@ -204,7 +223,7 @@ pub fn table(
             r.text.clone(),
             format!("{source}, {}", r.place),
             evidence(r, &standing, claims),
-            state(r, &standing),
+            state(r, &standing, claims),
             r.gap.clone(),
         ]);
     }
@@ -248,6 +267,12 @@ fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     if !found.is_empty() {
         parts.push(format!("findings: {}", found.join(", ")));
     }
+    if let Some((first, last)) = r.figures {
+        parts.push(format!(
+            "figures {first} to {last}, drawn in this run from its numbers, \
+             which stand beside each"
+        ));
+    }
     if !r.tests.is_empty() {
         // Names of tests are sentences; words wrap, paths don't.
         let words = |test: &String| {
@@ -260,7 +285,9 @@ fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     parts.join("; ")
 }
 
-fn state(r: &Requirement, standing: &Standing) -> String {
+/// How a requirement stands, in words. A claim that was measured is not one
+/// that holds: its verdicts are counted.
+fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
     if !standing.failed.is_empty() {
         return format!("✗ failed: {}", standing.failed.join(", "));
     }
@@ -270,12 +297,36 @@ fn state(r: &Requirement, standing: &Standing) -> String {
     if standing.not_run {
         return "not run here".into();
     }
-    match (standing.named, r.is_tests_alone()) {
-        (false, _) => "✗ no evidence named",
-        (true, true) => "in the gate alone",
-        (true, false) => "✓ executed",
+    if !standing.named {
+        return "✗ no evidence named".into();
     }
-    .into()
+    if r.is_tests_alone() {
+        return "in the gate alone".into();
+    }
+    let mut parts = Vec::new();
+    if standing.passed > 0 {
+        parts.push("✓ cases passed".to_owned());
+    }
+    if r.figures.is_some() {
+        parts.push("✓ drawn".into());
+    }
+    if !r.findings.is_empty() {
+        let own = claims.iter().filter(|c| r.findings.contains(&c.id));
+        let verdicts: Vec<Verdict> = own
+            .flat_map(|claim| &claim.results)
+            .filter_map(|result| result.by_equivalence)
+            .collect();
+        let counted = Verdict::ALL.into_iter().filter_map(|verdict| {
+            let n = verdicts.iter().filter(|v| **v == verdict).count();
+            (n > 0).then(|| format!("{n} {}", verdict.name()))
+        });
+        let counted: Vec<String> = counted.collect();
+        parts.push(match counted.as_slice() {
+            [] => "stated, not judged".into(),
+            some => format!("measured: {}", some.join(", ")),
+        });
+    }
+    parts.join("; ")
 }
 
 #[cfg(test)]

@@ -61,7 +61,9 @@ const GLOSSARY: [(&str, &str); 18] = [
     ("stripe", "responses of one block to all records at one intensity"),
     (
         "capacity",
-        "least intensity at which a record brings a block to a demand",
+        "intensity at which a record brings a block to a demand: the median \
+         of those at which its curve crosses the demand; at overturning the \
+         least",
     ),
     (
         "arm A, arm C",

@@ -12,6 +12,8 @@ enum Scale {
     Plain,
     /// In per cent.
     Percent,
+    /// A difference of two shares, in percentage points.
+    Points,
     /// A ratio as its distance from 1, in per cent.
     Change,
 }
@@ -22,6 +24,7 @@ enum Scale {
 fn scale(unit: Unit, region: Option<Region>) -> Scale {
     match (unit, region) {
         (Unit::Share, _) => Scale::Percent,
+        (Unit::Points, _) => Scale::Points,
         (Unit::One, Some(Region::Within(a, b)))
             if (a + b - 2.0).abs() < 1e-9 =>
         {
@@ -38,7 +41,7 @@ impl Scale {
     fn of(self, x: f64) -> f64 {
         match self {
             Self::Plain => x,
-            Self::Percent => 100.0 * x,
+            Self::Percent | Self::Points => 100.0 * x,
             Self::Change => 100.0 * (x - 1.0),
         }
     }
@@ -47,6 +50,7 @@ impl Scale {
         match self {
             Self::Plain => "",
             Self::Percent | Self::Change => " %",
+            Self::Points => " points",
         }
     }
 
@@ -166,6 +170,13 @@ mod tests {
         let same = Some(Region::Within(0.9, 1.1));
         assert_eq!(text(one, same, 1.0131, ends), "+1.3 % (-5 to +4.1)");
         assert_eq!(text(share, None, 0.272, None), "27.2 %");
+        // A difference of shares is no share, a distance no percentage.
+        let (points, distance) = (Unit::Points, Unit::Distance);
+        let (above, wide) = (Some(Region::Above(0.1)), Some((-0.913, 0.406)));
+        let found = text(points, above, -0.25, wide);
+        assert_eq!(found, "-25 points (-91.3 to 40.6)");
+        let above = Some(Region::Above(0.05));
+        assert_eq!(text(distance, above, 0.0143, None), "0.0143");
         let below = Some(Region::Below(0.05));
         assert_eq!(text(one, below, 0.006_29, None), "0.63 %");
         let wide = Some(Region::Within(0.74, 1.35));

@@ -7,10 +7,10 @@ use rocking::integrator::Overturning;
 use rocking::record::Processing;
 
 use super::evidence::{NOT_RUN, Proof};
-use super::head::Signatures;
+use super::head::{self, Signatures};
 use super::ledger::requirements;
 use super::output::{self, FINDINGS, Files};
-use super::{answers, credibility, input};
+use super::{answers, credibility, findings, input};
 use crate::curves::Execution;
 use crate::findings::{Findings, Kind, Topic};
 use crate::paper::{Arm, SuiteKind};
@@ -79,7 +79,8 @@ fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
 fn said_of(source: &Source) -> String {
     let results = empty(source);
     let limits = input::limits(&results).concat();
-    let tables = credibility::tables(&results, &[], None).expect("tables");
+    let tables =
+        credibility::tables(&results, &[], None, None).expect("tables");
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
     limits + &answers::not_checked(results.embedded()) + &cells
@@ -100,6 +101,44 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
     assert!(embedded.contains("Synthetic suites from two"), "{embedded}");
     assert!(embedded.contains("The embedded suites are synthetic"));
     assert!(embedded.contains("recorded motions anew"));
+}
+
+#[test]
+fn the_command_names_the_proof_only_where_one_was_handed_in() {
+    let results = empty(&Source::Embedded { streams: "x" });
+    let command = |proved| {
+        let rows = head::head(&results, proved);
+        let row = rows.into_iter().find(|(name, _)| name == "Command");
+        row.expect("a command").1
+    };
+    let plain = command(false);
+    assert!(!plain.contains("--proof"), "{plain}");
+    assert!(!plain.contains("validate"), "{plain}");
+    assert!(command(true).contains("--proof FOLDER/data"));
+}
+
+#[test]
+fn identities_and_descriptions_are_counted_apart() {
+    let here = findings::recorded().expect("findings");
+    let count = |kind| here.claims.iter().filter(|c| c.kind == kind).count();
+    let (identities, descriptions) =
+        (count(Kind::Identity), count(Kind::Description));
+    assert!(identities > 0 && descriptions > 0);
+    let table = findings::identities(&here);
+    assert_eq!(table.rows.len(), identities + descriptions);
+    let said = &table.reading;
+    assert!(said.starts_with(&format!("{identities} of these statements")));
+    // A description could come out either way.
+    let other = format!("{descriptions} describe what could come out either");
+    assert!(said.contains(&other), "{said}");
+}
+
+#[test]
+fn no_claim_names_a_restitution_that_a_run_may_not_have() {
+    // --eta 0.90 measures against 0.90.
+    for claim in crate::study::claims::declared() {
+        assert!(!claim.words.contains("0.92"), "{}", claim.id);
+    }
 }
 
 #[test]

@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 pub(crate) use fragilities::{At, Thresholds, by_demand, to_ssfl};
 pub use shares::{Shares, all as all_shares};
-pub use stripes::closed_form;
+pub use stripes::{closed_form, without_closed_form};
 
 use super::StudyError;
 use super::figures::Results;
@@ -189,10 +189,11 @@ impl Measure {
             | Self::ShareGainPga
             | Self::ShareGainPgv
             | Self::ShareLessSlenderGain
-            | Self::ShareEarliestRemoved => (Unit::Share, (-1.0, 1.0)),
+            | Self::ShareEarliestRemoved => (Unit::Points, (-1.0, 1.0)),
             Self::ShiftGainPga
             | Self::ShiftGainPgv
             | Self::LowConstantGain => (Unit::Probability, (-1.0, 1.0)),
+            Self::HistoryDifference => (Unit::Distance, any),
             Self::PeakDifference
             | Self::CurveDifference
             | Self::HousnerSpread => (Unit::One, (0.0, f64::INFINITY)),

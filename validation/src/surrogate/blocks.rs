@@ -66,7 +66,7 @@ struct Merged {
     dispersion_high: f64,
 }
 
-fn rows<R: for<'d> Deserialize<'d>>(
+pub(super) fn rows<R: for<'d> Deserialize<'d>>(
     place: &str,
     text: &str,
     expected: &'static str,

@@ -125,15 +125,15 @@ impl Model {
                 && found.median() <= block.median_high;
             inside += if holds { 1.0 } else { 0.0 };
         }
-        let n = errors.blocks as f64;
+        let n = errors.blocks;
         for size in [
             &mut errors.median,
             &mut errors.dispersion,
             &mut errors.probability,
         ] {
-            size.rms = sqrt(size.rms / n);
+            size.finish(n);
         }
-        errors.inside = inside / n;
+        errors.inside = inside / n as f64;
         Ok(errors)
     }
 }
@@ -148,9 +148,15 @@ pub struct Size {
 }
 
 impl Size {
-    fn add(&mut self, error: f64) {
+    /// Adds an error; [`finish`](Self::finish) makes the mean.
+    pub(super) fn add(&mut self, error: f64) {
         self.rms += error * error;
         self.largest = self.largest.max(error.abs());
+    }
+
+    /// Makes the sum of n squares their root mean.
+    pub(super) fn finish(&mut self, n: usize) {
+        self.rms = sqrt(self.rms / n as f64);
     }
 }
 

@@ -142,6 +142,7 @@ fn it_answers_in_its_range_alone() {
 fn coefficients_and_errors_are_those_of_another_program() {
     let expected = include_str!("../../../fixtures/oracles/surrogate.csv");
     let surrogate = Surrogate::embedded().unwrap();
+    let kept = Recorded::kept().unwrap();
     let mut compared = 0;
     for line in expected.lines().skip(1) {
         let cells: Vec<&str> = line.split(',').collect();
@@ -156,6 +157,9 @@ fn coefficients_and_errors_are_those_of_another_program() {
                 (cells[2].parse().unwrap(), cells[3].parse().unwrap());
             model.terms.iter().position(|t| *t == degrees).unwrap()
         };
+        let records = surrogate.sampling(model.suite).unwrap();
+        let recorded = model.to_recorded(&kept).unwrap();
+        assert_eq!(recorded.blocks, 15);
         // Nine digits are kept of numbers below 10.
         // The grid of the largest difference has steps of 5e-4.
         let (found, tolerance) = match cells[1] {
@@ -167,6 +171,15 @@ fn coefficients_and_errors_are_those_of_another_program() {
             "dispersion_largest" => (errors.dispersion.largest, 1e-7),
             "probability_rms" => (errors.probability.rms, 1e-6),
             "probability_largest" => (errors.probability.largest, 1e-6),
+            "records_median" => (records.median, 1e-7),
+            "records_dispersion" => (records.dispersion, 1e-7),
+            "records_probability" => (records.probability, 1e-7),
+            "recorded_median_rms" => (recorded.median.rms, 1e-7),
+            "recorded_median_largest" => (recorded.median.largest, 1e-7),
+            "recorded_probability_rms" => (recorded.probability.rms, 1e-7),
+            "recorded_probability_largest" => {
+                (recorded.probability.largest, 1e-7)
+            }
             other => panic!("{other}"),
         };
         assert!((found - value).abs() < tolerance, "{line}: {found}");
@@ -174,5 +187,5 @@ fn coefficients_and_errors_are_those_of_another_program() {
     }
     let terms: usize =
         surrogate.models.iter().map(|(m, _)| 2 * m.terms.len()).sum();
-    assert_eq!(compared, terms + 12);
+    assert_eq!(compared, terms + 26);
 }

@@ -69,6 +69,40 @@ pub struct Fitted {
     pub curve: Option<Lognormal>,
     /// Intensity, and both ends of the 95 % band there.
     pub band: Vec<(f64, f64, f64)>,
+    /// What the band is of.
+    pub band_of: BandOf,
+}
+
+/// What a band holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum BandOf {
+    /// The curve itself.
+    Curve,
+    /// The curve's difference to the SSFL, laid on the SSFL: the curve need
+    /// not lie in it.
+    DifferenceToSsfl,
+}
+
+impl BandOf {
+    fn words(self, estimator: Estimator) -> String {
+        let name = estimator.name();
+        match self {
+            Self::Curve => format!("95 % band of {name}"),
+            Self::DifferenceToSsfl => {
+                format!("SSFL + 95 % band of {name} \u{2212} SSFL")
+            }
+        }
+    }
+
+    /// Names of the ends in the CSV.
+    fn ends(self) -> [&'static str; 2] {
+        match self {
+            Self::Curve => ["band_low", "band_high"],
+            Self::DifferenceToSsfl => {
+                ["ssfl_plus_difference_low", "ssfl_plus_difference_high"]
+            }
+        }
+    }
 }
 
 /// The constant c of Eq. 7 compared, against a benchmark.
@@ -138,9 +172,10 @@ impl Fragilities {
                 parameters(fit.curve.as_ref(), |quantity, value| {
                     row(name, quantity, f64::NAN, value);
                 });
+                let [low_end, high_end] = fit.band_of.ends();
                 for (im, low, high) in &fit.band {
-                    row(name, "band_low", *im, *low);
-                    row(name, "band_high", *im, *high);
+                    row(name, low_end, *im, *low);
+                    row(name, high_end, *im, *high);
                 }
             }
             if let Some(limit) = &panel.limit {
@@ -228,9 +263,10 @@ fn scene(figure: &Fragilities) -> Scene {
     }
     for estimator in &estimators {
         let own = |f: &&Fitted| f.estimator == *estimator;
-        if fits().filter(own).any(|f| !f.band.is_empty()) {
+        let drawn = |f: &&Fitted| !f.band.is_empty();
+        if let Some(fit) = fits().filter(own).find(drawn) {
             let fill = Fill::tint(pen(*estimator).ink, BAND_PERCENT);
-            let words = format!("95 % band of {}", estimator.name());
+            let words = fit.band_of.words(*estimator);
             legend.push(Entry::new(Sample::Band(fill), words));
         }
     }

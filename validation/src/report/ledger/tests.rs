@@ -27,9 +27,9 @@ fn every_requirement_has_executed_evidence() {
     for r in requirements().unwrap() {
         // A study that is run holds the names of claims: study::tests.
         let results = Some(proof.results());
-        let standing = r.standing(results, &|_| true, &in_the_gate);
+        let standing = r.standing(results, &|_| true, &in_the_gate, &|_| true);
         if !standing.is_met() {
-            problems.push(format!("{}: {}", r.id, state(&r, &standing)));
+            problems.push(format!("{}: {}", r.id, state(&r, &standing, &[])));
         }
         for text in [&r.id, &r.text, &r.place] {
             assert!(!text.trim().is_empty(), "{}", r.id);
@@ -77,6 +77,7 @@ fn a_failed_or_missing_case_is_red() {
         cases: vec!["a/*".into(), "b/one".into(), "a/x*z".into()],
         findings: vec!["f".into()],
         tests: vec!["tests/x.rs::y".into()],
+        figures: Some((1, 2)),
         gap: String::new(),
     };
     let results = |b: &str| {
@@ -88,8 +89,9 @@ fn a_failed_or_missing_case_is_red() {
     };
     let yes = |_: &str| true;
     let no = |_: &str| false;
+    let drawn = |_: u32| true;
     let standing =
-        |b| requirement.standing(results(b).as_object(), &yes, &yes);
+        |b| requirement.standing(results(b).as_object(), &yes, &yes, &drawn);
     assert_eq!(standing("pass").passed, 3);
     assert!(standing("pass").is_met());
     for verdict in ["fail", "error", "known-failure", ""] {
@@ -98,20 +100,55 @@ fn a_failed_or_missing_case_is_red() {
     }
     let all = results("pass");
     let all = all.as_object();
-    assert!(!requirement.standing(all, &no, &yes).is_met());
-    assert!(!requirement.standing(all, &yes, &no).is_met());
-    let empty = requirement.standing(Some(&Map::new()), &yes, &yes);
+    assert!(!requirement.standing(all, &no, &yes, &drawn).is_met());
+    assert!(!requirement.standing(all, &yes, &no, &drawn).is_met());
+    let first = |number: u32| number == 1;
+    let one = requirement.standing(all, &yes, &yes, &first);
+    assert_eq!(one.missing, ["Figure 2"]);
+    let empty = requirement.standing(Some(&Map::new()), &yes, &yes, &drawn);
     assert_eq!(empty.missing.len(), 3);
-    let not_run = requirement.standing(None, &yes, &yes);
+    let not_run = requirement.standing(None, &yes, &yes, &drawn);
     assert!(!not_run.is_met() && not_run.missing.is_empty());
-    assert_eq!(state(&requirement, &not_run), "not run here");
+    assert_eq!(state(&requirement, &not_run, &[]), "not run here");
     let nothing = Requirement {
         cases: Vec::new(),
         findings: Vec::new(),
         tests: Vec::new(),
+        figures: None,
         ..requirement
     };
-    assert!(!nothing.standing(all, &yes, &yes).is_met());
+    assert!(!nothing.standing(all, &yes, &yes, &drawn).is_met());
+}
+
+#[test]
+fn a_claim_that_does_not_hold_is_not_shown_as_passed() {
+    let recorded = crate::report::findings::recorded().unwrap();
+    let id = "shift-gains-little-pgv";
+    let mut claim =
+        recorded.claims.iter().find(|c| c.id == id).unwrap().clone();
+    let requirement = Requirement {
+        id: "r".into(),
+        source: Origin::Paper,
+        place: "p".into(),
+        text: "t".into(),
+        cases: Vec::new(),
+        findings: vec![id.into()],
+        tests: Vec::new(),
+        figures: None,
+        gap: String::new(),
+    };
+    let yes = |_: &str| true;
+    let standing = requirement.standing(None, &yes, &yes, &|_| true);
+    assert!(standing.is_met());
+    claim.results.truncate(1);
+    for (verdict, words) in [
+        (Verdict::NotConfirmed, "measured: 1 not confirmed"),
+        (Verdict::Confirmed, "measured: 1 confirmed"),
+    ] {
+        claim.results[0].by_equivalence = Some(verdict);
+        let said = state(&requirement, &standing, &[claim.clone()]);
+        assert_eq!(said, words);
+    }
 }
 
 #[test]

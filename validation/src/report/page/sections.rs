@@ -10,6 +10,7 @@ use super::{
 };
 use crate::findings::Tested;
 use crate::paper::Verdict;
+use crate::words::capital;
 
 /// What the page is about, and who signs for it.
 pub fn head(input: &ReportInput) -> Markup {
@@ -204,7 +205,7 @@ fn legend() -> Markup {
 fn counts(column: &Column) -> Markup {
     html! {
         p {
-            "Results on the " (column.name) ", " (column.suites) ": "
+            (capital(&column.name)) ", " (column.suites) ": "
             @for (k, (verdict, count)) in column.counts.iter().enumerate() {
                 @if k > 0 { ", " }
                 (count) " " (mark(*verdict))

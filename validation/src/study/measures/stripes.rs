@@ -1,15 +1,17 @@
 //! Section 4, Figures 6, 7 and 9, and resurrections: measures on stripes of
 //! equal intensity.
 
-use libm::{log, sin, tan};
+use libm::{atan, log, sin, tan};
 
 use super::{Measure, Prepared, Source, block};
+use crate::findings::Tested;
 use crate::paper::{
-    FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, position,
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, SuiteKind,
+    position,
 };
 use crate::study::StudyError;
 use crate::study::analyses::StripeDemands;
-use crate::study::figures::of_arm;
+use crate::study::figures::{Results, of_arm};
 use crate::study::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
 use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
@@ -131,6 +133,51 @@ fn medians(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
 pub fn closed_form(alpha_rad: f64) -> f64 {
     let of = |alpha: f64| sin(alpha) / alpha;
     of(alpha_rad) / of(SLENDERNESSES_RAD[REFERENCE])
+}
+
+/// Cells of Figures 6, 7 and 9 by name, with the median ratio once what the
+/// small-rotation limit of Eq. 1 makes of it is divided out: of Figure 9
+/// record by record, since each has an adjusted slenderness of its own.
+#[must_use]
+pub fn without_closed_form(
+    results: &Results,
+    tested: Tested,
+    arm: Arm,
+) -> Vec<(String, f64)> {
+    let kind = match tested {
+        Tested::Ordinary => SuiteKind::Ordinary,
+        Tested::PulseType => SuiteKind::PulseType,
+        Tested::None | Tested::Both => return Vec::new(),
+    };
+    let suite = results.suite(kind);
+    let Some(stripes) = of_arm(suite, arm) else { return Vec::new() };
+    let mut cells = Vec::new();
+    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+        for (slenderness, alpha) in SLENDERNESSES_RAD.into_iter().enumerate() {
+            if slenderness != REFERENCE {
+                let scale = 1.0 / closed_form(alpha);
+                cells.extend(stripe_ratios(
+                    stripes,
+                    frequency,
+                    slenderness,
+                    scale,
+                ));
+            }
+        }
+        let scaled = &stripes.demands[position(frequency, REFERENCE)];
+        let adjusted = &stripes.adjusted[frequency];
+        for (im, (a, b)) in STRIPES.iter().zip(adjusted.iter().zip(scaled)) {
+            let records = a.iter().zip(&suite.records);
+            let left: Vec<f64> = records
+                .map(|(x, record)| x / closed_form(atan(record.pga_g / im)))
+                .collect();
+            let at = format!("p = {p}, intensity {im}");
+            cells.push(Ratios::new(at, &left, b, 1.0));
+        }
+    }
+    let every = vec![1; suite.records.len()];
+    let median = |r: Ratios| (r.at, r.ranked.median(&every));
+    cells.into_iter().map(median).collect()
 }
 
 pub(super) fn prepare(

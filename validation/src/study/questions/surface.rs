@@ -8,10 +8,11 @@ use crate::draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::paper::{Intensity, SuiteKind, demand_index};
+use crate::study::StudyError;
 use crate::study::figures::{Fits, Results};
-use crate::study::{StudyError, estimates::median};
 use crate::surrogate::{
-    FREQUENCY_RANGE_RAD_S, Fitted, SHIFT, Surrogate, apart,
+    FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
+    apart,
 };
 
 const QUESTION: &str =
@@ -113,18 +114,13 @@ fn words(
 ) -> Result<String, StudyError> {
     let mut out = Vec::new();
     for (model, errors) in &surrogate.models {
-        // Half the 95 % interval of a block's own median, relative.
-        let halves: Vec<f64> = surrogate
-            .unseen
-            .iter()
-            .filter(|b| b.suite == model.suite)
-            .map(|b| 0.5 * (b.median_high - b.median_low) / b.median)
-            .collect();
+        let records = surrogate.sampling(model.suite)?.median;
         out.push(format!(
             "{} motions, {} unseen blocks: the surface of {} coefficients has \
              an error of {:.1} % rms ({:.1} % at most) in the median, {:.1} % \
-             ({:.1} %) in the dispersion, {:.3} ({:.3}) in probability; the \
-             records alone leave ±{:.0} % of a block's median open.",
+             ({:.1} %) in the dispersion, {:.3} ({:.3}) in probability. The \
+             records alone leave ±{:.0} % of a block's median open: the \
+             surface misses it by {} (rms).",
             crate::words::capital(model.suite.name()),
             errors.blocks,
             model.terms.len(),
@@ -134,7 +130,8 @@ fn words(
             100.0 * errors.dispersion.largest,
             errors.probability.rms,
             errors.probability.largest,
-            100.0 * median(&halves).value,
+            100.0 * records,
+            beside(errors.median.rms, records),
         ));
     }
     let suites = if results.embedded() {
@@ -148,8 +145,30 @@ fn words(
         if errors.blocks > 0 {
             out.push(format!(
                 "At the study's {} blocks under {} motions ({suites}): {:.1} \
-                 % rms ({:.1} % at most) in the median, {:.3} ({:.3}) in \
+                 % rms ({:.1} % at most) in the median, {}; {:.3} ({:.3}) in \
                  probability.",
+                errors.blocks,
+                model.suite,
+                100.0 * errors.median.rms,
+                100.0 * errors.median.largest,
+                beside(
+                    errors.median.rms,
+                    surrogate.sampling(model.suite)?.median,
+                ),
+                errors.probability.rms,
+                errors.probability.largest,
+            ));
+        }
+    }
+    if results.embedded() {
+        let kept = Recorded::kept()?;
+        for (model, _) in &surrogate.models {
+            let errors = model.to_recorded(&kept)?;
+            out.push(format!(
+                "Against the kept quantiles of {} blocks under recorded {} \
+                 motions: {:.1} % rms ({:.1} % at most) in the median, \
+                 {:.3} ({:.3}) in probability, the sampling of those records \
+                 included.",
                 errors.blocks,
                 model.suite,
                 100.0 * errors.median.rms,
@@ -159,13 +178,16 @@ fn words(
             ));
         }
     }
-    out.push(
-        "So the shifted lognormal carries a surrogate, as the paper expects; \
-         what the surface leaves open is small beside the choice of records. \
-         It holds for the embedded suites, eta = 0.92 and its range alone."
-            .into(),
-    );
+    out.push(format!(
+        "The surface is of the embedded suites, eta = {RESTITUTION} and its \
+         range alone."
+    ));
     Ok(out.join(" "))
+}
+
+/// An error set beside what the choice of records leaves open.
+fn beside(error: f64, records: f64) -> String {
+    format!("{:.2} times what the records leave open", error / records)
 }
 
 fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
@@ -284,4 +306,18 @@ fn errors(
             },
         ],
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::beside;
+
+    #[test]
+    fn an_error_is_set_beside_the_records_by_its_number() {
+        // 10.9 % of ±10 % is not small.
+        let large = beside(0.109, 0.10);
+        assert!(large.starts_with("1.09 times"), "{large}");
+        assert!(!large.contains("small"));
+        assert!(beside(0.009, 0.10).starts_with("0.09 times"));
+    }
 }

@@ -51,10 +51,10 @@ pub(crate) fn annual_frequency(
         let found = hazard.annual_frequency(&fragility);
         let least = match context.wrong {
             Some(WrongModel::NothingBeyond) => found.covered,
-            _ => found.low,
+            _ => found.truncation_lower,
         };
         answer.put("at-least", [least], [low]);
-        answer.put("at-most", [found.high], [high]);
+        answer.put("at-most", [found.truncation_upper], [high]);
         // A difference, of numbers below `high`.
         answer.put("covered", [found.covered / high], [covered / high]);
     }
@@ -86,7 +86,7 @@ pub(crate) fn cornell(context: &Context) -> Result<Answer, MethodError> {
             Lognormal::try_new(0.0, log(median), beta).map_err(refused)?;
         let found = match context.wrong {
             Some(WrongModel::HazardAtTheMedian) => hazard(median),
-            _ => curve.annual_frequency(&fragility).low,
+            _ => curve.annual_frequency(&fragility).truncation_lower,
         };
         let closed = hazard(median) * exp(0.5 * k * k * beta * beta);
         answer.put("annual-frequency", [found], [closed]);

@@ -5,7 +5,7 @@ use rocking::statistics::Lognormal;
 use super::super::{Figure, Results, name};
 use super::{THRESHOLDS, distance, usfl7};
 use crate::draw::figures::{
-    Estimator, Fitted, Fragilities, FragilityPanel, Heading, Limit,
+    BandOf, Estimator, Fitted, Fragilities, FragilityPanel, Heading, Limit,
 };
 use crate::findings::{Measured, Tested};
 use crate::paper::{Arm, Intensity};
@@ -58,6 +58,14 @@ impl Pair {
         match self {
             Self::Shifted => at.fits.ssfl,
             _ => usfl7(self.first(at), at.shift, 1.0),
+        }
+    }
+
+    /// What the band of the second fit holds.
+    fn band_of(self) -> BandOf {
+        match self {
+            Self::Shifted => BandOf::Curve,
+            Self::Trimmed | Self::Untrimmed => BandOf::DifferenceToSsfl,
         }
     }
 
@@ -125,9 +133,9 @@ pub(in super::super) fn thresholds(
                  are 95 % intervals."
             }
             _ => {
-                "The band holds 95 % of the differences to SSFL over \
-                 resampled suites; brackets are 95 % intervals, at once for \
-                 the three demands."
+                "The band is SSFL plus 95 % of the differences of USFL7 to \
+                 it over resampled suites, so that USFL7 need not lie in it; \
+                 brackets are 95 % intervals, at once for the three demands."
             }
         }
         .into(),
@@ -138,8 +146,8 @@ pub(in super::super) fn thresholds(
             pair.title(),
             "Six panels, PGA above and PGV below, demands 0.15, 0.35 and \
              1.00 from left to right: probability of exceedance against \
-             intensity as dots of the sample, two fitted curves and their \
-             95 % bands; p = 3, alpha = 0.20.",
+             intensity as dots of the sample, two fitted curves and 95 % \
+             bands; p = 3, alpha = 0.20.",
             Some(arm),
         ),
         panels,
@@ -230,8 +238,14 @@ fn panel(
                 estimator: Estimator::Usfl,
                 curve: first,
                 band: laid_on(None, own),
+                band_of: BandOf::Curve,
             },
-            Fitted { estimator, curve: second, band: laid_on(on, of_second) },
+            Fitted {
+                estimator,
+                curve: second,
+                band: laid_on(on, of_second),
+                band_of: pair.band_of(),
+            },
         ],
         limit: on.map(limit),
         notes,

@@ -107,7 +107,7 @@ pub fn fragilities() -> Fragilities {
             let ends = |c: &Lognormal, x| (x, c.cdf(x) - 0.1, c.cdf(x) + 0.1);
             let at = |c| (1..60).map(move |k| ends(c, 0.1 * f64::from(k)));
             let band = curve.as_ref().into_iter().flat_map(at).collect();
-            Fitted { estimator, curve, band }
+            Fitted { estimator, curve, band, band_of: BandOf::Curve }
         };
         let shifted = lognormal(shift, ln_median, 0.5);
         let unshifted =

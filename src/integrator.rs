@@ -29,7 +29,7 @@ mod taylor;
 pub use certificate::{
     CLEARANCE, Certificate, Clearance, Decision, LARGEST_ERROR,
 };
-pub use certify::{Arithmetic, Certified, certify};
+pub use certify::{Arithmetic, Certified, Certify, certify};
 pub use driver::Forces;
 pub use dynamics::{Model, Overturning, uplift_threshold};
 pub(crate) use limits::check;

@@ -6,7 +6,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking::excitation::{NormalisedRecord, Pulse, ScaledRecord};
 use rocking::integrator::{
-    Assessment, Observe, Outcome, WorkLimit, certify, uplift_threshold,
+    Assessment, Certify, Observe, Outcome, certify, uplift_threshold,
 };
 use rocking::record::Accelerogram;
 use rocking::{Excitation, Response, Scene, integrator};
@@ -145,7 +145,7 @@ pub fn respond<'py>(
         .detach(|| {
             let response = integrator::respond(&scene, &observe)?;
             let fate = certified
-                .then(|| certify(&scene, WorkLimit::default()))
+                .then(|| certify(&scene, &Certify::default()))
                 .transpose()?;
             Ok((response, fate))
         })

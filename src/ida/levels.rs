@@ -6,8 +6,8 @@ use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::ida::certification::{Told, WORTH_ASSESSING};
 use crate::ida::{Adjust, Analysis, Grid, IdaError, IdaPoint, Resurrections};
 use crate::integrator::{
-    self, DOUBTFUL, Forces, Model, Observe, Order, Outcome, Response, Scene,
-    SceneError, Solver, WorkLimit, certify, uplift_threshold,
+    self, Certify, DOUBTFUL, Forces, Model, Observe, Order, Outcome, Response,
+    Scene, SceneError, Solver, WorkLimit, certify, uplift_threshold,
 };
 use crate::number::dispatch::Isa;
 
@@ -205,8 +205,10 @@ impl Level<'_> {
         if clear || !self.certify {
             return Ok(self.made(outcome, fate_margin, Told::roughly(clear)));
         }
-        let fate = certify(&self.scene, self.work_limit)
-            .map_err(|error| self.refused(error))?;
+        let work_limit = self.work_limit;
+        let ask = Certify { work_limit, ..Certify::default() };
+        let fate =
+            certify(&self.scene, &ask).map_err(|error| self.refused(error))?;
         let told = Told {
             by: Some(fate.by),
             resolved: fate.decided,

@@ -25,6 +25,10 @@ const ONCE: f64 = 2.0;
 /// and of the uplift threshold where a block at rest lifts.
 const AT_REST: f64 = 4.0;
 
+/// Relative error, in units in the last place, of a time of the scene and of
+/// a place in it where the two are held against each other.
+const CLOCK: f64 = 2.0;
+
 /// Quantities of a run that are rounded once: the derivatives of (u, w) by
 /// their logarithms are carried.
 #[derive(Clone, Copy)]
@@ -234,6 +238,44 @@ impl Accuracy {
             let ratio = ratio(margin, error);
             self.certificate.note(decision, ratio, time_s);
         }
+    }
+
+    /// Notes an end of observation in flight, at rotation `u` and velocity
+    /// `w`, with the rotation that is left to overturning; `is_peak` where
+    /// the rotation is the largest so far. The time comes in 1/p and in s.
+    pub fn stop(
+        &mut self,
+        [u, w]: [f64; 2],
+        left: f64,
+        is_peak: bool,
+        [time, time_s]: [f64; 2],
+    ) {
+        let error = self.error() + w.abs() * self.mistimed(time);
+        self.decide(Decision::End, left, error, time_s);
+        if is_peak {
+            self.take_peak(u, error, self.moved([1.0, 0.0]) / u);
+        } else {
+            self.reach(u, error);
+        }
+    }
+
+    /// Notes the time between an event and the end of observation, for a
+    /// bound of the error of the event's place and the time (1/p) that both
+    /// are told in.
+    pub fn end(&mut self, between: f64, late: f64, [time, time_s]: [f64; 2]) {
+        let error = late + self.mistimed(time);
+        self.decide(Decision::End, between, error, time_s);
+    }
+
+    /// The same of an event that a block at rest waits for, whose time
+    /// changes by `late` where the ground acceleration does by the threshold.
+    pub fn end_at_rest(&mut self, between: f64, late: f64, times: [f64; 2]) {
+        self.end(between, AT_REST * self.unit * late, times);
+    }
+
+    /// Bound of the error of the end of observation at a time.
+    fn mistimed(&self, time: f64) -> f64 {
+        CLOCK * self.unit * time
     }
 
     /// Notes the least relative distance of the ground acceleration from the

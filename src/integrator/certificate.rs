@@ -32,17 +32,22 @@ pub enum Decision {
     Rest,
     /// The block reaches the rotation of overturning, or turns before it.
     Overturning,
+    /// Observation ends before the first uplift or after it, before an
+    /// overturning or after it: the time between, or the rotation that is
+    /// left to overturning.
+    End,
     /// The error is small enough for its linear propagation.
     Propagation,
 }
 
 impl Decision {
     /// All kinds.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Uplift,
         Self::Contact,
         Self::Rest,
         Self::Overturning,
+        Self::End,
         Self::Propagation,
     ];
 
@@ -54,6 +59,7 @@ impl Decision {
             Self::Contact => "contact",
             Self::Rest => "rest",
             Self::Overturning => "overturning",
+            Self::End => "end",
             Self::Propagation => "propagation",
         }
     }
@@ -84,7 +90,7 @@ impl Clearance {
 /// rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
-    least: [Clearance; 5],
+    least: [Clearance; Decision::ALL.len()],
 }
 
 impl Default for Certificate {

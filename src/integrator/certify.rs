@@ -1,5 +1,7 @@
 //! Fates told in the precision that they need.
 
+use std::fmt;
+
 use crate::integrator::precise::respond_until_sure;
 use crate::integrator::{
     Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
@@ -29,6 +31,54 @@ impl Arithmetic {
             Self::DoubleDouble => "double-double",
             Self::Octuple => "octuple",
         }
+    }
+}
+
+/// How a fate is asked for. The default is that of the whole run, within the
+/// default limit of work, without a word on the way.
+///
+/// ```
+/// use rocking::{Block, Excitation, Restitution, Scene};
+/// use rocking::integrator::{Certify, Outcome, certify};
+/// let free = Scene {
+///     initial_ratio: 0.5,
+///     ..Scene::new(
+///         Block::try_new(0.1, 3.0)?,
+///         Restitution::constant(0.92)?,
+///         Excitation::Free,
+///     )
+/// };
+/// // The block stands after 2 s, and its peak is the release.
+/// let ask = Certify { until_s: Some(2.0), ..Certify::default() };
+/// let fate = certify(&free, &ask)?;
+/// assert!(fate.decided);
+/// assert_eq!(fate.outcome, Outcome::Rocked { peak_ratio: 0.5 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Certify<'a> {
+    /// Stop at this time (s) instead of when nothing more can happen.
+    pub until_s: Option<f64>,
+    /// Work beyond which a run is refused, of each of up to three.
+    pub work_limit: WorkLimit,
+    /// Called before each step of a run in wider arithmetic than double
+    /// precision, with that arithmetic and the time (s) in the scene.
+    pub progress: &'a dyn Fn(Arithmetic, f64),
+}
+
+impl Default for Certify<'_> {
+    fn default() -> Self {
+        let work_limit = WorkLimit::default();
+        Self { until_s: None, work_limit, progress: &|_, _| {} }
+    }
+}
+
+impl fmt::Debug for Certify<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Certify")
+            .field("until_s", &self.until_s)
+            .field("work_limit", &self.work_limit)
+            .finish_non_exhaustive()
     }
 }
 
@@ -92,8 +142,8 @@ impl Certified {
 /// precision where one is not clear in that either; undecided beyond.
 ///
 /// The problem told is that of the doubles given. Whether it is that of all
-/// inputs that round to them is told beside it. The limit is that of each
-/// run's work.
+/// inputs that round to them is told beside it. An end of observation is one
+/// of the decisions.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
@@ -101,7 +151,7 @@ impl Certified {
 /// ```
 /// use rocking::{Block, Excitation, Restitution, Scene};
 /// use rocking::excitation::{Pulse, PulseKind};
-/// use rocking::integrator::{Arithmetic, Overturning, WorkLimit, certify};
+/// use rocking::integrator::{Arithmetic, Certify, Overturning, certify};
 /// // One unit in the last place above the critical amplitude.
 /// let kind = PulseKind::HalfSine {
 ///     amplitude: 4.072395807424461,
@@ -114,16 +164,19 @@ impl Certified {
 ///     overturning: Overturning::HalfPi,
 ///     ..Scene::new(block, restitution, Excitation::Pulse(&pulse))
 /// };
-/// let fate = certify(&scene, WorkLimit::default())?;
+/// let fate = certify(&scene, &Certify::default())?;
 /// assert_eq!(fate.by, Arithmetic::DoubleDouble);
 /// assert!(fate.decided && fate.outcome.is_overturned());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn certify(
     scene: &Scene<'_>,
-    work_limit: WorkLimit,
+    ask: &Certify<'_>,
 ) -> Result<Certified, SceneError> {
-    let observe = Observe { accuracy: true, work_limit, ..Observe::default() };
+    let Certify { until_s, work_limit, progress } = *ask;
+    let accuracy = true;
+    let observe =
+        Observe { accuracy, until_s, work_limit, ..Observe::default() };
     let solver = Solver { peak_only: true, ..Solver::default() };
     let quick = solver.respond_once(scene, &observe)?;
     let quick = Certified::of(&quick, Arithmetic::Double);
@@ -131,22 +184,26 @@ pub fn certify(
         return Ok(quick);
     }
     let double = quick.outcome;
-    let wide = respond_until_sure::<DoubleDouble>(scene, &observe)?;
-    let wide = Certified::of(&wide, Arithmetic::DoubleDouble);
+    let by = Arithmetic::DoubleDouble;
+    let told = |time_s| progress(by, time_s);
+    let wide = respond_until_sure::<DoubleDouble>(scene, &observe, &told)?;
+    let wide = Certified::of(&wide, by);
     if wide.decided {
         return Ok(Certified { double, ..wide });
     }
-    let widest = respond_until_sure::<Octuple>(scene, &observe)?;
-    let widest = Certified::of(&widest, Arithmetic::Octuple);
+    let by = Arithmetic::Octuple;
+    let told = |time_s| progress(by, time_s);
+    let widest = respond_until_sure::<Octuple>(scene, &observe, &told)?;
+    let widest = Certified::of(&widest, by);
     Ok(Certified { double, ..widest })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Arithmetic, certify};
+    use super::{Arithmetic, Certify, certify};
     use crate::block::{Block, Restitution};
     use crate::excitation::{Excitation, Pulse, PulseKind};
-    use crate::integrator::{Overturning, Scene, WorkLimit};
+    use crate::integrator::{Overturning, Scene};
 
     /// Fate of the reference `hs-near-ulp-above` at another amplitude.
     fn fate(amplitude_m_s2: f64) -> super::Certified {
@@ -161,7 +218,7 @@ mod tests {
             overturning: Overturning::HalfPi,
             ..Scene::new(block, restitution, Excitation::Pulse(&pulse))
         };
-        certify(&scene, WorkLimit::default()).unwrap()
+        certify(&scene, &Certify::default()).unwrap()
     }
 
     #[test]

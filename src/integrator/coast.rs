@@ -7,11 +7,14 @@
 //! the other side if eta^2 D > E_s. Times follow by Carlson's R_F (Eq. 1) or
 //! atanh (Eq. 2).
 
+mod orbit;
+
 use crate::integrator::certificate::Decision;
 use crate::integrator::driver::{Motion, Tracked, tail_speed};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};
 use crate::integrator::{Impact, ImpactError, Side, WorkLimit};
 use crate::number::Real;
+use orbit::{Level, Place, hop, speed_at, transit, turning};
 
 /// Impacts logged at most where neither motion nor observation ends.
 const ENDLESS_IMPACTS: usize = 1000;
@@ -30,7 +33,7 @@ pub(crate) struct Coast<'a, N> {
     pub start_s: N,
     /// Log impacts and the time of rest.
     pub events: bool,
-    /// When observation ends, s.
+    /// When the log ends, s: after all that outcome and peak rest on.
     pub until_s: Option<N>,
     /// Work beyond which the run is refused.
     pub limit: WorkLimit,
@@ -46,34 +49,6 @@ pub(crate) struct Fate<N> {
     pub nearest: f64,
 }
 
-/// A level of energy: above the base, and below the saddle. Both are kept,
-/// because near the saddle their sum is known and their difference is what
-/// matters.
-#[derive(Clone, Copy)]
-struct Level<N> {
-    above_base: N,
-    below_saddle: N,
-}
-
-impl<N: Real> Level<N> {
-    fn of(d: &Dynamics<N>, u: N, w: N) -> Self {
-        Self {
-            above_base: (N::ratio(1, 2) * w).mul_add(w, d.potential(u)),
-            below_saddle: d.depth(u, w),
-        }
-    }
-
-    fn after_impact(self, d: &Dynamics<N>) -> Self {
-        let above_base = d.eta * d.eta * self.above_base;
-        Self { above_base, below_saddle: d.saddle_energy() - above_base }
-    }
-
-    /// Speed at the base.
-    fn speed(self) -> N {
-        (self.above_base + self.above_base).sqrt()
-    }
-}
-
 /// Decides the free motion from `motion` on, completing `record`.
 pub(crate) fn coast<N: Real>(
     ask: &Coast<'_, N>,
@@ -84,10 +59,7 @@ pub(crate) fn coast<N: Real>(
     let Motion { side, u, w } = motion;
     let zero = N::zero();
     let level = Level::of(d, u, w);
-    let passes = level.below_saddle < zero;
     let inward = w < zero;
-    let outward =
-        if u > d.alpha { !(inward && passes) } else { !inward && passes };
     let passing = gap(d, u, w).abs().to_f64();
     let gap = (gap(d, u, w) / d.alpha).to_f64().abs();
     let gradient = gap_gradient(d, u);
@@ -96,7 +68,7 @@ pub(crate) fn coast<N: Real>(
         let start_s = ask.start_s.to_f64();
         tracker.decide(Decision::Overturning, passing, error, start_s);
     }
-    if outward {
+    if flies_out(d, (u, w), level) {
         return fly_out(ask, motion, level, gap, record);
     }
     // The block turns, or already moves inwards, and meets the base.
@@ -106,17 +78,10 @@ pub(crate) fn coast<N: Real>(
     } else {
         let top = turning(d, level);
         let rise = transit(d, here, Place { u: top, speed: zero }, level);
-        raise(ask, record, top, ask.start_s + rise / d.p, (u, w), 0.0);
+        raise(d, record, top, ask.start_s + rise / d.p, (u, w), 0.0);
         rise + hop(d, level)
     };
     let impact_s = ask.start_s + time / d.p;
-    if ask.past(impact_s) {
-        return Fate {
-            overturned: None,
-            margin: margin_of(d, gap),
-            nearest: gap,
-        };
-    }
     let next = level.after_impact(d);
     let w = d.eta * level.speed();
     let saddle_speed = (d.saddle_energy() + d.saddle_energy()).sqrt();
@@ -154,6 +119,53 @@ pub(crate) fn coast<N: Real>(
     }
     hops(ask, record, impact_s, level, (u, motion.w), errors);
     Fate { overturned: None, margin: margin_of(d, margin), nearest: margin }
+}
+
+/// True where a block overturns on the branch that it is on.
+fn flies_out<N: Real>(
+    d: &Dynamics<N>,
+    (u, w): (N, N),
+    level: Level<N>,
+) -> bool {
+    let passes = level.below_saddle < N::zero();
+    let inward = w < N::zero();
+    if u > d.alpha { !(inward && passes) } else { !inward && passes }
+}
+
+/// What free motion comes to last of all that outcome and peak rest on: the
+/// overturning, or the top of the second hop.
+pub(crate) struct Last {
+    /// When, in 1/p from the state on.
+    pub time: f64,
+    /// It is an overturning.
+    pub overturns: bool,
+    /// Derivatives of the time by u and w, to a few digits.
+    pub gradient: [f64; 2],
+}
+
+/// That of the free motion from a state on.
+pub(crate) fn last<N: Real>(d: &Dynamics<N>, u: N, w: N) -> Last {
+    let (time, overturns) = last_after(d, u, w);
+    let late = |[u, w]: [f64; 2]| {
+        last_after(d, N::from_f64(u), N::from_f64(w)).0.to_f64()
+    };
+    let gradient = derivatives(late, [u, w].map(Real::to_f64));
+    Last { time: time.to_f64(), overturns, gradient }
+}
+
+fn last_after<N: Real>(d: &Dynamics<N>, u: N, w: N) -> (N, bool) {
+    let level = Level::of(d, u, w);
+    if flies_out(d, (u, w), level) {
+        return (time_out(d, (u, w), level), true);
+    }
+    let base = time_to_base(d, u, w, level);
+    let next = level.after_impact(d);
+    let (u, w) = (N::zero(), d.eta * level.speed());
+    if next.below_saddle < u {
+        (base + time_out(d, (u, w), next), true)
+    } else {
+        (base + hop(d, next), false)
+    }
 }
 
 /// Time (in 1/p) from a place in free motion to the base.
@@ -249,7 +261,7 @@ fn margin_of<N: Real>(d: &Dynamics<N>, margin: f64) -> Option<f64> {
 }
 
 impl<N: Real> Coast<'_, N> {
-    /// True from the end of observation on.
+    /// True from the end of the log on.
     fn past(&self, time_s: N) -> bool {
         self.until_s.is_some_and(|until| !(time_s < until))
     }
@@ -263,29 +275,9 @@ fn fly_out<N: Real>(
     margin: f64,
     record: &mut Tracked<N>,
 ) -> Fate<N> {
-    let d = ask.dynamics;
     let Motion { side, u, w } = motion;
-    let here = Place { u, speed: w.abs() };
-    let end = Place { u: d.limit, speed: speed_at(d, d.limit, level) };
-    let time = if !(u < d.limit) {
-        N::zero()
-    } else if w < N::zero() {
-        // Beyond the saddle and moving inwards, but turned back before it:
-        // in to the mirror image of the turning point, and out again.
-        let mirror = d.alpha + (d.alpha - turning(d, level));
-        let turn = Place { u: mirror, speed: N::zero() };
-        transit(d, turn, here, level) + transit(d, turn, end, level)
-    } else {
-        transit(d, here, end, level)
-    };
-    let time_s = ask.start_s + time / d.p;
-    if ask.past(time_s) {
-        return Fate {
-            overturned: None,
-            margin: Some(margin),
-            nearest: margin,
-        };
-    }
+    let time = time_out(ask.dynamics, (u, w), level);
+    let time_s = ask.start_s + time / ask.dynamics.p;
     for tracker in record.trackers() {
         tracker.overturned();
     }
@@ -296,21 +288,37 @@ fn fly_out<N: Real>(
     }
 }
 
-/// Raises the peak if the top of a hop does and is reached in time.
+/// Time (in 1/p) from a state to overturning on the branch that it is on.
+fn time_out<N: Real>(d: &Dynamics<N>, (u, w): (N, N), level: Level<N>) -> N {
+    let here = Place { u, speed: w.abs() };
+    let end = Place { u: d.limit, speed: speed_at(d, d.limit, level) };
+    if !(u < d.limit) {
+        N::zero()
+    } else if w < N::zero() {
+        // Beyond the saddle and moving inwards, but turned back before it:
+        // in to the mirror image of the turning point, and out again.
+        let mirror = d.alpha + (d.alpha - turning(d, level));
+        let turn = Place { u: mirror, speed: N::zero() };
+        transit(d, turn, here, level) + transit(d, turn, end, level)
+    } else {
+        transit(d, here, end, level)
+    }
+}
+
+/// Raises the peak if the top of a hop does.
 ///
 /// `differed` is the energy from which the hop's was taken as a difference.
 fn raise<N: Real>(
-    ask: &Coast<'_, N>,
+    d: &Dynamics<N>,
     record: &mut Tracked<N>,
     top: N,
     time_s: N,
     (u, w): (N, N),
     differed: f64,
 ) {
-    if ask.past(time_s) || !(top > record.peak) {
+    if !(top > record.peak) {
         return;
     }
-    let d = ask.dynamics;
     record.peak = top;
     record.peak_time_s = Some(time_s);
     record.work.turning_points += 1;
@@ -379,7 +387,7 @@ fn hops<N: Real>(
             let top = turning(d, level);
             // An impact takes the depth below the saddle as a difference.
             let saddle = d.saddle_energy().to_f64();
-            raise(ask, record, top, time_s + half / d.p, state, saddle);
+            raise(d, record, top, time_s + half / d.p, state, saddle);
         }
         let endless = !(d.eta < N::one())
             && ask.until_s.is_none()
@@ -392,7 +400,11 @@ fn hops<N: Real>(
             // Each remaining hop lasts 2 w/D, D the base acceleration.
             let down = d.restoring(N::zero());
             let rest = two * after / (down * (N::one() - d.eta));
-            record.rest_time_s = Some(time_s + rest / d.p);
+            let rest_s = time_s + rest / d.p;
+            if ask.past(rest_s) {
+                return;
+            }
+            record.rest_time_s = Some(rest_s);
             let known = errors.filter(|errors| errors.known);
             record.rest_error_s = known.map(|errors| {
                 let (late, rest) = (errors.late, rest.to_f64());
@@ -406,182 +418,6 @@ fn hops<N: Real>(
             .filter(|_| ask.events)
             .map(|errors| errors.after_hop(d, level, half.to_f64()));
         time_s = time_s + two * half / d.p;
-    }
-}
-
-/// Rotation at which a level below the saddle turns the block.
-///
-/// Eq. 1: u = 2 asin[(D/2)/sin((alpha + psi)/2)] with
-/// sin(psi/2) = sqrt(q/2), q below the saddle; Eq. 2:
-/// u = 2 D/(alpha + sqrt(2 q)).
-fn turning<N: Real>(d: &Dynamics<N>, level: Level<N>) -> N {
-    let two = N::from_f64(2.0);
-    let half = N::ratio(1, 2);
-    let (energy, room) = (level.above_base, level.below_saddle);
-    match d.model {
-        Model::Nonlinear => {
-            let psi = two * (half * room).sqrt().asin();
-            let (s, _) = (half * (d.alpha + psi)).sin_cos();
-            two * (half * energy / s).asin()
-        }
-        Model::Linearized => two * energy / (d.alpha + (two * room).sqrt()),
-    }
-}
-
-/// Time (in 1/p) from the base to the turning point: a quarter period.
-///
-/// Eq. 1: sqrt(D/2) R_F(q^2 c^2, q^2 (1 - q^2), s^2 (1 - q^2)) with
-/// s = sin(alpha/2), c = cos(alpha/2), q^2 = s^2 - D/2. Eq. 2: atanh(v),
-/// v = sqrt(2 D)/alpha.
-fn hop<N: Real>(d: &Dynamics<N>, level: Level<N>) -> N {
-    let half = N::ratio(1, 2);
-    match d.model {
-        Model::Nonlinear => {
-            let (s, c) = (half * d.alpha).sin_cos();
-            let q2 = half * level.below_saddle;
-            let other = N::one() - q2;
-            (half * level.above_base).sqrt()
-                * carlson_rf(q2 * c * c, q2 * other, s * s * other)
-        }
-        Model::Linearized => {
-            // v = speed/alpha, (1 + v)/(1 - v) - 1 = 2 v (1 + v)/(1 - v^2).
-            let v = level.speed() / d.alpha;
-            let room = two_over_square(level.below_saddle, d.alpha);
-            half * ((v + v) * (N::one() + v) / room).ln_1p()
-        }
-    }
-}
-
-/// 2 q / alpha^2 = 1 - v^2, without cancellation near the saddle.
-fn two_over_square<N: Real>(q: N, alpha: N) -> N {
-    (q + q) / (alpha * alpha)
-}
-
-/// A place on an orbit: rotation and absolute velocity. Near a turning point
-/// the velocity cannot be had from the rotation without losing half of the
-/// digits, so it is carried along.
-#[derive(Clone, Copy)]
-struct Place<N> {
-    u: N,
-    speed: N,
-}
-
-/// Velocity at rotation u of a level.
-fn speed_at<N: Real>(d: &Dynamics<N>, u: N, level: Level<N>) -> N {
-    let y = d.alpha - u;
-    let q = level.below_saddle + level.below_saddle;
-    match d.model {
-        Model::Nonlinear => {
-            let (s, _) = (N::ratio(1, 2) * y).sin_cos();
-            (N::from_f64(4.0) * s * s - q).positive_part().sqrt()
-        }
-        Model::Linearized => (y * y - q).positive_part().sqrt(),
-    }
-}
-
-/// Time (in 1/p) between two places of monotone motion, `from` below `to`:
-/// the integral of du / sqrt(2 (D - U(u))), which depends on |alpha - u|
-/// alone.
-fn transit<N: Real>(
-    d: &Dynamics<N>,
-    from: Place<N>,
-    to: Place<N>,
-    level: Level<N>,
-) -> N {
-    let high = (d.alpha - from.u, from.speed);
-    let low = (d.alpha - to.u, to.speed);
-    let zero = N::zero();
-    let part = |first, second| match d.model {
-        Model::Nonlinear => stretch(first, second),
-        Model::Linearized => linear_stretch(first, second),
-    };
-    if !(low.0 < zero) {
-        part(high, low)
-    } else if high.0 > zero {
-        let saddle = (zero, speed_at(d, d.alpha, level));
-        part(high, saddle) + part((-low.0, low.1), saddle)
-    } else {
-        part((-low.0, low.1), (-high.0, high.1))
-    }
-}
-
-/// Integral of dy / w, w^2 = y^2 - 2 q, from y2 to y1, y1 >= y2 >= 0: the
-/// difference of ln(y + w).
-fn linear_stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
-    let dy = y1 - y2;
-    // w^2 - y^2 is constant; at a turning point the velocity is the better
-    // known of the two.
-    let dw = if w2 == N::zero() { w1 } else { dy * (y1 + y2) / (w1 + w2) };
-    if !(dw > N::zero()) {
-        return N::zero();
-    }
-    let dy = if w2 == N::zero() { w1 * w1 / (y1 + y2) } else { dy };
-    ((dy + dw) / (y2 + w2)).ln_1p()
-}
-
-/// Integral of dy / w, w^2 = 4 sin^2(y/2) - 2 q, from y2 to y1 with
-/// y1 >= y2 >= 0.
-///
-/// With z = sin^2(y/2) it is the integral of
-/// dz / (2 sqrt(z (1 - z) (z - q/2))), by Carlson's addition formula
-/// R_F(U1^2, U2^2, U3^2), U_i = (X_i Y_j Y_k + Y_i X_j X_k)/(z1 - z2), X and
-/// Y the square roots of the factors at the two ends (DLMF 19.29.4).
-fn stretch<N: Real>((y1, w1): (N, N), (y2, w2): (N, N)) -> N {
-    let half = N::ratio(1, 2);
-    let (s1, c1) = (half * y1).sin_cos();
-    let (s2, c2) = (half * y2).sin_cos();
-    let (r1, r2) = (half * w1, half * w2);
-    // sin^2(y1/2) - sin^2(y2/2); where one end is the turning point, from the
-    // velocity, which is the better known there.
-    let width = if w2 == N::zero() {
-        r1 * r1
-    } else {
-        (half * (y1 - y2)).sin_cos().0 * (half * (y1 + y2)).sin_cos().0
-    };
-    if !(width > N::zero()) {
-        return N::zero();
-    }
-    let u1 = (s1 * c2 * r2 + s2 * c1 * r1) / width;
-    let u2 = (c1 * s2 * r2 + c2 * s1 * r1) / width;
-    let u3 = (r1 * s2 * c2 + r2 * s1 * c1) / width;
-    carlson_rf(u1 * u1, u2 * u2, u3 * u3)
-}
-
-/// Carlson's symmetric elliptic integral R_F(x, y, z) by duplication; at
-/// most one argument may vanish (DLMF 19.20, 19.36).
-fn carlson_rf<N: Real>(mut x: N, mut y: N, mut z: N) -> N {
-    let vanishing = [x, y, z].iter().filter(|v| **v == N::zero()).count();
-    if vanishing > 1 {
-        // The saddle is reached after infinite time.
-        return N::one() / N::zero();
-    }
-    let third = N::ratio(1, 3);
-    let quarter = N::ratio(1, 4);
-    // The series below is of order 8 in the relative spread.
-    let close = (N::ROUNDOFF / 8.0).sqrt().sqrt().sqrt();
-    loop {
-        let mean = (x + y + z) * third;
-        let spread = |v: N| ((mean - v) / mean).abs().to_f64();
-        if spread(x).max(spread(y)).max(spread(z)) < 0.5 * close {
-            let dx = (mean - x) / mean;
-            let dy = (mean - y) / mean;
-            let dz = -(dx + dy);
-            let e2 = dx * dy - dz * dz;
-            let e3 = dx * dy * dz;
-            let series = N::one() - e2 * N::ratio(1, 10)
-                + e3 * N::ratio(1, 14)
-                + e2 * e2 * N::ratio(1, 24)
-                - e2 * e3 * N::ratio(3, 44)
-                - e2 * e2 * e2 * N::ratio(5, 208)
-                + e3 * e3 * N::ratio(3, 104)
-                + e2 * e2 * e3 * N::ratio(1, 16);
-            return series / mean.sqrt();
-        }
-        let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
-        let lambda = rx * ry + ry * rz + rz * rx;
-        x = (x + lambda) * quarter;
-        y = (y + lambda) * quarter;
-        z = (z + lambda) * quarter;
     }
 }
 

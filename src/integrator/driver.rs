@@ -8,6 +8,7 @@ mod forces;
 mod impact;
 mod limit;
 mod step;
+mod until;
 
 pub use forces::Forces;
 pub(crate) use impact::tail_speed;
@@ -195,9 +196,20 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Runs the scene to its end.
     #[inline(always)]
     pub fn run<const SIZE: usize>(
+        self,
+        scene: &Scene<'_>,
+        observe: &Observe,
+    ) -> Result<Response<N>, SceneError> {
+        self.run_seen::<SIZE>(scene, observe, |_, _| {})
+    }
+
+    /// [`Self::run`]; `see` is shown every step before it is made.
+    #[inline(always)]
+    pub fn run_seen<const SIZE: usize>(
         mut self,
         scene: &Scene<'_>,
         observe: &Observe,
+        see: impl Fn(&Self, &Step<N>),
     ) -> Result<Response<N>, SceneError> {
         let mut stage = self.begin(scene, observe);
         loop {
@@ -205,7 +217,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 return Err(error);
             }
             match stage {
-                Stage::Flying(step) => stage = self.proceed::<SIZE>(step),
+                Stage::Flying(step) => {
+                    see(&self, &step);
+                    stage = self.proceed::<SIZE>(step);
+                }
                 Stage::Landed(flight) => return self.within_limit(&flight),
             }
         }
@@ -316,8 +331,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let time = self.time(found.place);
         self.screen = self.screen.map(|screen| screen.start(time));
         let time_s = self.time_s(found.place);
-        if self.until_s.is_some_and(|until| !(time_s < until)) {
-            return Stage::Landed(Flight::Stopped);
+        self.assess_first_uplift(&found, time_s);
+        if !self.observes(time_s) {
+            return Stage::Landed(Flight::Rest(from, since_s));
         }
         self.sample_rest(time_s);
         self.record.work.uplifts += 1;
@@ -403,7 +419,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             }
         }
         if stopping {
-            self.stop(step.motion);
+            self.stop(step);
             return Some(Flight::Stopped);
         }
         step.index = next;
@@ -427,7 +443,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         piece.mul_add(length, place.offset)
     }
 
-    fn time_s(&self, place: Place<N>) -> N {
+    pub fn time_s(&self, place: Place<N>) -> N {
         let pieces = self.forcing.pieces();
         if place.piece >= pieces {
             return self.end_s();

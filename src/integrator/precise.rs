@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use crate::integrator::driver::Driver;
+use crate::integrator::driver::{Driver, Step};
 use crate::integrator::dynamics::Dynamics;
 use crate::integrator::forcing::Ground;
 use crate::integrator::roots::MOST;
@@ -61,28 +61,31 @@ pub fn respond_precise<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
 ) -> Result<Response<N>, SceneError> {
-    respond_as_asked(scene, observe, false)
+    respond_as_asked(scene, observe, false, &|_| {})
 }
 
-/// [`respond_precise`] that ends as soon as outcome and peak are surely known.
+/// [`respond_precise`] that ends as soon as outcome and peak are surely known;
+/// `progress` is called with the time (s) in the scene.
 ///
 /// # Errors
 /// As [`respond`](crate::integrator::respond).
 pub(crate) fn respond_until_sure<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
+    progress: &dyn Fn(f64),
 ) -> Result<Response<N>, SceneError> {
-    respond_as_asked(scene, observe, true)
+    respond_as_asked(scene, observe, true, progress)
 }
 
 fn respond_as_asked<N: Real>(
     scene: &Scene<'_>,
     observe: &Observe,
     peak_only: bool,
+    progress: &dyn Fn(f64),
 ) -> Result<Response<N>, SceneError> {
     check(scene, observe)?;
     let number = PhantomData::<N>;
-    N::with_lengths(Run { scene, observe, peak_only, number })
+    N::with_lengths(Run { scene, observe, peak_only, progress, number })
 }
 
 /// A run of a scene.
@@ -90,6 +93,7 @@ struct Run<'a, N> {
     scene: &'a Scene<'a>,
     observe: &'a Observe,
     peak_only: bool,
+    progress: &'a dyn Fn(f64),
     number: PhantomData<N>,
 }
 
@@ -98,7 +102,7 @@ impl<N: Real> SeriesWork for Run<'_, N> {
 
     fn run<const SHORT: usize, const LONG: usize>(self) -> Self::Output {
         const { assert!(SHORT <= LONG && LONG <= MOST) };
-        let Self { scene, observe, peak_only, .. } = self;
+        let Self { scene, observe, peak_only, progress, .. } = self;
         let Scene { block, restitution, model, overturning, .. } = *scene;
         let dynamics = Dynamics::new(&block, restitution, model, overturning);
         let own = own_index(scene);
@@ -110,10 +114,13 @@ impl<N: Real> SeriesWork for Run<'_, N> {
         };
         let driver = Driver::<N, _, LONG, LONG>::new(dynamics, ground, isa)
             .for_peak_if(peak_only);
+        let see = |driver: &Driver<N, _, LONG, LONG>, step: &Step<N>| {
+            progress(driver.time_s(step.place).to_f64());
+        };
         if short {
-            driver.run::<SHORT>(scene, observe)
+            driver.run_seen::<SHORT>(scene, observe, see)
         } else {
-            driver.run::<LONG>(scene, observe)
+            driver.run_seen::<LONG>(scene, observe, see)
         }
     }
 }

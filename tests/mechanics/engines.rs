@@ -6,8 +6,8 @@ use rocking::excitation::{
 };
 use rocking::ida::{Adjust, Analysis, Batch, Grid, curve, curves};
 use rocking::integrator::{
-    Arithmetic, Model, Observe, Outcome, Overturning, Scene, WorkLimit,
-    certify, respond, respond_precise,
+    Arithmetic, Certify, Model, Observe, Outcome, Overturning, Scene, certify,
+    respond, respond_precise,
 };
 use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
@@ -125,7 +125,7 @@ fn neighbours_of_a_critical_amplitude_are_told() {
             block: Block::try_new(0.2, 2.0).unwrap(),
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
-        let fate = certify(&near, WorkLimit::default()).unwrap();
+        let fate = certify(&near, &Certify::default()).unwrap();
         assert!(fate.decided && fate.by == by, "{fate:?}");
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();
@@ -156,7 +156,7 @@ fn a_fate_that_double_precision_misses_is_told_and_said_so() {
             block: Block::try_new(0.2, 2.0).unwrap(),
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
-        let fate = certify(&near, WorkLimit::default()).unwrap();
+        let fate = certify(&near, &Certify::default()).unwrap();
         assert!(fate.decided && fate.by == Arithmetic::DoubleDouble);
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();

@@ -197,19 +197,58 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     if io::stderr().is_terminal() {
         return work();
     }
+    let say = || {
+        let length = bar.length().unwrap_or(0);
+        eprintln!("rocking: {} of {length} done", bar.position());
+    };
+    saying([LOG_INTERVAL, LOG_INTERVAL], &say, work)
+}
+
+/// Time after which one long analysis says how far it is.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// Interval at which it says so on a terminal.
+const TERMINAL_INTERVAL: Duration = Duration::from_millis(200);
+
+/// Does `work`, and from two seconds on says on standard error how far it
+/// is: on a terminal in a line that changes, elsewhere every half a minute.
+pub fn patiently<T>(
+    words: &(dyn Fn() -> String + Sync),
+    work: impl FnOnce() -> T,
+) -> T {
+    use std::io::IsTerminal as _;
+    if !io::stderr().is_terminal() {
+        let say = || eprintln!("rocking: {}", words());
+        return saying([PATIENCE, LOG_INTERVAL], &say, work);
+    }
+    let line = indicatif::ProgressBar::new_spinner();
+    let say = || line.set_message(words());
+    let result = saying([PATIENCE, TERMINAL_INTERVAL], &say, work);
+    line.finish_and_clear();
+    result
+}
+
+/// Does `work`, and says something after a first time and then at intervals
+/// until it is done. Where no thread can be started, nothing is said.
+fn saying<T>(
+    [first, interval]: [Duration; 2],
+    say: &(dyn Fn() + Sync),
+    work: impl FnOnce() -> T,
+) -> T {
     std::thread::scope(|scope| {
         let (done, waits) = mpsc::channel::<()>();
-        // Where no thread can be started, nothing is said.
-        let log = std::thread::Builder::new().spawn_scoped(scope, move || {
-            while let Err(mpsc::RecvTimeoutError::Timeout) =
-                waits.recv_timeout(LOG_INTERVAL)
-            {
-                let length = bar.length().unwrap_or(0);
-                eprintln!("rocking: {} of {length} done", bar.position());
-            }
-        });
+        let says =
+            std::thread::Builder::new().spawn_scoped(scope, move || {
+                let mut wait = first;
+                while let Err(mpsc::RecvTimeoutError::Timeout) =
+                    waits.recv_timeout(wait)
+                {
+                    say();
+                    wait = interval;
+                }
+            });
         let result = work();
-        drop((done, log));
+        drop((done, says));
         result
     })
 }

@@ -1,4 +1,5 @@
-use super::{Coast, carlson_rf, coast};
+use super::orbit::carlson_rf;
+use super::{Coast, coast};
 use crate::block::{Block, Restitution};
 use crate::integrator::driver::{Motion, Tracked};
 use crate::integrator::dynamics::{Dynamics, Model, Overturning};

@@ -1,9 +1,9 @@
 //! From the end of a flight to the answer; histories.
 
 use crate::integrator::coast::{Coast, coast};
-use crate::integrator::driver::{Driver, Flight, Motion, Stage, Step};
+use crate::integrator::driver::{Driver, Flight};
 use crate::integrator::dynamics::Overturning;
-use crate::integrator::forcing::{Forcing, Ground, Place};
+use crate::integrator::forcing::{Forcing, Place};
 use crate::integrator::taylor::{Series, value};
 use crate::integrator::{HistoryPoint, Outcome, Response, Side};
 use crate::number::Real;
@@ -11,17 +11,6 @@ use crate::number::Real;
 impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     Driver<N, G, F, HARD>
 {
-    /// The observation stops in flight: the rotation there counts.
-    pub(super) fn stop(&mut self, motion: Motion<N>) {
-        if motion.u > self.record.peak {
-            self.record.peak = motion.u;
-            self.record.peak_time_s = self.until_s;
-            for tracker in self.record.trackers() {
-                tracker.peak(motion.u.to_f64());
-            }
-        }
-    }
-
     /// Zeros of a history up to a time.
     pub(super) fn sample_rest(&mut self, to_s: N) {
         let Some(interval) = self.interval_s else { return };
@@ -76,18 +65,13 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let mut decided = None;
         match *flight {
             Flight::Rest(_, time_s) => {
-                if self.record.work.impacts > 0 {
+                if self.record.work.impacts > 0 && self.observes(time_s) {
                     self.record.rest_time_s = Some(time_s);
                 }
                 let end = self.until_s.unwrap_or(self.end_s());
                 self.sample_rest(end);
             }
-            Flight::Settled => {}
-            Flight::Stopped => {
-                if let Some(until) = self.until_s {
-                    self.sample_rest(until);
-                }
-            }
+            Flight::Settled | Flight::Stopped => {}
             Flight::Overturned { time_s, side, margin: beyond } => {
                 margin = Some(beyond);
                 overturned = Some((time_s, side));
@@ -95,6 +79,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 for tracker in self.record.trackers() {
                     tracker.overturned();
                 }
+            }
+            Flight::End(motion) if self.cuts(motion) => {
+                let flight = self.follow(motion);
+                return self.conclude(&flight);
             }
             Flight::End(motion) => {
                 let end_s = self.end_s();
@@ -110,50 +98,11 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
                 overturned = fate.overturned;
                 decided = Some((end_s * self.dynamics.p, fate.nearest));
                 if self.watched && self.record.exceeded.is_none() {
-                    self.trace(motion, end_s);
+                    self.trace(motion);
                 }
             }
         }
         self.answer(overturned, margin, decided)
-    }
-
-    /// History of the free motion after the excitation, stepped.
-    #[inline(never)]
-    pub(super) fn trace(&mut self, motion: Motion<N>, end_s: N) {
-        let silence = Ground::endless(end_s, self.dynamics.p);
-        let mut free =
-            Driver::<N, _, HARD, HARD>::new(self.dynamics, silence, self.isa);
-        free.events = self.interval_s.is_some();
-        free.interval_s = self.interval_s;
-        free.watched = self.watched;
-        free.record.forces = self.record.forces;
-        free.limit = self.limit;
-        free.until_s = self.until_s.or_else(|| {
-            // Without restitution the motion never ends: show some of it.
-            let horizon = N::from_f64(60.0) / self.dynamics.p;
-            (!(self.dynamics.eta < N::one())).then_some(end_s + horizon)
-        });
-        free.record.history = std::mem::take(&mut self.record.history);
-        let mut stage = Stage::Flying(Step {
-            place: Place { piece: 0, offset: N::zero() },
-            index: 0,
-            motion,
-            at_threshold: false,
-        });
-        while let Stage::Flying(step) = stage {
-            stage = free.proceed::<HARD>(step);
-            if let Some(error) = free.refusal(&stage) {
-                self.record.exceeded = Some(error);
-                return;
-            }
-        }
-        if let Stage::Landed(Flight::Rest(_, time_s)) = stage {
-            let end = free.until_s.unwrap_or(time_s);
-            free.sample_rest(end);
-        }
-        self.record.exceeded = free.record.exceeded;
-        self.record.history = free.record.history;
-        self.record.forces = free.record.forces;
     }
 
     pub(super) fn answer(

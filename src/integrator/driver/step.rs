@@ -150,6 +150,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) -> Flight<N> {
         let Step { place, motion, .. } = *step;
         let margin = self.margin_beyond::<SIZE>(place, motion);
+        let margin = self.assess_overturned_by_end(step, margin);
         if self.record.accuracy.is_some() {
             self.assess_beyond(place, motion);
         }

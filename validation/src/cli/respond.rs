@@ -2,19 +2,20 @@
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
 use rocking::excitation::{Excitation, ScaledRecord};
 use rocking::integrator::{
-    Assessment, CLEARANCE, Certificate, Certified, Clearance, Decision,
-    HistoryPoint, Observe, Outcome, Response, Scene, Side, WorkLimit, certify,
-    respond, uplift_threshold,
+    Arithmetic, Assessment, CLEARANCE, Certificate, Certified, Certify,
+    Clearance, Decision, HistoryPoint, Observe, Outcome, Response, Scene,
+    Side, WorkLimit, certify, respond, uplift_threshold,
 };
 use serde_json::{Map, Value, json};
 
 use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
-use super::{Failure, print, print_json};
+use super::{Failure, patiently, print, print_json};
 use crate::draw::figures::{Heading, Histories, History, HistoryPanel};
 use crate::files::{Output, Outputs};
 use crate::paper::Intensity;
@@ -45,8 +46,9 @@ pub struct Args {
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
     /// Tell outcome and peak in the precision that they need: double-double
-    /// where double precision cannot, octuple precision beyond.
-    #[arg(long, conflicts_with = "until")]
+    /// where double precision cannot, octuple precision beyond. With `--until`
+    /// those of the time observed.
+    #[arg(long)]
     certify: bool,
     /// Largest friction |H|/N that the motion needs at the pivot, and the
     /// least normal force N/(m g) there. The model holds where the ground
@@ -129,8 +131,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let name = args.excitation.name();
         out.write(drawing(&scene, &response, name, pga_g)?)?;
     }
-    let certify = || certify(&scene, work_limit).map_err(refused);
-    let certified = if args.certify { Some(certify()?) } else { None };
+    let certified = args
+        .certify
+        .then(|| certified(&scene, args.until, work_limit))
+        .transpose()?;
     let (scene, done) = (&scene, args.excitation.processing()?);
     let remarks = ground.remarks();
     let setting =
@@ -144,6 +148,33 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else {
         print(&setting.table(&response))
     }
+}
+
+/// The certified fate; where it takes long, with a word on how far it is.
+fn certified(
+    scene: &Scene<'_>,
+    until_s: Option<f64>,
+    work_limit: WorkLimit,
+) -> Result<Certified, Failure> {
+    let place = Mutex::new((Arithmetic::Double, 0.0));
+    let end_s = match scene.excitation {
+        Excitation::Record(record) => {
+            (record.samples().len() - 1) as f64 * record.dt_s()
+        }
+        Excitation::Pulse(pulse) => pulse.duration_s(),
+        Excitation::Free => 0.0,
+    };
+    let end_s = until_s.map_or(end_s, |until_s| until_s.min(end_s));
+    let words = || {
+        let now = place.lock().unwrap_or_else(PoisonError::into_inner);
+        let (by, time_s) = (now.0.name(), now.1);
+        format!("--certify: {by} arithmetic, {time_s:.3} of {end_s:.3} s")
+    };
+    let progress = |by, time_s| {
+        *place.lock().unwrap_or_else(PoisonError::into_inner) = (by, time_s);
+    };
+    let ask = Certify { until_s, work_limit, progress: &progress };
+    patiently(&words, || certify(scene, &ask)).map_err(refused)
 }
 
 /// The history, drawn.

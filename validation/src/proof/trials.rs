@@ -7,6 +7,7 @@
 
 mod compare;
 mod draw;
+mod ends;
 mod grazing;
 mod random;
 mod records;
@@ -32,6 +33,11 @@ named! {
         Extreme = "extreme",
         /// Scenes in which a discrete decision is taken within rounding.
         Grazing = "grazing",
+        /// Scenes whose observation ends where that decides.
+        Ending = "ending",
+        /// Scenes whose ground acceleration has its peak at the threshold of
+        /// uplift.
+        Touching = "touching",
     }
 }
 
@@ -77,6 +83,8 @@ pub fn trial(
         Stratum::Ordinary => Some(random::ordinary(&mut draw)),
         Stratum::Extreme => Some(random::extreme(&mut draw)),
         Stratum::Grazing => grazing::grazing(&mut draw, index)?,
+        Stratum::Ending => ends::ending(&mut draw, index)?,
+        Stratum::Touching => ends::touching(&mut draw, index),
     };
     Ok(found.map(|(kind, scene)| Trial {
         name: format!("{}:{index} {kind}", stratum.name()),

@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
-use rocking::integrator::{Arithmetic, Certified, Scene, WorkLimit, certify};
+use rocking::integrator::{Arithmetic, Certified, Certify, Scene, certify};
 
 use super::StudyError;
 
@@ -128,7 +128,7 @@ fn again(
         overturning: analysis.overturning,
         ..Scene::new(block, analysis.restitution, excitation)
     };
-    Ok(certify(&scene, WorkLimit::default())?)
+    Ok(certify(&scene, &Certify::default())?)
 }
 
 /// The next level above a first overturning that overturns.

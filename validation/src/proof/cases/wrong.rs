@@ -71,6 +71,8 @@ named! {
         EstimateHundredth = "estimate-hundredth",
         /// No decision counts but the fate.
         WithoutBranches = "without-branches",
+        /// The end of observation decides nothing.
+        WithoutEnd = "without-end",
         /// An overturned run is sure whatever its error.
         MarginInfinity = "margin-infinity",
         /// Every error a tenth of what it is.

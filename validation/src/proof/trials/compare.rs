@@ -46,6 +46,8 @@ pub enum Reading {
     Whole,
     /// Uplifts, contacts and rests left out.
     WithoutBranches,
+    /// The end of observation left out.
+    WithoutEnd,
     /// An overturned run is taken for infinitely far from the other fate.
     MarginInfinity,
     /// Every error a tenth of what it is.
@@ -60,6 +62,7 @@ impl Reading {
     pub fn of(wrong: Option<WrongModel>) -> Self {
         match wrong {
             Some(WrongModel::WithoutBranches) => Self::WithoutBranches,
+            Some(WrongModel::WithoutEnd) => Self::WithoutEnd,
             Some(WrongModel::MarginInfinity) => Self::MarginInfinity,
             Some(WrongModel::TenthOfTheError) => Self::TenthOfTheError,
             Some(WrongModel::HundredthOfTheError) => Self::HundredthOfTheError,
@@ -72,7 +75,10 @@ impl Reading {
         match self {
             Self::TenthOfTheError => 0.1,
             Self::HundredthOfTheError => 0.01,
-            Self::Whole | Self::WithoutBranches | Self::MarginInfinity => 1.0,
+            Self::Whole
+            | Self::WithoutBranches
+            | Self::WithoutEnd
+            | Self::MarginInfinity => 1.0,
         }
     }
 
@@ -88,6 +94,7 @@ impl Reading {
                 Decision::Overturning => {
                     self == Self::MarginInfinity && seen.overturned
                 }
+                Decision::End => self == Self::WithoutEnd,
                 Decision::Propagation => false,
             };
             let ratio = certificate.of(decision).ratio / self.factor();
@@ -163,8 +170,12 @@ const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
 
 /// The truth as one arithmetic tells it.
 fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
-    let observe =
-        Observe { accuracy: true, work_limit: WORK, ..Observe::default() };
+    let observe = Observe {
+        accuracy: true,
+        until_s: trial.scene.until_s,
+        work_limit: WORK,
+        ..Observe::default()
+    };
     let rounded = Quotient::Rounded;
     let response = respond_in::<N>(&trial.scene, &observe, rounded)?;
     let error = response.error_estimate.unwrap_or(f64::INFINITY);
@@ -193,7 +204,8 @@ fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
 /// # Ok::<(), rocking_validation::proof::scene::EngineError>(())
 /// ```
 pub fn compare(trial: &Trial) -> Result<Finding, EngineError> {
-    let observe = Observe { accuracy: true, ..Observe::default() };
+    let until_s = trial.scene.until_s;
+    let observe = Observe { accuracy: true, until_s, ..Observe::default() };
     let response = respond(&trial.scene, &observe)?;
     Ok(Finding {
         name: trial.name.clone(),

@@ -264,7 +264,7 @@ fn differ(a: &bool, b: &bool) -> bool {
 }
 
 /// So many units in the last place, at most, to either side.
-fn few(draw: &mut Draw, most: usize) -> i64 {
+pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
     let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) };
     if draw.chance(0.5) { ulps as i64 } else { -(ulps as i64) }
 }

@@ -1,5 +1,7 @@
 //! Findings counted.
 
+use rocking::number::Real as _;
+
 use super::compare::{Finding, Reading, Truth};
 
 /// What a finding says about a certificate.
@@ -25,12 +27,15 @@ impl Judgement {
     /// Judges a finding.
     #[must_use]
     pub fn of(finding: &Finding, reading: Reading) -> Self {
-        let overturned = match finding.truth {
-            Truth::Stands { .. } => Some(false),
-            Truth::Overturned => Some(true),
+        let seen = &finding.seen;
+        let wrong = match finding.truth {
+            Truth::Stands { peak_ratio, .. } => {
+                let lifts = peak_ratio.to_f64() > 0.0;
+                Some(seen.overturned || lifts != (seen.peak_ratio > 0.0))
+            }
+            Truth::Overturned => Some(!seen.overturned),
             Truth::Undecided => None,
         };
-        let wrong = overturned.map(|truth| truth != finding.seen.overturned);
         if !reading.is_clear(&finding.seen) {
             return Self::Unresolved(wrong == Some(true));
         }

@@ -1,0 +1,238 @@
+//! The end of observation: what happens before it, and how surely.
+//!
+//! Uplift and overturning are compared with it as times, a rotation that it
+//! finds below overturning as a rotation. Free motion that it cuts is stepped
+//! to it; the closed form does for one whose outcome and peak are told well
+//! before.
+
+use std::mem;
+
+use crate::integrator::HistoryPoint;
+use crate::integrator::accuracy::Accuracy;
+use crate::integrator::certificate::CLEARANCE;
+use crate::integrator::coast::last;
+use crate::integrator::driver::{
+    Driver, Flight, Motion, Stage, Step, Tracked,
+};
+use crate::integrator::forcing::{
+    Exceedance, Forcing, Ground, NEAR_THRESHOLD, Place,
+};
+use crate::integrator::screen::Screen;
+use crate::number::Real;
+
+/// Time (in 1/p) by which what is told in closed form lies before the end of
+/// observation.
+const WELL_BEFORE: f64 = 1.0;
+
+impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
+    Driver<N, G, F, HARD>
+{
+    /// True where a time is observed.
+    #[inline(always)]
+    pub(super) fn observes(&self, time_s: N) -> bool {
+        self.until_s.is_none_or(|until_s| time_s < until_s)
+    }
+
+    /// A time in units of 1/p and in s.
+    fn times(&self, time_s: N) -> [f64; 2] {
+        [time_s * self.dynamics.p, time_s].map(Real::to_f64)
+    }
+
+    /// The observation stops in flight: the rotation there counts.
+    #[inline(never)]
+    pub(super) fn stop(&mut self, step: &Step<N>) {
+        let Some(until_s) = self.until_s else { return };
+        let Motion { side, u, w } = step.motion;
+        self.sample_end(until_s, [u, w].map(|x| N::from_f64(side.sign()) * x));
+        let is_peak = u > self.record.peak;
+        if is_peak {
+            self.record.peak = u;
+            self.record.peak_time_s = Some(until_s);
+        }
+        let left = self.dynamics.limit - u;
+        let times = self.times(until_s);
+        let motion = [u, w].map(Real::to_f64);
+        for tracker in self.record.trackers() {
+            tracker.stop(motion, left.to_f64(), is_peak, times);
+        }
+        if let Some(screen) = self.screen {
+            let inverse = self.forcing.inverse(step.place.piece);
+            let time = self.time(step.place);
+            let there = screen.fly(time, inverse, self.dynamics.alpha);
+            let doubt = there.decide(left).doubt;
+            self.screen = Some(Screen { doubt, ..screen });
+        }
+    }
+
+    /// The point of a history at the end of observation, which rounding may
+    /// place beyond the last step.
+    fn sample_end(&mut self, until_s: N, [theta, rate]: [N; 2]) {
+        let Some(interval_s) = self.interval_s else { return };
+        let time_s = self.record.history.len() as f64 * interval_s;
+        let time_s = N::from_f64(time_s);
+        if time_s <= until_s {
+            self.record.history.push(HistoryPoint {
+                time_s,
+                rotation_rad: theta,
+                velocity_rad_s: rate * self.dynamics.p,
+            });
+        }
+    }
+
+    /// Notes an uplift against the end of observation. It decides where the
+    /// block has not moved yet; a later one starts too slowly to be a peak.
+    #[inline(never)]
+    pub(super) fn assess_first_uplift(
+        &mut self,
+        found: &Exceedance<N>,
+        time_s: N,
+    ) {
+        let Some(until_s) = self.until_s else { return };
+        let has_moved = self.record.uplift_time_s.is_some()
+            || self.record.peak > N::zero();
+        if has_moved {
+            return;
+        }
+        let between = (until_s - time_s) * self.dynamics.p;
+        let between = between.abs().to_f64();
+        let rate = self.forcing.series(found.place)[1].abs();
+        let late = if found.crossing {
+            (self.dynamics.threshold / rate).to_f64()
+        } else {
+            0.0
+        };
+        let times = self.times(until_s);
+        for tracker in self.record.trackers() {
+            tracker.end_at_rest(between, late, times);
+        }
+        if let Some(screen) = &mut self.screen
+            && !(between > NEAR_THRESHOLD * (late + times[0]))
+        {
+            screen.doubt = N::one() / N::zero();
+        }
+    }
+
+    /// Notes an overturning at a step's place against the end of observation;
+    /// the rotation, over alpha, that the block passes between, if it is less
+    /// than a margin.
+    #[inline(never)]
+    pub(super) fn assess_overturned_by_end(
+        &mut self,
+        step: &Step<N>,
+        margin: f64,
+    ) -> f64 {
+        let Some(until_s) = self.until_s else { return margin };
+        let w = step.motion.w;
+        let between = (until_s - self.time_s(step.place)) * self.dynamics.p;
+        let times = self.times(until_s);
+        for tracker in self.record.trackers() {
+            let late = tracker.bound([1.0 / w.to_f64(), 0.0]);
+            tracker.end(between.to_f64(), late, times);
+        }
+        let passed = (between * w / self.dynamics.alpha).to_f64();
+        if passed < margin { passed } else { margin }
+    }
+
+    /// True where observation ends before free motion from `motion` on has
+    /// surely told outcome and peak. Notes the end against an overturning
+    /// that it has told.
+    #[inline(never)]
+    pub(super) fn cuts(&mut self, motion: Motion<N>) -> bool {
+        let Some(until_s) = self.until_s else { return false };
+        let Motion { u, w, .. } = motion;
+        let last = last(&self.dynamics, u, w);
+        let left = (until_s - self.end_s()) * self.dynamics.p;
+        let between = left.to_f64() - last.time;
+        if !(between >= WELL_BEFORE) {
+            return true;
+        }
+        let error = |a: Accuracy| a.bound(last.gradient);
+        if let Some(own) = self.record.accuracy
+            && !(between >= CLEARANCE * error(own))
+        {
+            return true;
+        }
+        let times = self.times(until_s);
+        for tracker in self.record.trackers().filter(|_| last.overturns) {
+            tracker.end(between, error(*tracker), times);
+        }
+        false
+    }
+
+    /// Steps through the free motion from `motion` on to its rest, to
+    /// overturning or to the end of observation.
+    #[inline(never)]
+    pub(super) fn follow(&mut self, motion: Motion<N>) -> Flight<N> {
+        let end = self.end_s() * self.dynamics.p;
+        let mut free = self.free();
+        free.events = self.events;
+        free.until_s = self.until_s;
+        free.record = mem::replace(&mut self.record, Tracked::empty());
+        free.screen = self.screen.map(|screen| {
+            let began = screen.began - end;
+            Screen { began, ..screen }
+        });
+        let flight = free.fly_free(motion);
+        self.record = free.record;
+        self.screen = free.screen.map(|screen| {
+            let began = screen.began + end;
+            Screen { began, ..screen }
+        });
+        flight
+    }
+
+    /// Adds the free motion from `motion` on, which the closed form has
+    /// decided, to history and forces.
+    #[inline(never)]
+    pub(super) fn trace(&mut self, motion: Motion<N>) {
+        let end_s = self.end_s();
+        let mut free = self.free();
+        free.events = self.interval_s.is_some();
+        free.until_s = self.until_s.or_else(|| {
+            // Without restitution the motion never ends: show some of it.
+            let horizon = N::from_f64(60.0) / self.dynamics.p;
+            (!(self.dynamics.eta < N::one())).then_some(end_s + horizon)
+        });
+        free.record.history = mem::take(&mut self.record.history);
+        free.record.forces = self.record.forces;
+        if let Flight::Rest(_, time_s) = free.fly_free(motion) {
+            let end_s = free.until_s.unwrap_or(time_s);
+            free.sample_rest(end_s);
+        }
+        self.record.exceeded = free.record.exceeded;
+        self.record.history = free.record.history;
+        self.record.forces = free.record.forces;
+    }
+
+    /// What steps through the free motion after the excitation.
+    fn free(&self) -> Driver<N, Ground<'static, N>, HARD, HARD> {
+        let silence = Ground::endless(self.end_s(), self.dynamics.p);
+        let mut free = Driver::new(self.dynamics, silence, self.isa);
+        free.interval_s = self.interval_s;
+        free.watched = self.watched;
+        free.limit = self.limit;
+        free
+    }
+}
+
+impl<N: Real, const LEN: usize> Driver<N, Ground<'_, N>, LEN, LEN> {
+    /// Flies from the start on to the end of the flight, or to the limit of
+    /// work.
+    fn fly_free(&mut self, motion: Motion<N>) -> Flight<N> {
+        let mut stage = Stage::Flying(Step {
+            place: Place { piece: 0, offset: N::zero() },
+            index: 0,
+            motion,
+            at_threshold: false,
+        });
+        loop {
+            stage = match stage {
+                Stage::Landed(flight) => return flight,
+                Stage::Flying(_) if self.refusal(&stage).is_some() => {
+                    return Flight::Stopped;
+                }
+                Stage::Flying(step) => self.proceed::<LEN>(step),
+            };
+        }
+    }
+}

@@ -8,11 +8,11 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::Sample;
 use super::bootstrap::{Estimate, estimate};
 use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
+use super::{Sample, monte_carlo};
 use crate::streams::{Streams, standard_normal};
 
 /// Why a null band was refused.
@@ -218,7 +218,7 @@ impl NullBand {
     #[must_use]
     pub fn p_value(&self, observed: f64) -> f64 {
         let b = self.shares.iter().filter(|&&s| s <= observed).count();
-        (b + 1) as f64 / (self.shares.len() + 1) as f64
+        monte_carlo::p_value(b, self.shares.len())
     }
 
     /// One-sided p-value of an observed mean of D/critical value: how often
@@ -226,7 +226,7 @@ impl NullBand {
     #[must_use]
     pub fn p_value_of_mean_ratio(&self, observed: f64) -> f64 {
         let b = self.mean_ratios.iter().filter(|&&r| r >= observed).count();
-        (b + 1) as f64 / (self.mean_ratios.len() + 1) as f64
+        monte_carlo::p_value(b, self.mean_ratios.len())
     }
 }
 

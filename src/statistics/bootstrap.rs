@@ -184,6 +184,19 @@ mod tests {
         assert!(accelerated(0.3, &replicates, &[0.3; 8], 0.9).is_none());
     }
 
+    /// Replicates that equal the point count half: without bias and
+    /// acceleration the interval is that of the percentiles.
+    #[test]
+    fn a_point_among_symmetric_replicates_has_no_bias() {
+        let replicates: Vec<f64> = (1..=9).map(f64::from).collect();
+        let plain = estimate(5.0, &replicates, 0.9).unwrap();
+        let found = accelerated(5.0, &replicates, &[4.0, 6.0], 0.9).unwrap();
+        let gap = (found.low - plain.low).abs();
+        assert!(gap < 1e-12, "{found:?} {plain:?}");
+        let gap = (found.high - plain.high).abs();
+        assert!(gap < 1e-12, "{found:?} {plain:?}");
+    }
+
     #[test]
     fn standard_error_of_a_mean_is_the_plug_in_one() {
         let values: Vec<f64> = (0..40).map(f64::from).collect();

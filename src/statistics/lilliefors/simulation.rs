@@ -5,7 +5,7 @@ use statrs::distribution::{Beta, ContinuousCDF as _};
 
 use super::fast::{LANES, Scratch};
 use super::{LillieforsError, PValue};
-use crate::statistics::normal;
+use crate::statistics::{monte_carlo, normal};
 use crate::streams::{Stream, Streams, standard_normal};
 
 /// Replicates that share one scratch space.
@@ -177,7 +177,7 @@ impl NullDistribution {
         let below = self.sorted.partition_point(|&x| x < d);
         let count = self.sorted.len();
         let (low, high) = clopper_pearson(count - below, count, 0.95);
-        let value = (count - below + 1) as f64 / (count + 1) as f64;
+        let value = monte_carlo::p_value(count - below, count);
         PValue { value, low, high }
     }
 }
@@ -207,6 +207,42 @@ mod tests {
             pool.build().unwrap().install(simulate).unwrap().sorted
         };
         assert_eq!(run(1), run(3));
+    }
+
+    /// The share b/N would be 0, 1/2 and 1 at the ends and the middle.
+    #[test]
+    fn a_p_value_counts_the_sample_among_the_replicates() {
+        let statistics: Vec<f64> = (1..=200).rev().map(f64::from).collect();
+        let null = NullDistribution::of(20, statistics);
+        for (d, expected) in [
+            (201.0, 1.0 / 201.0),
+            (200.0, 2.0 / 201.0),
+            (100.5, 101.0 / 201.0),
+            (100.0, 102.0 / 201.0),
+            (1.0, 1.0),
+            (0.5, 1.0),
+        ] {
+            let found = null.p_value(d).value;
+            assert_eq!(found, expected, "p-value of D = {d}");
+        }
+    }
+
+    /// What exceeds the critical value has a p-value of at most the level,
+    /// and the critical value itself a larger one.
+    #[test]
+    fn a_critical_value_is_the_one_at_which_p_passes_the_level() {
+        for count in [250, 333, 499, 1000] {
+            let statistics = (1..=count).map(f64::from).collect();
+            let null = NullDistribution::of(20, statistics);
+            for level in [0.2, 0.1, 0.07, 0.05] {
+                let d = null.critical_value(level).unwrap().value;
+                let (at, beyond) = (null.p_value(d), null.p_value(d + 0.5));
+                assert!(
+                    beyond.value <= level && at.value > level,
+                    "N = {count}, level {level}: D = {d} {at:?} {beyond:?}"
+                );
+            }
+        }
     }
 
     #[test]

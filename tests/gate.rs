@@ -5,6 +5,8 @@
 
 #[path = "cli.rs"]
 mod cli;
+#[path = "pins/compare.rs"]
+mod compare;
 #[path = "exchange.rs"]
 mod exchange;
 #[path = "house.rs"]

@@ -11,6 +11,7 @@ use crate::integrator::roots::first_descent;
 use crate::integrator::taylor::value;
 use crate::number::Real;
 use crate::number::dispatch::Isa;
+use crate::number::double::DoubleDouble;
 use crest::crest;
 use shape::shape_series;
 use stretch::Stretch;
@@ -26,9 +27,6 @@ pub(crate) const LONGEST_STEP: f64 = 0.1;
 /// Relative distance from the uplift threshold above which a sample is not
 /// near it.
 pub(crate) const NEAR_THRESHOLD: f64 = 1e-12;
-
-/// Relative excess over the threshold, in units of roundoff, that is a touch.
-const TOUCH: f64 = 8.0;
 
 /// Longest step in units of a pulse's own phase.
 const LONGEST_PHASE: f64 = 0.25;
@@ -62,9 +60,7 @@ pub(crate) struct Scan<N> {
     /// Pieces, or blocks of pieces, looked at.
     pub pieces: u64,
     /// Least relative distance of the peaks of |a/g| from the threshold, or
-    /// some bound of it that is far above rounding. Peaks are crests, the
-    /// start where |a/g| falls from it on, corners, constant stretches, and
-    /// the end.
+    /// some bound of it that is far above rounding.
     pub nearest: N,
 }
 
@@ -207,7 +203,7 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
         let amplitude = self.record.amplitude().abs();
         let bound = threshold.to_f64() * (1.0 - 1e-14);
         let mut piece = from.piece;
-        let (mut scanned, mut gap) = (0, self.gap_at_start(from, threshold));
+        let (mut scanned, mut gap) = (0, threshold);
         let scan = |pieces, gap: N| Scan { pieces, nearest: gap / threshold };
         while piece < self.pieces() {
             if let Some(next) = self.index.skip(piece, bound / amplitude) {
@@ -236,18 +232,6 @@ impl<N: Real> Forcing<N, 2> for RecordForcing<'_, N> {
 }
 
 impl<N: Real> RecordForcing<'_, N> {
-    /// Distance of |a/g| from the threshold at the first sample, where a
-    /// block rests from there on and |a/g| does not rise; else the threshold.
-    fn gap_at_start(&self, from: Place<N>, threshold: N) -> N {
-        let is_start = from.piece == 0 && from.offset == N::zero();
-        let [first, second] = [0, 1].map(|i| self.sample(i).abs());
-        if is_start && !(second > first) {
-            (first - threshold).abs()
-        } else {
-            threshold
-        }
-    }
-
     /// Distance of |a/g| from the threshold at the end of a piece; where it
     /// rises on beyond, at the end of the next.
     #[inline(always)]
@@ -383,13 +367,10 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                 return (Some(found), scan(scanned, gap));
             }
             let left = self.of(piece).length(self.p) - offset;
-            let crest = crest(&series, left, self.isa);
-            if let Some((_, top)) = crest {
-                let near = (top - threshold).abs();
+            if let Some(crest) = crest(&series, left, self.isa) {
+                let near = (crest - threshold).abs();
                 gap = if near < gap { near } else { gap };
             }
-            let near = self.gap_at_edges(place, &series, threshold);
-            gap = if near < gap { near } else { gap };
             let mut first: Option<(N, bool)> = None;
             for positive in [true, false] {
                 let mut gap = series;
@@ -404,11 +385,8 @@ impl<N: Real, const F: usize> Forcing<N, F> for PulseForcing<N> {
                     continue;
                 };
                 // A touch is no exceedance.
-                let touch = -threshold * N::from_f64(TOUCH * N::ROUNDOFF);
-                let passes = |at: N| value(&gap, at) < touch;
-                let passes_on_top =
-                    crest.is_some_and(|(at, _)| at > tau && passes(at));
-                if !(passes_on_top || passes(left)) {
+                let beyond = tau + left * N::from_f64(touch::<N>());
+                if !(value(&gap, beyond) < N::zero()) {
                     continue;
                 }
                 if first.is_none_or(|(best, _)| tau < best) {
@@ -442,7 +420,7 @@ impl<N: Real> PulseForcing<N> {
             let series: [N; F] = self.series(place);
             let left = self.of(place.piece).length(self.p) - place.offset;
             let end = value(&series, left).abs();
-            let top = crest(&series, left, self.isa).map(|(_, top)| top);
+            let top = crest(&series, left, self.isa);
             for here in [Some(series[0].abs()), Some(end), top] {
                 let over = here.map_or(N::zero(), |here| here - threshold);
                 most = if over > most { over } else { most };
@@ -455,43 +433,21 @@ impl<N: Real> PulseForcing<N> {
         most
     }
 
-    /// Distance of |a/g| from the threshold at a place from which it does not
-    /// rise, or at the end of the pulse, where it is near; else the
-    /// threshold. Where |a/g| has a slope, rounding of the place's own time
-    /// takes a share of the distance.
-    fn gap_at_edges<const F: usize>(
-        &self,
-        place: Place<N>,
-        series: &[N; F],
-        threshold: N,
-    ) -> N
-    where
-        Self: Forcing<N, F>,
-    {
-        let length = self.of(place.piece).length(self.p);
-        let ends = place.piece + 1 == self.count();
-        let last: Option<[N; F]> =
-            ends.then(|| self.series(Place { offset: length, ..place }));
-        let rises = |c: &[N; F]| {
-            if c[0] < N::zero() { c[1] < N::zero() } else { c[1] > N::zero() }
-        };
-        let start = (!rises(series)).then_some(series);
-        let span = N::from_f64(Forcing::<N, F>::span(self));
-        let mut gap = threshold;
-        for c in start.into_iter().chain(&last) {
-            let near = (c[0].abs() - threshold).abs();
-            if !(near > threshold * N::from_f64(NEAR_THRESHOLD)) {
-                let share = N::one() + c[1].abs() * span / threshold;
-                let near = near / share;
-                gap = if near < gap { near } else { gap };
-            }
-        }
-        gap
-    }
-
     /// True where the piece goes on from the one before without a jump:
     /// every pulse is continuous after its first instant.
     fn continues(&self, piece: usize) -> bool {
         piece > 0
+    }
+}
+
+/// Share of a piece within which an excess over the threshold is a touch:
+/// it rises by the square of that, which should be about a rounding.
+fn touch<N: Real>() -> f64 {
+    if N::ROUNDOFF < DoubleDouble::ROUNDOFF {
+        1e-36
+    } else if N::ROUNDOFF < f64::ROUNDOFF {
+        1e-14
+    } else {
+        1e-6
     }
 }

@@ -5,7 +5,7 @@
 
 #[path = "cli.rs"]
 mod cli;
-#[path = "pins/compare.rs"]
+#[path = "compare.rs"]
 mod compare;
 #[path = "exchange.rs"]
 mod exchange;
@@ -25,6 +25,8 @@ mod records;
 mod reproducibility;
 #[path = "samples.rs"]
 mod samples;
+#[path = "stop.rs"]
+mod stop;
 #[path = "study.rs"]
 mod study;
 #[path = "trials.rs"]

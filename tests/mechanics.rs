@@ -4,7 +4,7 @@
 
 #[path = "mechanics/closed.rs"]
 mod closed;
-#[path = "pins/compare.rs"]
+#[path = "compare.rs"]
 mod compare;
 #[path = "properties/drawn.rs"]
 mod drawn;

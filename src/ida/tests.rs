@@ -1,7 +1,7 @@
 //! Curves against each other: certified, and in lanes.
 
 mod certified;
-#[path = "../../tests/pins/compare.rs"]
+#[path = "../../tests/compare.rs"]
 mod compare;
 mod integrator_pool;
 mod lanes;

@@ -13,6 +13,7 @@ use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
 use super::{Sample, monte_carlo};
+use crate::stop;
 use crate::streams::{Streams, standard_normal};
 
 /// Why a null band was refused.
@@ -171,10 +172,12 @@ impl NullBand {
         let streams = Streams::new(name, seed);
         let rows: Vec<(f64, f64)> = (0..replicates)
             .into_par_iter()
+            .panic_fuse()
             .map(|index| {
                 let mut stream = streams.stream(index);
                 let mut drawn = vec![vec![0.0; n]; count];
                 for record in 0..n {
+                    stop::point();
                     let own: Vec<f64> = (0..count)
                         .map(|_| standard_normal(&mut stream))
                         .collect();

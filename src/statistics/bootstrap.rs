@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::sample::mean;
 use super::{QuantileType, Sample, normal};
+use crate::stop;
 use crate::streams::{Streams, below};
 
 /// A point estimate with its standard error and interval.
@@ -61,7 +62,11 @@ impl Bootstrap {
     pub fn map<T: Send>(&self, f: impl Fn(&[usize]) -> T + Sync) -> Vec<T> {
         (0..self.replicates as u64)
             .into_par_iter()
-            .map(|index| f(&self.draw(index)))
+            .panic_fuse()
+            .map(|index| {
+                stop::point();
+                f(&self.draw(index))
+            })
             .collect()
     }
 

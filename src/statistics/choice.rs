@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use super::lognormal::{self, FitError, FitMethod, profile_shift};
 use super::rivals::{self, ExtremeValue, Family, RivalFit, fit_extreme_value};
 use super::{ExtendedSample, Lognormal, monte_carlo};
+use crate::stop;
 use crate::streams::{Stream, Streams, standard_normal};
 
 /// A family of distributions.
@@ -222,6 +223,7 @@ pub fn goodness(
 ) -> Goodness {
     let streams = Streams::new(&format!("goodness/{}", found.model), seed);
     let far = |index: u64| {
+        stop::point();
         let mut stream = streams.stream(index);
         let drawn = (0..n).map(|_| found.distribution.draw(&mut stream));
         let drawn: Vec<f64> = drawn.collect();
@@ -233,7 +235,7 @@ pub fn goodness(
         ])
     };
     let all: Vec<Option<[bool; 2]>> =
-        (0..replicates).into_par_iter().map(far).collect();
+        (0..replicates).into_par_iter().panic_fuse().map(far).collect();
     let used = all.iter().flatten().count();
     let p = |which: usize| {
         let far = all.iter().flatten().filter(|far| far[which]).count();

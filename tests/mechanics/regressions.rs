@@ -35,8 +35,8 @@ fn scene<'a>(model: Model, excitation: Excitation<'a>) -> Scene<'a> {
 
 /// What the function below writes of a response.
 const COLUMNS: &str = "peak ratio, fate margin, error estimate, least \
-                       clearance, condition number, fate/steps/impacts/turning \
-                       points/uplifts, rest scans";
+                       clearance, condition number, fate/steps/impacts/ \
+                       turning points/uplifts, rest scans";
 
 fn text(response: &Response) -> String {
     let short = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.5e}"));

@@ -6,6 +6,7 @@ use statrs::distribution::{Beta, ContinuousCDF as _};
 use super::fast::{LANES, Scratch};
 use super::{LillieforsError, PValue};
 use crate::statistics::{monte_carlo, normal};
+use crate::stop;
 use crate::streams::{Stream, Streams, standard_normal};
 
 /// Replicates that share one scratch space.
@@ -77,6 +78,7 @@ impl NullDistribution {
         Self::check(n, replicates)?;
         let chunks: Vec<(Vec<f64>, u64)> = (0..replicates.div_ceil(CHUNK))
             .into_par_iter()
+            .panic_fuse()
             .map(|chunk| {
                 let mut scratch = Scratch::new(n);
                 let first = chunk * CHUNK;
@@ -84,6 +86,7 @@ impl NullDistribution {
                 let mut counted = 0;
                 let mut statistics = Vec::with_capacity(CHUNK as usize);
                 for group in (first..end).step_by(LANES) {
+                    stop::point();
                     // Lanes beyond the last replicate repeat another.
                     let count = LANES.min((end - group) as usize);
                     for lane in 0..count {
@@ -125,7 +128,10 @@ impl NullDistribution {
 
     /// The distribution of statistics that were simulated, in any order.
     pub(in crate::statistics) fn of(n: usize, mut sorted: Vec<f64>) -> Self {
-        sorted.par_sort_unstable_by(f64::total_cmp);
+        sorted.par_sort_unstable_by(|a, b| {
+            stop::point();
+            a.total_cmp(b)
+        });
         Self { n, sorted }
     }
 

@@ -1,5 +1,5 @@
 #[allow(clippy::duplicate_mod, reason = "also in ida/tests")]
-#[path = "../../../../tests/pins/compare.rs"]
+#[path = "../../../../tests/compare.rs"]
 mod compare;
 
 use compare::hold;

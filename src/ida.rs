@@ -12,9 +12,7 @@ mod curve;
 mod levels;
 
 use std::fmt;
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
-use std::sync::atomic::AtomicBool;
 
 use thiserror::Error;
 
@@ -181,9 +179,6 @@ pub enum IdaError {
     /// The scene could not be integrated.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The caller stopped the work.
-    #[error("stopped by the caller")]
-    Stopped,
 }
 
 /// IDA of one record.
@@ -234,18 +229,13 @@ fn curve_at(
 pub struct Batch<'a> {
     /// Instruction-set level. It changes the speed alone.
     pub isa: Isa,
-    /// Called after each curve, from any thread. `Break` ends the work: the
-    /// curves under way are given up, and [`IdaError::Stopped`] is returned.
-    pub progress: &'a (dyn Fn() -> ControlFlow<()> + Sync),
-    /// Once it is true the work ends as by `Break`, after the analyses under
-    /// way: for callers whose curves are long.
-    pub stop: Option<&'a AtomicBool>,
+    /// Called after each curve, from any thread.
+    pub progress: &'a (dyn Fn() + Sync),
 }
 
 impl Default for Batch<'_> {
     fn default() -> Self {
-        let progress = &|| ControlFlow::Continue(());
-        Self { isa: Isa::best(), progress, stop: None }
+        Self { isa: Isa::best(), progress: &|| () }
     }
 }
 
@@ -256,17 +246,16 @@ impl fmt::Debug for Batch<'_> {
 }
 
 /// IDA of every record under every analysis: `result[a][r]`, in parallel
-/// over curves, the same for any number of threads.
+/// over curves, the same for any number of threads. A
+/// [`Stop`](crate::stop::Stop) ends it before.
 ///
 /// # Errors
-/// The first error in the order of analyses and records;
-/// [`IdaError::Stopped`] where `batch.progress` or `batch.stop` asked for it.
+/// The first error in the order of analyses and records.
 ///
 /// ```
-/// use std::ops::ControlFlow;
 /// use rocking::{Block, Restitution};
 /// use rocking::excitation::NormalisedRecord;
-/// use rocking::ida::{Analysis, Batch, IdaError, curves};
+/// use rocking::ida::{Analysis, Batch, curves};
 /// use rocking::record::Accelerogram;
 /// let samples = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
 /// let record = Accelerogram::try_new("lobe", 0.01, samples.collect())?;
@@ -276,11 +265,6 @@ impl fmt::Debug for Batch<'_> {
 /// let analyses = [Analysis::paper(block, restitution)];
 /// let all = curves(&records, &analyses, &Batch::default())?;
 /// assert!(all[0][0].overturning.is_some());
-/// let stop = Batch { progress: &|| ControlFlow::Break(()), ..Batch::default() };
-/// assert_eq!(curves(&records, &analyses, &stop), Err(IdaError::Stopped));
-/// let set = std::sync::atomic::AtomicBool::new(true);
-/// let stop = Batch { stop: Some(&set), ..Batch::default() };
-/// assert_eq!(curves(&records, &analyses, &stop), Err(IdaError::Stopped));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn curves(

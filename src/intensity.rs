@@ -21,6 +21,7 @@ pub use settings::{DEFAULT_PERIODS_S, Settings};
 use thiserror::Error;
 
 use crate::record::Accelerogram;
+use crate::stop;
 use energy::Husid;
 use fourier::Spectrum;
 use oscillator::Oscillator;
@@ -224,6 +225,7 @@ struct Direct {
 
 impl Direct {
     fn of(samples: &[f64], dt_s: f64) -> Self {
+        stop::point();
         let mut direct = Self {
             pga: samples.iter().fold(0.0, |p: f64, a| p.max(a.abs())),
             pgv: 0.0,

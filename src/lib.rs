@@ -34,6 +34,7 @@
 //! | a fragility without a shift | one with it (Eqs. 5 to 7) | [`fragility::transform`] |
 //! | a sample | is it lognormal? | [`lilliefors::Assessment`](statistics::lilliefors::Assessment) |
 //! | a record | its intensity measures | [`intensity`] |
+//! | long work | an end to it before it is done | [`stop`] |
 //!
 //! # The chain
 //!
@@ -77,6 +78,7 @@ pub mod intensity;
 pub mod number;
 pub mod record;
 pub mod statistics;
+pub mod stop;
 pub mod streams;
 pub mod units;
 

@@ -10,6 +10,7 @@ pub mod boxplot;
 pub mod choice;
 pub mod lilliefors;
 pub mod lognormal;
+mod monte_carlo;
 pub mod multiple;
 pub mod normal;
 pub mod normality;

@@ -5,6 +5,8 @@
 
 #[path = "cli.rs"]
 mod cli;
+#[path = "compare.rs"]
+mod compare;
 #[path = "exchange.rs"]
 mod exchange;
 #[path = "house.rs"]
@@ -23,6 +25,8 @@ mod records;
 mod reproducibility;
 #[path = "samples.rs"]
 mod samples;
+#[path = "stop.rs"]
+mod stop;
 #[path = "study.rs"]
 mod study;
 #[path = "trials.rs"]

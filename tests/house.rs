@@ -29,11 +29,12 @@ const CORE: Edges = &[
         "ida",
         &["block", "capacity", "excitation", "integrator", "number", "record"],
     ),
-    ("integrator", &["block", "excitation", "number", "record"]),
-    ("intensity", &["record", "units"]),
+    ("integrator", &["block", "excitation", "number", "record", "stop"]),
+    ("intensity", &["record", "stop", "units"]),
     ("number", &[]),
-    ("record", &["units"]),
-    ("statistics", &["number", "streams"]),
+    ("record", &["stop", "units"]),
+    ("statistics", &["number", "stop", "streams"]),
+    ("stop", &[]),
     ("streams", &[]),
     ("units", &[]),
 ];
@@ -273,6 +274,22 @@ fn modules_lead_to_each_other_in_no_circle() {
     }
     let turning: Edges = &[("a", &["b"]), ("b", &["c"]), ("c", &["b"])];
     assert_eq!(circle(turning), ["a", "b", "c"]);
+}
+
+/// Without a fuse each item of a parallel iterator unwinds by itself where
+/// the work is stopped (`src/stop.rs`): a million of them take seconds.
+#[test]
+fn what_runs_in_parallel_and_may_be_stopped_has_a_fuse() {
+    let mut problems = Vec::new();
+    for path in sources(&["src", "synthesis/src", "python/src"]) {
+        let words = tokens(&read(&path));
+        let count = |name: &str| words.iter().filter(|w| *w == name).count();
+        let parallel = count("par_iter") + count("into_par_iter");
+        if parallel != count("panic_fuse") {
+            problems.push(format!("{path}: a parallel iterator has no fuse"));
+        }
+    }
+    pass(&problems);
 }
 
 #[derive(Deserialize)]

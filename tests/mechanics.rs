@@ -4,14 +4,14 @@
 
 #[path = "mechanics/closed.rs"]
 mod closed;
+#[path = "compare.rs"]
+mod compare;
 #[path = "properties/drawn.rs"]
 mod drawn;
 #[path = "mechanics/endless.rs"]
 mod endless;
 #[path = "mechanics/engines.rs"]
 mod engines;
-#[path = "pins/hold.rs"]
-mod hold;
 #[path = "properties/mechanics.rs"]
 mod properties;
 #[path = "mechanics/pulses.rs"]

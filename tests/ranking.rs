@@ -12,6 +12,8 @@ use std::process::{Command, Output};
 use libm::{exp, log, sin, tan};
 use serde_json::Value;
 
+use super::compare::near;
+
 fn folder(name: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&path);
@@ -42,10 +44,10 @@ fn refused(place: &PathBuf, words: &str) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+#[track_caller]
 fn close(value: &Value, expected: f64, tolerance: f64) {
-    let number = value.as_f64().unwrap();
-    let error = (number / expected - 1.0).abs();
-    assert!(error <= tolerance, "{number} against {expected}");
+    let limit = tolerance * expected.abs();
+    near("number printed", value.as_f64().unwrap(), expected, limit);
 }
 
 /// Six records of a few cycles each, their index with magnitude and
@@ -118,8 +120,7 @@ fn capacities_in_any_measure_are_those_in_pga_scaled_by_record() {
             let expected =
                 (if power == 2 { scale * scale } else { scale }) * value(k);
             // Arias by the first power is some tens of per cent off.
-            let error = (own / expected - 1.0).abs();
-            assert!(error < 1e-12, "{im}: {own} {expected}");
+            near(format!("{im} of {k}"), own, expected, 1e-12 * expected);
         }
     }
     let said = refused(&place, "capacities --ida ida.csv --im sa:1");

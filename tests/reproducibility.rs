@@ -16,10 +16,7 @@ use rocking::record::Accelerogram;
 use rocking::streams::Streams;
 use rocking_validation::suites::inputs::sha256_hex;
 
-#[path = "pins/hold.rs"]
-mod hold;
-
-use hold::hold;
+use super::compare::hold;
 
 /// Levels of every chain: IM 1.2, 1.4, ..., 6.
 const LEVELS: u32 = 25;
@@ -172,5 +169,6 @@ fn regresses_bits_of_a_thousand_analyses() {
     }
     let first = &found[0].1;
     assert!(found.iter().all(|f| f.1 == *first), "{}", explain(&found));
-    hold("golden.txt", std::slice::from_ref(first));
+    let thousand = [("every way".to_owned(), first.clone())];
+    hold("golden.txt", "hash of all bits", &thousand);
 }

@@ -9,6 +9,8 @@ use std::process::{Command, Output};
 use rocking::statistics::normal;
 use serde_json::Value;
 
+use super::compare::near;
+
 /// The sample of `fixtures/oracles/lognormal.py` and of sample b of
 /// `normality.R`, in a user's spelling.
 const SAMPLE: &str = "# intensities\n1.05\n1.12 # first\n1.2\n1.21\n\n1.3\n\
@@ -41,10 +43,10 @@ fn refused(args: &[&str]) -> String {
     String::from_utf8(output.stderr).unwrap()
 }
 
+#[track_caller]
 fn close(value: &Value, expected: f64, tolerance: f64) {
-    let number = value.as_f64().unwrap();
-    let error = (number / expected - 1.0).abs();
-    assert!(error <= tolerance, "{number} against {expected}");
+    let limit = tolerance * expected.abs();
+    near("number printed", value.as_f64().unwrap(), expected, limit);
 }
 
 /// A row of an oracle's CSV by its first fields.

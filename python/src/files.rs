@@ -13,6 +13,7 @@ use rocking_synthesis::{Pair, ordinary, pulse};
 use sha2::{Digest, Sha256};
 
 use crate::given::{choose, refuse, unit};
+use crate::work;
 
 /// Name, samples in g, interval in s, and what the file says of itself.
 type Read<'py> =
@@ -55,8 +56,7 @@ pub fn read_record<'py>(
     gravity: f64,
 ) -> PyResult<Read<'py>> {
     let options = options(dt, units, gravity)?;
-    let read = py
-        .detach(|| record::read_file(&path, &options))
+    let read = work::alone(py, || record::read_file(&path, &options))?
         .map_err(|e| refuse_at(&path, e))?;
     let mut attributes = BTreeMap::from([
         ("file".to_owned(), path.display().to_string()),
@@ -83,8 +83,7 @@ pub fn read_suite<'py>(
         read: options(dt, units, gravity)?,
         sha256_hex: Some(sha256_hex),
     };
-    let suite = py
-        .detach(|| Suite::read(&path, &options))
+    let suite = work::alone(py, || Suite::read(&path, &options))?
         .map_err(|e| refuse_at(&path, e))?;
     let members = suite.members().iter();
     let records =
@@ -113,7 +112,7 @@ pub fn embedded_suite<'py>(
     type Make = fn() -> Result<Vec<Pair>, AccelerogramError>;
     let suites: [(&str, Make); 2] = [("ordinary", ordinary), ("pulse", pulse)];
     let make = choose("suite", name, &suites)?;
-    let pairs = py.detach(make).map_err(refuse)?;
+    let pairs = work::on_all(py, make)?.map_err(refuse)?;
     let mut records = Vec::new();
     for Pair { components, scenario, .. } in &pairs {
         let kept = if both { &components[..] } else { &components[..1] };

@@ -8,9 +8,10 @@ use rayon::prelude::*;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Batch, Grid, IdaCurve, IdaError, IdaPoint, curves,
+    Adjust, Analysis, Batch, Grid, IdaCurve, IdaPoint, curves,
 };
 use rocking::integrator::Outcome;
+use rocking::stop;
 
 use crate::given::{Given, Physics, block_of, choose, records_of, refuse};
 use crate::work;
@@ -75,14 +76,14 @@ pub fn ida<'py>(
         ..Analysis::paper(block, physics.restitution(&block)?)
     };
     let records = records_of(records)?;
-    let found = work::run(py, threads, progress, records.len(), |watch| {
-        let unit =
-            |record| watch.unless_stopped(|| NormalisedRecord::new(record));
-        let units: Option<Vec<_>> = records.par_iter().map(unit).collect();
-        let units = units.ok_or(IdaError::Stopped)?;
-        let progress = &|| watch.tick();
-        let stop = Some(watch.flag());
-        let batch = Batch { progress, stop, ..Batch::default() };
+    let found = work::run(py, threads, progress, records.len(), |done| {
+        let unit = |record| {
+            stop::point();
+            NormalisedRecord::new(record)
+        };
+        let units: Vec<_> =
+            records.par_iter().panic_fuse().map(unit).collect();
+        let batch = Batch { progress: &|| done.tick(), ..Batch::default() };
         curves(&units, &[analysis], &batch)
     })?
     .map_err(refuse)?;
@@ -220,18 +221,24 @@ pub fn demands<'py>(
     table(py, &ims, &numbered, at)
 }
 
-fn table<'py, T>(
+fn table<'py, T: Sync>(
     py: Python<'py>,
     rows: &[f64],
     columns: &[T],
-    at: impl Fn(f64, &T) -> Result<f64, CapacityError>,
+    at: impl Fn(f64, &T) -> Result<f64, CapacityError> + Sync,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let mut values = Vec::with_capacity(rows.len() * columns.len());
-    for row in rows {
-        for column in columns {
-            values.push(at(*row, column).map_err(refuse)?);
+    let cells = || {
+        let mut values = Vec::with_capacity(rows.len() * columns.len());
+        for row in rows {
+            for column in columns {
+                stop::point();
+                values.push(at(*row, column)?);
+            }
         }
-    }
+        Ok(values)
+    };
+    let values = work::on_numbers(py, rows.len() * columns.len(), cells)?;
+    let values = values.map_err(|error: CapacityError| refuse(error))?;
     Array2::from_shape_vec((rows.len(), columns.len()), values)
         .map(|table| PyArray2::from_owned_array(py, table))
         .map_err(refuse)

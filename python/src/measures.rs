@@ -6,6 +6,7 @@ use pyo3::types::PyDict;
 use rocking::intensity::{Measures, PairMeasures, Settings};
 
 use crate::given::{Given, record_of, refuse};
+use crate::work;
 
 fn to_python<'py>(
     py: Python<'py>,
@@ -39,7 +40,7 @@ pub fn intensity_measures<'py>(
     let record = record_of(record)?;
     let settings =
         Settings::try_new(gravity, damping, periods).map_err(refuse)?;
-    let found = py.detach(|| Measures::of(&record, &settings));
+    let found = work::alone(py, || Measures::of(&record, &settings))?;
     to_python(py, &found.map_err(refuse)?)
 }
 
@@ -56,6 +57,7 @@ pub fn rotd50<'py>(
     let (first, second) = (record_of(first)?, record_of(second)?);
     let settings =
         Settings::try_new(gravity, damping, periods).map_err(refuse)?;
-    let found = py.detach(|| PairMeasures::of(&first, &second, &settings));
+    let measures = || PairMeasures::of(&first, &second, &settings);
+    let found = work::alone(py, measures)?;
     to_python(py, &found.map_err(refuse)?.rotd50)
 }

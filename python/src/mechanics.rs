@@ -6,12 +6,14 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rocking::excitation::{NormalisedRecord, Pulse, ScaledRecord};
 use rocking::integrator::{
-    Assessment, Certify, Observe, Outcome, certify, uplift_threshold,
+    Assessment, Certify, Observe, Outcome, SceneError, certify,
+    uplift_threshold,
 };
 use rocking::record::Accelerogram;
 use rocking::{Excitation, Response, Scene, integrator};
 
 use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
+use crate::work;
 
 /// What is scaled to a level.
 #[derive(Clone, Copy, PartialEq)]
@@ -141,15 +143,14 @@ pub fn respond<'py>(
         history_interval_s: history_dt,
         ..Observe::default()
     };
-    let (response, fate) = py
-        .detach(|| {
-            let response = integrator::respond(&scene, &observe)?;
-            let fate = certified
-                .then(|| certify(&scene, &Certify::default()))
-                .transpose()?;
-            Ok((response, fate))
-        })
-        .map_err(|e: integrator::SceneError| refuse(e))?;
+    let answer = || -> Result<_, SceneError> {
+        let response = integrator::respond(&scene, &observe)?;
+        let fate = certified
+            .then(|| certify(&scene, &Certify::default()))
+            .transpose()?;
+        Ok((response, fate))
+    };
+    let (response, fate) = work::alone(py, answer)?.map_err(refuse)?;
     let out = to_python(py, &response)?;
     if let Some(fate) = fate {
         out.set_item("outcome", outcome_name(&fate.outcome))?;

@@ -4,7 +4,6 @@
 //! only level of an IDA curve. Pulses, factors and what hardly lifts off run
 //! alone. The bits are the same.
 
-use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
 use numpy::PyArray3;
@@ -18,10 +17,11 @@ use rocking::ida::{Analysis, Batch, Grid, IdaCurve, for_each_curve};
 use rocking::integrator::{
     Model, Observe, Overturning, Solver, WorkLimit, uplift_threshold,
 };
+use rocking::stop;
 
 use crate::given::{Given, Ground, Physics, block_of, choose, refuse};
 use crate::mechanics::{BY, By, Motion, Scaled};
-use crate::work::{self, Watch};
+use crate::work::{self, Done};
 
 /// Nearer to the uplift threshold (IM = 1), a grid with this step would have
 /// more levels than the core allows.
@@ -57,10 +57,14 @@ pub fn peak<'py>(
     };
     let shape = (asked.blocks.len(), grounds.len(), asked.levels.len());
     let total = shape.0 * shape.1 * shape.2;
-    let peaks = work::run(py, threads, progress, total, |watch| {
-        let motion = |ground| watch.unless_stopped(|| Motion::of(ground));
-        let motions: Option<Vec<_>> = grounds.par_iter().map(motion).collect();
-        asked.peaks(&motions.ok_or("stopped")?, watch)
+    let peaks = work::run(py, threads, progress, total, |done| {
+        let motion = |ground| {
+            stop::point();
+            Motion::of(ground)
+        };
+        let motions: Vec<_> =
+            grounds.par_iter().panic_fuse().map(motion).collect();
+        asked.peaks(&motions, done)
     })?
     .map_err(refuse)?;
     Array3::from_shape_vec(shape, peaks)
@@ -88,7 +92,7 @@ impl Asked {
     fn peaks(
         &self,
         motions: &[Motion<'_>],
-        watch: &Watch,
+        done: &Done,
     ) -> Result<Vec<f64>, String> {
         let (wide, high) = (motions.len(), self.levels.len());
         let pairs = self.blocks.len() * high;
@@ -96,21 +100,21 @@ impl Asked {
             (0..pairs * wide).map(|_| OnceLock::new()).collect();
         let singles: Vec<Option<Single>> =
             (0..pairs).map(|k| self.single(k / high, k % high)).collect();
-        (0..cells.len()).into_par_iter().try_for_each(|index| {
-            let (row, level) = (index / high, index % high);
-            let (block, motion) = (row / wide, &motions[row % wide]);
-            let is_record = matches!(motion, Motion::Record(..));
-            if is_record && singles[block * high + level].is_some() {
-                return Ok(());
-            }
-            if watch.tick() == ControlFlow::Break(()) {
-                return Err("stopped".to_owned());
-            }
-            let peak = self.alone(block, motion, level)?;
-            // Each cell is filled once.
-            let _ = cells[index].set(Ok(peak));
-            Ok(())
-        })?;
+        (0..cells.len()).into_par_iter().panic_fuse().try_for_each(
+            |index| {
+                let (row, level) = (index / high, index % high);
+                let (block, motion) = (row / wide, &motions[row % wide]);
+                let is_record = matches!(motion, Motion::Record(..));
+                if is_record && singles[block * high + level].is_some() {
+                    return Ok::<(), String>(());
+                }
+                done.tick();
+                let peak = self.alone(block, motion, level)?;
+                // Each cell is filled once.
+                let _ = cells[index].set(Ok(peak));
+                Ok(())
+            },
+        )?;
         let (rows, records): (Vec<usize>, Vec<NormalisedRecord>) = motions
             .iter()
             .enumerate()
@@ -119,11 +123,7 @@ impl Asked {
                 Motion::Pulse(_) => None,
             })
             .unzip();
-        let batch = Batch {
-            progress: &|| watch.tick(),
-            stop: Some(watch.flag()),
-            ..Batch::default()
-        };
+        let batch = Batch { progress: &|| done.tick(), ..Batch::default() };
         let singles: Vec<Single> = singles.into_iter().flatten().collect();
         for some in singles.chunks((MOST_CURVES / records.len().max(1)).max(1))
         {

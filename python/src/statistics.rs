@@ -15,9 +15,11 @@ use rocking::statistics::paired::{
     Pairs, SignTest, equivalence, hodges_lehmann,
 };
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking::stop;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::given::{choose, refuse};
+use crate::work;
 
 /// Replicates where the table does not reach, as the command line has it.
 const REPLICATES_BEYOND: u64 = 100_000;
@@ -81,10 +83,7 @@ pub fn fit_fragility<'py>(
             [fitted.log_mean(), fitted.dispersion(), fitted.median()]
         })
     };
-    let (replicates, jackknife) = py.detach(|| {
-        if n_resamples == 0 {
-            return (Vec::new(), Vec::new());
-        }
+    let resampled = || {
         let n = values.len();
         // The name that the command line's bootstrap has.
         let draws = Bootstrap::new("fragility", seed, n, n_resamples);
@@ -92,11 +91,16 @@ pub fn fit_fragility<'py>(
             let drawn: Vec<f64> = draw.iter().map(|&i| values[i]).collect();
             row(&drawn)
         });
-        let without = (0..n)
-            .map(|k| row(&[&values[..k], &values[k + 1..]].concat()))
-            .collect();
-        (replicates, without)
-    });
+        let without = |k: usize| {
+            stop::point();
+            row(&[&values[..k], &values[k + 1..]].concat())
+        };
+        (replicates, (0..n).map(without).collect())
+    };
+    let (replicates, jackknife) = match n_resamples {
+        0 => (Vec::new(), Vec::new()),
+        _ => work::on_all(py, resampled)?,
+    };
     let out = PyDict::new(py);
     let fitted = found.distribution;
     out.set_item("shift", fitted.shift())?;
@@ -147,6 +151,21 @@ fn lognormal((shift, log_mean, beta): (f64, f64, f64)) -> PyResult<Lognormal> {
     Lognormal::try_new(shift, log_mean, beta).map_err(refuse)
 }
 
+/// What a function makes of each number.
+fn each<'py>(
+    py: Python<'py>,
+    numbers: &PyReadonlyArray1<'py, f64>,
+    value: impl Fn(f64) -> f64 + Send + Sync,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let numbers = numbers.as_slice()?;
+    let value = |x: &f64| {
+        stop::point();
+        value(*x)
+    };
+    let values = || numbers.iter().map(value).collect::<Vec<f64>>();
+    Ok(work::on_numbers(py, numbers.len(), values)?.into_pyarray(py))
+}
+
 /// F(x) of the lognormal (shift, log_mean, beta).
 #[pyfunction]
 pub fn cdf<'py>(
@@ -155,8 +174,7 @@ pub fn cdf<'py>(
     x: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let law = lognormal(parameters)?;
-    let values = x.as_slice()?.iter().map(|x| law.cdf(*x));
-    Ok(values.collect::<Vec<f64>>().into_pyarray(py))
+    each(py, &x, |x| law.cdf(x))
 }
 
 /// Quantiles of the lognormal (shift, log_mean, beta).
@@ -167,8 +185,7 @@ pub fn ppf<'py>(
     q: PyReadonlyArray1<'py, f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let law = lognormal(parameters)?;
-    let values = q.as_slice()?.iter().map(|q| law.quantile(*q));
-    Ok(values.collect::<Vec<f64>>().into_pyarray(py))
+    each(py, &q, |q| law.quantile(q))
 }
 
 /// Lilliefors' test: statistic, p-value with its interval, critical value,
@@ -195,11 +212,8 @@ pub fn lilliefors<'py>(
         (Scale::Linear, values.clone())
     };
     let sample = ExtendedSample::try_new(&entering).map_err(refuse)?;
-    let null = py
-        .detach(|| {
-            simulated(&sample, &values, log && shift.is_none(), n_mc, seed)
-        })
-        .map_err(refuse)?;
+    let least = log && shift.is_none();
+    let null = simulated(py, &sample, &values, least, n_mc, seed)?;
     let source =
         null.as_ref().map_or(Null::Table(Table::embedded()), Null::Simulated);
     let test = Assessment::new(&sample, scale, level, source);
@@ -228,28 +242,41 @@ pub fn lilliefors<'py>(
     Ok(out)
 }
 
-/// The null distribution to simulate; none where the table answers.
+/// The null distribution where it is to be simulated; none where the table
+/// answers.
 fn simulated(
+    py: Python<'_>,
     sample: &ExtendedSample,
     values: &[f64],
     least: bool,
     n_mc: Option<u64>,
     seed: u64,
-) -> Result<Option<NullDistribution>, LillieforsError> {
+) -> PyResult<Option<NullDistribution>> {
     let n = sample.len();
     if n < 4 || sample.censored() > 0 {
         return Ok(None);
     }
-    if least {
-        let replicates = n_mc.unwrap_or(REPLICATES_BEYOND);
-        let null = ShiftedNull::smallest_value(values, replicates, seed)?;
-        return Ok(Some(null.null));
-    }
     let is_beyond = Table::sizes().last().is_none_or(|&(last, _)| n > last);
-    let own = is_beyond.then_some(REPLICATES_BEYOND);
-    n_mc.or(own)
-        .map(|replicates| NullDistribution::simulate(n, replicates, seed))
-        .transpose()
+    let own = (least || is_beyond).then_some(REPLICATES_BEYOND);
+    let Some(replicates) = n_mc.or(own) else { return Ok(None) };
+    let null = || {
+        if least {
+            let found = ShiftedNull::smallest_value(values, replicates, seed);
+            return found.map(|found| found.null);
+        }
+        NullDistribution::simulate(n, replicates, seed)
+    };
+    work::on_all(py, null)?.map(Some).map_err(refuse)
+}
+
+/// A sample that may hold infinite values.
+fn sorted(
+    py: Python<'_>,
+    values: &PyReadonlyArray1<'_, f64>,
+) -> PyResult<ExtendedSample> {
+    let values = values.as_slice()?;
+    let sample = || ExtendedSample::try_new(values);
+    work::on_numbers(py, values.len(), sample)?.map_err(refuse)
 }
 
 /// Quantiles of a sample that may hold infinite values.
@@ -261,8 +288,7 @@ pub fn quantile<'py>(
     quantile_type: u8,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let t = QuantileType::try_new(quantile_type).map_err(refuse)?;
-    let sample =
-        ExtendedSample::try_new(values.as_slice()?).map_err(refuse)?;
+    let sample = sorted(py, &values)?;
     let at = |q: &f64| t.of_extended(&sample, *q).map_err(refuse);
     let found = q.as_slice()?.iter().map(at).collect::<PyResult<Vec<_>>>()?;
     Ok(found.into_pyarray(py))
@@ -276,8 +302,7 @@ pub fn boxplot<'py>(
     quantile_type: u8,
 ) -> PyResult<Bound<'py, PyDict>> {
     let t = QuantileType::try_new(quantile_type).map_err(refuse)?;
-    let sample =
-        ExtendedSample::try_new(values.as_slice()?).map_err(refuse)?;
+    let sample = sorted(py, &values)?;
     let found = Boxplot::try_new(&sample, t).map_err(refuse)?;
     let out = PyDict::new(py);
     // The keys that `matplotlib.axes.Axes.bxp` takes.
@@ -316,7 +341,11 @@ pub fn paired<'py>(
     out.set_item("geometric_mean", mean.geometric_mean)?;
     out.set_item("interval", (mean.low, mean.high))?;
     out.set_item("equivalence_pvalue", mean.p_value)?;
-    let centre = hodges_lehmann(&found.ratios).map_err(refuse)?;
+    let ratios = &found.ratios;
+    // A mean of each two.
+    let means = ratios.len() * ratios.len() / 2;
+    let centre = work::on_numbers(py, means, || hodges_lehmann(ratios))?;
+    let centre = centre.map_err(refuse)?;
     out.set_item("hodges_lehmann", centre.ratio)?;
     out.set_item("ratios", found.ratios.into_pyarray(py))?;
     Ok(out)

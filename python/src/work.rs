@@ -1,53 +1,37 @@
 //! Long work: on its own threads, without the interpreter, with progress and
 //! an end by Ctrl-C.
 
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use rayon::ThreadPoolBuilder;
+use rocking::stop::Stop;
 
 use crate::given::refuse;
 
 /// How often signals are looked at and progress is told.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// How far the work is, and whether it is to end.
+/// Numbers of which fewer are done sooner than a thread is started.
+const MANY: usize = 1 << 16;
+
+/// Parts of the work that are done.
 #[derive(Default)]
-pub struct Watch {
-    done: AtomicUsize,
-    stopped: AtomicBool,
-}
+pub struct Done(AtomicUsize);
 
-impl Watch {
-    /// One more is done; `Break` where the work is to end.
-    pub fn tick(&self) -> ControlFlow<()> {
-        self.done.fetch_add(1, Ordering::Relaxed);
-        if self.stopped.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    }
-
-    /// What `make` makes; nothing where the work is to end.
-    pub fn unless_stopped<T>(&self, make: impl FnOnce() -> T) -> Option<T> {
-        (!self.stopped.load(Ordering::Relaxed)).then(make)
-    }
-
-    /// Whether the work is to end.
-    pub fn flag(&self) -> &AtomicBool {
-        &self.stopped
+impl Done {
+    /// One more is done.
+    pub fn tick(&self) {
+        self.0.fetch_add(1, Ordering::Relaxed);
     }
 }
 
 /// Runs work of `total` parts on threads of its own while this thread, which
 /// has let go of the interpreter, looks at signals and calls
-/// `progress(done, total)`.
+/// `progress(done, total)`. What either raises stops the work.
 ///
 /// The threads are made anew for each call: a process that Python forks has
 /// none of its parent's.
@@ -56,26 +40,24 @@ pub fn run<T: Send>(
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
     total: usize,
-    work: impl FnOnce(&Watch) -> T + Send,
+    work: impl FnOnce(&Done) -> T + Send,
 ) -> PyResult<T> {
     if threads == Some(0) {
         return Err(refuse("threads 0: expected a positive number, or None"));
     }
-    let pool = ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
-        .build()
-        .map_err(|e| PyRuntimeError::new_err(e.to_string()))?;
-    let watch = Watch::default();
+    let stop = Stop::default();
+    let done = Done::default();
     py.detach(|| {
         thread::scope(|scope| {
             let (sender, receiver) = mpsc::channel();
-            let watched = &watch;
+            let (heeded, parts) = (&stop, &done);
             scope.spawn(move || {
-                let _ = sender.send(pool.install(|| work(watched)));
+                let result = heeded.run(threads.unwrap_or(0), || work(parts));
+                let _ = sender.send(result);
             });
             let mut told = 0;
             let mut tell = |py: Python<'_>| {
-                let done = watch.done.load(Ordering::Relaxed);
+                let done = done.0.load(Ordering::Relaxed);
                 if let Some(progress) = &progress
                     && done > told
                 {
@@ -84,34 +66,57 @@ pub fn run<T: Send>(
                 }
                 Ok::<(), PyErr>(())
             };
-            let mut refused = None;
+            let mut raised = None;
             loop {
-                let error = match receiver.recv_timeout(BEAT) {
+                match receiver.recv_timeout(BEAT) {
+                    Ok(_) if raised.is_some() => break,
                     Ok(result) => {
-                        return match refused {
-                            Some(error) => Err(error),
-                            None => {
-                                Python::attach(&mut tell)?;
-                                Ok(result)
-                            }
-                        };
+                        let result = result.map_err(|error| {
+                            PyRuntimeError::new_err(error.to_string())
+                        })?;
+                        Python::attach(&mut tell)?;
+                        return Ok(result);
                     }
                     // The scope hands the panic on.
-                    Err(RecvTimeoutError::Disconnected) => {
-                        return Err(PyRuntimeError::new_err("work given up"));
+                    Err(RecvTimeoutError::Disconnected) => break,
+                    Err(RecvTimeoutError::Timeout) if raised.is_some() => {}
+                    Err(RecvTimeoutError::Timeout) => {
+                        raised = Python::attach(|py| {
+                            py.check_signals().and_then(|()| tell(py)).err()
+                        });
+                        if raised.is_some() {
+                            stop.request();
+                        }
                     }
-                    Err(RecvTimeoutError::Timeout) if refused.is_some() => {
-                        continue;
-                    }
-                    Err(RecvTimeoutError::Timeout) => Python::attach(|py| {
-                        py.check_signals().and_then(|()| tell(py)).err()
-                    }),
-                };
-                if error.is_some() {
-                    watch.stopped.store(true, Ordering::Relaxed);
-                    refused = error;
                 }
             }
+            Err(raised
+                .unwrap_or_else(|| PyRuntimeError::new_err("work given up")))
         })
     })
+}
+
+/// [`run`] on all processors, without progress.
+pub fn on_all<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    run(py, None, None, 0, |_| work())
+}
+
+/// [`run`] on one thread, without progress.
+pub fn alone<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    run(py, Some(1), None, 0, |_| work())
+}
+
+/// [`alone`] where the work is on many numbers; few are done here.
+pub fn on_numbers<T: Send>(
+    py: Python<'_>,
+    count: usize,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    if count < MANY { Ok(work()) } else { alone(py, work) }
 }

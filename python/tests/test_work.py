@@ -1,12 +1,10 @@
-"""Long calls: threads, progress, the end by Ctrl-C, pickling."""
+"""Long calls: threads, progress, pickling."""
 
 import os
 import pickle
-import signal
 import threading
 import time
 
-import numpy as np
 import pytest
 import rocking as rk
 
@@ -73,32 +71,6 @@ def test_what_progress_raises_ends_the_work(
         rk.ida(block, suite, step_g=2e-4, progress=progress)
     # Progress is told once a curve is done; the whole takes longer.
     assert time.monotonic() - begin < 30.0
-
-
-@pytest.mark.parametrize("call", ["ida", "ida of long curves", "peak"])
-def test_ctrl_c_ends_the_work_within_a_second(
-    call: str, block: rk.Block, suite: rk.Suite
-) -> None:
-    sent: list[float] = []
-
-    def interrupt() -> None:
-        sent.append(time.monotonic())
-        os.kill(os.getpid(), signal.SIGINT)
-
-    # A shell that runs this in the background ignores the signal.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    # Each takes half a minute or more.
-    timer = threading.Timer(0.5, interrupt)
-    levels = np.linspace(1.1, 3.0, 2000)
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        if call == "ida":
-            rk.ida(block, [*suite] * 50)
-        elif call == "ida of long curves":
-            rk.ida(block, suite, step_g=1e-5)
-        else:
-            rk.peak(block, suite, levels=levels)
-    assert time.monotonic() - sent[0] < 1.0
 
 
 def test_everything_comes_back_from_a_pickle(

@@ -2,7 +2,6 @@
 //! threads.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::excitation::NormalisedRecord;
@@ -59,14 +58,13 @@ struct Task<'a> {
 /// Takes finished curves: its analysis, its record, and the curve.
 type Sink<'a> = &'a (dyn Fn(usize, usize, IdaCurve) + Sync);
 
-/// Whoever takes finished curves, and whether the work was stopped.
+/// Whoever takes finished curves.
 struct Watch<'a> {
     batch: &'a Batch<'a>,
     records: usize,
     sink: Sink<'a>,
     /// The first error in the order of the curves.
     error: Mutex<Option<(usize, IdaError)>>,
-    stopped: AtomicBool,
 }
 
 impl Watch<'_> {
@@ -83,14 +81,7 @@ impl Watch<'_> {
                 }
             }
         }
-        if (self.batch.progress)().is_break() {
-            self.stopped.store(true, Ordering::Relaxed);
-        }
-    }
-
-    fn is_stopped(&self) -> bool {
-        let set = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
-        set(&self.stopped) || self.batch.stop.is_some_and(set)
+        (self.batch.progress)();
     }
 }
 
@@ -102,13 +93,8 @@ pub(super) fn for_each_curve(
     sink: Sink<'_>,
 ) -> Result<(), IdaError> {
     let isa = batch.isa;
-    let watch = Watch {
-        batch,
-        records: records.len(),
-        sink,
-        error: Mutex::new(None),
-        stopped: AtomicBool::new(false),
-    };
+    let watch =
+        Watch { batch, records: records.len(), sink, error: Mutex::new(None) };
     let queues = queues(records, analyses, isa);
     rayon::scope(|scope| {
         for _ in 0..rayon::current_num_threads() {
@@ -119,9 +105,6 @@ pub(super) fn for_each_curve(
             });
         }
     });
-    if watch.is_stopped() {
-        return Err(IdaError::Stopped);
-    }
     match watch.error.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some((_, error)) => Err(error),
         None => Ok(()),
@@ -134,15 +117,15 @@ fn open<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl<'a> Queue<'a> {
-    /// Makes curves until none is left to start, or the work is stopped.
+    /// Makes curves until none is left to start.
     fn work(&self, isa: Isa, watch: &Watch<'_>) {
         if let Some(class) = self.class {
             let mut desk = Desk { queue: self, last: None, watch };
             pool::run(class, isa, &mut desk);
             return;
         }
-        while !watch.is_stopped() {
-            // Not within the loop's condition: it would hold the book.
+        loop {
+            // Not within a condition: it would hold the book.
             let job = open(&self.book).jobs.pop();
             let Some(job) = job else { return };
             let result = curve_at(job.record, job.analysis, isa);
@@ -261,9 +244,6 @@ impl<'a> pool::Source<'a> for Desk<'_, 'a> {
     type Task = Task<'a>;
 
     fn take(&mut self) -> Option<(Task<'a>, Scene<'a>, WorkLimit)> {
-        if self.watch.is_stopped() {
-            return None;
-        }
         let last = self.last;
         let task = self.with_book(|book| book.take(last));
         task.map(|task| {

@@ -1,5 +1,7 @@
 //! Curves against each other: certified, and in lanes.
 
 mod certified;
+#[path = "../../tests/compare.rs"]
+mod compare;
 mod integrator_pool;
 mod lanes;

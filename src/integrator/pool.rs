@@ -21,6 +21,7 @@ use crate::integrator::forcing::{Place, RecordForcing, steps_of};
 use crate::integrator::{Observe, Order, Response, Scene, WorkLimit};
 use crate::number::dispatch::{Isa, WithSimd};
 use crate::number::lanes::{Simd, WIDTH};
+use crate::stop;
 use batch::{Batch, Solved};
 use group::Group;
 use slot::Slot;
@@ -137,6 +138,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
         // A response may give the source something to do.
         let mut fresh = true;
         loop {
+            stop::point();
             if fresh {
                 fresh = self.fill(&mut groups);
             }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use crate::stop;
+
 /// Least and largest frequency of the mean period, in Hz.
 const BAND_HZ: (f64, f64) = (0.25, 20.0);
 
@@ -72,6 +74,7 @@ impl Transform {
     /// For `size` values, a power of two.
     pub(super) fn new(size: usize) -> Self {
         let stage = |bit: u32| {
+            stop::point();
             let half = 1_usize << bit;
             // Each factor from its own angle: errors don't add up.
             let factor = |k: usize| {
@@ -97,6 +100,7 @@ impl Transform {
             }
         }
         for factors in &self.factors {
+            stop::point();
             for block in values.chunks_exact_mut(2 * factors.len()) {
                 let (low, high) = block.split_at_mut(factors.len());
                 for ((a, b), (cos, sin)) in

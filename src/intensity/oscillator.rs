@@ -10,8 +10,13 @@
 
 use std::f64::consts::PI;
 
+use crate::stop;
+
 /// Terms of the series: the next is below 0.32^18/18! = 2e-25.
 const TERMS: usize = 18;
+
+/// Steps after which it is asked whether the work is to stop.
+const LOOK: usize = 1 << 16;
 
 /// Position and velocity, in g.
 pub(super) type State = [f64; 2];
@@ -53,6 +58,9 @@ impl Oscillator {
         let mut state = [0.0; 2];
         states.push(state);
         for i in 1..count {
+            if i % LOOK == 0 {
+                stop::point();
+            }
             let (a, b) = (self.at(samples, i - 1), self.at(samples, i));
             let input = [state[0], state[1], a, b - a];
             state = self.transition.map(|row| {
@@ -81,6 +89,7 @@ impl Oscillator {
     /// Largest |u| at the ends of steps, at turning points between them, and
     /// at the first one after the record.
     pub(super) fn peak_of(&self, states: &[State], samples: &[f64]) -> f64 {
+        stop::point();
         let mut peak: f64 = 0.0;
         for (i, pair) in states.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::{Fault, RecordError};
+use crate::stop;
 
 /// Lines of one file; faults are built here, so that each carries its place.
 pub(super) struct Text<'a> {
@@ -74,7 +75,11 @@ impl<'a> Text<'a> {
         let mut starts = Vec::with_capacity(count + 2);
         starts.push(0);
         let ends = (1_u32..).zip(kept.bytes());
-        starts.extend(ends.filter(|(_, b)| *b == separator).map(|(i, _)| i));
+        let ends = ends.filter(|(_, b)| *b == separator);
+        starts.extend(ends.map(|(i, _)| {
+            stop::point();
+            i
+        }));
         // The last line's blanks belong to it.
         let rest = &text.as_bytes()[kept.len()..];
         let end = rest.iter().position(|b| *b == separator);
@@ -104,6 +109,7 @@ impl<'a> Text<'a> {
     /// The line of index `index`, line `index` + 1 of the file, without its
     /// end; `None` after the last.
     pub(super) fn line(&self, index: usize) -> Option<&'a str> {
+        stop::point();
         let (start, end) =
             (self.starts.get(index)?, self.starts.get(index + 1)?);
         let line = &self.text[*start as usize..*end as usize];

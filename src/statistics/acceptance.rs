@@ -8,11 +8,12 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::Sample;
 use super::bootstrap::{Estimate, estimate};
 use super::lilliefors::fast::{LANES, Scratch};
 use super::lilliefors::{Assessment, LillieforsError, standardised};
 use super::sample::{mean, sum_of_squares};
+use super::{Sample, monte_carlo};
+use crate::stop;
 use crate::streams::{Streams, standard_normal};
 
 /// Why a null band was refused.
@@ -171,10 +172,12 @@ impl NullBand {
         let streams = Streams::new(name, seed);
         let rows: Vec<(f64, f64)> = (0..replicates)
             .into_par_iter()
+            .panic_fuse()
             .map(|index| {
                 let mut stream = streams.stream(index);
                 let mut drawn = vec![vec![0.0; n]; count];
                 for record in 0..n {
+                    stop::point();
                     let own: Vec<f64> = (0..count)
                         .map(|_| standard_normal(&mut stream))
                         .collect();
@@ -218,7 +221,7 @@ impl NullBand {
     #[must_use]
     pub fn p_value(&self, observed: f64) -> f64 {
         let b = self.shares.iter().filter(|&&s| s <= observed).count();
-        (b + 1) as f64 / (self.shares.len() + 1) as f64
+        monte_carlo::p_value(b, self.shares.len())
     }
 
     /// One-sided p-value of an observed mean of D/critical value: how often
@@ -226,7 +229,7 @@ impl NullBand {
     #[must_use]
     pub fn p_value_of_mean_ratio(&self, observed: f64) -> f64 {
         let b = self.mean_ratios.iter().filter(|&&r| r >= observed).count();
-        (b + 1) as f64 / (self.mean_ratios.len() + 1) as f64
+        monte_carlo::p_value(b, self.mean_ratios.len())
     }
 }
 

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::sample::mean;
 use super::{QuantileType, Sample, normal};
+use crate::stop;
 use crate::streams::{Streams, below};
 
 /// A point estimate with its standard error and interval.
@@ -61,7 +62,11 @@ impl Bootstrap {
     pub fn map<T: Send>(&self, f: impl Fn(&[usize]) -> T + Sync) -> Vec<T> {
         (0..self.replicates as u64)
             .into_par_iter()
-            .map(|index| f(&self.draw(index)))
+            .panic_fuse()
+            .map(|index| {
+                stop::point();
+                f(&self.draw(index))
+            })
             .collect()
     }
 
@@ -182,6 +187,19 @@ mod tests {
         );
         assert!(accelerated(-1.0, &replicates, &jackknife, 0.9).is_none());
         assert!(accelerated(0.3, &replicates, &[0.3; 8], 0.9).is_none());
+    }
+
+    /// Replicates that equal the point count half: without bias and
+    /// acceleration the interval is that of the percentiles.
+    #[test]
+    fn a_point_among_symmetric_replicates_has_no_bias() {
+        let replicates: Vec<f64> = (1..=9).map(f64::from).collect();
+        let plain = estimate(5.0, &replicates, 0.9).unwrap();
+        let found = accelerated(5.0, &replicates, &[4.0, 6.0], 0.9).unwrap();
+        let gap = (found.low - plain.low).abs();
+        assert!(gap < 1e-12, "{found:?} {plain:?}");
+        let gap = (found.high - plain.high).abs();
+        assert!(gap < 1e-12, "{found:?} {plain:?}");
     }
 
     #[test]

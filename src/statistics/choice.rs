@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::lognormal::{self, FitError, FitMethod, profile_shift};
 use super::rivals::{self, ExtremeValue, Family, RivalFit, fit_extreme_value};
-use super::{ExtendedSample, Lognormal};
+use super::{ExtendedSample, Lognormal, monte_carlo};
+use crate::stop;
 use crate::streams::{Stream, Streams, standard_normal};
 
 /// A family of distributions.
@@ -139,7 +140,7 @@ pub struct Candidate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Goodness {
-    /// Of D: (1 + number at least as large)/(1 + number used).
+    /// Of D: (b + 1)/(N + 1), with b of N samples at least as large.
     pub kolmogorov_p: f64,
     /// The same of A2.
     pub anderson_darling_p: f64,
@@ -222,6 +223,7 @@ pub fn goodness(
 ) -> Goodness {
     let streams = Streams::new(&format!("goodness/{}", found.model), seed);
     let far = |index: u64| {
+        stop::point();
         let mut stream = streams.stream(index);
         let drawn = (0..n).map(|_| found.distribution.draw(&mut stream));
         let drawn: Vec<f64> = drawn.collect();
@@ -233,11 +235,11 @@ pub fn goodness(
         ])
     };
     let all: Vec<Option<[bool; 2]>> =
-        (0..replicates).into_par_iter().map(far).collect();
+        (0..replicates).into_par_iter().panic_fuse().map(far).collect();
     let used = all.iter().flatten().count();
     let p = |which: usize| {
         let far = all.iter().flatten().filter(|far| far[which]).count();
-        (1 + far) as f64 / (1 + used) as f64
+        monte_carlo::p_value(far, used)
     };
     Goodness { kolmogorov_p: p(0), anderson_darling_p: p(1), used }
 }

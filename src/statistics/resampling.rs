@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::bootstrap::{Bootstrap, Estimate, estimate};
 use super::{QuantileType, Sample};
+use crate::stop;
 use crate::streams::{Streams, below};
 
 /// How often a draw of `places` holds each of `n` records.
@@ -162,11 +163,17 @@ pub fn simultaneous(
 ) -> Vec<Option<(f64, f64)>> {
     let spreads: Vec<Option<f64>> = (0..points.len())
         .into_par_iter()
-        .map(|k| spread(points[k], replicates, k))
+        .panic_fuse()
+        .map(|k| {
+            stop::point();
+            spread(points[k], replicates, k)
+        })
         .collect();
     let farthest: Vec<f64> = replicates
         .par_iter()
+        .panic_fuse()
         .map(|replicate| {
+            stop::point();
             let mut most = 0.0;
             for ((x, point), spread) in
                 replicate.iter().zip(points).zip(&spreads)

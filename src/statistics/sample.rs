@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::stop;
+
 /// Why a sample was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -180,12 +182,22 @@ impl TryFrom<&ExtendedSample> for Sample {
     }
 }
 
+/// Values whose sorting takes long enough to be stopped.
+const LONG: usize = 1 << 20;
+
 fn sort(values: &[f64]) -> Result<Vec<f64>, SampleError> {
     if values.is_empty() {
         return Err(SampleError::Empty);
     }
     let mut sorted = values.to_vec();
-    sorted.sort_unstable_by(f64::total_cmp);
+    if sorted.len() < LONG {
+        sorted.sort_unstable_by(f64::total_cmp);
+    } else {
+        sorted.sort_unstable_by(|a, b| {
+            stop::point();
+            a.total_cmp(b)
+        });
+    }
     Ok(sorted)
 }
 

@@ -29,6 +29,7 @@ const PAIRS: u64 = 44;
 pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
     (1..=PAIRS)
         .into_par_iter()
+        .panic_fuse()
         .map(|number| {
             let mut refused = 0;
             loop {

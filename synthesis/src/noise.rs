@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use rocking::stop;
+
 /// Sampling interval of every synthetic record.
 pub(super) const DT_S: f64 = 0.01;
 
@@ -46,6 +48,7 @@ pub(super) fn filtered_noise(noise: &[f64], filter: &Filter) -> Vec<f64> {
     let mut variance = vec![0.0; n];
     let ratio = (1.0 - filter.damping * filter.damping).sqrt();
     for (i, u) in noise.iter().enumerate() {
+        stop::point();
         let omega = filter.frequency_rad_s(i as f64 * DT_S);
         let decay = filter.damping * omega;
         let steps = (11.513 / (decay * DT_S)).ceil();
@@ -78,6 +81,7 @@ pub(super) fn high_pass(samples: &mut [f64], corner_hz: f64) {
     let w = 2.0 * PI * corner_hz;
     let decay = libm::exp(-w * DT_S);
     let (mut x, mut v) = (0.0, 0.0);
+    stop::point();
     let Some(mut previous) = samples.first().copied() else { return };
     for sample in samples.iter_mut().skip(1) {
         let slope = (*sample - previous) / DT_S;

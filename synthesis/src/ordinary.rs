@@ -23,6 +23,7 @@ pub(super) fn suite() -> Result<Vec<Pair>, AccelerogramError> {
     let targets = targets::conditioned(ORDINARY_SEED, PAIRS);
     targets
         .into_par_iter()
+        .panic_fuse()
         .enumerate()
         .map(|(i, Target { scenario, components })| {
             let pair = i as u64 + 1;

@@ -5,8 +5,10 @@ use serde_json::Value;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Model, Observe, Outcome, Overturning, Response, Scene, respond,
+    Impact, Model, Observe, Outcome, Overturning, Response, Scene, respond,
 };
+
+use super::compare::near;
 
 const GRAVITY: f64 = 9.81;
 
@@ -91,12 +93,19 @@ fn bound(case: &Value, key: &str) -> f64 {
     (100.0 * size).max(1e-12)
 }
 
-fn near(what: &str, found: f64, expected: f64, tolerance: f64) {
-    let gap = (found - expected).abs();
-    assert!(
-        gap <= tolerance,
-        "{what}: {found} {expected} {gap:e} {tolerance:e}"
-    );
+/// An impact of a motion: number, time and speed before it. `bounds` are
+/// those of the time (s) and of the speed (rad/s).
+#[track_caller]
+fn near_impact(
+    name: &str,
+    (number, found): (usize, &Impact),
+    (time_s, speed_rad_s): (f64, f64),
+    bounds: (f64, f64),
+) {
+    let what = format!("{name}: time of impact {number}, s");
+    near(what, found.time_s, time_s, bounds.0);
+    let what = format!("{name}: speed before impact {number}, rad/s");
+    near(what, found.speed_before_rad_s, speed_rad_s, bounds.1);
 }
 
 struct Trajectory<'a> {
@@ -106,9 +115,9 @@ struct Trajectory<'a> {
 }
 
 impl Trajectory<'_> {
-    fn near(&self, what: &str, found: f64, expected: f64, tolerance: f64) {
-        let what = format!("{} {what}", self.name);
-        near(&what, found, expected, tolerance);
+    #[track_caller]
+    fn near(&self, what: &str, got: f64, expected: f64, limit: f64) {
+        near(format!("{}: {what}", self.name), got, expected, limit);
     }
 
     fn check(&self, criterion: Overturning, response: &Response) {
@@ -123,18 +132,17 @@ impl Trajectory<'_> {
         );
         if let Some(uplift) = uplifts.first() {
             let found = response.uplift_time_s.unwrap();
-            self.near("uplift", found, number(&uplift["t"]), 1e-12);
+            self.near("uplift, s", found, number(&uplift["t"]), 1e-12);
         }
         let impacts = list(&expected["impacts"]);
         let speeds = bound(self.case, "v_impact_max_rel_err");
         let mut count = 0;
         for (found, impact) in response.impacts.iter().zip(impacts) {
-            let time = number(&impact["t"]);
-            self.near("impact", found.time_s, time, times * time.max(1.0));
-            let speed = number(&impact["theta_dot_before"]).abs();
-            let found = found.speed_before_rad_s;
-            self.near("speed", found, speed, speeds * speed);
             count += 1;
+            let time = number(&impact["t"]);
+            let speed = number(&impact["theta_dot_before"]).abs();
+            let bounds = (times * time.max(1.0), speeds * speed);
+            near_impact(name, (count, found), (time, speed), bounds);
         }
         let (overturns, at) = match criterion {
             Overturning::Alpha => {
@@ -148,7 +156,8 @@ impl Trajectory<'_> {
         assert_eq!(response.outcome.is_overturned(), overturns, "{name}");
         if let Outcome::Overturned { time_s, .. } = response.outcome {
             let bound = bound(self.case, "t_alpha_abs_err_times_p");
-            self.near("end", time_s, number(&expected[at]), bound / self.p);
+            let due = number(&expected[at]);
+            self.near("overturning, s", time_s, due, bound / self.p);
             let before = &expected["n_impacts_before_that"];
             if criterion == Overturning::Alpha {
                 assert_eq!(count as f64, number(before), "{name}");
@@ -163,23 +172,24 @@ impl Trajectory<'_> {
         }
         let tolerance = bound(self.case, "peak_rel_err");
         let peak = number(peak);
-        self.near("peak", response.peak_ratio, peak, tolerance * peak);
+        self.near("peak ratio", response.peak_ratio, peak, tolerance * peak);
         // None where a decision is within the errors of double precision.
         let graze = name.contains("graze");
         assert!(graze || response.error_estimate.is_some(), "{name}");
         if let Some(error) = response.error_estimate {
-            self.near("estimate", response.peak_ratio, peak, error);
+            let what = "peak ratio, by its own estimate";
+            self.near(what, response.peak_ratio, peak, error);
         }
         let at = number(&expected["t_peak"]);
         // Two peaks of this one are equal but for rounding.
         if name != "os-graze-1e-3-linear" {
             let found = response.peak_time_s.unwrap();
-            self.near("peak time", found, at, 1e-6);
+            self.near("time of the peak, s", found, at, 1e-6);
         }
         let rests = list(&expected["rest_times"]);
         if let Some(rest) = rests.last() {
             let found = response.rest_time_s.unwrap();
-            self.near("rest", found, number(rest), 1e3 * times);
+            self.near("rest, s", found, number(rest), 1e3 * times);
         }
     }
 }
@@ -244,7 +254,9 @@ fn observe() -> Observe {
 
 #[test]
 fn free_rocking_is_met() {
-    for case in cases(&fixture!("free_rocking.json")) {
+    for (place, case) in
+        cases(&fixture!("free_rocking.json")).iter().enumerate()
+    {
         let get = |key: &str| number(&case[key]);
         for (model, key) in
             [(Model::Nonlinear, "nonlinear"), (Model::Linearized, "linear")]
@@ -266,14 +278,18 @@ fn free_rocking_is_met() {
             assert!(
                 impacts.len() > 5 && impacts.len() <= response.impacts.len()
             );
-            for (found, impact) in response.impacts.iter().zip(impacts) {
+            let name = format!("free_rocking.json {place}, {key}");
+            for (pair, impact) in
+                response.impacts.iter().enumerate().zip(impacts)
+            {
                 let (t, v) = (number(&impact["t"]), number(&impact["speed"]));
-                near("time", found.time_s, t, 10.0 * tolerance * t);
-                near("speed", found.speed_before_rad_s, v, tolerance * v);
+                let bounds = (10.0 * tolerance * t, tolerance * v);
+                near_impact(&name, pair, (t, v), bounds);
             }
             let end = number(&expected["settling_time"]);
             let found = response.rest_time_s.unwrap();
-            near("settling", found, end, (1e-9 + tolerance) * end);
+            let what = format!("{name}: rest, s");
+            near(what, found, end, (1e-9 + tolerance) * end);
             assert_eq!(response.peak_ratio, scene.initial_ratio);
             assert_eq!(response.peak_time_s, Some(0.0));
             // The second peak, from a release at the top of the first.
@@ -282,14 +298,16 @@ fn free_rocking_is_met() {
             let again = respond(&again, &observe()).unwrap();
             let speed = again.impacts[0].speed_before_rad_s;
             let v = number(&impacts[1]["speed"]);
-            near("speed from the next peak", speed, v, 1e-13 * v);
+            let what = format!("{name}: speed from the next peak, rad/s");
+            near(what, speed, v, 1e-13 * v);
         }
     }
 }
 
 #[test]
 fn rectangular_pulses_are_met() {
-    for case in cases(&fixture!("rect_pulse.json")) {
+    for (place, case) in cases(&fixture!("rect_pulse.json")).iter().enumerate()
+    {
         let get = |key: &str| number(&case[key]);
         let kind = PulseKind::Rectangle {
             amplitude: get("a0"),
@@ -312,32 +330,40 @@ fn rectangular_pulses_are_met() {
         };
         let history = respond(&scene, &watched).unwrap().history;
         assert_eq!(history.len(), 2);
-        near("y", -history[1].rotation_rad, get("y_at_td"), 1e-14);
-        near("y'", -history[1].velocity_rad_s, get("ydot_at_td"), 1e-13);
+        let name = format!("rect_pulse.json {place}");
+        let near = |what, got: f64, expected: f64, limit: f64| {
+            near(format!("{name}: {what}"), got, expected, limit);
+        };
+        let last = &history[1];
+        near("rotation at t_d", -last.rotation_rad, get("y_at_td"), 1e-14);
+        let velocity = -last.velocity_rad_s;
+        near("velocity at t_d", velocity, get("ydot_at_td"), 1e-13);
         let response = respond(&scene, &observe()).unwrap();
         if case["outcome"] == "overturns" {
             let Outcome::Overturned { time_s, side } = response.outcome else {
                 panic!("stands");
             };
             assert_eq!(side.sign(), -1.0);
-            near("end", time_s, get("t_theta_eq_pi_over_2"), 1e-12);
+            near("pi/2, s", time_s, get("t_theta_eq_pi_over_2"), 1e-12);
             let alpha = Scene { overturning: Overturning::Alpha, ..scene };
             let Outcome::Overturned { time_s, .. } =
                 respond(&alpha, &observe()).unwrap().outcome
             else {
                 panic!("stands");
             };
-            near("alpha", time_s, get("t_theta_eq_alpha"), 1e-12);
+            near("alpha, s", time_s, get("t_theta_eq_alpha"), 1e-12);
             continue;
         }
-        near("peak", response.peak_ratio, get("peak_over_alpha"), 1e-13);
-        near("when", response.peak_time_s.unwrap(), get("t_peak"), 1e-12);
+        let peak = get("peak_over_alpha");
+        near("peak ratio", response.peak_ratio, peak, 1e-13);
+        let peak_time_s = response.peak_time_s.unwrap();
+        near("time of the peak, s", peak_time_s, get("t_peak"), 1e-12);
         let impacts = list(&case["impacts"]);
         assert!(impacts.len() > 3);
-        for (found, impact) in response.impacts.iter().zip(impacts) {
+        for (pair, impact) in response.impacts.iter().enumerate().zip(impacts)
+        {
             let (t, v) = (number(&impact["t"]), number(&impact["speed"]));
-            near("time", found.time_s, t, 1e-12);
-            near("speed", found.speed_before_rad_s, v, 1e-13);
+            near_impact(&name, pair, (t, v), (1e-12, 1e-13));
         }
     }
 }

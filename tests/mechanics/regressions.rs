@@ -8,7 +8,7 @@ use rocking::integrator::{
 };
 use rocking::record::Accelerogram;
 
-use super::hold::hold;
+use super::compare::hold;
 
 /// Two chirps, 3 s each.
 fn record(dt_s: f64, peak_g: f64) -> Accelerogram {
@@ -32,6 +32,11 @@ fn scene<'a>(model: Model, excitation: Excitation<'a>) -> Scene<'a> {
         initial_ratio: 0.0,
     }
 }
+
+/// What the function below writes of a response.
+const COLUMNS: &str = "peak ratio, fate margin, error estimate, least \
+                       clearance, condition number, fate/steps/impacts/ \
+                       turning points/uplifts, rest scans";
 
 fn text(response: &Response) -> String {
     let short = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.5e}"));
@@ -57,6 +62,13 @@ fn regresses_estimates_margins_and_work() {
     let observe =
         Observe { events: true, accuracy: true, ..Observe::default() };
     let mut lines = Vec::new();
+    let mut put = |scene: &Scene<'_>, motion: String| {
+        let Scene { model, overturning, restitution, .. } = scene;
+        let eta = restitution.velocity_ratio();
+        let name =
+            format!("{model:?} to {overturning:?}, {motion}, eta {eta}");
+        lines.push((name, text(&respond(scene, &observe).unwrap())));
+    };
     for model in [Model::Nonlinear, Model::Linearized] {
         for overturning in [Overturning::Alpha, Overturning::HalfPi] {
             for (dt_s, peak_g) in [
@@ -73,7 +85,7 @@ fn regresses_estimates_margins_and_work() {
                 for eta in [0.9, 1.0, 0.5] {
                     let restitution = Restitution::constant(eta).unwrap();
                     let scene = Scene { restitution, ..scene };
-                    lines.push(text(&respond(&scene, &observe).unwrap()));
+                    put(&scene, format!("chirp {dt_s} s, {peak_g} g"));
                 }
             }
             for (amplitude, omega_rad_s) in
@@ -90,17 +102,17 @@ fn regresses_estimates_margins_and_work() {
                     let pulse = Pulse::try_new(kind).unwrap();
                     let base = scene(model, Excitation::Pulse(&pulse));
                     let scene = Scene { overturning, ..base };
-                    lines.push(text(&respond(&scene, &observe).unwrap()));
+                    put(&scene, format!("{kind:?}"));
                 }
             }
             for initial_ratio in [0.1, 0.9] {
                 let base = scene(model, Excitation::Free);
                 let scene = Scene { overturning, initial_ratio, ..base };
-                lines.push(text(&respond(&scene, &observe).unwrap()));
+                put(&scene, format!("released at {initial_ratio} alpha"));
             }
         }
     }
-    hold("regressions.txt", &lines);
+    hold("regressions.txt", COLUMNS, &lines);
 }
 
 /// Short records of steps, plateaus about the threshold and spikes.
@@ -161,7 +173,10 @@ fn regresses_the_sums_of_many_short_runs() {
             sums[2] += response.rest_time_s.unwrap_or(0.0);
         }
         let [a, b, c] = sums.map(|x| format!("{x:.8e}"));
-        lines.push(format!("{work:?} {a} {b} {c}"));
+        let name = format!("group {group} of 40 runs, {model:?}");
+        lines.push((name, format!("{work:?} {a} {b} {c}")));
     }
-    hold("short.txt", &lines);
+    let columns = "sums of steps, impacts, turning points, uplifts, rest \
+                   scans, peak ratios, fate margins, times of rest (s)";
+    hold("short.txt", columns, &lines);
 }

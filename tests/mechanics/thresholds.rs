@@ -8,6 +8,8 @@ use rocking::integrator::{
 };
 use rocking::record::Accelerogram;
 
+use super::compare::near;
+
 const ALPHA: f64 = 0.2;
 
 /// Eq. 2, whose threshold is alpha itself; p = 2.
@@ -42,7 +44,7 @@ fn a_record_lifts_strictly_above_the_threshold() {
     assert_eq!(at(ALPHA.next_down()).outcome, Outcome::NoUplift);
     // One unit in the last place lifts, at that sample.
     let time_s = at(ALPHA.next_up()).uplift_time_s.unwrap();
-    assert!((time_s - 1.8).abs() < 1e-12, "{time_s}");
+    near("uplift, s", time_s, 1.8, 1e-12);
     assert_eq!(at(1.1 * ALPHA).work.uplifts, 2);
     // A plateau at the threshold is no exceedance either.
     assert_eq!(
@@ -80,8 +82,7 @@ fn a_first_sample_above_the_threshold_lifts_at_once() {
     for (level, side) in [(0.5, -1.0), (-0.5, 1.0)] {
         let found = under(0.01, vec![level; 40], &observe);
         let due = (0.5 / ALPHA - 1.0) * (libm::cosh(0.3) - 1.0);
-        let gap = (found.peak_ratio - due).abs();
-        assert!(gap < 1e-14, "{gap:e}");
+        near("peak ratio", found.peak_ratio, due, 1e-14);
         assert_eq!(found.uplift_time_s, Some(0.0));
         let seen = Observe {
             history_interval_s: Some(0.1),
@@ -111,7 +112,7 @@ fn long_intervals_take_as_many_steps_as_they_should() {
             "{dt_s}"
         );
         let due = 0.05 * (libm::cosh(2.0 * f64::from(pieces) * dt_s) - 1.0);
-        assert!((found.peak_ratio / due - 1.0).abs() < 1e-12);
+        near("peak ratio", found.peak_ratio, due, 1e-12 * due);
     }
 }
 

@@ -129,7 +129,13 @@ proptest! {
             let gap = (one.peak_ratio - other.peak_ratio).abs();
             let ends = one.outcome.is_overturned();
             prop_assert_eq!(ends, other.outcome.is_overturned());
-            prop_assert!(ends || gap <= tolerance, "{gap:e} {tolerance:e}");
+            prop_assert!(
+                ends || gap <= tolerance,
+                "peak ratio with zeros: got {}, expected {} within \
+                 {tolerance:e}: off by {gap:e}",
+                other.peak_ratio,
+                one.peak_ratio
+            );
         }
         prop_assert!(close(
             one.uplift_time_s, shifted.uplift_time_s, shift_s, 1e-12
@@ -162,7 +168,13 @@ proptest! {
         let fates = (one.outcome.is_overturned(), two.outcome.is_overturned());
         prop_assert_eq!(fates.0, fates.1);
         let gap = (one.peak_ratio - two.peak_ratio).abs();
-        prop_assert!(fates.0 || gap <= tolerance, "{gap:e} {tolerance:e}");
+        prop_assert!(
+            fates.0 || gap <= tolerance,
+            "peak ratio at half the interval: got {}, expected {} within \
+             {tolerance:e}: off by {gap:e}",
+            two.peak_ratio,
+            one.peak_ratio
+        );
         prop_assert!(close(
             one.uplift_time_s, two.uplift_time_s, 0.0, 1e-12
         ));

@@ -10,6 +10,7 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use rocking::stop::{Stop, StopError};
 
 pub mod boxplot;
 pub mod capacities;
@@ -156,6 +157,19 @@ pub fn with_threads<T: Send>(
     threads: Option<usize>,
     work: impl FnOnce() -> T + Send,
 ) -> Result<T, Failure> {
+    let done = until(&Stop::default(), threads, work)?;
+    done.ok_or_else(|| Failure::gate("the work was stopped"))
+}
+
+/// [`with_threads`], unless a stop ends the work before.
+///
+/// # Errors
+/// As [`with_threads`].
+pub fn until<T: Send>(
+    stop: &Stop,
+    threads: Option<usize>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<Option<T>, Failure> {
     if threads == Some(0) {
         return Err(Failure::input("--threads 0: expected at least 1"));
     }
@@ -169,11 +183,11 @@ pub fn with_threads<T: Send>(
         );
     }
     let count = threads.unwrap_or(processors).min(most);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
-    let pool = pool.map_err(|error| {
-        Failure::input(format!("{count} threads cannot be started: {error}"))
-    })?;
-    Ok(pool.install(work))
+    match stop.run(count, work) {
+        Ok(result) => Ok(Some(result)),
+        Err(StopError::Stopped) => Ok(None),
+        Err(error) => Err(Failure::input(format!("{count} {error}"))),
+    }
 }
 
 /// A progress bar of `length` steps, shown on a terminal only.

@@ -1,8 +1,6 @@
 //! How many curves are made: in lanes at an instruction-set level, or one
 //! analysis at a time. Results are the same bits.
 
-use std::ops::ControlFlow;
-
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, IdaCurve, IdaError, curve, curves};
@@ -36,11 +34,7 @@ impl Execution {
         done: &(dyn Fn() + Sync),
     ) -> Result<Vec<Vec<IdaCurve>>, IdaError> {
         if let Self::Lanes(isa) = self {
-            let progress = &|| {
-                done();
-                ControlFlow::Continue(())
-            };
-            let batch = Batch { isa, progress, ..Batch::default() };
+            let batch = Batch { isa, progress: done };
             return curves(records, analyses, &batch);
         }
         analyses

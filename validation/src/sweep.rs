@@ -30,7 +30,7 @@ pub use kept::Kept;
 pub use merge::merge;
 use plan::MOST_ANALYSES;
 pub use plan::{Levels, Plan, Planned, Wanted};
-pub use tile::{State, run, state};
+pub use tile::{State, left, run, state};
 
 use crate::files::WriteError;
 use crate::suites::export::ExportError;

@@ -2,11 +2,7 @@
 //! response of the scalar driver, work included; and what both say of runs
 //! that end before the record does.
 
-#[path = "../../../tests/pins/hold.rs"]
-mod hold;
-
-use hold::hold;
-
+use super::compare::hold;
 use crate::block::{Block, Restitution};
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use crate::integrator::class::Class;
@@ -96,12 +92,14 @@ fn a_pool_gives_the_whole_response_of_single_runs() {
         let mut bench = Bench { left, done: Vec::new() };
         let tally = run(class, isa, &mut bench);
         assert_eq!(bench.done.len(), count);
-        tallies.push(format!("{class:?}: {tally:?}"));
+        let name = format!("{class:?}");
+        tallies.push((name.clone(), format!("{name}: {tally:?}")));
         for (scene, found) in &bench.done {
-            assert_eq!(*found, peak(scene));
+            let alone = peak(scene);
+            assert_eq!(*found, alone, "pool and alone, {name}: {scene:?}");
         }
     }
-    hold("tallies.txt", &tallies);
+    hold("tallies.txt", "work of the pool by class", &tallies);
 }
 
 /// A run that ends early.
@@ -165,7 +163,11 @@ fn runs_that_end_early_say_what_whole_runs_say() {
                         response.fate_margin,
                     )
                 };
-                assert_eq!(told(&peak), told(&whole));
+                assert_eq!(
+                    told(&peak),
+                    told(&whole),
+                    "run that ends early and whole run: {scene:?}"
+                );
             }
         }
     }

@@ -1,14 +1,16 @@
-//! The work of a run is bounded.
+//! The work of a run is bounded, and may be stopped.
 
 use crate::integrator::driver::{Driver, Flight, Stage, Tracked};
 use crate::integrator::forcing::Forcing;
 use crate::integrator::{Response, SceneError, Work, WorkLimit};
 use crate::number::Real;
+use crate::stop;
 
 impl<N: Real> Tracked<N> {
     /// True once the work passes the limit, which is seen first at a time.
     #[inline(always)]
     pub fn exceeds(&mut self, limit: WorkLimit, time_s: N) -> bool {
+        stop::point();
         let Work { impacts, steps, .. } = self.work;
         let points = self.history.len() as u64;
         let (what, limit) = if impacts > limit.impacts {
@@ -38,6 +40,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     /// Why a run that stands here is refused, if it is.
     #[inline(always)]
     pub fn refusal(&mut self, stage: &Stage<N>) -> Option<SceneError> {
+        stop::point();
         if let Stage::Flying(step) = stage {
             let Work { impacts, steps, .. } = self.record.work;
             if impacts > self.limit.impacts || steps > self.limit.steps {

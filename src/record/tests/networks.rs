@@ -25,15 +25,16 @@ pub(super) const KNET: &str = "Origin Time       1900/01/01 00:00:00\n\
     \x20      80      -90       81       82\n";
 
 #[test]
-fn knet_counts_are_scaled() {
+fn a_knet_header_gives_the_interval_and_the_scale_of_its_counts() {
     let gravity = 9.8;
     let options = ReadOptions { gravity_m_s2: gravity, ..options(None) };
     let record = read("a/X.EW", KNET.as_bytes(), &options).unwrap();
     let motion = &record.accelerogram;
     assert_eq!(record.format, Format::Knet);
     assert_eq!(motion.name(), "X.EW");
-    assert_eq!(motion.dt_s(), 0.1);
-    assert_eq!(motion.pga_g(), 980.0 / (100.0 * gravity));
+    assert_eq!(motion.dt_s(), 0.1, "interval of 10 Hz, s");
+    let pga_g = 980.0 / (100.0 * gravity);
+    assert_eq!(motion.pga_g(), pga_g, "PGA of 1000 counts, g");
     assert_eq!(record.channel.as_deref(), Some("E-W"));
     let cases = [
         (KNET.replace("       82", ""), "test:20: 19 samples: expected 20"),

@@ -39,6 +39,25 @@ fn correlation_widens_the_band() {
     assert!(spread(&together) > 0.12);
 }
 
+/// Few accepted levels and a large mean of D are against the null.
+#[test]
+fn a_p_value_counts_the_study_among_the_replicates() {
+    let shares = vec![0.5, 1.0, 0.9, 0.9];
+    let mean_ratios = vec![0.3, 0.7, 0.6, 0.6];
+    let band = NullBand { shares, mean_ratios, effective_levels: 1.0 };
+    for (share, expected) in
+        [(0.4, 0.2), (0.5, 0.4), (0.9, 0.8), (0.95, 0.8), (1.0, 1.0)]
+    {
+        assert_eq!(band.p_value(share), expected, "share {share}");
+    }
+    for (ratio, expected) in
+        [(0.8, 0.2), (0.7, 0.4), (0.6, 0.8), (0.5, 0.8), (0.1, 1.0)]
+    {
+        let found = band.p_value_of_mean_ratio(ratio);
+        assert_eq!(found, expected, "mean ratio {ratio}");
+    }
+}
+
 #[test]
 fn bad_levels_are_refused() {
     let refused = |levels: &[Vec<f64>]| {

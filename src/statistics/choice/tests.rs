@@ -86,6 +86,21 @@ fn the_simulated_null_of_a_lognormal_is_lilliefors_table() {
     assert!(table.value < 0.8, "{table:?}");
 }
 
+/// No sample lies beyond infinity, and every one beyond 0.
+#[test]
+fn a_p_value_counts_the_sample_among_the_replicates() {
+    let found = candidate(&sample(&RIGHT), 0.0, Model::Lognormal).unwrap();
+    let (near, far) = ((0.0, 1.0), (f64::INFINITY, 1.0 / 51.0));
+    for ((kolmogorov, of_d), (anderson_darling, of_a2)) in
+        [(near, far), (far, near)]
+    {
+        let moved = Candidate { kolmogorov, anderson_darling, ..found };
+        let p = goodness(&moved, RIGHT.len(), 0.0, 50, 0);
+        assert_eq!((p.used, p.kolmogorov_p), (50, of_d), "{moved:?}");
+        assert_eq!(p.anderson_darling_p, of_a2, "{moved:?}");
+    }
+}
+
 #[test]
 fn draws_follow_their_distribution() {
     for model in Model::ALL {

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::fast::{LANES, Scratch};
 use super::{LillieforsError, PValue};
-use crate::statistics::{Proportion, normal};
+use crate::statistics::{Proportion, monte_carlo, normal};
+use crate::stop;
 use crate::streams::{Stream, Streams, standard_normal};
 
 /// Replicates that share one scratch space.
@@ -76,6 +77,7 @@ impl NullDistribution {
         Self::check(n, replicates)?;
         let chunks: Vec<(Vec<f64>, u64)> = (0..replicates.div_ceil(CHUNK))
             .into_par_iter()
+            .panic_fuse()
             .map(|chunk| {
                 let mut scratch = Scratch::new(n);
                 let first = chunk * CHUNK;
@@ -83,6 +85,7 @@ impl NullDistribution {
                 let mut counted = 0;
                 let mut statistics = Vec::with_capacity(CHUNK as usize);
                 for group in (first..end).step_by(LANES) {
+                    stop::point();
                     // Lanes beyond the last replicate repeat another.
                     let count = LANES.min((end - group) as usize);
                     for lane in 0..count {
@@ -124,7 +127,10 @@ impl NullDistribution {
 
     /// The distribution of statistics that were simulated, in any order.
     pub(in crate::statistics) fn of(n: usize, mut sorted: Vec<f64>) -> Self {
-        sorted.par_sort_unstable_by(f64::total_cmp);
+        sorted.par_sort_unstable_by(|a, b| {
+            stop::point();
+            a.total_cmp(b)
+        });
         Self { n, sorted }
     }
 
@@ -179,7 +185,7 @@ impl NullDistribution {
         let (low, high) = not_below
             .and_then(|share| share.interval(0.95))
             .unwrap_or((f64::NAN, f64::NAN));
-        let value = (count - below + 1) as f64 / (count + 1) as f64;
+        let value = monte_carlo::p_value(count - below, count);
         PValue { value, low, high }
     }
 }
@@ -196,5 +202,41 @@ mod tests {
             pool.build().unwrap().install(simulate).unwrap().sorted
         };
         assert_eq!(run(1), run(3));
+    }
+
+    /// The share b/N would be 0, 1/2 and 1 at the ends and the middle.
+    #[test]
+    fn a_p_value_counts_the_sample_among_the_replicates() {
+        let statistics: Vec<f64> = (1..=200).rev().map(f64::from).collect();
+        let null = NullDistribution::of(20, statistics);
+        for (d, expected) in [
+            (201.0, 1.0 / 201.0),
+            (200.0, 2.0 / 201.0),
+            (100.5, 101.0 / 201.0),
+            (100.0, 102.0 / 201.0),
+            (1.0, 1.0),
+            (0.5, 1.0),
+        ] {
+            let found = null.p_value(d).value;
+            assert_eq!(found, expected, "p-value of D = {d}");
+        }
+    }
+
+    /// What exceeds the critical value has a p-value of at most the level,
+    /// and the critical value itself a larger one.
+    #[test]
+    fn a_critical_value_is_the_one_at_which_p_passes_the_level() {
+        for count in [250, 333, 499, 1000] {
+            let statistics = (1..=count).map(f64::from).collect();
+            let null = NullDistribution::of(20, statistics);
+            for level in [0.2, 0.1, 0.07, 0.05] {
+                let d = null.critical_value(level).unwrap().value;
+                let (at, beyond) = (null.p_value(d), null.p_value(d + 0.5));
+                assert!(
+                    beyond.value <= level && at.value > level,
+                    "N = {count}, level {level}: D = {d} {at:?} {beyond:?}"
+                );
+            }
+        }
     }
 }

@@ -8,6 +8,7 @@ use crate::statistics::Sample;
 use crate::statistics::lilliefors::{
     LillieforsError, NullDistribution, PValue, standardised,
 };
+use crate::stop;
 use crate::streams::{Streams, standard_normal};
 
 /// Null distributions of A^2, W^2 and 1 - W for samples of one size, by
@@ -68,10 +69,12 @@ impl Battery {
         let weights = weights(n);
         let rows: Vec<Vec<[f64; 3]>> = (0..replicates.div_ceil(CHUNK))
             .into_par_iter()
+            .panic_fuse()
             .map(|chunk| {
                 let first = chunk * CHUNK;
                 (first..(first + CHUNK).min(replicates))
                     .map(|index| {
+                        stop::point();
                         let mut stream = streams.stream(index);
                         let values: Vec<f64> = (0..n)
                             .map(|_| standard_normal(&mut stream))

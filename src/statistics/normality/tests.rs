@@ -116,6 +116,12 @@ fn a_battery_serves_its_own_size_and_says_so() {
         assert!(p.low - 0.01 < single.p_value);
         assert!(p.high + 0.01 > single.p_value);
     }
+    // Farther off than every replicate.
+    let mut far = [0.0; 12];
+    far[11] = 1.0;
+    let far = Sample::try_new(&far).unwrap();
+    let p = battery.assess(&far).unwrap().map(|test| test.p_value.value);
+    assert_eq!(p, [1.0 / 1001.0; 3]);
     assert!(Battery::simulate(3, 1000, 0).is_err());
     assert!(Battery::simulate(12, 99, 0).is_err());
 }

@@ -6,6 +6,7 @@ use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use super::{PairedError, binomial_cdf};
 use crate::statistics::sample::{mean, sum_of_squares};
 use crate::statistics::{ExtendedSample, QuantileType, normal};
+use crate::stop;
 
 /// Equivalence of the mean of ln ratio to 0 by two one-sided t tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,6 +134,7 @@ pub fn hodges_lehmann(ratios: &[f64]) -> Result<HodgesLehmann, PairedError> {
     let logs: Vec<f64> = ratios.iter().map(|r| log(*r)).collect();
     let mut walsh = Vec::with_capacity(n * (n + 1) / 2);
     for (i, a) in logs.iter().enumerate() {
+        stop::point();
         walsh.extend(logs[i..].iter().map(|b| 0.5 * (a + b)));
     }
     let too_few = |_| PairedError::TooFew(n);

@@ -3,6 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::RangeInclusive;
 
+use rocking::stop;
+
 use super::attenuation::{DURATION, PERIODS_S, PGV, QUANTITIES};
 use crate::draws::Stream;
 use crate::noise::{DT_S, corner_hz, high_pass};
@@ -252,6 +254,7 @@ fn matched(bands: &[Vec<f64>], target: &[f64; QUANTITIES]) -> Vec<f64> {
         *gain += start;
     }
     for _ in 0..CORRECTIONS {
+        stop::point();
         let samples = sum(bands, &ln_gains);
         let mut left = miss(&samples);
         left[0] *= PGA_SHARE;

@@ -50,8 +50,8 @@ const CASES: &str = "data/validation.json";
 const DIGITS: &str = "data/precision.csv";
 
 /// The tests that hold pins, and the pins that they hold. A test hands over
-/// what it found (`tests/pins/hold.rs`): it alone can compute it, since some
-/// of it is private to the core.
+/// what it found (`tests/compare.rs`): it alone can compute it, since
+/// some of it is private to the core.
 const HOLDERS: [(&str, &str); 5] = [
     ("regresses_bits_of_a_thousand_analyses", "golden.txt"),
     ("regresses_estimates_margins_and_work", "regressions.txt"),

@@ -5,14 +5,15 @@ mod surrogate;
 use std::env;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use clap::{Subcommand, ValueEnum};
+use rocking::stop::Stop;
 use serde_json::json;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::reading::ReadArgs;
-use super::{Failure, SOFTWARE, print, print_json, with_threads};
+use super::{Failure, SOFTWARE, print, print_json, until};
 use crate::suites::inputs::read_suite;
 use crate::sweep::{
     self, Content, Levels, Planned, State, Wanted, read_blocks,
@@ -252,18 +253,17 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
         )));
     }
     let planned = Planned::read(&args.dir)?;
-    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::new(AtomicBool::new(false));
     for signal in [SIGTERM, SIGINT] {
-        signal_hook::flag::register(signal, Arc::clone(&stop))?;
+        signal_hook::flag::register(signal, Arc::clone(&flag))?;
     }
-    let go_on = || !stop.load(Ordering::Relaxed);
     let total = planned.plan.tiles.len();
     let done = |tile: usize| {
         eprintln!("rocking: tile {tile} of {total} done");
     };
-    let left = with_threads(args.threads, || {
-        sweep::run(&planned, (task, of), &go_on, &done)
-    })??;
+    let run = || sweep::run(&planned, (task, of), &done);
+    until(&Stop::from(flag), args.threads, run)?.transpose()?;
+    let left = sweep::left(&planned, (task, of));
     if left.is_empty() {
         return print(&format!(
             "task {task} of {of}: all its tiles are done\n"

@@ -1,9 +1,9 @@
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rocking::block::Block;
 use rocking::record::ReadOptions;
+use rocking::stop::{Stop, StopError};
 
 use super::blocks::Given;
 use super::*;
@@ -51,8 +51,8 @@ fn plan(folder: &Path, tile_minutes: f64) -> Planned {
 fn run_all(planned: &Planned, of: usize) {
     // The last task first: the order does not matter.
     for task in (0..of).rev() {
-        let left = run(planned, (task, of), &|| true, &|_| ()).unwrap();
-        assert!(left.is_empty());
+        run(planned, (task, of), &|_| ()).unwrap();
+        assert!(left(planned, (task, of)).is_empty());
     }
 }
 
@@ -85,13 +85,17 @@ fn any_tiles_and_any_tasks_give_the_same_bytes() {
 fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
     let place = tempfile::tempdir().unwrap();
     let planned = plan(place.path(), 1e-9);
-    let chains = AtomicUsize::new(0);
-    let stop = || chains.fetch_add(1, Ordering::Relaxed) < 8;
-    let left = run(&planned, (0, 1), &stop, &|_| ()).unwrap();
-    assert!(!left.is_empty() && left.len() < 7, "{left:?}");
+    let stop = Stop::default();
+    let done = |tile| {
+        if tile == 2 {
+            stop.request();
+        }
+    };
+    let stopped = stop.run(2, || run(&planned, (0, 1), &done));
+    assert!(matches!(stopped, Err(StopError::Stopped)), "{stopped:?}");
+    assert_eq!(left(&planned, (0, 1)), [3, 4, 5, 6]);
     for tile in 0..7 {
-        let expected =
-            if left.contains(&tile) { State::Missing } else { State::Done };
+        let expected = if tile > 2 { State::Missing } else { State::Done };
         assert_eq!(state(&planned, tile), expected, "{tile}");
     }
     let out = place.path().join("out.csv");
@@ -137,7 +141,7 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     let last = bytes.len() - 3;
     bytes[last] = if bytes[last] == b'1' { b'2' } else { b'1' };
     fs::write(&record, bytes).unwrap();
-    let error = run(&planned, (0, 1), &|| true, &|_| ()).unwrap_err();
+    let error = run(&planned, (0, 1), &|_| ()).unwrap_err();
     assert!(error.to_string().contains("b.at2"), "{error}");
 }
 

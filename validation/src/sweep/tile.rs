@@ -2,11 +2,10 @@
 
 use std::fmt;
 use std::fs;
-use std::ops::ControlFlow;
 
 use rocking::capacity::InversionRule;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Batch, IdaCurve, IdaError, Overturned, curves};
+use rocking::ida::{Batch, IdaCurve, Overturned, curves};
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
@@ -87,46 +86,38 @@ pub fn state(planned: &Planned, tile: usize) -> State {
         .unwrap_or(State::Done)
 }
 
-/// Runs the tiles of task `task` of `of` that are not done. `go_on` is asked
-/// after each chain; `done` is told each tile that was finished.
-///
-/// Returns the tiles that are left, where `go_on` ended the work.
+/// The tiles of task `task` of `of` that are not done.
+#[must_use]
+pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
+    let own = planned.plan.tiles_of(task, of).into_iter();
+    own.filter(|tile| state(planned, *tile) != State::Done).collect()
+}
+
+/// Runs the tiles of task `task` of `of` that are not done; `done` is told
+/// each tile that was finished. A tile that is stopped leaves no file.
 ///
 /// # Errors
 /// [`SweepError`] for a record that is another than planned, an analysis
 /// that cannot be done, and a tile that cannot be written.
 pub fn run(
     planned: &Planned,
-    (task, of): (usize, usize),
-    go_on: &(dyn Fn() -> bool + Sync),
-    done: &dyn Fn(usize),
-) -> Result<Vec<usize>, SweepError> {
+    task_of: (usize, usize),
+    done: &(dyn Fn(usize) + Sync),
+) -> Result<(), SweepError> {
     let plan = &planned.plan;
-    let mut own: Vec<usize> = plan
-        .tiles_of(task, of)
-        .into_iter()
-        .filter(|tile| state(planned, *tile) != State::Done)
-        .collect();
-    if own.is_empty() {
-        return Ok(own);
+    let left = left(planned, task_of);
+    if left.is_empty() {
+        return Ok(());
     }
     let records: Vec<NormalisedRecord> =
         planned.records()?.iter().map(NormalisedRecord::new).collect();
-    while let Some(tile) = own.first().copied() {
+    for tile in left {
         let blocks = plan.blocks_of(tile);
         let analyses = blocks
             .iter()
             .map(|block| plan.analysis(*block))
             .collect::<Result<Vec<_>, _>>()?;
-        let progress = &|| match go_on() {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
-        };
-        let batch = Batch { progress, ..Batch::default() };
-        let found = match curves(&records, &analyses, &batch) {
-            Err(IdaError::Stopped) => return Ok(own),
-            found => found?,
-        };
+        let found = curves(&records, &analyses, &Batch::default())?;
         for content in Content::kept(plan) {
             let columns = content.columns(plan);
             let header: Vec<&str> =
@@ -140,9 +131,8 @@ pub fn run(
             write_atomically(&planned.tile_path(content, tile), body + &text)?;
         }
         done(tile);
-        own.remove(0);
     }
-    Ok(own)
+    Ok(())
 }
 
 fn unresolved(curve: &IdaCurve) -> usize {

@@ -1,8 +1,8 @@
 #[allow(clippy::duplicate_mod, reason = "also in ida/tests")]
-#[path = "../../../../tests/pins/hold.rs"]
-mod hold;
+#[path = "../../../../tests/compare.rs"]
+mod compare;
 
-use hold::hold;
+use compare::hold;
 
 use super::positive;
 use crate::block::{Block, Restitution};
@@ -135,10 +135,12 @@ fn regresses_the_bounds_of_the_proof() {
                         let driver = self::driver(model, eta, peak);
                         driver.chatter(&f, w, 1.0).is_some()
                     });
-                    found.push(format!("{left:.6e} {peak:.6e}"));
+                    let name = format!("{model:?}, eta {eta}, f {f:?}, w {w}");
+                    found.push((name, format!("{left:.6e} {peak:.6e}")));
                 }
             }
         }
     }
-    hold("rest.txt", &found);
+    let columns = "least time left, least peak so far, of a proof";
+    hold("rest.txt", columns, &found);
 }

@@ -1,0 +1,118 @@
+//! Long work that is stopped before its end.
+//!
+//! [`Stop::run`] does work on threads of its own. What takes long in this
+//! crate calls [`point`] every few milliseconds; once a stop is requested,
+//! the next such call ends its thread's work by unwinding the stack, silently.
+//! A parallel iterator of rayon whose items call it has a `panic_fuse`, or
+//! each of its items would unwind. A program that is compiled to abort at a
+//! panic can stop no work.
+
+use std::cell::OnceCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use thiserror::Error;
+
+/// A stop that may be requested, from any thread and once for all.
+///
+/// ```
+/// use rocking::statistics::lilliefors::NullDistribution;
+/// use rocking::stop::{Stop, StopError};
+/// let stop = Stop::default();
+/// let work = || NullDistribution::simulate(20, 2000, 0);
+/// assert!(stop.run(2, work)?.is_ok());
+/// stop.request();
+/// assert!(matches!(stop.run(2, work), Err(StopError::Stopped)));
+/// # Ok::<(), StopError>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+/// Why work has no result.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum StopError {
+    /// A stop was requested before the work had ended.
+    #[error("the work was stopped")]
+    Stopped,
+    /// The threads could not be started.
+    #[error("threads cannot be started: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
+}
+
+/// What a stack is unwound with.
+struct Stopped;
+
+thread_local! {
+    /// The stop that this thread heeds.
+    static HEEDED: OnceCell<Stop> = const { OnceCell::new() };
+}
+
+impl Stop {
+    /// Requests the stop.
+    pub fn request(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the stop was requested.
+    #[must_use]
+    pub fn is_requested(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// Does `work` on `threads` threads of its own (0: as many as rayon
+    /// takes), which heed this stop.
+    ///
+    /// Results have the same bits for any number of threads, and whether or
+    /// not there is a stop to heed.
+    ///
+    /// # Errors
+    /// [`StopError`] where the work was stopped, or the threads could not be
+    /// started.
+    pub fn run<T: Send>(
+        &self,
+        threads: usize,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, StopError> {
+        let own = self.clone();
+        let heed = move |_| {
+            // A new thread heeds nothing yet.
+            let _ = HEEDED.with(|heeded| heeded.set(own.clone()));
+        };
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .start_handler(heed)
+            .build()?;
+        // What was under way is dropped with the stack.
+        let done = catch_unwind(AssertUnwindSafe(|| pool.install(work)));
+        done.map_err(|cause| match cause.is::<Stopped>() {
+            true => StopError::Stopped,
+            false => resume_unwind(cause),
+        })
+    }
+}
+
+/// The flag that a signal handler sets.
+impl From<Arc<AtomicBool>> for Stop {
+    fn from(flag: Arc<AtomicBool>) -> Self {
+        Self(flag)
+    }
+}
+
+/// Ends the work of this thread here if it heeds a stop that was requested.
+///
+/// For the long loops of whatever [`Stop::run`] does: a call takes some
+/// nanoseconds.
+#[inline]
+pub fn point() {
+    if HEEDED.with(|heeded| heeded.get().is_some_and(Stop::is_requested)) {
+        unwind();
+    }
+}
+
+#[cold]
+fn unwind() -> ! {
+    resume_unwind(Box::new(Stopped))
+}

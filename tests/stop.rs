@@ -1,0 +1,148 @@
+//! Whatever takes long ends where a stop is requested, and gives the same
+//! bits where none is.
+
+use std::fmt::Debug;
+
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use rocking::ida::{Analysis, Batch, Grid, curve, curves};
+use rocking::integrator::{
+    Observe, Scene, WorkLimit, certify, respond, respond_precise,
+};
+use rocking::intensity::{Measures, PairMeasures, Settings};
+use rocking::number::double::DoubleDouble;
+use rocking::record::{Accelerogram, ReadOptions, read};
+use rocking::statistics::ExtendedSample;
+use rocking::statistics::acceptance::NullBand;
+use rocking::statistics::bootstrap::Bootstrap;
+use rocking::statistics::choice::{Model, candidate, goodness};
+use rocking::statistics::lilliefors::{NullDistribution, ShiftedNull};
+use rocking::statistics::normality::Battery;
+use rocking::statistics::paired::hodges_lehmann;
+use rocking::statistics::resampling::simultaneous;
+use rocking::stop::{Stop, StopError};
+
+use super::compare::same;
+
+/// Work by name, of a size; the text of what it gives has all its bits.
+const WORK: [(&str, fn(u64) -> String); 17] = [
+    ("IDA curves", |_| {
+        text(curves(&[normalised()], &[analysis()], &Batch::default()))
+    }),
+    ("an IDA curve", |_| text(curve(&normalised(), &analysis()))),
+    ("a response", |_| under(|s| respond(s, &Observe::default()))),
+    ("a free motion", |_| {
+        let observe = Observe { events: true, ..Observe::default() };
+        let free = Excitation::Free;
+        under(|s| respond(&Scene { excitation: free, ..*s }, &observe))
+    }),
+    ("a response in double-double", |_| {
+        under(|s| respond_precise::<DoubleDouble>(s, &Observe::default()))
+    }),
+    ("a certified fate", |_| under(|s| certify(s, WorkLimit::default()))),
+    ("intensity measures", |_| {
+        text(Measures::of(&record(), &Settings::default()))
+    }),
+    ("RotD50", |_| {
+        let record = record();
+        text(PairMeasures::of(&record, &record, &Settings::default()))
+    }),
+    ("a record's file", |_| {
+        let text_of = |k: i32| format!("{} 0.1\n", 0.01 * f64::from(k));
+        let file: String = (0..50).map(text_of).collect();
+        text(read("a.txt", file.as_bytes(), &ReadOptions::default()))
+    }),
+    ("the null of Lilliefors' test", |size| {
+        text(NullDistribution::simulate(20, 100 * size, 0).unwrap().sorted())
+    }),
+    ("that of a shift estimated", |size| {
+        let null =
+            ShiftedNull::smallest_value(&sample(), 100 * size, 0).unwrap();
+        text(null.null.sorted())
+    }),
+    ("the nulls of three tests of normality", |size| {
+        text(Battery::simulate(20, 100 * size, 0).unwrap().nulls())
+    }),
+    ("the null of an accepted share", |size| {
+        let levels = [sample(), sample().into_iter().rev().collect()];
+        text(NullBand::simulate(&levels, 0.15, size, "stop", 0))
+    }),
+    ("the goodness of a fit", |size| {
+        let values = ExtendedSample::try_new(&sample()).unwrap();
+        let found = candidate(&values, 0.0, Model::Lognormal).unwrap();
+        text(goodness(&found, 29, 0.0, size, 0))
+    }),
+    ("a bootstrap", |size| {
+        text(Bootstrap::new("stop", 0, 9, size as usize).map(<[_]>::to_vec))
+    }),
+    ("intervals that hold at once", |_| {
+        let draws = vec![vec![0.5, 1.5], vec![1.0, 2.5], vec![1.5, 2.0]];
+        text(simultaneous(&[1.0, 2.0], &draws, 0.9))
+    }),
+    ("a centre of ratios", |_| text(hodges_lehmann(&sample()))),
+];
+
+fn text(found: impl Debug) -> String {
+    format!("{found:?}")
+}
+
+fn sample() -> Vec<f64> {
+    (1..30).map(|k| 1.0 + 0.01 * f64::from(k * k)).collect()
+}
+
+/// Two seconds of a sine.
+fn record() -> Accelerogram {
+    let sample = |k: u32| 0.4 * libm::sin(0.07 * f64::from(k));
+    let samples = (0..200).map(sample).collect();
+    Accelerogram::try_new("sine", 0.01, samples).unwrap()
+}
+
+fn normalised() -> NormalisedRecord {
+    NormalisedRecord::new(&record())
+}
+
+fn analysis() -> Analysis {
+    let block = Block::try_new(0.2, 3.0).unwrap();
+    let restitution = Restitution::constant(0.92).unwrap();
+    let paper = Analysis::paper(block, restitution);
+    Analysis { grid: Grid::Im { step: 0.2 }, highest_im: 3.0, ..paper }
+}
+
+/// What is asked of a released block under the record.
+fn under<T: Debug>(ask: impl Fn(&Scene<'_>) -> T) -> String {
+    let Analysis { block, restitution, .. } = analysis();
+    let record = record();
+    let motion = ScaledRecord::by_factor(&record, 1.0);
+    let scene = Scene::new(block, restitution, Excitation::Record(motion));
+    text(ask(&Scene { initial_ratio: 0.5, ..scene }))
+}
+
+#[test]
+fn every_long_work_ends_where_a_stop_is_requested() {
+    let (never, now) = (Stop::default(), Stop::default());
+    now.request();
+    let mut goes_on = Vec::new();
+    for (name, work) in WORK {
+        let alone = [work(50)];
+        for threads in [1, 3] {
+            let found = never.run(threads, || work(50)).unwrap();
+            same(format!("{name}, {threads} threads"), &[found], &alone);
+            let found = now.run(threads, || work(1_000_000));
+            if !matches!(found, Err(StopError::Stopped)) {
+                goes_on.push(name);
+            }
+        }
+    }
+    assert!(goes_on.is_empty(), "not stopped: {goes_on:?}");
+}
+
+/// A panic of the work stays what it is.
+#[test]
+fn what_fails_is_not_taken_for_stopped() {
+    let stop = Stop::default();
+    let failed = std::panic::catch_unwind(|| {
+        let _ = stop.run(1, || std::panic::resume_unwind(Box::new("broken")));
+    });
+    let cause = failed.unwrap_err();
+    assert_eq!(cause.downcast_ref::<&str>(), Some(&"broken"));
+}

@@ -7,7 +7,7 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, curve, curves};
 use rocking::integrator::{
-    Observe, Scene, WorkLimit, certify, respond, respond_precise,
+    Certify, Observe, Scene, certify, respond, respond_precise,
 };
 use rocking::intensity::{Measures, PairMeasures, Settings};
 use rocking::number::double::DoubleDouble;
@@ -39,7 +39,7 @@ const WORK: [(&str, fn(u64) -> String); 17] = [
     ("a response in double-double", |_| {
         under(|s| respond_precise::<DoubleDouble>(s, &Observe::default()))
     }),
-    ("a certified fate", |_| under(|s| certify(s, WorkLimit::default()))),
+    ("a certified fate", |_| under(|s| certify(s, &Certify::default()))),
     ("intensity measures", |_| {
         text(Measures::of(&record(), &Settings::default()))
     }),

@@ -171,6 +171,11 @@ fn risk_is_that_of_fine_quadrature_and_tells_what_lies_beyond() {
     );
     assert!(text.contains("\nshifted ") && text.contains("\nnot shifted "));
     assert!(text.contains("weaker motions than the first point add to it"));
+    // The two bounds are not what records or hazard leave open.
+    assert!(text.contains("no confidence interval"), "{text}");
+    for key in ["annual_frequency_low", "annual_frequency_high"] {
+        assert!(row.get(key).is_none(), "{key}");
+    }
 }
 
 #[test]

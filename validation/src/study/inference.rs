@@ -5,7 +5,9 @@
 //! records everywhere and recomputes the whole measure of a claim. The two
 //! suites are resampled independently of each other.
 
+mod counted;
 mod drawn;
+mod needed;
 
 use rayon::prelude::*;
 use rocking::statistics::Proportion;
@@ -21,6 +23,7 @@ use crate::findings::{
 use crate::paper::{Arm, SuiteKind, Verdict};
 
 pub use drawn::by_cell;
+use needed::needed;
 
 /// Level of all intervals.
 pub const LEVEL: f64 = 0.95;
@@ -222,30 +225,6 @@ pub struct Replicated {
 }
 
 impl Replicated {
-    /// Probabilities from counts of records.
-    #[must_use]
-    pub fn counted(counts: Vec<Proportion>) -> Self {
-        Self {
-            scheme: Scheme::Counted,
-            points: counts.iter().map(|count| count.share()).collect(),
-            replicates: Vec::new(),
-            without_one: Vec::new(),
-            halves: Vec::new(),
-            counts,
-        }
-    }
-
-    /// Some of the cells.
-    fn select(&self, places: &[usize]) -> Self {
-        let counts = || places.iter().map(|k| self.counts[*k]).collect();
-        let counts = match self.scheme {
-            Scheme::Counted => counts(),
-            Scheme::Bootstrap | Scheme::Subsampling => Vec::new(),
-        };
-        let own = self.map(|row| places.iter().map(|k| row[*k]).collect());
-        Self { counts, ..own }
-    }
-
     /// Other measures made of this one's cells; of counts they have no
     /// interval.
     #[must_use]
@@ -603,30 +582,6 @@ fn details(own: &Replicated, middle: f64, result: &mut ClaimResult) {
             measured: Measured { value: point, interval },
         });
     }
-}
-
-/// Records that would decide if the value stayed: an interval shrinks by the
-/// root of their number, until it reaches the nearest end of the region.
-fn needed(n: usize, rule: &Rule, result: &ClaimResult) -> Option<u64> {
-    let (value, low, high, end) = match rule.quantifier {
-        Quantifier::One | Quantifier::All => (
-            result.value,
-            result.low,
-            result.high,
-            rule.region.nearest_end(result.value),
-        ),
-        Quantifier::Most | Quantifier::AlmostAll => {
-            let decided = result.deciding_cell.as_ref()?.measured;
-            let (low, high) = decided.interval?;
-            let end = rule.region.nearest_end(decided.value);
-            (decided.value, low, high, end)
-        }
-    };
-    let half = if end > value { high - value } else { value - low };
-    let factor = half / (end - value).abs();
-    let needed = (n as f64 * factor * factor).ceil();
-    (needed.is_finite() && needed > n as f64 && needed < 1e6)
-        .then_some(needed as u64)
 }
 
 #[cfg(test)]

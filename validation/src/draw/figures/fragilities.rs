@@ -74,7 +74,7 @@ pub struct Fitted {
 }
 
 /// What a band holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BandOf {
     /// The curve itself.
     Curve,
@@ -449,4 +449,19 @@ fn by_constant(figure: &ByConstant) -> Scene {
         panel.finish(&common::panel_title(i, &title), "");
     }
     scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_that_is_laid_on_another_curve_is_named_so() {
+        let curve = BandOf::Curve.words(Estimator::Usfl7);
+        assert_eq!(curve, "95 % band of USFL7");
+        let laid = BandOf::DifferenceToSsfl.words(Estimator::Usfl7);
+        assert!(laid.starts_with("SSFL + "), "{laid}");
+        assert!(laid.ends_with("USFL7 \u{2212} SSFL"), "{laid}");
+        assert_ne!(BandOf::Curve.ends(), BandOf::DifferenceToSsfl.ends());
+    }
 }

@@ -127,6 +127,16 @@ fn writes_it_to_be_looked_at() {
 }
 
 #[test]
+fn suites_are_named_without_a_second_article() {
+    let mut input = made_up();
+    input.columns.truncate(1);
+    input.columns[0].name = "your suites".into();
+    let html = page(&input);
+    assert!(html.contains("Your suites, "), "your suites are not named");
+    assert!(!html.contains("the your"));
+}
+
+#[test]
 fn same_bytes_twice() {
     assert_eq!(page(&made_up()), page(&made_up()));
 }

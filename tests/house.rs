@@ -78,6 +78,7 @@ const HARNESS: Edges = &[
             "surrogate",
             "sweep",
             "table",
+            "words",
         ],
     ),
     (

@@ -3,7 +3,7 @@
 mod accept;
 mod validate;
 
-use std::io::{self, Write as _};
+use std::io;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
 use std::sync::mpsc;
@@ -39,7 +39,10 @@ pub mod study;
 pub mod suite;
 pub mod sweep;
 pub mod table;
+pub mod terminal;
 pub mod way;
+
+pub use terminal::{SOFTWARE, note, print, print_json, say};
 
 /// Threads beyond which more only cost.
 const MOST_THREADS_A_PROCESSOR: usize = 8;
@@ -117,36 +120,6 @@ impl<E: std::error::Error> From<E> for Failure {
     }
 }
 
-/// Name and version of the program, for results.
-pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));
-
-/// Prints `text` on standard output; a closed pipe ends the program quietly.
-///
-/// # Errors
-/// [`Failure`] when standard output cannot be written for another reason.
-pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => {
-            std::process::exit(0)
-        }
-        done => {
-            done.map_err(|e| Failure::input(format!("standard output: {e}")))
-        }
-    }
-}
-
-/// Prints `value` as JSON, with the version of the program.
-///
-/// # Errors
-/// As [`print()`].
-pub fn print_json(mut value: serde_json::Value) -> Result<(), Failure> {
-    if let Some(object) = value.as_object_mut() {
-        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
-    }
-    print(&format!("{value:#}\n"))
-}
-
 /// Runs `work` on `threads` threads, or on as many as the machine has; more
 /// than eight times as many are not used, and that is said.
 ///
@@ -163,10 +136,10 @@ pub fn with_threads<T: Send>(
         std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let most = MOST_THREADS_A_PROCESSOR * processors;
     if let Some(asked) = threads.filter(|asked| *asked > most) {
-        eprintln!(
-            "rocking: --threads {asked}: {most} are used, \
+        note(&format!(
+            "--threads {asked}: {most} are used, \
              {MOST_THREADS_A_PROCESSOR} for each of {processors} processors"
-        );
+        ));
     }
     let count = threads.unwrap_or(processors).min(most);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
@@ -205,7 +178,7 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
                 waits.recv_timeout(LOG_INTERVAL)
             {
                 let length = bar.length().unwrap_or(0);
-                eprintln!("rocking: {} of {length} done", bar.position());
+                note(&format!("{} of {length} done", bar.position()));
             }
         });
         let result = work();
@@ -260,7 +233,7 @@ pub fn run() -> ExitCode {
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("rocking: {}", failure.message);
+            note(&failure.message);
             ExitCode::from(failure.status)
         }
     }

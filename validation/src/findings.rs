@@ -80,6 +80,9 @@ pub struct Suite {
     /// Remarks on records, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub remarks: Option<String>,
+    /// What was set aside when the suite was read, for each reason.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set_aside: Vec<Aside>,
     /// Analyses made.
     pub analyses: u64,
     /// Analyses whose peak or fate rounding may have changed.
@@ -89,6 +92,18 @@ pub struct Suite {
     /// Largest shift of an overturning quantile if all open fates flipped.
     #[serde(with = "nine")]
     pub largest_shift_if_flipped: f64,
+}
+
+/// Files that were set aside for one reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Aside {
+    /// The reason.
+    pub code: String,
+    /// Number of files.
+    pub files: usize,
+    /// The first of them.
+    pub first: String,
 }
 
 /// A record of a suite: enough to find it again, and no sample of it.

@@ -13,7 +13,7 @@ use super::names::{ARMS, OVERTURNING, named};
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
-use super::{Failure, SOFTWARE, logged, print, with_threads};
+use super::{Failure, SOFTWARE, logged, note, print, say, with_threads};
 use crate::files::{Folder, is_interrupted};
 use crate::paper::{Arm, RESTITUTION, SuiteKind};
 use crate::report::evidence::{NOT_RUN, Proof};
@@ -128,7 +128,7 @@ fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
     let options = args.reading.options(STANDARD_GRAVITY_M_S2);
     let read = |kind, path: &Path| -> Result<StudySuite, Failure> {
         let suite = StudySuite::read(kind, path, options, &processing)?;
-        args.reading.judge(&suite.remarks)?;
+        args.reading.judge(&suite.set_aside, &suite.remarks)?;
         Ok(suite)
     };
     match (&args.ordinary, &args.pulse) {
@@ -164,10 +164,10 @@ fn computed(
     progress.finish_and_clear();
     if !args.sweep.is_empty() {
         let (taken, made) = study.results.plan.setup.kept.counts();
-        eprintln!(
-            "rocking: {taken} of {} analyses of curves are from sweeps",
+        note(&format!(
+            "{taken} of {} analyses of curves are from sweeps",
             taken + made
-        );
+        ));
     }
     Ok(study)
 }
@@ -199,12 +199,15 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     if args.json {
         print(&study.findings.text())
     } else {
-        for suite in &suites {
-            if let Some(words) = suite.remarks.words() {
-                eprintln!("rocking: {} suite: remarks on {words}", suite.kind);
+        for StudySuite { kind, remarks, set_aside, .. } in &suites {
+            if let Some(words) = remarks.words() {
+                note(&format!("{kind} suite: remarks on {words}"));
+            }
+            if !set_aside.is_empty() {
+                note(&format!("{kind} suite: set aside: {set_aside}"));
             }
         }
-        print(&format!(
+        say(&format!(
             "{}\n{}\n{}\nReport: {}\n",
             output::claims_table(&study.findings.claims),
             output::answers_text(&study, proof.as_ref())?,
@@ -224,12 +227,12 @@ fn check(out: &Path, files: &Files) -> Result<(), Failure> {
         )));
     }
     match stale::stale(out, files)? {
-        None => print(&format!(
+        None => say(&format!(
             "{name}: all {} files of the report are up to date\n",
             files.len()
         )),
         Some(words) => {
-            print(&words)?;
+            say(&words)?;
             Err(Failure::gate(format!(
                 "{name} is stale: `rocking study --out {name}` accepts what \
                  is there now"

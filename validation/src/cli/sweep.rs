@@ -12,8 +12,9 @@ use serde_json::json;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::reading::ReadArgs;
-use super::{Failure, SOFTWARE, print, print_json, with_threads};
+use super::{Failure, SOFTWARE, note, print, print_json, say, with_threads};
 use crate::suites::inputs::read_suite;
+use crate::suites::remarks::Remarks;
 use crate::sweep::{
     self, Content, Levels, Planned, State, Wanted, read_blocks,
 };
@@ -188,6 +189,7 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let blocks = read_blocks(&args.blocks, args.eta)?;
     let gravity = rocking::units::STANDARD_GRAVITY_M_S2;
     let suite = read_suite(&args.suite, args.reading.options(gravity))?;
+    args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
     let wanted = Wanted {
         blocks: &blocks,
         suite: &suite,
@@ -206,8 +208,12 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     // Bytes of a row of capacities and of an analysis.
     let mut bytes = blocks * records * (92 + 19 * plan.demands.len());
     bytes += if plan.rows { 105 * analyses as usize } else { 0 };
-    print(&format!(
-        "{blocks} blocks, {records} records, {tiles} tiles\n\
+    let set_aside = match suite.set_aside() {
+        none if none.is_empty() => String::new(),
+        some => format!("set aside: {some}\n"),
+    };
+    say(&format!(
+        "{blocks} blocks, {records} records, {tiles} tiles\n{set_aside}\
          about {analyses} analyses, {:.3} core-hours, {:.1} MB\n\
          (19 ns of a core a sample and level; levels guessed from p \
          PGV/PGA)\n\
@@ -259,15 +265,13 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
     let go_on = || !stop.load(Ordering::Relaxed);
     let total = planned.plan.tiles.len();
     let done = |tile: usize| {
-        eprintln!("rocking: tile {tile} of {total} done");
+        note(&format!("tile {tile} of {total} done"));
     };
     let left = with_threads(args.threads, || {
         sweep::run(&planned, (task, of), &go_on, &done)
     })??;
     if left.is_empty() {
-        return print(&format!(
-            "task {task} of {of}: all its tiles are done\n"
-        ));
+        return say(&format!("task {task} of {of}: all its tiles are done\n"));
     }
     let left: Vec<String> = left.iter().map(ToString::to_string).collect();
     Err(Failure::gate(format!(

@@ -403,6 +403,10 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
             let name = format!("Remarks on records, {}", suite.kind);
             out.push((name, remarks.clone()));
         }
+        if !suite.set_aside.is_empty() {
+            let name = format!("Set aside, {} suite", suite.kind);
+            out.push((name, suite.set_aside.to_string()));
+        }
     }
     out
 }

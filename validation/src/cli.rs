@@ -6,10 +6,13 @@ mod validate;
 use std::io;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
-use std::sync::mpsc;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use signal_hook::consts::SIGABRT;
+use signal_hook::flag::register_conditional_shutdown;
 
 pub mod boxplot;
 pub mod capacities;
@@ -197,6 +200,14 @@ fn reading_negatives(command: clap::Command) -> clap::Command {
     command.mut_args(read).mut_subcommands(reading_negatives)
 }
 
+/// Lets the program end with status 2 where it would abort: what aborts it is
+/// an allocation that fails, after the runtime has said so.
+fn abort_is_a_refusal() {
+    let always = Arc::new(AtomicBool::new(true));
+    // Where no handler can be set, the status is that of an abort.
+    let _ = register_conditional_shutdown(SIGABRT, 2, always);
+}
+
 /// The whole command line.
 fn command() -> clap::Command {
     reading_negatives(Cli::command())
@@ -205,10 +216,13 @@ fn command() -> clap::Command {
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
+    abort_is_a_refusal();
     let matches = command().get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
-        Command::Accept(args) => accept::run(&args),
+        Command::Accept(args) => {
+            with_threads(None, || accept::run(&args)).flatten()
+        }
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
         Command::Records(args) => records::run(&args),
@@ -223,12 +237,16 @@ pub fn run() -> ExitCode {
         Command::Quantile(args) => quantile::run(&args),
         Command::Rank(args) => rank::run(&args),
         Command::Risk(args) => risk::run(&args),
-        Command::Speed(args) => speed::run(&args),
+        Command::Speed(args) => {
+            with_threads(None, || speed::run(&args)).flatten()
+        }
         Command::Stripes(args) => stripes::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Suite(args) => suite::run(&args),
         Command::Sweep(args) => sweep::run(&args),
-        Command::Validate(args) => validate::run(&args),
+        Command::Validate(args) => {
+            with_threads(None, || validate::run(&args)).flatten()
+        }
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

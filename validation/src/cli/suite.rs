@@ -6,7 +6,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::{Failure, say};
+use super::{Failure, say, with_threads};
 use crate::files::Folder;
 use crate::suites::export;
 use crate::suites::inputs::read_suite;
@@ -82,8 +82,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                      suites need no correction"
                 )));
             }
-            add("ordinary", export::pairs(&rocking_synthesis::ordinary()?))?;
-            add("pulse", export::pairs(&rocking_synthesis::pulse()?))?;
+            let ordinary = with_threads(None, rocking_synthesis::ordinary)??;
+            let pulse = with_threads(None, rocking_synthesis::pulse)??;
+            add("ordinary", export::pairs(&ordinary))?;
+            add("pulse", export::pairs(&pulse))?;
         }
     }
     let folder = Folder::open_new(&args.out)?;

@@ -9,6 +9,7 @@ mod claims;
 use std::fmt;
 
 use rocking::block::Block;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
@@ -400,6 +401,27 @@ impl Findings {
     pub fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// Whether a file's text is the findings of a study, of whatever
+    /// [`SCHEMA`].
+    ///
+    /// ```
+    /// use rocking_validation::findings::Findings;
+    /// let other = br#"{"version": "1", "suites": [], "claims": []}"#;
+    /// assert!(!Findings::is_any(other));
+    /// ```
+    #[must_use]
+    pub fn is_any(text: &[u8]) -> bool {
+        #[derive(Deserialize)]
+        #[expect(dead_code, reason = "the reader asks for them")]
+        struct Any {
+            version: String,
+            settings: IgnoredAny,
+            suites: Vec<IgnoredAny>,
+            claims: Vec<IgnoredAny>,
+        }
+        serde_json::from_slice::<Any>(text).is_ok()
     }
 
     /// Findings from a file's text.

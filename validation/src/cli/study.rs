@@ -88,7 +88,8 @@ pub struct Args {
     proof: Option<PathBuf>,
     #[command(flatten)]
     signatures: Signatures,
-    /// Folder of the report.
+    /// Folder of the report: a new or an empty one, or that of an earlier
+    /// report, which is replaced.
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
     /// Compare with the report in that folder, write nothing, fail where a
@@ -174,6 +175,9 @@ fn computed(
 
 fn in_threads(args: &Args) -> Result<(), Failure> {
     let plan = plan(args)?;
+    if !args.check {
+        refuse_foreign(&args.out)?;
+    }
     let suites = suites(args)?;
     if args.check {
         // Refused before minutes are spent.
@@ -214,6 +218,24 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
             proof.as_ref().map_or(NOT_RUN.into(), Proof::to_string),
             args.out.join("index.html").display()
         ))
+    }
+}
+
+/// Refuses a folder of a report that is neither new nor empty nor that of an
+/// earlier report.
+fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    // What a killed run left is not whole, and known by what it left.
+    let foreign = match is_interrupted(out) {
+        true => None,
+        false => output::foreign(out),
+    };
+    match foreign {
+        None => Ok(()),
+        Some(name) => Err(Failure::input(format!(
+            "cannot write {}: it holds {name}, which no study wrote: expected \
+             a new or an empty folder, or one that `rocking study` wrote",
+            out.display()
+        ))),
     }
 }
 

@@ -3,7 +3,7 @@
 mod surrogate;
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -130,7 +130,8 @@ struct MergeArgs {
     out: PathBuf,
 }
 
-/// Prints a script for SLURM: an array of tasks that may be requeued.
+/// Prints a script for SLURM: an array of tasks that may be requeued. It may
+/// be submitted from any folder.
 #[derive(clap::Args)]
 struct SlurmArgs {
     /// Folder of the plan.
@@ -344,6 +345,7 @@ fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
         .map(|task| planned.plan.tiles_of(task, tasks))
         .map(|own| own.iter().map(|t| planned.plan.tiles[*t].core_s).sum())
         .fold(0.0, f64::max);
+    let dir = quoted(&std::path::absolute(&args.dir)?)?;
     // Three times the estimate, and ten minutes at least.
     let minutes = 3.0 * longest / 60.0;
     let minutes = 10 + minutes.ceil() as u64;
@@ -356,8 +358,20 @@ fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
          #SBATCH --requeue\n\
          # A task that is requeued goes on with the tiles that it lacks.\n\
          # In one allocation instead: srun rocking sweep run DIR\n\
-         rocking sweep run \"{}\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
+         rocking sweep run {dir} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
         tasks - 1,
-        args.dir.display()
     ))
+}
+
+/// A path as one word of a shell's script, whatever is in it.
+fn quoted(path: &Path) -> Result<String, Failure> {
+    let text = path.to_str().filter(|text| !text.contains(char::is_control));
+    let text = text.ok_or_else(|| {
+        Failure::input(format!(
+            "{}: expected a path of text without control characters, which \
+             a script can hold",
+            path.display()
+        ))
+    })?;
+    Ok(format!("'{}'", text.replace('\'', "'\\''")))
 }

@@ -19,6 +19,7 @@ mod esm;
 mod fields;
 mod keys;
 mod knet;
+mod name;
 mod number;
 mod processing;
 mod quality;
@@ -29,11 +30,12 @@ mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
 pub use error::{Fault, RecordError};
+pub use name::{NameError, result_name};
 pub use processing::{Processing, ProcessingError};
 pub use quality::{Remark, duplicates, remarks, remarks_together};
 pub use suite::{
-    PEAK_TOLERANCE, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
-    Survey, folder_files, is_index,
+    Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
+    Suite, SuiteError, SuiteMember, SuiteOptions, Survey, is_index,
 };
 
 use crate::units::{self, AccelerationUnit};
@@ -322,7 +324,8 @@ fn unknown(text: &Text<'_>) -> RecordError {
     text.on_line(index, Fault::UnknownFormat { found, expected: FORMATS })
 }
 
-/// Name of the file at `path`, without its folder.
+/// Name of the file at `path`, without its folder; what is no UTF-8 in it is
+/// replaced.
 fn name_of(path: &Path) -> String {
     path.file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
@@ -380,9 +383,13 @@ fn complete(
     if let Some(label) = channel.label.as_ref().filter(|_| several) {
         name = format!("{name}:{}", label.replace(' ', "_"));
     }
+    let (channel, site) = (channel.label, channel.site);
+    // Components of one site are a pair of that name.
+    for text in [Some(name.as_str()), site.as_deref()].into_iter().flatten() {
+        result_name(text).map_err(|error| fail(error.into()))?;
+    }
     let accelerogram = Accelerogram::try_new(name, dt_s, samples)
         .map_err(|error| fail(error.into()))?;
-    let (channel, site) = (channel.label, channel.site);
     Ok(Record { accelerogram, format, unit, channel, site })
 }
 

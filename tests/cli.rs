@@ -11,6 +11,8 @@ use serde_json::Value;
 mod diff;
 #[path = "cli/limits.rs"]
 mod limits;
+#[path = "cli/means.rs"]
+mod means;
 #[path = "cli/order.rs"]
 mod order;
 #[path = "cli/support.rs"]

@@ -79,6 +79,7 @@ const HARNESS: Edges = &[
             "surrogate",
             "sweep",
             "table",
+            "words",
         ],
     ),
     (

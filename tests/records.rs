@@ -9,6 +9,8 @@ use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_validation::suites::inputs;
 
+#[path = "records/aside.rs"]
+mod aside;
 #[path = "records/export.rs"]
 mod export;
 #[path = "records/measures.rs"]
@@ -212,10 +214,12 @@ fn a_folder_without_records_is_refused() {
         [("README", b"About these records.\n"), (".hidden", b"0.1\n")];
     let folder = folder("none", &files);
     let (status, out, error) = records(&folder, &["."]);
-    assert_eq!((status, out.as_str()), (2, ""));
+    assert_eq!(status, 2);
+    assert!(out.starts_with("set aside: ./README:1: begins with"), "{out}");
     assert_eq!(
         error,
-        "rocking: .: no readable record in it: expected at least one (files: 1)\n"
+        "rocking: .: no readable record in it: expected at least one; \
+         set aside: 1 in no known format (first: README)\n"
     );
 }
 
@@ -235,12 +239,12 @@ fn a_folder_of_pairs_is_a_suite() {
         suite.study_components().map(|m| m.file.as_str()).collect();
     assert_eq!(study, ["A_000.AT2", "B_E.AT2"]);
     assert_eq!(suite.both().len(), 1);
-    assert_eq!(suite.ignored().len(), 2);
+    assert_eq!(suite.set_aside().all().len(), 2);
     assert_eq!(suite.name(), "suite");
     let (status, out, error) = records(&folder, &["../suite"]);
     assert_eq!((status, error.as_str()), (0, ""));
     assert!(out.ends_with(
-        "suite suite: 3 records, 1 pairs, 2 study components by the component whose file name sorts first in its pair\n"
+        "suite suite: 3 records, 1 pairs, 2 study components by the component whose file name sorts first in its pair; set aside: 1 in no known format (first: README), 1 of another quantity than acceleration (first: A_000.VT2)\n"
     ));
     let (status, out, _) = records(&folder, &["--json", "."]);
     assert_eq!(status, 0);
@@ -255,7 +259,7 @@ fn a_folder_of_pairs_is_a_suite() {
     // By hand: 0.0015, 0.001, 0 (in g s) times gravity.
     let pgv = first["pgv_m_s"].as_f64().unwrap();
     assert!((pgv - 0.0015 * STANDARD_GRAVITY_M_S2).abs() < 1e-15);
-    assert_eq!(json["ignored"].as_array().unwrap().len(), 2);
+    assert_eq!(json["set_aside"].as_array().unwrap().len(), 2);
     assert_eq!(json["refused"].as_array().unwrap().len(), 0);
 }
 
@@ -314,7 +318,7 @@ fn a_zip_is_read_as_the_folder_in_it() {
     assert_eq!(suite.members()[0].pair.as_deref(), Some("RSN9001"));
     assert_eq!(suite.name(), "peer");
     let suite = read("flat.zip");
-    assert_eq!((suite.both().len(), suite.ignored().len()), (1, 1));
+    assert_eq!((suite.both().len(), suite.set_aside().all().len()), (1, 1));
     let whole = std::fs::read(folder.join("peer.zip")).unwrap();
     let half = &whole[..whole.len() / 2];
     std::fs::write(folder.join("half.zip"), half).unwrap();

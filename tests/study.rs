@@ -85,6 +85,62 @@ fn a_file_in_the_way_of_the_report() {
     refused("way", &args, &["input"]);
 }
 
+/// A page and findings that no study wrote are nobody's to replace.
+#[test]
+fn a_folder_that_no_study_wrote() {
+    let args = ["--arms", "A", "--out", "input"];
+    for (files, told) in [
+        (&["index.html", "data/findings.json"][..], "data/findings.json"),
+        (&["data/mine.csv", "data/validation.json"], "data/mine.csv"),
+        (&["figures/mine.svg"], "figures"),
+        (&["notes.txt"], "notes.txt"),
+    ] {
+        let folder = folder("stranger");
+        let input = folder.join("input");
+        for file in files {
+            let path = input.join(file);
+            std::fs::create_dir_all(path.parent().expect("parent"))
+                .expect("folder");
+            std::fs::write(path, "mine\n").expect("write");
+        }
+        let output = study(&folder, &args);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{files:?}");
+        let told = format!("cannot write input: it holds {told}, which no");
+        assert!(message.contains(&told), "{message}");
+        for file in files {
+            let text = std::fs::read_to_string(input.join(file));
+            assert_eq!(text.expect("read"), "mine\n", "{file}");
+        }
+        std::fs::remove_dir_all(&folder).expect("clean");
+    }
+}
+
+/// That of an earlier study is replaced, and one with results of the declared
+/// cases alone becomes a report; a page of somebody else stays one.
+#[test]
+fn a_folder_of_an_earlier_study_is_known() {
+    let reports = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../reports");
+    assert_eq!(output::foreign(&reports), None);
+    let own = folder("earlier");
+    assert_eq!(output::foreign(&own), None, "not there");
+    std::fs::create_dir_all(own.join("data")).expect("folder");
+    assert_eq!(output::foreign(&own), None, "empty");
+    let copy = |name: &str| {
+        std::fs::copy(reports.join(name), own.join(name)).expect("copy");
+    };
+    copy("data/validation.json");
+    assert_eq!(output::foreign(&own), None, "declared cases alone");
+    copy(output::FINDINGS);
+    std::fs::write(own.join("notes.txt"), "mine").expect("write");
+    assert_eq!(output::foreign(&own), None, "killed before the page");
+    copy(output::PAGE);
+    assert_eq!(output::foreign(&own), None);
+    std::fs::write(own.join(output::PAGE), "<html>mine").expect("write");
+    assert_eq!(output::foreign(&own).as_deref(), Some(output::PAGE));
+    std::fs::remove_dir_all(&own).expect("clean");
+}
+
 /// Results of the declared cases in `input`, after a change of their text.
 fn proof(name: &str, change: impl Fn(&str) -> String) {
     let input = folder(name).join("input");

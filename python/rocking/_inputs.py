@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -184,7 +185,7 @@ class Record(Frozen):
         attributes: Mapping[str, str] | None = None,
     ) -> None:
         samples = floats(acc, "samples")
-        acc_g = _rocking.samples(samples, dt, units, gravity)
+        acc_g = _rocking.samples(samples, dt, units, gravity, name)
         self._set(name, acc_g, float(dt), dict(attributes or {}))
 
     def _set(
@@ -387,7 +388,8 @@ def read_record(
     FileNotFoundError
         There is no such file.
     ValueError
-        The file is cut, miscounted, or of an unknown format or unit.
+        The file is cut, miscounted, or of an unknown format or unit, or its
+        name has a control character, or is a formula for a spreadsheet.
 
     >>> from pathlib import Path
     >>> from tempfile import TemporaryDirectory
@@ -413,7 +415,9 @@ def read_suite(
 
     Of each pair the component that the study uses, or with
     `component="both"` both. Columns of the index are the records'
-    `attributes`.
+    `attributes`. What in a folder is no record of the suite, such as vertical
+    components and files in no known format, is set aside with a
+    `UserWarning` that counts it.
 
     Raises
     ------
@@ -431,7 +435,9 @@ def read_suite(
     ['first', 'second']
     """
     both = _both(component)
-    name, records = _rocking.read_suite(path, dt, units, gravity, both)
+    name, aside, records = _rocking.read_suite(path, dt, units, gravity, both)
+    if aside:
+        warnings.warn(f"suite {name}: set aside: {aside}", stacklevel=2)
     return Suite(name, tuple(Record._read(*record) for record in records))
 
 

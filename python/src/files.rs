@@ -68,8 +68,8 @@ pub fn read_record<'py>(
     Ok(to_python(py, &read.accelerogram, attributes))
 }
 
-/// The name and the records of a suite; of pairs the study component alone,
-/// unless `both`.
+/// The name of a suite, what was set aside, and its records; of pairs the
+/// study component alone, unless `both`.
 #[pyfunction]
 pub fn read_suite<'py>(
     py: Python<'py>,
@@ -78,7 +78,7 @@ pub fn read_suite<'py>(
     units: Option<&str>,
     gravity: f64,
     both: bool,
-) -> PyResult<(String, Vec<Read<'py>>)> {
+) -> PyResult<(String, String, Vec<Read<'py>>)> {
     let options = SuiteOptions {
         read: options(dt, units, gravity)?,
         sha256_hex: Some(sha256_hex),
@@ -99,7 +99,8 @@ pub fn read_suite<'py>(
             }
             to_python(py, &member.accelerogram, attributes)
         });
-    Ok((suite.name().to_owned(), records.collect()))
+    let (name, aside) = (suite.name(), suite.set_aside().to_string());
+    Ok((name.to_owned(), aside, records.collect()))
 }
 
 /// An embedded suite, as `read_suite` gives one from files.

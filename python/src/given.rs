@@ -234,7 +234,7 @@ pub fn uplift_threshold(
     Ok(integrator::uplift_threshold(&block, physics.model()?))
 }
 
-/// Samples in multiples of gravity, checked.
+/// Samples in multiples of gravity, checked with the name of the record.
 #[pyfunction]
 pub fn samples<'py>(
     py: Python<'py>,
@@ -242,11 +242,12 @@ pub fn samples<'py>(
     dt: f64,
     units: &str,
     gravity: f64,
+    name: &str,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let per_gravity = unit(units)?.per_gravity(positive_gravity(gravity)?);
     let samples: Vec<f64> =
         acc.as_slice()?.iter().map(|a| a / per_gravity).collect();
-    let record = Accelerogram::try_new("", dt, samples).map_err(refuse)?;
+    let record = Accelerogram::try_new(name, dt, samples).map_err(refuse)?;
     Ok(record.samples_g().to_vec().into_pyarray(py))
 }
 

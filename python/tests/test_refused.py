@@ -26,6 +26,10 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
         lambda: rk.Record([0.0, 1.0], 0.1, units="furlong"),
         'units "furlong": expected g, m/s2 or cm/s2',
     ),
+    (
+        lambda: rk.Record([0.0, 1.0], 0.1, units="g", name="=1+1"),
+        'name "=1+1": expected no control character',
+    ),
     (lambda: rk.Pulse("square", amplitude_g=1.0), "expected one of one-sine"),
     (lambda: rk.Pulse("one-sine", amplitude_g=1.0), "needs omega"),
     (
@@ -106,3 +110,12 @@ def test_a_cut_file_is_refused_with_its_line(tmp_path: Path) -> None:
 def test_an_array_is_no_excitation() -> None:
     with pytest.raises(TypeError, match="expected a Record or a Pulse"):
         rk.respond(BLOCK, np.zeros(3))  # type: ignore[arg-type]
+
+
+def test_what_a_folder_sets_aside_is_warned_of(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("t_s,a_g\n0,0\n0.1,0.2\n0.2,0\n")
+    (tmp_path / "notes.txt").write_text("About these records.\n")
+    told = r"set aside: 1 in no known format \(first: notes.txt\)"
+    with pytest.warns(UserWarning, match=told):
+        suite = rk.read_suite(tmp_path)
+    assert [record.name for record in suite] == ["a"]

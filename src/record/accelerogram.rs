@@ -2,10 +2,15 @@
 
 use thiserror::Error;
 
+use super::name::{NameError, result_name};
+
 /// Why a sequence of samples is no accelerogram.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AccelerogramError {
+    /// Results carry the name.
+    #[error(transparent)]
+    Name(#[from] NameError),
     /// At least two samples are needed for a duration.
     #[error("{found} samples: expected at least 2")]
     TooFewSamples {
@@ -55,14 +60,15 @@ impl Accelerogram {
     ///
     /// # Errors
     /// [`AccelerogramError`] for fewer than two samples, an interval that is
-    /// not positive and finite, or a sample that is not finite.
+    /// not positive and finite, a sample that is not finite, or a name that
+    /// results cannot carry ([`result_name`]).
     pub fn try_new(
         name: impl Into<String>,
         dt_s: f64,
         samples_g: Vec<f64>,
     ) -> Result<Self, AccelerogramError> {
         Self::check(dt_s, &samples_g)?;
-        Ok(Self { name: name.into(), dt_s, samples_g })
+        Self { name: String::new(), dt_s, samples_g }.named(name)
     }
 
     /// What makes samples an accelerogram, whatever their unit.
@@ -91,9 +97,16 @@ impl Accelerogram {
     }
 
     /// The same motion under another name.
-    #[must_use]
-    pub fn named(self, name: impl Into<String>) -> Self {
-        Self { name: name.into(), ..self }
+    ///
+    /// # Errors
+    /// [`AccelerogramError::Name`] for one that results cannot carry.
+    pub fn named(
+        self,
+        name: impl Into<String>,
+    ) -> Result<Self, AccelerogramError> {
+        let name = name.into();
+        result_name(&name)?;
+        Ok(Self { name, ..self })
     }
 
     /// Sampling interval in s.

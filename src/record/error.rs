@@ -6,6 +6,7 @@ use std::fmt;
 use thiserror::Error;
 
 use super::AccelerogramError;
+use super::name::{Escaped, NameError};
 use crate::units::AccelerationUnit;
 
 /// A record that was refused.
@@ -24,7 +25,7 @@ use crate::units::AccelerationUnit;
 /// );
 /// ```
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("{file}{place}: {fault}", place = Place(*line, *column))]
+#[error("{file}{place}: {fault}", file = Escaped(file), place = Place(*line, *column))]
 pub struct RecordError {
     pub(super) file: String,
     pub(super) line: Option<usize>,
@@ -119,6 +120,28 @@ pub enum Fault {
     /// A vertical component where horizontal ones are wanted.
     #[error("{0:?} is a vertical component: expected a horizontal one")]
     Vertical(String),
+    /// A name, of the file or in it, that results cannot carry.
+    #[error(transparent)]
+    Name(#[from] NameError),
+    /// A folder in a folder of records.
+    #[error("a folder in the folder of records: expected a file")]
+    Folder,
+    /// A link in a folder of records.
+    #[error("a link to nothing: expected a file")]
+    DeadLink,
+    /// Something in a folder of records that may never end.
+    #[error("a device, a pipe or a socket: expected a file")]
+    Device,
+    /// One of two files of an archive.
+    #[error(
+        "its name comes again in the archive: expected each name once, and the last is read"
+    )]
+    Doubled,
+    /// A file beside an index that lists the suite.
+    #[error(
+        "not in the index of the folder: expected a row for each record of the suite"
+    )]
+    Unlisted,
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),
@@ -252,6 +275,12 @@ impl Fault {
             Self::Ends(_) => "ends",
             Self::Quantity(_) => "quantity",
             Self::Vertical(_) => "vertical",
+            Self::Name(_) => "name",
+            Self::Folder => "folder",
+            Self::DeadLink => "dead-link",
+            Self::Device => "device",
+            Self::Doubled => "doubled",
+            Self::Unlisted => "unlisted",
             Self::Unit(_) => "unit",
             Self::UnitMissing => "unit-missing",
             Self::UnitConflict { .. } => "unit-conflict",

@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
+mod aside;
 mod cells;
 mod error;
 mod index;
 mod pairing;
 mod survey;
 
+pub use aside::{Aside, AsideCount, AsideReason, SetAside};
 pub use error::SuiteError;
-pub use survey::{Survey, folder_files};
+pub use survey::Survey;
 
 use super::{
     Accelerogram, Format, Processing, ProcessingError, ReadOptions,
@@ -71,7 +73,7 @@ pub struct Suite {
     name: String,
     members: Vec<SuiteMember>,
     study_rule: StudyRule,
-    ignored: Vec<RecordError>,
+    set_aside: SetAside,
 }
 
 /// How a suite is read.
@@ -95,9 +97,12 @@ impl Suite {
     /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1
     /// or 0); others are kept as attributes. PEER's `_SearchResults.csv` is
     /// an index too, and that of the folder it lies in. In another folder,
-    /// files of no known format, histories of velocity or displacement and
-    /// vertical components are set aside ([`Suite::ignored`]); any other
-    /// fault refuses the suite. Pairs are found by event and station where
+    /// files of no known format, histories of velocity or displacement,
+    /// vertical components, folders and links to nothing are set aside
+    /// ([`Suite::set_aside`]), and hidden files left out; any other fault
+    /// refuses the suite. So does a name that results cannot carry
+    /// ([`result_name`](super::result_name)), of a file or a record, or in a
+    /// cell of an index. Pairs are found by event and station where
     /// the files name both, and otherwise by file name: what is left without
     /// the orientation at its end.
     ///
@@ -173,10 +178,11 @@ impl Suite {
         self.study_rule
     }
 
-    /// Files of a folder that were set aside, and why.
+    /// What the folder or archive holds beside the records; an index that
+    /// is read by its own path lists records alone.
     #[must_use]
-    pub fn ignored(&self) -> &[RecordError] {
-        &self.ignored
+    pub fn set_aside(&self) -> &SetAside {
+        &self.set_aside
     }
 
     /// The component of each pair that the study uses; a record without a

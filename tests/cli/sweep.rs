@@ -241,3 +241,38 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
         refused_for(&place, &format!("fragility {arguments}"), &names);
     }
 }
+
+/// The script names the folder of the plan, whatever it is called, and may be
+/// submitted from anywhere.
+#[cfg(unix)]
+#[test]
+fn the_script_for_slurm_runs_nothing_but_the_sweep() {
+    let place = planned("sweep-slurm", 1);
+    let name = "q$(touch PWNED)`touch PWNED`it's \"$x\" \\ *;&|<>";
+    fs::rename(place.join("plan"), place.join(name)).unwrap();
+    fs::create_dir(place.join("bin")).unwrap();
+    let program = env!("CARGO_BIN_EXE_rocking");
+    std::os::unix::fs::symlink(program, place.join("bin/rocking")).unwrap();
+    let script = rocking(&place, "sweep slurm").arg(name).output().unwrap();
+    assert!(script.status.success(), "{script:?}");
+    fs::write(place.join("bin/job.sh"), script.stdout).unwrap();
+    let path = format!("{}:{}", place.join("bin").display(), "/usr/bin:/bin");
+    let done = Command::new("bash")
+        .arg("job.sh")
+        .current_dir(place.join("bin"))
+        .env("PATH", path)
+        .output()
+        .unwrap();
+    assert!(done.status.success(), "{done:?}");
+    assert_eq!(
+        fs::read_dir(place.join(name).join("tiles")).unwrap().count(),
+        2
+    );
+    assert!(
+        !place.join("PWNED").exists() && !place.join("bin/PWNED").exists()
+    );
+    let line = place.join("a\nb");
+    fs::rename(place.join(name), &line).unwrap();
+    let script = rocking(&place, "sweep slurm").arg(&line).output().unwrap();
+    assert_eq!(script.status.code(), Some(2));
+}

@@ -9,7 +9,7 @@ use super::{AT2, folder};
 
 /// Exit status, standard output and standard error of the program, with
 /// `input` as its standard input.
-fn rocking(
+pub fn rocking(
     folder: &Path,
     arguments: &str,
     input: &str,

@@ -3,14 +3,17 @@
 mod accept;
 mod validate;
 
-use std::io::{self, Write as _};
+use std::io;
 use std::num::NonZeroUsize;
 use std::process::ExitCode;
-use std::sync::mpsc;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
 use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use rocking::stop::{Stop, StopError};
+use signal_hook::consts::SIGABRT;
+use signal_hook::flag::register_conditional_shutdown;
 
 pub mod boxplot;
 pub mod capacities;
@@ -40,7 +43,10 @@ pub mod study;
 pub mod suite;
 pub mod sweep;
 pub mod table;
+pub mod terminal;
 pub mod way;
+
+pub use terminal::{SOFTWARE, note, print, print_json, say};
 
 /// Threads beyond which more only cost.
 const MOST_THREADS_A_PROCESSOR: usize = 8;
@@ -118,36 +124,6 @@ impl<E: std::error::Error> From<E> for Failure {
     }
 }
 
-/// Name and version of the program, for results.
-pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));
-
-/// Prints `text` on standard output; a closed pipe ends the program quietly.
-///
-/// # Errors
-/// [`Failure`] when standard output cannot be written for another reason.
-pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() == io::ErrorKind::BrokenPipe => {
-            std::process::exit(0)
-        }
-        done => {
-            done.map_err(|e| Failure::input(format!("standard output: {e}")))
-        }
-    }
-}
-
-/// Prints `value` as JSON, with the version of the program.
-///
-/// # Errors
-/// As [`print()`].
-pub fn print_json(mut value: serde_json::Value) -> Result<(), Failure> {
-    if let Some(object) = value.as_object_mut() {
-        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
-    }
-    print(&format!("{value:#}\n"))
-}
-
 /// Runs `work` on `threads` threads, or on as many as the machine has; more
 /// than eight times as many are not used, and that is said.
 ///
@@ -177,10 +153,10 @@ pub fn until<T: Send>(
         std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
     let most = MOST_THREADS_A_PROCESSOR * processors;
     if let Some(asked) = threads.filter(|asked| *asked > most) {
-        eprintln!(
-            "rocking: --threads {asked}: {most} are used, \
+        note(&format!(
+            "--threads {asked}: {most} are used, \
              {MOST_THREADS_A_PROCESSOR} for each of {processors} processors"
-        );
+        ));
     }
     let count = threads.unwrap_or(processors).min(most);
     match stop.run(count, work) {
@@ -213,7 +189,7 @@ pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
     }
     let say = || {
         let length = bar.length().unwrap_or(0);
-        eprintln!("rocking: {} of {length} done", bar.position());
+        note(&format!("{} of {length} done", bar.position()));
     };
     saying([LOG_INTERVAL, LOG_INTERVAL], &say, work)
 }
@@ -232,7 +208,7 @@ pub fn patiently<T>(
 ) -> T {
     use std::io::IsTerminal as _;
     if !io::stderr().is_terminal() {
-        let say = || eprintln!("rocking: {}", words());
+        let say = || note(&words());
         return saying([PATIENCE, LOG_INTERVAL], &say, work);
     }
     let line = indicatif::ProgressBar::new_spinner();
@@ -277,6 +253,14 @@ fn reading_negatives(command: clap::Command) -> clap::Command {
     command.mut_args(read).mut_subcommands(reading_negatives)
 }
 
+/// Lets the program end with status 2 where it would abort: what aborts it is
+/// an allocation that fails, after the runtime has said so.
+fn abort_is_a_refusal() {
+    let always = Arc::new(AtomicBool::new(true));
+    // Where no handler can be set, the status is that of an abort.
+    let _ = register_conditional_shutdown(SIGABRT, 2, always);
+}
+
 /// The whole command line.
 fn command() -> clap::Command {
     reading_negatives(Cli::command())
@@ -285,10 +269,13 @@ fn command() -> clap::Command {
 /// Parses the arguments, runs the command and gives the exit status.
 #[must_use]
 pub fn run() -> ExitCode {
+    abort_is_a_refusal();
     let matches = command().get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
-        Command::Accept(args) => accept::run(&args),
+        Command::Accept(args) => {
+            with_threads(None, || accept::run(&args)).flatten()
+        }
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
         Command::Records(args) => records::run(&args),
@@ -303,17 +290,21 @@ pub fn run() -> ExitCode {
         Command::Quantile(args) => quantile::run(&args),
         Command::Rank(args) => rank::run(&args),
         Command::Risk(args) => risk::run(&args),
-        Command::Speed(args) => speed::run(&args),
+        Command::Speed(args) => {
+            with_threads(None, || speed::run(&args)).flatten()
+        }
         Command::Stripes(args) => stripes::run(&args),
         Command::Study(args) => study::run(&args),
         Command::Suite(args) => suite::run(&args),
         Command::Sweep(args) => sweep::run(&args),
-        Command::Validate(args) => validate::run(&args),
+        Command::Validate(args) => {
+            with_threads(None, || validate::run(&args)).flatten()
+        }
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("rocking: {}", failure.message);
+            note(&failure.message);
             ExitCode::from(failure.status)
         }
     }

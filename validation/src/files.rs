@@ -10,8 +10,10 @@ use tempfile::{Builder, NamedTempFile};
 use thiserror::Error;
 
 pub use folder::{Folder, is_interrupted};
+pub use standard::standard_output;
 
 mod folder;
+mod standard;
 
 /// How the names of unfinished files and folders begin and end.
 const PART: (&str, &str) = (".rocking-", ".part");
@@ -184,6 +186,7 @@ type Content<'a> = &'a dyn Fn(&mut (dyn io::Write + Send)) -> io::Result<()>;
 impl Sink {
     fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
         if path == Path::new("-") {
+            standard_output()?;
             return Ok(Self::Standard);
         }
         let target = match fs::metadata(path) {

@@ -9,6 +9,7 @@ mod claims;
 use std::fmt;
 
 use rocking::block::Block;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
@@ -80,6 +81,9 @@ pub struct Suite {
     /// Remarks on records, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub remarks: Option<String>,
+    /// What was set aside when the suite was read, for each reason.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set_aside: Vec<Aside>,
     /// Analyses made.
     pub analyses: u64,
     /// Analyses whose peak or fate rounding may have changed.
@@ -89,6 +93,18 @@ pub struct Suite {
     /// Largest shift of an overturning quantile if all open fates flipped.
     #[serde(with = "nine")]
     pub largest_shift_if_flipped: f64,
+}
+
+/// Files that were set aside for one reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Aside {
+    /// The reason.
+    pub code: String,
+    /// Number of files.
+    pub files: usize,
+    /// The first of them.
+    pub first: String,
 }
 
 /// A record of a suite: enough to find it again, and no sample of it.
@@ -392,6 +408,27 @@ impl Findings {
     pub fn text(&self) -> String {
         // These types print without an error.
         serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// Whether a file's text is the findings of a study, of whatever
+    /// [`SCHEMA`].
+    ///
+    /// ```
+    /// use rocking_validation::findings::Findings;
+    /// let other = br#"{"version": "1", "suites": [], "claims": []}"#;
+    /// assert!(!Findings::is_any(other));
+    /// ```
+    #[must_use]
+    pub fn is_any(text: &[u8]) -> bool {
+        #[derive(Deserialize)]
+        #[expect(dead_code, reason = "the reader asks for them")]
+        struct Any {
+            version: String,
+            settings: IgnoredAny,
+            suites: Vec<IgnoredAny>,
+            claims: Vec<IgnoredAny>,
+        }
+        serde_json::from_slice::<Any>(text).is_ok()
     }
 
     /// Findings from a file's text.

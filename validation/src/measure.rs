@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use libm::{exp, log};
 use rocking::intensity::Measures;
+use rocking::record::result_name;
 
 /// An intensity measure of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +63,9 @@ impl FromStr for Measure {
                 let periods = list.split(',').map(period);
                 Self::AverageSa(periods.collect::<Result<_, _>>()?)
             }
-            Some(("column", name)) if !name.is_empty() => {
+            Some(("column", name))
+                if !name.is_empty() && result_name(name).is_ok() =>
+            {
                 Self::Column(name.to_owned())
             }
             Some(_) => return Err(refuse()),

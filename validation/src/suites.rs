@@ -1,5 +1,6 @@
 //! The two suites of a study: embedded, or read from files.
 
+pub mod aside;
 pub mod export;
 pub mod inputs;
 pub mod remarks;
@@ -10,7 +11,7 @@ use std::path::Path;
 
 use rocking::record::{
     Accelerogram, AccelerogramError, Processing, ProcessingError, ReadOptions,
-    SuiteError,
+    SetAside, SuiteError,
 };
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
@@ -95,6 +96,8 @@ pub struct StudySuite {
     pub component_rule: String,
     /// What is suspicious about the records; nothing for an embedded suite.
     pub remarks: Remarks,
+    /// What the folder or archive holds beside the records.
+    pub set_aside: SetAside,
     /// The motions, in the suite's order.
     pub motions: Vec<Motion>,
 }
@@ -110,6 +113,7 @@ impl StudySuite {
             source: Source::Embedded { streams },
             component_rule: "the first component of each pair".into(),
             remarks: Remarks::default(),
+            set_aside: SetAside::default(),
             motions: pairs
                 .into_iter()
                 .map(|Pair { components: [study, other], .. }| Motion {
@@ -144,9 +148,7 @@ impl StudySuite {
     ) -> Result<Self, StudySuiteError> {
         let suite = read_suite(path, options)?;
         let suite = suite.processed(processing)?;
-        let all = suite.members().iter();
-        let all = all.map(|m| (&m.accelerogram, m.pair.as_deref()));
-        let remarks = Remarks::of(&all.collect::<Vec<_>>());
+        let remarks = Remarks::on(&suite);
         let motions = suite
             .study_components()
             .map(|study| Motion {
@@ -167,6 +169,7 @@ impl StudySuite {
             },
             component_rule: suite.study_rule().to_string(),
             remarks,
+            set_aside: suite.set_aside().clone(),
             motions,
         })
     }

@@ -1,5 +1,7 @@
 //! Numbers and names as people read them.
 
+use std::borrow::Cow;
+
 /// An enumeration whose variants have names: the same in files, in reports
 /// and in `name()`. `ALL` lists the variants.
 macro_rules! named {
@@ -32,6 +34,26 @@ macro_rules! named {
 }
 
 pub(crate) use named;
+
+/// A text of lines as a terminal may show it: other control characters as
+/// `\u001b`, which JSON reads back.
+///
+/// ```
+/// use rocking_validation::words::printable;
+/// assert_eq!(printable("a\n\u{1b}[31m"), "a\n\\u001b[31m");
+/// ```
+#[must_use]
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let acts = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(acts) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| match acts(c) {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(shown).collect())
+}
 
 /// A number for people: four decimals, "none" where there is none.
 #[must_use]

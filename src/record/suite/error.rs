@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::SetAside;
 use crate::record::RecordError;
 
 /// A suite that was refused.
@@ -21,13 +22,14 @@ pub enum SuiteError {
     Record(#[from] RecordError),
     /// There is no record in it.
     #[error(
-        "{path}: no readable record in it: expected at least one (files: {files})"
+        "{path}: no readable record in it: expected at least one{}",
+        instead(set_aside)
     )]
     Empty {
         /// Folder or index.
         path: String,
-        /// Number of files or rows looked at.
-        files: usize,
+        /// What is in it instead.
+        set_aside: SetAside,
     },
     /// An index without a column `file`, or a row that does not fit.
     #[error("{path}:{line}: {found:?}: expected {expected}")]
@@ -91,6 +93,14 @@ pub enum SuiteError {
         /// How many of them are marked for the study.
         study: usize,
     },
+}
+
+/// What is there instead of records.
+fn instead(set_aside: &SetAside) -> String {
+    match set_aside.is_empty() {
+        true => String::new(),
+        false => format!("; set aside: {set_aside}"),
+    }
 }
 
 impl SuiteError {

@@ -4,8 +4,9 @@ use std::rc::Rc;
 
 use super::cells::split;
 use super::{PEAK_TOLERANCE, SuiteError, SuiteMember, SuiteOptions};
+use crate::record::name::EXPECTED;
 use crate::record::text::{self, excerpt};
-use crate::record::{ReadOptions, Record, read};
+use crate::record::{ReadOptions, Record, read, result_name};
 use crate::units::AccelerationUnit;
 
 /// A parsed index: every row has every column.
@@ -167,6 +168,7 @@ impl Table<'_> {
                 column.make_ascii_lowercase();
             }
         }
+        self.check_names(line, &columns)?;
         if let Some(long) = columns.iter().find(|c| c.len() > LONGEST_NAME) {
             let expected = format!("names of at most {LONGEST_NAME} bytes");
             return Err(self.refuse(line, long, &expected));
@@ -179,6 +181,19 @@ impl Table<'_> {
                 Err(self.refuse(line, twice[0], "each column once"))
             }
             None => Ok(columns),
+        }
+    }
+
+    /// Refuses cells that results cannot carry: all of them become names of
+    /// files, of records and of attributes, and what these are.
+    fn check_names(
+        &self,
+        line: usize,
+        cells: &[String],
+    ) -> Result<(), SuiteError> {
+        match cells.iter().find(|cell| result_name(cell).is_err()) {
+            Some(cell) => Err(self.refuse(line, cell, EXPECTED)),
+            None => Ok(()),
         }
     }
 
@@ -202,6 +217,7 @@ impl Table<'_> {
         {
             cells.pop();
         }
+        self.check_names(line, &cells)?;
         if cells.len() != self.columns.len() {
             let expected =
                 format!("{} cells, as the head", self.columns.len());
@@ -327,7 +343,10 @@ impl Row {
             .collect();
         Ok(SuiteMember {
             accelerogram: match self.cell("name") {
-                Some(name) => record.accelerogram.named(name),
+                Some(name) => record
+                    .accelerogram
+                    .named(name)
+                    .map_err(|_| self.refuse(name, EXPECTED))?,
                 None => record.accelerogram,
             },
             file: self.file.clone(),

@@ -1,12 +1,15 @@
 //! Reading all that a folder or an index lists.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use super::{StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions};
+use super::{
+    Aside, SetAside, StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions,
+};
 use super::{index, pairing};
 use crate::record::{
-    Fault, Record, RecordError, file_bytes, is_record, name_of, read_all, stem,
+    Fault, Record, RecordError, file_bytes, is_record, name_of, read_all,
+    result_name, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -17,7 +20,7 @@ const PEER_RESULTS: &str = "_SearchResults.csv";
 pub struct Survey {
     path: String,
     members: Vec<Result<SuiteMember, SuiteError>>,
-    ignored: Vec<RecordError>,
+    set_aside: SetAside,
     study_rule: StudyRule,
     paired: bool,
 }
@@ -34,11 +37,15 @@ impl Survey {
     ) -> Result<Self, SuiteError> {
         let shown = path.display().to_string();
         if path.is_dir() {
-            let names: Vec<String> =
-                folder_files(path)?.iter().map(|file| name_of(file)).collect();
-            return Self::of_files(&shown, &names, options, |name| {
-                file_bytes(&path.join(name))
-            });
+            let (files, others) = contents(path)?;
+            let names: Vec<String> = files.keys().cloned().collect();
+            let mut survey =
+                Self::of_files(&shown, &names, options, |name| {
+                    let own = || path.join(name);
+                    file_bytes(&files.get(name).cloned().unwrap_or_else(own))
+                })?;
+            survey.set_aside.extend(others);
+            return Ok(survey);
         }
         let bytes = file_bytes(path)?;
         let base = path.parent().unwrap_or(Path::new(""));
@@ -57,7 +64,7 @@ impl Survey {
     /// Reads every record among the files of a folder or archive, given by
     /// its path, the files' names and a function that gives the bytes of
     /// each. If one of them is PEER's `_SearchResults.csv`, that is the
-    /// index.
+    /// index. A name that comes twice is read once.
     ///
     /// # Errors
     /// [`SuiteError`] where an index cannot be read.
@@ -65,39 +72,72 @@ impl Survey {
         path: &str,
         names: &[String],
         options: &SuiteOptions,
+        file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
+    ) -> Result<Self, SuiteError> {
+        let mut known = BTreeSet::new();
+        let (names, doubled): (Vec<&String>, Vec<&String>) =
+            names.iter().partition(|name| known.insert(*name));
+        let mut survey = Self::of_each(path, &names, options, file_bytes)?;
+        for name in doubled {
+            let shown = format!("{path}/{name}");
+            survey.refuse(name, Fault::Doubled.whole(&shown));
+        }
+        Ok(survey)
+    }
+
+    /// Reads every record among files of different names.
+    fn of_each(
+        path: &str,
+        names: &[&String],
+        options: &SuiteOptions,
         mut file_bytes: impl FnMut(&str) -> Result<Vec<u8>, RecordError>,
     ) -> Result<Self, SuiteError> {
-        if let Some(results) = names.iter().find(|n| *n == PEER_RESULTS) {
+        if let Some(results) = names.iter().find(|n| **n == PEER_RESULTS) {
             let bytes = file_bytes(results)?;
             let shown = format!("{path}/{results}");
-            return Self::of_index(&shown, &bytes, options, file_bytes);
+            let mut listed = BTreeSet::from([(*results).clone()]);
+            let mut survey =
+                Self::of_index(&shown, &bytes, options, |name| {
+                    listed.insert(name.to_owned());
+                    file_bytes(name)
+                })?;
+            for name in names.iter().filter(|name| !listed.contains(**name)) {
+                let shown = format!("{path}/{name}");
+                survey.refuse(name, Fault::Unlisted.whole(&shown));
+            }
+            return Ok(survey);
         }
-        let mut members = Vec::new();
-        let mut ignored = Vec::new();
+        let mut survey = Self {
+            path: path.to_owned(),
+            members: Vec::new(),
+            set_aside: SetAside::default(),
+            study_rule: StudyRule::FirstName,
+            paired: false,
+        };
         for name in names {
             let shown = format!("{path}/{name}");
             let records = file_bytes(name)
                 .and_then(|bytes| read_all(&shown, &bytes, &options.read));
-            match records {
-                Ok(records) => {
-                    for record in records {
-                        match horizontal(&shown, name, record) {
-                            Ok(member) => members.push(Ok(member)),
-                            Err(error) => ignored.push(error),
-                        }
-                    }
+            let found = records.unwrap_or_else(|error| {
+                survey.refuse(name, error);
+                Vec::new()
+            });
+            for record in found {
+                match horizontal(&shown, name, record) {
+                    Ok(member) => survey.members.push(Ok(member)),
+                    Err(error) => survey.refuse(name, error),
                 }
-                Err(error) if is_no_record(&error) => ignored.push(error),
-                Err(error) => members.push(Err(error.into())),
             }
         }
-        Ok(Self {
-            path: path.to_owned(),
-            members,
-            ignored,
-            study_rule: StudyRule::FirstName,
-            paired: false,
-        })
+        Ok(survey)
+    }
+
+    /// Takes what was refused as set aside, or as a fault of the suite.
+    fn refuse(&mut self, name: &str, error: RecordError) {
+        match Aside::of(name, error) {
+            Ok(aside) => self.set_aside.push(aside),
+            Err(error) => self.members.push(Err(error.into())),
+        }
     }
 
     pub(super) fn of_index(
@@ -119,7 +159,7 @@ impl Survey {
         Ok(Self {
             path: path.to_owned(),
             members,
-            ignored: Vec::new(),
+            set_aside: SetAside::default(),
             study_rule,
             paired,
         })
@@ -131,10 +171,10 @@ impl Survey {
         &self.members
     }
 
-    /// Files of a folder that hold no record, and why.
+    /// What the folder or archive holds beside the records.
     #[must_use]
-    pub fn ignored(&self) -> &[RecordError] {
-        &self.ignored
+    pub fn set_aside(&self) -> &SetAside {
+        &self.set_aside
     }
 
     /// The suite, if no record was refused.
@@ -143,11 +183,11 @@ impl Survey {
     /// The first refused record; [`SuiteError::Empty`] without any; a name
     /// that two records share; a pair that is none.
     pub fn into_suite(self) -> Result<Suite, SuiteError> {
-        let Self { path, members, ignored, study_rule, paired } = self;
+        let Self { path, members, set_aside, study_rule, paired } = self;
         let mut members =
             members.into_iter().collect::<Result<Vec<_>, _>>()?;
         if members.is_empty() {
-            return Err(SuiteError::Empty { path, files: ignored.len() });
+            return Err(SuiteError::Empty { path, set_aside });
         }
         pairing::check_names(&path, &members)?;
         if !paired {
@@ -158,7 +198,7 @@ impl Survey {
         }
         pairing::check_pairs(&path, &members)?;
         let name = suite_name(&path);
-        Ok(Suite { name, members, study_rule, ignored })
+        Ok(Suite { name, members, study_rule, set_aside })
     }
 }
 
@@ -168,7 +208,8 @@ fn suite_name(path: &str) -> String {
     stem(folder.unwrap_or(path).trim_end_matches('/')).to_owned()
 }
 
-/// A record of a folder as a member of the suite, unless it is vertical.
+/// A record of a folder as a member of the suite, unless it is vertical or
+/// results cannot carry the file's name.
 fn horizontal(
     shown: &str,
     file: &str,
@@ -179,6 +220,7 @@ fn horizontal(
         let name = record.accelerogram.name().to_owned();
         return Err(Fault::Vertical(name).whole(shown));
     }
+    result_name(file).map_err(|error| Fault::Name(error).whole(shown))?;
     Ok(SuiteMember {
         accelerogram: record.accelerogram,
         file: file.to_owned(),
@@ -191,33 +233,47 @@ fn horizontal(
     })
 }
 
-/// Whether a file is no acceleration record at all, against one with a
-/// fault.
-fn is_no_record(error: &RecordError) -> bool {
-    matches!(
-        error.fault(),
-        Fault::UnknownFormat { .. }
-            | Fault::NotText { .. }
-            | Fault::Quantity(_)
-    )
-}
-
-/// Files of a folder by name, hidden ones and folders left out.
-///
-/// # Errors
-/// [`SuiteError::Unreadable`] for a folder that cannot be listed.
-pub fn folder_files(path: &Path) -> Result<Vec<PathBuf>, SuiteError> {
+/// Files of a folder by name, and what else is in it; hidden things are left
+/// out.
+fn contents(
+    path: &Path,
+) -> Result<(BTreeMap<String, PathBuf>, Vec<Aside>), SuiteError> {
     let fail = |error: std::io::Error| SuiteError::Unreadable {
         path: path.display().to_string(),
         reason: error.to_string(),
     };
-    let mut files = Vec::new();
+    let (mut files, mut others) = (BTreeMap::new(), Vec::new());
     for entry in std::fs::read_dir(path).map_err(fail)? {
         let file = entry.map_err(fail)?.path();
-        if file.is_file() && !name_of(&file).starts_with('.') {
-            files.push(file);
+        let name = name_of(&file);
+        if name.starts_with('.') {
+            continue;
+        }
+        let fault = match std::fs::metadata(&file) {
+            Ok(found) if found.is_dir() => Some(Fault::Folder),
+            Ok(found) if !found.is_file() => Some(Fault::Device),
+            Err(_) if leads_nowhere(&file) => Some(Fault::DeadLink),
+            // A file that cannot be read is refused when it is read.
+            Ok(_) | Err(_) => None,
+        };
+        let shown = format!("{}/{name}", path.display());
+        let other = fault.map(|fault| Aside::of(&name, fault.whole(&shown)));
+        match other {
+            Some(Ok(aside)) => others.push(aside),
+            _ => {
+                files.insert(name, file);
+            }
         }
     }
-    files.sort();
-    Ok(files)
+    others.sort_by(|a, b| a.file.cmp(&b.file));
+    Ok((files, others))
+}
+
+/// Whether there is a link at `path`, and nothing where it leads.
+fn leads_nowhere(path: &Path) -> bool {
+    let is_link = std::fs::symlink_metadata(path)
+        .is_ok_and(|found| found.file_type().is_symlink());
+    let closed = std::io::ErrorKind::PermissionDenied;
+    let there = std::fs::metadata(path);
+    is_link && there.is_err_and(|error| error.kind() != closed)
 }

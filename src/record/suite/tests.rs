@@ -223,7 +223,9 @@ fn smc_components_are_told_by_their_header() {
     let kept: Vec<_> = suite.members().iter().map(|m| &*m.file).collect();
     assert_eq!(kept, ["0111a.smc", "0111c.smc", "0112_UP.smc"]);
     assert_eq!(suite.both().len(), 1);
-    assert!(suite.ignored()[0].to_string().contains("vertical"));
+    let [count] = suite.set_aside().counts()[..] else { panic!() };
+    assert_eq!((count.reason, count.files), (AsideReason::Vertical, 1));
+    assert_eq!(count.first, "0111b.smc");
 }
 
 /// AT2 names the component at the end of its second line.

@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::{Failure, print, study, validate};
+use super::{Failure, note, say, study, validate};
 use crate::diff::{self, Results};
 use crate::files::{Folder, is_interrupted};
 use crate::findings::Findings;
@@ -109,7 +109,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     files.insert(README.into(), readme.into_bytes());
     let changed = changed(files, &mut words)?;
-    print(&words)?;
+    say(&words)?;
     let list: Vec<&str> = changed.keys().map(String::as_str).collect();
     let list = list.join("\n  ");
     if args.check && !changed.is_empty() {
@@ -121,7 +121,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     if let Some((last, _)) = changed.last_key_value() {
         Folder::open(Path::new("."))?.write(&changed, last)?;
-        print(&format!("{} files changed:\n  {list}\n", changed.len()))?;
+        say(&format!("{} files changed:\n  {list}\n", changed.len()))?;
     }
     // What is left are files that no study writes.
     if let Some(words) = stale(Path::new(REPORTS), &report)? {
@@ -130,7 +130,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         )));
     }
     if changed.is_empty() {
-        print("nothing changes: all results are accepted\n")?;
+        say("nothing changes: all results are accepted\n")?;
     }
     Ok(())
 }
@@ -164,14 +164,14 @@ fn from_tests() -> Result<Files, Failure> {
     let line: Vec<&str> =
         TEST.into_iter().chain(HOLDERS.map(|(test, _)| test)).collect();
     let words = format!("cargo {}", line.join(" "));
-    eprintln!("rocking: {words}");
+    note(&words);
     let done = Command::new(&cargo)
         .args(line)
         .env("ROCKING_ACCEPT", folder.path())
         .stderr(Stdio::inherit())
         .output()?;
     if !done.status.success() {
-        print(&String::from_utf8_lossy(&done.stdout))?;
+        say(&String::from_utf8_lossy(&done.stdout))?;
         return Err(Failure::gate(format!("failed: {words}")));
     }
     let mut found = Files::new();
@@ -190,7 +190,7 @@ fn from_tests() -> Result<Files, Failure> {
 /// Work counters, results of the declared cases and digits of each
 /// precision, as their files have them.
 fn cases() -> Result<(String, String, String), Failure> {
-    eprintln!("rocking: declared cases");
+    note("declared cases");
     let mut cases = load_all()?;
     cases.retain(|case| case.cost == Cost::Quick);
     let counted = cases.iter().filter(|case| case.method == COUNTERS);
@@ -206,7 +206,7 @@ fn cases() -> Result<(String, String, String), Failure> {
         .filter(|outcome| !outcome.verdict.is_accepted())
         .collect();
     if !refused.is_empty() {
-        print(&validate::people(&refused))?;
+        say(&validate::people(&refused))?;
         return Err(Failure::gate(format!(
             "{} of {} cases are not accepted: nothing is written",
             refused.len(),

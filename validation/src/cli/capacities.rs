@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use super::measure::GroundArgs;
 use super::names::{CROSSINGS, named};
 use super::samples::SAMPLE_OF;
-use super::{Failure, print, print_json};
+use super::{Failure, print, print_json, with_threads};
 use crate::files::Outputs;
 use crate::measure::Measure;
 use crate::paper::Intensity;
@@ -283,7 +283,8 @@ fn suite(
         return Ok(ida::read(path, by)?);
     }
     let suite = ida::read(path, Intensity::Pga)?;
-    let ground = args.ground.ground(&suite, std::slice::from_ref(measure))?;
+    let measures = std::slice::from_ref(measure);
+    let ground = with_threads(None, || args.ground.ground(&suite, measures))??;
     let factors = ground.at_uplift(measure)?;
     Ok(suite.against(&factors, measure.is_squared())?)
 }

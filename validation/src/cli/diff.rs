@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::study::REPORT;
-use super::{Failure, print, print_json};
+use super::{Failure, print, print_json, say};
 use crate::diff::{Results, compare};
 
 /// What changed between two results, and whether it matters.
@@ -63,7 +63,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     } else if args.markdown {
         print(&comparison.markdown(args.all))?;
     } else {
-        print(&comparison.text(args.all))?;
+        say(&comparison.text(args.all))?;
     }
     match comparison.significant() {
         0 => Ok(()),

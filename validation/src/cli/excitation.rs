@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use rocking::excitation::{NormalisedRecord, Pulse, PulseKind};
-use rocking::record::{Accelerogram, read_file};
+use rocking::record::{Accelerogram, SetAside, read_file};
 
 use super::Failure;
 use super::names::{INTENSITIES, named};
@@ -148,7 +148,7 @@ impl ExcitationArgs {
             let record = read_file(path, &options)?.accelerogram;
             let record = self.processing.processing()?.apply(&record)?;
             let remarks = Remarks::of(&[(&record, None)]);
-            self.reading.judge(&remarks)?;
+            self.reading.judge(&SetAside::default(), &remarks)?;
             let unit = NormalisedRecord::new(&record);
             let target =
                 self.target_pga_g(threshold, p, unit.velocity_ratio_s());

@@ -25,12 +25,13 @@ use super::scene::{BlockArgs, ModelArgs};
 use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
 use super::{
-    Failure, SOFTWARE, logged, print, print_json, progress, with_threads,
+    Failure, SOFTWARE, logged, print_json, progress, say, with_threads,
 };
 use crate::files::Outputs;
 use crate::suites::inputs::{files, read_suite};
 use crate::suites::remarks::Remarks;
 use crate::table::Table;
+use crate::words::printable;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
@@ -131,7 +132,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
     let chosen = args.chosen(&suite)?;
     let remarks = remarks_on(&chosen);
-    args.reading.judge(&remarks)?;
+    args.reading.judge(suite.set_aside(), &remarks)?;
     let records: Vec<NormalisedRecord> = chosen
         .iter()
         .map(|member| NormalisedRecord::new(&member.accelerogram))
@@ -164,13 +165,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         out.write(audit.csv(&table))?;
     }
     if is_standard {
-        eprint!("{}", job.summary());
+        eprint!("{}", printable(&job.summary()));
         return Ok(());
     }
     if args.json {
         print_json(job.summary_json())
     } else {
-        print(&job.summary())
+        say(&job.summary())
     }
 }
 

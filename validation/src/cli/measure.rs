@@ -13,9 +13,10 @@ use super::names::MODELS;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
-use super::{Failure, SOFTWARE};
+use super::{Failure, SOFTWARE, note};
 use crate::measure::Measure;
 use crate::suites::inputs::read_suite;
+use crate::suites::remarks::Remarks;
 
 /// Where the records are that the table was made of.
 #[derive(clap::Args, Clone, Debug)]
@@ -107,6 +108,11 @@ impl GroundArgs {
         }
         let options = self.reading.options(gravity);
         let suite = read_suite(path, options)?.processed(&processing)?;
+        let set_aside = suite.set_aside();
+        self.reading.judge(set_aside, &Remarks::on(&suite))?;
+        if !set_aside.is_empty() {
+            note(&format!("set aside: {set_aside}"));
+        }
         let mut members: BTreeMap<&str, &SuiteMember> = BTreeMap::new();
         for member in suite.members() {
             let name = member.accelerogram.name();

@@ -1,7 +1,7 @@
 //! Flags that say what the caller knows of record files, and what becomes of
 //! remarks on them.
 
-use rocking::record::ReadOptions;
+use rocking::record::{ReadOptions, SetAside};
 use rocking::units::AccelerationUnit;
 
 use super::Failure;
@@ -16,8 +16,8 @@ pub struct ReadArgs {
     /// Unit of record files that state none: g, m/s2 or cm/s2.
     #[arg(long, value_name = "UNIT", value_parser = unit)]
     units: Option<AccelerationUnit>,
-    /// Fail where anything about a record is suspicious: `rocking records`
-    /// lists what.
+    /// Fail where anything about a record is suspicious, or anything in the
+    /// folder or zip is no record of the suite: `rocking records` lists what.
     #[arg(long)]
     strict: bool,
 }
@@ -46,15 +46,29 @@ impl ReadArgs {
         }
     }
 
-    /// Refuses records with remarks, where that was asked for.
+    /// Refuses remarks on records and what was set aside beside them, where
+    /// that was asked for.
     ///
     /// # Errors
-    /// [`Failure`] with the remarks in short.
-    pub fn judge(self, remarks: &Remarks) -> Result<(), Failure> {
-        match remarks.words().filter(|_| self.strict) {
-            None => Ok(()),
-            Some(words) => {
-                Err(Failure::input(format!("--strict: remarks on {words}")))
+    /// [`Failure`] with both in short.
+    pub fn judge(
+        self,
+        set_aside: &SetAside,
+        remarks: &Remarks,
+    ) -> Result<(), Failure> {
+        let remarks =
+            remarks.words().map(|words| format!("remarks on {words}"));
+        let aside = (!set_aside.is_empty()).then(|| {
+            format!(
+                "set aside: {set_aside}: expected records alone, as an index \
+                 lists them"
+            )
+        });
+        let found: Vec<String> = aside.into_iter().chain(remarks).collect();
+        match self.strict && !found.is_empty() {
+            false => Ok(()),
+            true => {
+                Err(Failure::input(format!("--strict: {}", found.join("; "))))
             }
         }
     }

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Format, ReadOptions, RecordError, Remark, Suite, SuiteMember,
+    self, Aside, Format, ReadOptions, RecordError, Remark, SetAside, Suite,
+    SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
@@ -117,7 +118,7 @@ struct Refused {
 struct Listing {
     records: Vec<Listed>,
     refused: Vec<Refused>,
-    ignored: Vec<Refused>,
+    set_aside: SetAside,
     suites: Vec<String>,
     /// The files that were read.
     inputs: Vec<PathBuf>,
@@ -166,7 +167,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let all = listing.records.iter();
     let all = all.map(|listed| (&listed.motion, listed.pair()));
-    args.reading.judge(&Remarks::of(&all.collect::<Vec<_>>()))
+    let remarks = Remarks::of(&all.collect::<Vec<_>>());
+    args.reading.judge(&listing.set_aside, &remarks)
 }
 
 impl From<&RecordError> for Refused {
@@ -224,9 +226,7 @@ impl Listing {
             Ok(survey) => survey,
             Err(error) => return self.refused.push(refused(&error)),
         };
-        if !survey.members().is_empty() {
-            self.ignored.extend(survey.ignored().iter().map(Refused::from));
-        }
+        self.set_aside.extend(survey.set_aside().all().iter().cloned());
         if survey.members().iter().all(Result::is_ok) {
             match survey.into_suite() {
                 Ok(suite) => self.add_suite(path, &suite),
@@ -247,12 +247,16 @@ impl Listing {
     fn add_suite(&mut self, path: &Path, suite: &Suite) {
         self.inputs.extend(inputs::files(path, suite));
         self.suites.push(format!(
-            "suite {}: {} records, {} pairs, {} study components by {}",
+            "suite {}: {} records, {} pairs, {} study components by {}{}",
             suite.name(),
             suite.members().len(),
             suite.both().len(),
             suite.study_components().count(),
             suite.study_rule(),
+            match suite.set_aside() {
+                none if none.is_empty() => String::new(),
+                some => format!("; set aside: {some}"),
+            },
         ));
         let members = suite.members().iter();
         self.records.extend(members.map(|m| Listed::member(m, true)));
@@ -317,7 +321,12 @@ impl Listing {
             "processing": self.processing,
             "records": records.collect::<Vec<_>>(),
             "refused": refused(&self.refused),
-            "ignored": refused(&self.ignored),
+            "set_aside": self.set_aside.all().iter().map(|aside| json!({
+                "file": aside.error.file(),
+                "code": aside.reason.code(),
+                "line": aside.error.line(),
+                "reason": aside.error.to_string(),
+            })).collect::<Vec<_>>(),
         });
         if let (Some(pairs), Some(map)) =
             (found.pairs_json(), all.as_object_mut())
@@ -367,8 +376,8 @@ impl Listing {
                 line(&mut text, format_args!("{file}: {code}: {remark}"));
             }
         }
-        for ignored in &self.ignored {
-            line(&mut text, format_args!("set aside: {}", ignored.reason));
+        for Aside { error, .. } in self.set_aside.all() {
+            line(&mut text, format_args!("set aside: {error}"));
         }
         for suite in &self.suites {
             line(&mut text, format_args!("{suite}"));

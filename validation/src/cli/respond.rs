@@ -21,6 +21,7 @@ use crate::files::{Output, Outputs};
 use crate::paper::Intensity;
 use crate::suites::remarks::Remarks;
 use crate::table::Table;
+use crate::words::printable;
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]
@@ -140,7 +141,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let setting =
         Setting { args, scene, certified, gravity_m_s2, pga_g, done, remarks };
     if is_printed {
-        eprint!("{}", setting.table(&response));
+        eprint!("{}", printable(&setting.table(&response)));
         return Ok(());
     }
     if args.json {

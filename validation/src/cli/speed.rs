@@ -9,7 +9,7 @@ use rocking::number::dispatch::Isa;
 use rocking::record::{Accelerogram, ReadOptions};
 use serde_json::{Value, json};
 
-use super::{Failure, print, print_json, progress};
+use super::{Failure, note, print, print_json, progress};
 use crate::curves::Execution;
 use crate::files::Outputs;
 use crate::paper::BLOCKS;
@@ -151,6 +151,9 @@ fn records(args: &Args) -> Result<Vec<NormalisedRecord>, Failure> {
         let mut records = Vec::new();
         for path in &args.suite {
             let suite = read_suite(path, ReadOptions::default())?;
+            if !suite.set_aside().is_empty() {
+                note(&format!("set aside: {}", suite.set_aside()));
+            }
             records.extend(
                 suite
                     .study_components()

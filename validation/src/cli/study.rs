@@ -13,7 +13,7 @@ use super::names::{ARMS, OVERTURNING, named};
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
-use super::{Failure, SOFTWARE, logged, print, with_threads};
+use super::{Failure, SOFTWARE, logged, note, print, say, with_threads};
 use crate::files::{Folder, is_interrupted};
 use crate::paper::{Arm, RESTITUTION, SuiteKind};
 use crate::report::evidence::{NOT_RUN, Proof};
@@ -88,7 +88,8 @@ pub struct Args {
     proof: Option<PathBuf>,
     #[command(flatten)]
     signatures: Signatures,
-    /// Folder of the report.
+    /// Folder of the report: a new or an empty one, or that of an earlier
+    /// report, which is replaced.
     #[arg(long, value_name = "DIR", default_value = REPORT)]
     out: PathBuf,
     /// Compare with the report in that folder, write nothing, fail where a
@@ -128,7 +129,7 @@ fn suites(args: &Args) -> Result<[StudySuite; 2], Failure> {
     let options = args.reading.options(STANDARD_GRAVITY_M_S2);
     let read = |kind, path: &Path| -> Result<StudySuite, Failure> {
         let suite = StudySuite::read(kind, path, options, &processing)?;
-        args.reading.judge(&suite.remarks)?;
+        args.reading.judge(&suite.set_aside, &suite.remarks)?;
         Ok(suite)
     };
     match (&args.ordinary, &args.pulse) {
@@ -164,16 +165,19 @@ fn computed(
     progress.finish_and_clear();
     if !args.sweep.is_empty() {
         let (taken, made) = study.results.plan.setup.kept.counts();
-        eprintln!(
-            "rocking: {taken} of {} analyses of curves are from sweeps",
+        note(&format!(
+            "{taken} of {} analyses of curves are from sweeps",
             taken + made
-        );
+        ));
     }
     Ok(study)
 }
 
 fn in_threads(args: &Args) -> Result<(), Failure> {
     let plan = plan(args)?;
+    if !args.check {
+        refuse_foreign(&args.out)?;
+    }
     let suites = suites(args)?;
     if args.check {
         // Refused before minutes are spent.
@@ -199,18 +203,39 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     if args.json {
         print(&study.findings.text())
     } else {
-        for suite in &suites {
-            if let Some(words) = suite.remarks.words() {
-                eprintln!("rocking: {} suite: remarks on {words}", suite.kind);
+        for StudySuite { kind, remarks, set_aside, .. } in &suites {
+            if let Some(words) = remarks.words() {
+                note(&format!("{kind} suite: remarks on {words}"));
+            }
+            if !set_aside.is_empty() {
+                note(&format!("{kind} suite: set aside: {set_aside}"));
             }
         }
-        print(&format!(
+        say(&format!(
             "{}\n{}\n{}\nReport: {}\n",
             output::claims_table(&study.findings.claims),
             output::answers_text(&study, proof.as_ref())?,
             proof.as_ref().map_or(NOT_RUN.into(), Proof::to_string),
             args.out.join("index.html").display()
         ))
+    }
+}
+
+/// Refuses a folder of a report that is neither new nor empty nor that of an
+/// earlier report.
+fn refuse_foreign(out: &Path) -> Result<(), Failure> {
+    // What a killed run left is not whole, and known by what it left.
+    let foreign = match is_interrupted(out) {
+        true => None,
+        false => output::foreign(out),
+    };
+    match foreign {
+        None => Ok(()),
+        Some(name) => Err(Failure::input(format!(
+            "cannot write {}: it holds {name}, which no study wrote: expected \
+             a new or an empty folder, or one that `rocking study` wrote",
+            out.display()
+        ))),
     }
 }
 
@@ -224,12 +249,12 @@ fn check(out: &Path, files: &Files) -> Result<(), Failure> {
         )));
     }
     match stale::stale(out, files)? {
-        None => print(&format!(
+        None => say(&format!(
             "{name}: all {} files of the report are up to date\n",
             files.len()
         )),
         Some(words) => {
-            print(&words)?;
+            say(&words)?;
             Err(Failure::gate(format!(
                 "{name} is stale: `rocking study --out {name}` accepts what \
                  is there now"

@@ -6,10 +6,11 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::{Failure, print};
+use super::{Failure, say, with_threads};
 use crate::files::Folder;
 use crate::suites::export;
 use crate::suites::inputs::read_suite;
+use crate::suites::remarks::Remarks;
 
 /// Suites of records as files.
 #[derive(clap::Args)]
@@ -66,8 +67,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             let options = args.reading.options(STANDARD_GRAVITY_M_S2);
             let suite = read_suite(path, options)?;
             let suite = suite.processed(&processing)?;
+            args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
             let done = words(&processing);
             add(suite.name(), export::members(&suite, done.as_deref()))?;
+            if !suite.set_aside().is_empty() {
+                table += &format!("set aside: {}\n", suite.set_aside());
+            }
         }
         None => {
             let given = args.reading.given().or(args.processing.given());
@@ -77,12 +82,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
                      suites need no correction"
                 )));
             }
-            add("ordinary", export::pairs(&rocking_synthesis::ordinary()?))?;
-            add("pulse", export::pairs(&rocking_synthesis::pulse()?))?;
+            let ordinary = with_threads(None, rocking_synthesis::ordinary)??;
+            let pulse = with_threads(None, rocking_synthesis::pulse)??;
+            add("ordinary", export::pairs(&ordinary))?;
+            add("pulse", export::pairs(&pulse))?;
         }
     }
     let folder = Folder::open_new(&args.out)?;
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
     folder.write(&files.into_iter().collect(), &last)?;
-    print(&table)
+    say(&table)
 }

@@ -3,7 +3,7 @@
 mod surrogate;
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -13,8 +13,9 @@ use serde_json::json;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::reading::ReadArgs;
-use super::{Failure, SOFTWARE, print, print_json, until};
+use super::{Failure, SOFTWARE, note, print, print_json, say, until};
 use crate::suites::inputs::read_suite;
+use crate::suites::remarks::Remarks;
 use crate::sweep::{
     self, Content, Levels, Planned, State, Wanted, read_blocks,
 };
@@ -130,7 +131,8 @@ struct MergeArgs {
     out: PathBuf,
 }
 
-/// Prints a script for SLURM: an array of tasks that may be requeued.
+/// Prints a script for SLURM: an array of tasks that may be requeued. It may
+/// be submitted from any folder.
 #[derive(clap::Args)]
 struct SlurmArgs {
     /// Folder of the plan.
@@ -189,6 +191,7 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let blocks = read_blocks(&args.blocks, args.eta)?;
     let gravity = rocking::units::STANDARD_GRAVITY_M_S2;
     let suite = read_suite(&args.suite, args.reading.options(gravity))?;
+    args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
     let wanted = Wanted {
         blocks: &blocks,
         suite: &suite,
@@ -207,8 +210,12 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     // Bytes of a row of capacities and of an analysis.
     let mut bytes = blocks * records * (92 + 19 * plan.demands.len());
     bytes += if plan.rows { 105 * analyses as usize } else { 0 };
-    print(&format!(
-        "{blocks} blocks, {records} records, {tiles} tiles\n\
+    let set_aside = match suite.set_aside() {
+        none if none.is_empty() => String::new(),
+        some => format!("set aside: {some}\n"),
+    };
+    say(&format!(
+        "{blocks} blocks, {records} records, {tiles} tiles\n{set_aside}\
          about {analyses} analyses, {:.3} core-hours, {:.1} MB\n\
          (19 ns of a core a sample and level; levels guessed from p \
          PGV/PGA)\n\
@@ -259,15 +266,13 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
     }
     let total = planned.plan.tiles.len();
     let done = |tile: usize| {
-        eprintln!("rocking: tile {tile} of {total} done");
+        note(&format!("tile {tile} of {total} done"));
     };
     let run = || sweep::run(&planned, (task, of), &done);
     until(&Stop::from(flag), args.threads, run)?.transpose()?;
     let left = sweep::left(&planned, (task, of));
     if left.is_empty() {
-        return print(&format!(
-            "task {task} of {of}: all its tiles are done\n"
-        ));
+        return say(&format!("task {task} of {of}: all its tiles are done\n"));
     }
     let left: Vec<String> = left.iter().map(ToString::to_string).collect();
     Err(Failure::gate(format!(
@@ -340,6 +345,7 @@ fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
         .map(|task| planned.plan.tiles_of(task, tasks))
         .map(|own| own.iter().map(|t| planned.plan.tiles[*t].core_s).sum())
         .fold(0.0, f64::max);
+    let dir = quoted(&std::path::absolute(&args.dir)?)?;
     // Three times the estimate, and ten minutes at least.
     let minutes = 3.0 * longest / 60.0;
     let minutes = 10 + minutes.ceil() as u64;
@@ -352,8 +358,20 @@ fn slurm(args: &SlurmArgs) -> Result<(), Failure> {
          #SBATCH --requeue\n\
          # A task that is requeued goes on with the tiles that it lacks.\n\
          # In one allocation instead: srun rocking sweep run DIR\n\
-         rocking sweep run \"{}\" --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
+         rocking sweep run {dir} --threads \"${{SLURM_CPUS_PER_TASK:-1}}\"\n",
         tasks - 1,
-        args.dir.display()
     ))
+}
+
+/// A path as one word of a shell's script, whatever is in it.
+fn quoted(path: &Path) -> Result<String, Failure> {
+    let text = path.to_str().filter(|text| !text.contains(char::is_control));
+    let text = text.ok_or_else(|| {
+        Failure::input(format!(
+            "{}: expected a path of text without control characters, which \
+             a script can hold",
+            path.display()
+        ))
+    })?;
+    Ok(format!("'{}'", text.replace('\'', "'\\''")))
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use super::{Failure, print, print_json};
+use super::{Failure, print_json, say};
 use crate::diff::{self, Results};
 use crate::files::Outputs;
 use crate::proof::cases::{Case, Cost, FAMILIES, load_all};
@@ -64,7 +64,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if args.json {
         print_json(machine(&outcomes))?;
     } else {
-        print(&people(&outcomes))?;
+        say(&people(&outcomes))?;
     }
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
@@ -121,7 +121,7 @@ fn compare(path: &Path, text: &str) -> Result<(), Failure> {
     let old = Results::from_text(path, &found)?;
     let new = Results::from_text(path, text)?;
     // A declared tolerance is stated for every number.
-    print(&diff::compare(&old, &new, 0.0)?.text(true))?;
+    say(&diff::compare(&old, &new, 0.0)?.text(true))?;
     Err(stale(path))
 }
 

@@ -158,6 +158,11 @@ fn suite(out: &mut Vec<Item>, suite: &Suite) {
     own.setting("sha256", suite.sha256.clone());
     let none = String::from("none");
     own.setting("remarks", suite.remarks.clone().unwrap_or(none));
+    let aside = suite.set_aside.iter();
+    let aside = aside.map(|a| format!("{} {}", a.files, a.code));
+    let aside = aside.collect::<Vec<_>>().join(", ");
+    let nothing = aside.is_empty().then(|| String::from("none"));
+    own.setting("set aside", nothing.unwrap_or(aside));
     own.text("shown alone", &suite.shown_alone.join(", "));
     let again = &suite.first_overturnings_told_again;
     let told = "first overturnings told again";

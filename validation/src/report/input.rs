@@ -17,6 +17,9 @@ use crate::study::figures::Results;
 use crate::study::questions::Answer;
 use crate::table::PlainTable;
 
+/// Title of the page.
+pub(super) const TITLE: &str = "The statistics of rocking";
+
 /// Figures beside the answers, by their stems.
 const FIRST: [&str; 2] = ["figure-08", "figure-16"];
 
@@ -137,7 +140,7 @@ pub fn input(
     let coverage =
         proof.map(Proof::coverage).transpose().map_err(EvidenceError::from)?;
     Ok(ReportInput {
-        title: "The statistics of rocking".into(),
+        title: TITLE.into(),
         subtitle: "Statistical property parameterization of simple rocking \
                    block response, repeated from records to findings"
             .into(),
@@ -402,6 +405,10 @@ fn provenance(results: &Results) -> Vec<(String, String)> {
         if let Some(remarks) = &suite.remarks {
             let name = format!("Remarks on records, {}", suite.kind);
             out.push((name, remarks.clone()));
+        }
+        if !suite.set_aside.is_empty() {
+            let name = format!("Set aside, {} suite", suite.kind);
+            out.push((name, suite.set_aside.to_string()));
         }
     }
     out

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
 
 use rocking::block::BlockError;
 
@@ -11,7 +13,7 @@ use super::page::AnswerRow;
 use super::quantity::{rule_text, value_text};
 use super::timings::Timings;
 use super::{ReportError, answers, input, page};
-use crate::findings::Claim;
+use crate::findings::{Claim, Findings};
 use crate::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use crate::study::figures::Results;
 use crate::study::{Study, questions};
@@ -23,8 +25,52 @@ pub type Files = BTreeMap<String, Vec<u8>>;
 /// The page: where it is, all other files are.
 pub const PAGE: &str = "index.html";
 
+/// Results of the declared cases, which `rocking validate` writes.
+pub(super) const CASES: [&str; 2] =
+    ["data/precision.csv", "data/validation.json"];
+
 /// Where a report's findings lie.
 pub const FINDINGS: &str = "data/findings.json";
+
+/// What of a folder no study wrote, if it holds such a thing: a report there
+/// would replace it, or stand among it.
+///
+/// A study's folder is known by its findings and its page. Results of the
+/// declared cases alone, which a study shows, are no hindrance; hidden files
+/// are none either.
+#[must_use]
+pub fn foreign(folder: &Path) -> Option<String> {
+    let read = |name: &str| fs::read(folder.join(name)).ok();
+    let findings = read(FINDINGS);
+    if findings.is_some_and(|text| Findings::is_any(&text)) {
+        let page = read(PAGE).filter(|page| !is_page(page));
+        return page.map(|_| PAGE.to_owned());
+    }
+    let entries = |inner: &str| {
+        let entries = fs::read_dir(folder.join(inner));
+        let names = entries.into_iter().flatten().flatten();
+        let names = names.map(|entry| {
+            Path::new(inner).join(entry.file_name()).display().to_string()
+        });
+        names.filter(|name| !name.starts_with('.')).collect::<Vec<_>>()
+    };
+    let mut all = entries("");
+    if folder.join("data").is_dir() {
+        all.retain(|name| name != "data");
+        all.extend(entries("data"));
+    }
+    all.retain(|name| !CASES.contains(&name.as_str()));
+    all.sort();
+    all.into_iter().next()
+}
+
+/// Whether it is the page of a study, of whatever version.
+fn is_page(text: &[u8]) -> bool {
+    let head = &text[..text.len().min(1 << 12)];
+    let title = format!("<title>{}</title>", input::TITLE);
+    text.starts_with(b"<!DOCTYPE html>")
+        && String::from_utf8_lossy(head).contains(&title)
+}
 
 /// Puts what a person compares into `data/`, drawings into `figures/`; the
 /// page stays on top.

@@ -9,13 +9,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::output::{FINDINGS, Files};
+use super::output::{CASES, FINDINGS, Files};
 use crate::diff::{DiffError, Results, compare};
 use crate::table::cells;
-
-/// Results of the declared cases, which `rocking validate` puts beside a
-/// study's.
-const CASES: [&str; 2] = ["data/precision.csv", "data/validation.json"];
 
 /// Numbers without a stated interval may change by this share.
 const RELATIVE: f64 = 0.01;

@@ -4,7 +4,7 @@
 use indicatif::ProgressBar;
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
-use rocking::record::Processing;
+use rocking::record::{Processing, ReadOptions, SetAside};
 
 use super::evidence::{NOT_RUN, Proof};
 use super::head::{self, Signatures};
@@ -12,7 +12,7 @@ use super::ledger::requirements;
 use super::output::{self, FINDINGS, Files};
 use super::{answers, credibility, findings, input};
 use crate::curves::Execution;
-use crate::findings::{Findings, Kind, Topic};
+use crate::findings::{Aside, Findings, Kind, Topic};
 use crate::paper::{Arm, SuiteKind};
 use crate::proof::cases::load_all;
 use crate::study::Study;
@@ -20,6 +20,7 @@ use crate::study::analyses::{Plan, SuiteResults, Work};
 use crate::study::certainty::Certainty;
 use crate::study::figures::Results;
 use crate::study::runs::Setup;
+use crate::suites::inputs::read_suite;
 use crate::suites::{Source, StudySuite};
 
 fn plan(way: Execution) -> Plan {
@@ -40,6 +41,7 @@ fn empty(source: &Source) -> Results {
         source: source.clone(),
         component_rule: String::new(),
         remarks: None,
+        set_aside: SetAside::default(),
         sha256: String::new(),
         work: Work { analyses: 0, certainty: Certainty::default() },
         records: Vec::new(),
@@ -60,9 +62,23 @@ fn empty(source: &Source) -> Results {
     }
 }
 
+/// What is set aside in a folder of a record and a note.
+fn set_aside() -> SetAside {
+    let folder = tempfile::tempdir().expect("folder");
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("write");
+    };
+    write("a.csv", "t_s,a_g\n0,0\n0.1,0.2\n0.2,0\n");
+    write("<notes>.txt", "About these records.\n");
+    let read = ReadOptions::default();
+    let suite = read_suite(folder.path(), read).expect("suite");
+    suite.set_aside().clone()
+}
+
 fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     ordinary.motions.truncate(10);
+    ordinary.set_aside = set_aside();
     pulse.motions.truncate(4);
     let plan = plan(way);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -157,6 +173,18 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         assert!(*content == two[name], "{name} differs");
     }
     let [page, without] = pages;
+    assert!(page.contains(
+        "Set aside, ordinary suite</dt><dd>1 in no known format (first: \
+         &lt;notes&gt;.txt)"
+    ));
+    let findings = String::from_utf8_lossy(&one[FINDINGS]);
+    let findings = Findings::parse(&findings).expect("findings");
+    let [Aside { code, files: 1, first }] = &findings.suites[0].set_aside[..]
+    else {
+        panic!("{:?}", findings.suites[0].set_aside);
+    };
+    assert_eq!((code.as_str(), first.as_str()), ("format", "<notes>.txt"));
+    assert!(findings.suites[1].set_aside.is_empty());
     // The first case is named by an identity of the paper.
     let cases = load_all().expect("cases");
     let (id, table) = (&cases[cases.len() - 1].id, "table-precision");

@@ -12,6 +12,7 @@ use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 use rocking::intensity::{Measures, Settings};
+use rocking::record::SetAside;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::StudyError;
@@ -94,6 +95,8 @@ pub struct SuiteResults {
     pub component_rule: String,
     /// What is suspicious about the records.
     pub remarks: Option<String>,
+    /// What the folder or archive holds beside the records.
+    pub set_aside: SetAside,
     /// Hash of the input.
     pub sha256: String,
     /// The records' names and hashes.
@@ -188,6 +191,7 @@ impl Plan {
             source: suite.source.clone(),
             component_rule: suite.component_rule.clone(),
             remarks: suite.remarks.words(),
+            set_aside: suite.set_aside.clone(),
             sha256: suite.sha256(),
             list: suite
                 .list()

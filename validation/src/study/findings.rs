@@ -1,6 +1,7 @@
 //! Everything that a study found, as [`Findings`].
 
 use rocking::integrator::Overturning;
+use rocking::record::{AsideCount, SetAside};
 use rocking::statistics::Proportion;
 
 use super::analyses::{Plan, SuiteResults};
@@ -11,8 +12,8 @@ use super::questions::{self, Answer};
 use super::{StudyError, normality};
 use crate::draw::figures::Stripe;
 use crate::findings::{
-    Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Settings, Suite,
-    Table, ToldAgain, Topic, Unit,
+    Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Settings,
+    Suite, Table, ToldAgain, Topic, Unit,
 };
 use crate::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 
@@ -69,6 +70,7 @@ fn suite(suite: &SuiteResults) -> Suite {
         list: suite.list.clone(),
         shown_alone: suite.chosen.iter().map(name).collect(),
         remarks: suite.remarks.clone(),
+        set_aside: set_aside(&suite.set_aside),
         analyses: suite.work.analyses,
         not_told_by_double_precision: certainty.unresolved,
         first_overturnings_told_again: ToldAgain {
@@ -81,6 +83,15 @@ fn suite(suite: &SuiteResults) -> Suite {
         },
         largest_shift_if_flipped: certainty.largest_shift,
     }
+}
+
+fn set_aside(found: &SetAside) -> Vec<Aside> {
+    let reason = |count: AsideCount<'_>| Aside {
+        code: count.reason.code().into(),
+        files: count.files,
+        first: count.first.into(),
+    };
+    found.counts().into_iter().map(reason).collect()
 }
 
 fn quantity(name: &str, unit: Unit, words: &str) -> Quantity {

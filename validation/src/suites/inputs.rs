@@ -1,7 +1,8 @@
 //! Suites from files and zips, checksums included.
 
+use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
@@ -107,11 +108,23 @@ pub fn survey_zip(
     let size = size.map_err(|e| unreadable(e.to_string()))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
     let index_limit = left / INDEX_PART;
-    let mut archive =
-        ZipArchive::new(archive).map_err(|e| unreadable(e.to_string()))?;
+    let refuse = |e: zip::result::ZipError| unreadable(e.to_string());
+    let opened = ZipArchive::new(&mut archive).map_err(refuse)?;
+    let start = opened.central_directory_start();
+    let doubled = opened.has_duplicate_names();
+    let doubled = match doubled.then(|| doubled_names(&mut archive, start)) {
+        Some(names) => names.map_err(|e| unreadable(e.to_string()))?,
+        None => Vec::new(),
+    };
+    let mut archive = ZipArchive::new(archive).map_err(refuse)?;
     let mut names = Vec::new();
     for name in archive.file_names() {
-        names.push(name.map_err(|e| unreadable(e.to_string()))?.into_owned());
+        names.push(name.map_err(refuse)?.into_owned());
+    }
+    for name in doubled {
+        let found = archive.index_for_name_raw(&name);
+        let name = found.and_then(|index| archive.name_for_index(index));
+        names.extend(name.transpose().map_err(refuse)?.map(Into::into));
     }
     let (base, names) = contents(names);
     Survey::of_files(shown, &names, options, |name| {
@@ -125,6 +138,34 @@ pub fn survey_zip(
             RecordError::unreadable(&format!("{shown}/{name}"), reason)
         })
     })
+}
+
+/// Names in the central directory of an archive, from its `start` on, that
+/// came before; of files of one name, the archive itself knows the last.
+fn doubled_names(
+    archive: &mut (impl Read + Seek),
+    start: u64,
+) -> io::Result<Vec<Vec<u8>>> {
+    let (mut known, mut doubled) = (BTreeSet::new(), Vec::new());
+    archive.seek(SeekFrom::Start(start))?;
+    loop {
+        let (mut signature, mut head) = ([0; 4], [0; 42]);
+        archive.read_exact(&mut signature)?;
+        // Behind the entries stands a record of another signature.
+        if signature != *b"PK\x01\x02" {
+            return Ok(doubled);
+        }
+        archive.read_exact(&mut head)?;
+        // Lengths of the name, of what is added to it, and of the comment.
+        let length = |at: usize| u16::from_le_bytes([head[at], head[at + 1]]);
+        let mut name = vec![0; usize::from(length(24))];
+        archive.read_exact(&mut name)?;
+        let rest = i64::from(length(26)) + i64::from(length(28));
+        archive.seek(SeekFrom::Current(rest))?;
+        if !known.insert(name.clone()) {
+            doubled.push(name);
+        }
+    }
 }
 
 /// The folder of an archive that PEER's search results lie in, if any, and

@@ -1,7 +1,7 @@
 //! What is suspicious about the records of a command, told wherever its
 //! results are.
 
-use rocking::record::{Accelerogram, Remark, remarks_together};
+use rocking::record::{Accelerogram, Remark, Suite, remarks_together};
 use serde_json::{Value, json};
 
 /// Codes of remarks, the gravest first.
@@ -44,6 +44,14 @@ impl Remarks {
         let named = records.iter().map(|(record, _)| record.name().to_owned());
         let found = named.zip(remarks).filter(|(_, all)| !all.is_empty());
         Self { records: records.len(), found: found.collect() }
+    }
+
+    /// Remarks on all records of a suite.
+    #[must_use]
+    pub fn on(suite: &Suite) -> Self {
+        let all = suite.members().iter();
+        let all = all.map(|m| (&m.accelerogram, m.pair.as_deref()));
+        Self::of(&all.collect::<Vec<_>>())
     }
 
     /// Codes of the remarks on the record `name`, separated by blanks.

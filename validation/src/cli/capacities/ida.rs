@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rocking::capacity::{CapacityError, ResponseCurve};
+use rocking::record::result_name;
 use thiserror::Error;
 
 use crate::cli::samples::Opened;
@@ -304,8 +305,10 @@ fn rows(path: &Path, measure: Intensity) -> Result<Rows, IdaFileError> {
         {
             return Err(refuse(7, "inf where overturned, and only there"));
         }
+        let name = result_name(&fields[0]);
+        let name = name.map_err(|_| refuse(0, "a name of a record"))?;
         rows.push(Row {
-            record: fields[0].to_owned(),
+            record: name.to_owned(),
             line,
             im: number(im_column, "a positive number")?,
             edp,

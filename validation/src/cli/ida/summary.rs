@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use super::Job;
 use super::forces::Audit;
 use crate::cli::names::{ORDERS, name_of};
+use crate::suites::aside;
 
 /// Median first overturning intensity, counting the curves that stand as
 /// infinite.
@@ -55,6 +56,7 @@ impl Job<'_> {
             "suite": suite.name(),
             "processing": self.processing,
             "remarks": self.remarks.json(),
+            "set_aside": aside::json(suite.set_aside()),
             "highest_im": HIGHEST_IM,
             "records": table.len(),
             "study_components": suite.study_rule().to_string(),
@@ -97,6 +99,9 @@ impl Job<'_> {
         row("records", table.len().to_string());
         if let Some(words) = self.remarks.words() {
             row("remarks", words);
+        }
+        if !suite.set_aside().is_empty() {
+            row("set aside", suite.set_aside().to_string());
         }
         row("study components", suite.study_rule().to_string());
         if let Some(order) = args.order {

@@ -8,7 +8,7 @@ use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
 use serde_json::{Value, json};
 
 use super::{Listed, line};
-use crate::cli::Failure;
+use crate::cli::{Failure, with_threads};
 
 /// What is asked for beside the list.
 #[derive(clap::Args)]
@@ -74,17 +74,29 @@ impl MeasureArgs {
             periods.to_vec(),
         )
         .map_err(|error| Failure::input(error.to_string()))?;
+        if !(self.intensity || self.pulses) {
+            let (singles, pairs) = (None, Vec::new());
+            return Ok(Found { settings, baseline, singles, pairs });
+        }
+        with_threads(None, || {
+            self.measured(records, settings, gravity_m_s2, baseline)
+        })?
+    }
+
+    fn measured(
+        &self,
+        records: &[Listed],
+        settings: Settings,
+        gravity_m_s2: f64,
+        baseline: Option<String>,
+    ) -> Result<Found, Failure> {
         let singles = self.intensity.then(|| {
             records
                 .par_iter()
                 .map(|listed| Measures::of(&listed.motion, &settings))
                 .collect()
         });
-        let pairs = if self.intensity || self.pulses {
-            pairs(records)
-        } else {
-            Vec::new()
-        };
+        let pairs = pairs(records);
         if self.pulses && pairs.is_empty() {
             return Err(Failure::input(
                 "--pulses: no two components of one motion among the \

@@ -80,6 +80,7 @@ fn capacities(
         source: suite.source.clone(),
         component_rule: suite.component_rule.clone(),
         remarks: suite.remarks.words(),
+        set_aside: suite.set_aside.clone(),
         list: Vec::new(),
         sha256: suite.sha256(),
         work: Work { analyses: chains.analyses, certainty },

@@ -15,7 +15,7 @@ pub use survey::{Survey, folder_files};
 
 use super::{
     Accelerogram, Format, Processing, ProcessingError, ReadOptions,
-    RecordError,
+    RecordError, Remark,
 };
 use crate::units::AccelerationUnit;
 
@@ -57,6 +57,8 @@ pub struct SuiteMember {
     pub unit: AccelerationUnit,
     /// Event and station, where the file names both.
     pub site: Option<String>,
+    /// What reading found suspicious about the file.
+    pub remarks: Vec<Remark>,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
@@ -95,9 +97,11 @@ impl Suite {
     /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1
     /// or 0); others are kept as attributes. PEER's `_SearchResults.csv` is
     /// an index too, and that of the folder it lies in. In another folder,
-    /// files of no known format, histories of velocity or displacement and
-    /// vertical components are set aside ([`Suite::ignored`]); any other
-    /// fault refuses the suite. Pairs are found by event and station where
+    /// files of no known format, histories of velocity or displacement,
+    /// vertical components and records of a sensor in a borehole (KiK-net)
+    /// are set aside ([`Suite::ignored`]); any other fault refuses the suite.
+    /// An index may list vertical and borehole records; a remark says so.
+    /// Pairs are found by event and station where
     /// the files name both, and otherwise by file name: what is left without
     /// the orientation at its end.
     ///

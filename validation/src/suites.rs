@@ -10,7 +10,7 @@ use std::path::Path;
 
 use rocking::record::{
     Accelerogram, AccelerogramError, Processing, ProcessingError, ReadOptions,
-    SuiteError,
+    Remarked, SuiteError,
 };
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
@@ -144,8 +144,7 @@ impl StudySuite {
     ) -> Result<Self, StudySuiteError> {
         let suite = read_suite(path, options)?;
         let suite = suite.processed(processing)?;
-        let all = suite.members().iter();
-        let all = all.map(|m| (&m.accelerogram, m.pair.as_deref()));
+        let all = suite.members().iter().map(Remarked::from);
         let remarks = Remarks::of(&all.collect::<Vec<_>>());
         let motions = suite
             .study_components()

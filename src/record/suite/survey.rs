@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use super::{StudyRule, Suite, SuiteError, SuiteMember, SuiteOptions};
 use super::{index, pairing};
 use crate::record::{
-    Fault, Record, RecordError, file_bytes, is_record, name_of, read_all, stem,
+    Direction, Fault, Record, RecordError, Remark, file_bytes, is_record,
+    name_of, read_all, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -15,7 +16,10 @@ const PEER_RESULTS: &str = "_SearchResults.csv";
 /// What a folder or index holds, refused records included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
+    /// The folder, index, archive or record, in messages.
     path: String,
+    /// Name of the suite.
+    name: String,
     members: Vec<Result<SuiteMember, SuiteError>>,
     ignored: Vec<RecordError>,
     study_rule: StudyRule,
@@ -34,20 +38,31 @@ impl Survey {
     ) -> Result<Self, SuiteError> {
         let shown = path.display().to_string();
         if path.is_dir() {
+            // A name that is no UTF-8 is shown otherwise than it is written.
+            let files = folder_files(path)?;
             let names: Vec<String> =
-                folder_files(path)?.iter().map(|file| name_of(file)).collect();
-            return Self::of_files(&shown, &names, options, |name| {
-                file_bytes(&path.join(name))
-            });
+                files.iter().map(|file| name_of(file)).collect();
+            let by_name: BTreeMap<&str, &PathBuf> =
+                names.iter().map(String::as_str).zip(&files).collect();
+            return Self::of_files(
+                &shown,
+                &names,
+                options,
+                |name| match by_name.get(name) {
+                    Some(file) => file_bytes(file),
+                    None => file_bytes(&path.join(name)),
+                },
+            );
         }
         let bytes = file_bytes(path)?;
         let base = path.parent().unwrap_or(Path::new(""));
         if !index::is_index(&bytes) && is_record(&bytes) {
             let base = base.display().to_string();
             let names = [name_of(path)];
-            return Self::of_files(&base, &names, options, |_| {
-                Ok(bytes.clone())
-            });
+            let read = |_: &str| Ok(bytes.clone());
+            let survey = Self::of_files(&base, &names, options, read)?;
+            let name = stem(&shown).to_owned();
+            return Ok(Self { path: shown, name, ..survey });
         }
         Self::of_index(&shown, &bytes, options, |file| {
             file_bytes(&base.join(file))
@@ -70,12 +85,13 @@ impl Survey {
         if let Some(results) = names.iter().find(|n| *n == PEER_RESULTS) {
             let bytes = file_bytes(results)?;
             let shown = format!("{path}/{results}");
-            return Self::of_index(&shown, &bytes, options, file_bytes);
+            let survey = Self::of_index(&shown, &bytes, options, file_bytes)?;
+            return Ok(Self { name: container(path).to_owned(), ..survey });
         }
         let mut members = Vec::new();
         let mut ignored = Vec::new();
         for name in names {
-            let shown = format!("{path}/{name}");
+            let shown = Path::new(path).join(name).display().to_string();
             let records = file_bytes(name)
                 .and_then(|bytes| read_all(&shown, &bytes, &options.read));
             match records {
@@ -93,6 +109,7 @@ impl Survey {
         }
         Ok(Self {
             path: path.to_owned(),
+            name: container(path).to_owned(),
             members,
             ignored,
             study_rule: StudyRule::FirstName,
@@ -116,8 +133,12 @@ impl Survey {
         let member =
             |row: index::Row| row.member(&file_bytes(row.file())?, options);
         let members = index.into_rows().into_iter().map(member).collect();
+        // An index as PEER names it has its folder's name.
+        let folder = path.strip_suffix(PEER_RESULTS).map(container);
+        let name = folder.filter(|folder| !folder.is_empty());
         Ok(Self {
             path: path.to_owned(),
+            name: name.unwrap_or(stem(path)).to_owned(),
             members,
             ignored: Vec::new(),
             study_rule,
@@ -143,7 +164,7 @@ impl Survey {
     /// The first refused record; [`SuiteError::Empty`] without any; a name
     /// that two records share; a pair that is none.
     pub fn into_suite(self) -> Result<Suite, SuiteError> {
-        let Self { path, members, ignored, study_rule, paired } = self;
+        let Self { path, name, members, ignored, study_rule, paired } = self;
         let mut members =
             members.into_iter().collect::<Result<Vec<_>, _>>()?;
         if members.is_empty() {
@@ -157,27 +178,34 @@ impl Survey {
             pairing::mark_first(&mut members);
         }
         pairing::check_pairs(&path, &members)?;
-        let name = suite_name(&path);
         Ok(Suite { name, members, study_rule, ignored })
     }
 }
 
-/// Name of a suite by its folder or index.
-fn suite_name(path: &str) -> String {
-    let folder = path.strip_suffix(PEER_RESULTS).filter(|f| !f.is_empty());
-    stem(folder.unwrap_or(path).trim_end_matches('/')).to_owned()
+/// Name of a folder, whole, or of a zip without its ending.
+fn container(path: &str) -> &str {
+    let path = path.trim_end_matches('/');
+    let name = path.rsplit('/').next().unwrap_or(path);
+    name.strip_suffix(".zip").unwrap_or(name)
 }
 
-/// A record of a folder as a member of the suite, unless it is vertical.
+/// A record of a folder as a member of the suite, unless it is vertical or
+/// from a borehole.
 fn horizontal(
     shown: &str,
     file: &str,
     record: Record,
 ) -> Result<SuiteMember, RecordError> {
-    let label = record.channel.as_deref();
-    if pairing::is_vertical(label, record.accelerogram.name()) {
-        let name = record.accelerogram.name().to_owned();
-        return Err(Fault::Vertical(name).whole(shown));
+    let name = || record.accelerogram.name().to_owned();
+    if record.direction == Direction::Vertical {
+        return Err(Fault::Vertical(name()).whole(shown));
+    }
+    if record.borehole {
+        return Err(Fault::Borehole(name()).whole(shown));
+    }
+    let mut remarks = record.remarks;
+    if record.direction == Direction::Unknown {
+        remarks.push(Remark::Direction);
     }
     Ok(SuiteMember {
         accelerogram: record.accelerogram,
@@ -185,6 +213,7 @@ fn horizontal(
         format: record.format,
         unit: record.unit,
         site: record.site,
+        remarks,
         pair: None,
         study_component: false,
         attributes: BTreeMap::new(),

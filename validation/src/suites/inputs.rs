@@ -1,7 +1,7 @@
 //! Suites from files and zips, checksums included.
 
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom};
+use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
@@ -107,6 +107,11 @@ pub fn survey_zip(
     let size = size.map_err(|e| unreadable(e.to_string()))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
     let index_limit = left / INDEX_PART;
+    if !has_end(&mut archive, size).map_err(|e| unreadable(e.to_string()))? {
+        let cut =
+            "the archive is cut: expected a list of its files at its end";
+        return Err(unreadable(cut.to_owned()));
+    }
     let mut archive =
         ZipArchive::new(archive).map_err(|e| unreadable(e.to_string()))?;
     let mut names = Vec::new();
@@ -125,6 +130,15 @@ pub fn survey_zip(
             RecordError::unreadable(&format!("{shown}/{name}"), reason)
         })
     })
+}
+
+/// Whether an archive of `size` bytes has the record that ends every zip: 22
+/// bytes and a comment of at most 65,535.
+fn has_end(archive: &mut (impl Read + Seek), size: u64) -> io::Result<bool> {
+    let mut end = Vec::new();
+    archive.seek(SeekFrom::Start(size.saturating_sub(22 + 65_535)))?;
+    archive.read_to_end(&mut end)?;
+    Ok(end.windows(4).any(|bytes| bytes == b"PK\x05\x06"))
 }
 
 /// The folder of an archive that PEER's search results lie in, if any, and

@@ -38,32 +38,9 @@ pub enum Direction {
 }
 
 /// Words for a horizontal component, hyphens left out.
-const HORIZONTAL: [&str; 25] = [
-    "LN",
-    "TR",
-    "NS",
-    "SN",
-    "EW",
-    "WE",
-    "H1",
-    "H2",
-    "HN",
-    "HE",
-    "N",
-    "S",
-    "E",
-    "W",
-    "L",
-    "T",
-    "FN",
-    "FP",
-    "NORTH",
-    "EAST",
-    "RADIAL",
-    "LONG",
-    "TRAN",
-    "LONGITUDINAL",
-    "TRANSVERSE",
+const HORIZONTAL: [&str; 23] = [
+    "LN", "TR", "NS", "SN", "EW", "WE", "H1", "H2", "HN", "HE", "N", "S", "E",
+    "W", "L", "T", "FN", "FP", "NORTH", "EAST", "RADIAL", "LONG", "TRAN",
 ];
 
 /// Words for a vertical component, hyphens left out.
@@ -82,7 +59,7 @@ impl Direction {
     pub(super) fn of_word(word: &str) -> Self {
         let plain = word.replace('-', "");
         let is = |name: &&str| plain.eq_ignore_ascii_case(name);
-        if VERTICAL.iter().any(|name| is(&name)) {
+        if VERTICAL.iter().any(is) {
             return Self::Vertical;
         }
         if is_code(word) {
@@ -91,7 +68,7 @@ impl Direction {
                 false => Self::Horizontal,
             };
         }
-        match HORIZONTAL.iter().any(|name| is(&name)) || is_bearing(word) {
+        match HORIZONTAL.iter().any(is) || is_bearing(word) {
             true => Self::Horizontal,
             false => Self::Unknown,
         }

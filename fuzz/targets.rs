@@ -17,6 +17,7 @@ pub type Target = fn(&[u8]) -> Result<(), String>;
 
 /// Targets by name.
 pub const TARGETS: &[(&str, Target)] = &[
+    ("afad", |bytes| format(Format::Afad, bytes)),
     ("any", any),
     ("at2", |bytes| format(Format::At2, bytes)),
     ("case", case),
@@ -24,6 +25,7 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("cosmos", |bytes| format(Format::Cosmos, bytes)),
     ("csv", |bytes| format(Format::Csv, bytes)),
     ("esm", |bytes| format(Format::Esm, bytes)),
+    ("geonet", |bytes| format(Format::Geonet, bytes)),
     ("index", index),
     ("knet", |bytes| format(Format::Knet, bytes)),
     ("resorce", |bytes| format(Format::Resorce, bytes)),

@@ -10,13 +10,16 @@ use std::io::Read as _;
 use std::path::Path;
 
 mod accelerogram;
+mod afad;
 mod at2;
 mod column;
 mod cosmos;
 mod csv;
+mod direction;
 mod error;
 mod esm;
 mod fields;
+mod geonet;
 mod keys;
 mod knet;
 mod name;
@@ -29,10 +32,11 @@ mod suite;
 mod text;
 
 pub use accelerogram::{Accelerogram, AccelerogramError};
+pub use direction::Direction;
 pub use error::{Fault, RecordError};
 pub use name::{NameError, result_name};
 pub use processing::{Processing, ProcessingError};
-pub use quality::{Remark, duplicates, remarks, remarks_together};
+pub use quality::{Remark, Remarked, duplicates, remarks, remarks_together};
 pub use suite::{
     Aside, AsideCount, AsideReason, PEAK_TOLERANCE, SetAside, StudyRule,
     Suite, SuiteError, SuiteMember, SuiteOptions, Survey, is_index,
@@ -55,17 +59,24 @@ pub enum Format {
     Resorce,
     /// COSMOS V1 and V2, and CSMIP V2.
     Cosmos,
-    /// ESM, ITACA and AFAD ASCII.
+    /// ESM and ITACA ASCII (DYNA), and AFAD's today.
     Esm,
+    /// AFAD's text of three columns, until 2018.
+    Afad,
+    /// GeoNet (New Zealand), V1A and V2A.
+    Geonet,
     /// K-NET and KiK-net ASCII.
     Knet,
     /// USGS SMC.
     Smc,
 }
 
+/// Least and largest sampling interval (s) of a record: a recorder's lies far
+/// inside, and what lies outside is no interval or not in s.
+const INTERVALS_S: (f64, f64) = (1e-6, 10.0);
+
 /// Formats by name, for messages.
-const FORMATS: &str =
-    "at2, cosmos, esm, knet, resorce, smc, csv (time, acceleration), column";
+const FORMATS: &str = "afad, at2, cosmos, esm, geonet, knet, resorce, smc, csv (time, acceleration), column";
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -76,6 +87,8 @@ impl fmt::Display for Format {
             Self::Resorce => "resorce",
             Self::Cosmos => "cosmos",
             Self::Esm => "esm",
+            Self::Afad => "afad",
+            Self::Geonet => "geonet",
             Self::Knet => "knet",
             Self::Smc => "smc",
         })
@@ -111,8 +124,16 @@ pub struct Record {
     pub accelerogram: Accelerogram,
     /// Format of the file.
     pub format: Format,
-    /// Unit in which the file is written.
+    /// Unit in which the file is written (cm/s2 for the counts of K-NET and
+    /// for GeoNet's mm/s2).
     pub unit: AccelerationUnit,
+    /// Where the sensor points.
+    pub direction: Direction,
+    /// Whether the sensor is in a borehole (KiK-net), not at the surface.
+    pub borehole: bool,
+    /// What reading found suspicious about the file; [`remarks`] judges the
+    /// samples.
+    pub remarks: Vec<Remark>,
     /// Name of the channel, where the file gives one: its number, its
     /// direction or both.
     pub channel: Option<String>,
@@ -122,6 +143,7 @@ pub struct Record {
 }
 
 /// What a format's reader finds: one component in the file's own unit.
+#[derive(Default)]
 struct Channel {
     dt: Option<f64>,
     unit: Option<AccelerationUnit>,
@@ -130,6 +152,12 @@ struct Channel {
     label: Option<String>,
     /// Event and station, where the file names both.
     site: Option<String>,
+    /// Where the sensor points, by the header alone.
+    direction: Direction,
+    /// Whether the sensor is in a borehole.
+    borehole: bool,
+    /// What is suspicious about the text.
+    remarks: Vec<Remark>,
 }
 
 /// Reads the one component of a file with content `bytes`; `file` names it
@@ -230,6 +258,8 @@ fn read_text(
         Format::Smc => vec![smc::read(&text)?],
         Format::Knet => vec![knet::read(&text)?],
         Format::Esm => vec![esm::read(&text)?],
+        Format::Afad => afad::read(&text)?,
+        Format::Geonet => geonet::read(&text)?,
         Format::Resorce => vec![resorce::read(&text)?],
         Format::At2 => vec![at2::read(&text)?],
         Format::Cosmos => cosmos::read(&text)?,
@@ -246,10 +276,12 @@ fn read_text(
 /// The format by content; formats that name themselves come first.
 fn format_of(text: &Text<'_>) -> Option<Format> {
     type Recognises = fn(&Text<'_>) -> bool;
-    let formats: [(Recognises, Format); 8] = [
+    let formats: [(Recognises, Format); 10] = [
         (smc::recognises, Format::Smc),
         (knet::recognises, Format::Knet),
         (esm::recognises, Format::Esm),
+        (afad::recognises, Format::Afad),
+        (geonet::recognises, Format::Geonet),
         (resorce::recognises, Format::Resorce),
         (at2::recognises, Format::At2),
         (cosmos::recognises, Format::Cosmos),
@@ -367,6 +399,9 @@ fn complete(
     if !(dt_s > 0.0 && dt_s.is_finite()) {
         return Err(fail(Fault::Interval(dt_s.to_string())));
     }
+    if !(dt_s >= INTERVALS_S.0 && dt_s <= INTERVALS_S.1) {
+        return Err(fail(Fault::IntervalRange(dt_s)));
+    }
     let unit = match (channel.unit, options.unit) {
         (Some(stated), Some(given)) if stated != given => {
             return Err(fail(Fault::UnitConflict { stated, given }));
@@ -380,9 +415,22 @@ fn complete(
         *sample /= per_gravity;
     }
     let mut name = stem(text.file()).to_owned();
+    // The name of a file of several channels tells of none of them.
+    let direction = channel.direction.or(|| match several {
+        true => Direction::Unknown,
+        false => Direction::of_name(&name, format == Format::At2),
+    });
+    let mut remarks = channel.remarks;
+    if direction == Direction::Vertical {
+        remarks.push(Remark::Vertical);
+    }
+    if channel.borehole {
+        remarks.push(Remark::Borehole);
+    }
     if let Some(label) = channel.label.as_ref().filter(|_| several) {
         name = format!("{name}:{}", label.replace(' ', "_"));
     }
+    let borehole = channel.borehole;
     let (channel, site) = (channel.label, channel.site);
     // Components of one site are a pair of that name.
     for text in [Some(name.as_str()), site.as_deref()].into_iter().flatten() {
@@ -390,7 +438,16 @@ fn complete(
     }
     let accelerogram = Accelerogram::try_new(name, dt_s, samples)
         .map_err(|error| fail(error.into()))?;
-    Ok(Record { accelerogram, format, unit, channel, site })
+    Ok(Record {
+        accelerogram,
+        format,
+        unit,
+        direction,
+        borehole,
+        remarks,
+        channel,
+        site,
+    })
 }
 
 #[cfg(test)]

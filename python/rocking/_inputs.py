@@ -379,9 +379,11 @@ def read_record(
 ) -> Record:
     """Reads one record file; its format is told by its content.
 
-    PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC.
-    `dt` (s) and `units` ("g", "m/s2", "cm/s2") are needed where the file
-    states none, and refused where they contradict it.
+    PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC,
+    AFAD, GeoNet. A file of several components is refused: `read_suite` takes
+    the folder that holds it. `dt` (s) and `units` ("g", "m/s2", "cm/s2") are
+    needed where the file states none, and refused where they contradict it.
+    `attributes["remarks"]` says what reading found suspicious.
 
     Raises
     ------
@@ -415,7 +417,8 @@ def read_suite(
 
     Of each pair the component that the study uses, or with
     `component="both"` both. Columns of the index are the records'
-    `attributes`. What in a folder is no record of the suite, such as vertical
+    `attributes`; `remarks` among them says what reading a file found
+    suspicious. What in a folder is no record of the suite, such as vertical
     components and files in no known format, is set aside with a
     `UserWarning` that counts it.
 

@@ -7,7 +7,8 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use rocking::record::{
-    self, Accelerogram, AccelerogramError, ReadOptions, Suite, SuiteOptions,
+    self, Accelerogram, AccelerogramError, ReadOptions, Remark, Suite,
+    SuiteOptions,
 };
 use rocking_synthesis::{Pair, ordinary, pulse};
 use sha2::{Digest, Sha256};
@@ -46,6 +47,12 @@ fn to_python<'py>(
     (record.name().to_owned(), samples, record.dt_s(), attributes)
 }
 
+/// What reading a file found suspicious, as an attribute.
+fn remarked(remarks: &[Remark]) -> Option<(String, String)> {
+    let words: Vec<String> = remarks.iter().map(Remark::to_string).collect();
+    (!words.is_empty()).then(|| ("remarks".to_owned(), words.join("; ")))
+}
+
 /// One record.
 #[pyfunction]
 pub fn read_record<'py>(
@@ -65,6 +72,7 @@ pub fn read_record<'py>(
     ]);
     attributes.extend(read.channel.map(|text| ("channel".to_owned(), text)));
     attributes.extend(read.site.map(|text| ("site".to_owned(), text)));
+    attributes.extend(remarked(&read.remarks));
     Ok(to_python(py, &read.accelerogram, attributes))
 }
 
@@ -97,6 +105,7 @@ pub fn read_suite<'py>(
                 attributes
                     .extend(text.clone().map(|text| (key.to_owned(), text)));
             }
+            attributes.extend(remarked(&member.remarks));
             to_python(py, &member.accelerogram, attributes)
         });
     let (name, aside) = (suite.name(), suite.set_aside().to_string());

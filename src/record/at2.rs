@@ -6,7 +6,7 @@
 
 use super::number::{self, Reading};
 use super::text::{self, Text, excerpt};
-use super::{Channel, Fault, RecordError, fields};
+use super::{Channel, Direction, Fault, RecordError, fields};
 use crate::units::AccelerationUnit;
 
 /// Header lines among which the counting line is sought.
@@ -46,7 +46,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let samples = fields::read(text, first, text.len(), layout)?;
     text.check_count(samples.len(), count)?;
     let label = component(text);
-    Ok(Channel { dt, unit, samples, label, site: None })
+    let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
+    Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
 }
 
 /// The component, which ends the second line: event, date, station,

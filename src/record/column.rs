@@ -26,13 +26,13 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
             continue;
         }
         let (sample, form) = one_number(text, index, line)?;
-        forms.push(form);
+        forms.push(sample, form);
         samples.push(sample);
     }
     check_first(text, &samples, &forms)?;
-    forms.check_ended(text)?;
+    let remarks = forms.check_ended(text)?;
     let unit = csv::comments(text)?.acceleration;
-    Ok(Channel { dt: None, unit, samples, label: None, site: None })
+    Ok(Channel { unit, samples, remarks, ..Channel::default() })
 }
 
 /// Refuses a first line that is a count or an interval.
@@ -43,7 +43,7 @@ fn check_first(
 ) -> Result<(), RecordError> {
     let Some((&first, rest)) = samples.split_first() else { return Ok(()) };
     let count = first == rest.len() as f64 && rest.len() > 1;
-    if !(count || (forms.first_differs() && first != 0.0)) {
+    if !(count || (forms.first_differs() && first > 0.0)) {
         return Ok(());
     }
     let (index, line) = text

@@ -19,7 +19,7 @@
 use super::fields::{self, Layout};
 use super::number::{self, Reading};
 use super::text::{self, Text, excerpt};
-use super::{Channel, Fault, RecordError};
+use super::{Channel, Direction, Fault, RecordError};
 use stated::{Header, Series};
 
 mod stated;
@@ -69,11 +69,18 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
     let mut channels = Vec::new();
     let mut head = 0;
     let mut reals = Vec::new();
+    let mut integers = Vec::new();
     let mut index = 0;
     while let Some(line) = text.line(index) {
+        if text::contains(line, "integer-header values follow") {
+            // Codes of the station and the sensor; no sample hangs on them.
+            integers = numeric_header(text, index).unwrap_or_default().0;
+            index += 1;
+            continue;
+        }
         if text::contains(line, "real-header values follow") {
             let end;
-            (reals, end) = real_header(text, index)?;
+            (reals, end) = numeric_header(text, index)?;
             index = end;
             continue;
         }
@@ -106,8 +113,12 @@ pub(super) fn read(text: &Text<'_>) -> Result<Vec<Channel>, RecordError> {
                 true => header.of_cosmos(&reals, &series)?,
                 false => header.of_csmip(&series)?,
             };
-            let label = Some(label(header.lines(), channels.len() + 1));
-            channels.push(Channel { dt, unit, samples, label, site: None });
+            let (label, name) = label(header.lines(), channels.len() + 1);
+            let direction = Direction::of_azimuth(&name)
+                .or(|| stated::oriented(&std::mem::take(&mut integers)));
+            let (label, rest) = (Some(label), Channel::default());
+            let read = Channel { dt, unit, samples, label, direction, ..rest };
+            channels.push(read);
         }
         head = end;
         index = end;
@@ -267,9 +278,9 @@ fn layout(line: &str) -> Option<Layout> {
     sane.then_some(layout)
 }
 
-/// The values of the real header announced on line `index`, and the index of
-/// the line after it.
-fn real_header(
+/// The values of the integer or real header announced on line `index`, and
+/// the index of the line after it.
+fn numeric_header(
     text: &Text<'_>,
     index: usize,
 ) -> Result<(Vec<f64>, usize), RecordError> {
@@ -281,12 +292,12 @@ fn real_header(
     let count = line.split_ascii_whitespace().next();
     let count: usize = count
         .and_then(|word| word.parse().ok())
-        .ok_or_else(|| header("a number of real header values"))?;
+        .ok_or_else(|| header("a number of header values"))?;
     let layout =
         layout(line).ok_or_else(|| header("a format such as (5F15.6)"))?;
     let end = index.saturating_add(1 + count.div_ceil(layout.per_line));
     if end > text.len() {
-        return Err(text.at_end(Fault::Ends("the real header values")));
+        return Err(text.at_end(Fault::Ends("the header values")));
     }
     // Values of a header have each their own number of decimals.
     let values = fields::read_varied(text, index + 1, end, layout)?;
@@ -298,16 +309,16 @@ fn real_header(
     Ok((values, end))
 }
 
-/// The channel's name in its header: what `Chan 1: 90 deg`, `Chan ?: 90 Deg`
-/// or `COMP N08W` says, else its number.
+/// The channel's number with its name, and the name alone, by its header:
+/// `Chan 1: 90 deg`, `Chan ?: 90 Deg` or `COMP N08W`.
 fn label<'a>(
     mut header: impl Iterator<Item = &'a str>,
     number: usize,
-) -> String {
+) -> (String, String) {
     let named = header.find_map(|line| {
         if let Some(name) = line.strip_prefix("COMP ") {
             let name = name.split_ascii_whitespace().next()?;
-            return Some(format!("{number} {name}"));
+            return Some((format!("{number} {name}"), name.to_owned()));
         }
         let end = text::after_word(line, "chan")?;
         let rest = line[end..].trim_start();
@@ -326,7 +337,8 @@ fn label<'a>(
         };
         let words = name.split_ascii_whitespace().take_while(other);
         let words: Vec<&str> = words.take(2).collect();
-        (!words.is_empty()).then(|| format!("{channel} {}", words.join(" ")))
+        let name = words.join(" ");
+        (!words.is_empty()).then(|| (format!("{channel} {name}"), name))
     });
-    named.unwrap_or_else(|| number.to_string())
+    named.unwrap_or_else(|| (number.to_string(), String::new()))
 }

@@ -69,13 +69,14 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         decimals = decimals.max(places(time, form));
         times.push(time_read);
         let (sample, form) = one_number(text, index, value)?;
-        forms.push(form);
+        forms.push(sample, form);
         samples.push(sample);
     }
-    forms.check_ended(text)?;
+    let remarks = forms.check_ended(text)?;
     let dt = step(text, &times, decimals)? / units.per_second;
     let unit = units.acceleration;
-    Ok(Channel { dt: Some(dt), unit, samples, label: None, site: None })
+    let dt = Some(dt);
+    Ok(Channel { dt, unit, samples, remarks, ..Channel::default() })
 }
 
 /// Decimal places that a written time resolves.

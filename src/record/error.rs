@@ -93,6 +93,9 @@ pub enum Fault {
         /// Where it is, from 0.
         offset: usize,
     },
+    /// A text in UTF-16 that cannot be read.
+    #[error("text in UTF-16 with {0}: expected UTF-8")]
+    Utf16(&'static str),
     /// No reader knows the content.
     #[error(
         "begins with {found:?}: expected a record in one of the formats {expected}"
@@ -142,6 +145,11 @@ pub enum Fault {
         "not in the index of the folder: expected a row for each record of the suite"
     )]
     Unlisted,
+    /// A sensor in a borehole where one at the surface is wanted.
+    #[error(
+        "{0:?} is from a sensor in a borehole: expected one at the surface"
+    )]
+    Borehole(String),
     /// A unit of acceleration that is not known.
     #[error("unit {0:?}: expected g, m/s2 or cm/s2")]
     Unit(String),
@@ -171,6 +179,11 @@ pub enum Fault {
     /// A sampling interval that is not positive and finite.
     #[error("sampling interval {0:?}: expected a positive number of seconds")]
     Interval(String),
+    /// A sampling interval (s) that no record has.
+    #[error(
+        "sampling interval {0:?} s: expected 1e-6 to 10 s; what is longer or shorter is no interval or not in s"
+    )]
+    IntervalRange(f64),
     /// The caller's sampling interval and the file's differ.
     #[error(
         "sampling interval {given_s} s was given: expected {stated_s} s, which the file states"
@@ -270,6 +283,7 @@ impl Fault {
             Self::Unreadable(_) => "unreadable",
             Self::Empty => "empty",
             Self::NotText { .. } => "not-text",
+            Self::Utf16(_) => "utf-16",
             Self::UnknownFormat { .. } => "unknown-format",
             Self::Header { .. } => "header",
             Self::Ends(_) => "ends",
@@ -281,12 +295,14 @@ impl Fault {
             Self::Device => "device",
             Self::Doubled => "doubled",
             Self::Unlisted => "unlisted",
+            Self::Borehole(_) => "borehole",
             Self::Unit(_) => "unit",
             Self::UnitMissing => "unit-missing",
             Self::UnitConflict { .. } => "unit-conflict",
             Self::Gravity(_) => "gravity",
             Self::IntervalMissing => "interval-missing",
             Self::Interval(_) => "interval",
+            Self::IntervalRange(_) => "interval-range",
             Self::IntervalConflict { .. } => "interval-conflict",
             Self::Count { .. } => "count",
             Self::Duration { .. } => "duration",

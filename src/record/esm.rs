@@ -1,10 +1,10 @@
-//! ESM and ITACA (the DYNA header, which AFAD uses too): lines
+//! ESM and ITACA (the DYNA header, which AFAD uses today): lines
 //! `KEY: value`, then one sample a line.
 
 use super::column::one_number;
 use super::fields::Forms;
 use super::text::{self, Text, excerpt};
-use super::{Channel, Fault, RecordError, keys};
+use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 /// Whether the header has the format's keys.
@@ -38,10 +38,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let mut forms = Forms::default();
     for (index, line) in text.lines().enumerate().skip(header) {
         let (sample, form) = one_number(text, index, line)?;
-        forms.push(form);
+        forms.push(sample, form);
         samples.push(sample);
     }
-    forms.check_end(text)?;
+    let remarks = forms.check_ended(text)?;
     text.check_count(samples.len(), count)?;
     let peak = "PGA_CM/S^2";
     let gal = unit == AccelerationUnit::CentimetrePerSecondSquared;
@@ -53,5 +53,8 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         keys::check_peak(text, peaks, expected, allowed, unit)?;
     }
     let label = keys::find(text, "STREAM").map(|(_, v)| v.to_owned());
-    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label, site: None })
+    let direction = Direction::of_words(label.as_deref().unwrap_or(""));
+    let (dt, unit) = (Some(dt), Some(unit));
+    let rest = Channel::default();
+    Ok(Channel { dt, unit, samples, label, direction, remarks, ..rest })
 }

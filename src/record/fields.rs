@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::number::{self, Form, Reading};
 use super::text::{Text, excerpt};
-use super::{Fault, RecordError};
+use super::{Fault, RecordError, Remark};
 
 /// Width of a field and number of fields in a full line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -227,12 +227,20 @@ pub(super) struct Forms {
     last: Option<Form>,
     second: Option<Form>,
     later_varied: bool,
+    /// The shortest exponent before the last number, if any has one.
+    exponent: Option<usize>,
+    last_value: f64,
 }
 
 impl Forms {
-    /// Adds the next number's form.
-    pub(super) fn push(&mut self, form: Form) {
+    /// Adds the next number and its form.
+    pub(super) fn push(&mut self, value: f64, form: Form) {
         self.count += 1;
+        self.last_value = value;
+        if let Some(last) = self.last.filter(|last| last.exponent > 0) {
+            let shortest = self.exponent.unwrap_or(last.exponent);
+            self.exponent = Some(shortest.min(last.exponent));
+        }
         if self.count > 1 {
             let second = *self.second.get_or_insert(form);
             self.later_varied |= second != form;
@@ -247,37 +255,51 @@ impl Forms {
         self.count > 2 && !self.later_varied && self.before != self.second
     }
 
-    /// Refuses a text that ends within a line, unless the numbers' form
-    /// tells that the last one is whole.
+    /// What to remark about a text that ends within a line: nothing where
+    /// the numbers' one form tells that the last number is whole.
+    ///
+    /// # Errors
+    /// A last number that was cut, where that can be told: fewer digits than
+    /// all numbers before, a shorter exponent, or none in a number that may
+    /// be what an exponent follows. A cut without an exponent leaves a number
+    /// nearer to zero.
     pub(super) fn check_ended(
         &self,
         text: &Text<'_>,
-    ) -> Result<(), RecordError> {
-        if self.varied || self.count < 4 {
-            return text.check_ended();
-        }
-        self.check_end(text)
-    }
-
-    /// Refuses a text that was cut within its last number, where that can be
-    /// told: no line end, and fewer digits than all numbers before.
-    pub(super) fn check_end(
-        &self,
-        text: &Text<'_>,
-    ) -> Result<(), RecordError> {
+    ) -> Result<Vec<Remark>, RecordError> {
         let (Some(before), Some(last)) = (self.before, self.last) else {
-            return Ok(());
+            return Ok(Vec::new());
         };
-        let shorter =
-            last.decimals < before.decimals || last.exponent < before.exponent;
-        if self.varied || text.is_ended() || self.count < 4 || !shorter {
-            return Ok(());
+        if text.is_ended() {
+            return Ok(Vec::new());
         }
-        let line = text.line(text.len() - 1).unwrap_or("");
-        let (found, expected) = (excerpt(line), describe(before));
-        Err(text.at_end(Fault::Number { found, expected }))
+        let refuse = |expected: String| {
+            let line = text.line(text.len() - 1).unwrap_or("");
+            let found = excerpt(line);
+            Err(text.at_end(Fault::Number { found, expected }))
+        };
+        if !self.varied && self.count >= 4 {
+            let shorter = last.decimals < before.decimals
+                || last.exponent < before.exponent;
+            let whole = || Ok(Vec::new());
+            return if shorter { refuse(describe(before)) } else { whole() };
+        }
+        if let Some(least) = self.exponent
+            && last.exponent < least
+            && (last.exponent > 0 || self.last_value.abs() >= LEAST_MANTISSA)
+        {
+            return refuse(format!(
+                "an exponent of {least} characters, as in other numbers, or \
+                 the end of the line"
+            ));
+        }
+        Ok(vec![Remark::LastLine])
     }
 }
+
+/// What stands before an exponent is no smaller than this (`0.1e-3`), unless
+/// it is zero.
+const LEAST_MANTISSA: f64 = 0.1;
 
 fn describe(form: Form) -> String {
     let exponent = match form.exponent {

@@ -7,7 +7,7 @@
 
 use super::number::{self, Reading};
 use super::text::{Text, excerpt};
-use super::{Channel, Fault, RecordError, fields, keys};
+use super::{Channel, Direction, Fault, RecordError, fields, keys};
 use crate::units::AccelerationUnit;
 
 /// The key of the maximum, in two spellings.
@@ -43,14 +43,35 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     }
     check_maximum(text, &samples)?;
     let unit = Some(AccelerationUnit::CentimetrePerSecondSquared);
-    let label = keys::find(text, "Dir.").map(|(_, v)| v.to_owned());
-    Ok(Channel {
-        dt: Some(1.0 / frequency_hz),
-        unit,
-        samples,
-        label,
-        site: None,
-    })
+    let (dt, dir) = (Some(1.0 / frequency_hz), keys::find(text, "Dir."));
+    let Sensor { label, direction, borehole } =
+        sensor(dir.map_or("", |(_, dir)| dir));
+    let rest = Channel::default();
+    Ok(Channel { dt, unit, samples, label, direction, borehole, ..rest })
+}
+
+/// A sensor by the header's `Dir.`.
+struct Sensor {
+    label: Option<String>,
+    direction: Direction,
+    borehole: bool,
+}
+
+/// K-NET names the direction. KiK-net numbers its six channels: 1 to 3 are
+/// those of the sensor in the borehole, 4 to 6 those of the one at the
+/// surface, each in the order N-S, E-W, U-D.
+fn sensor(dir: &str) -> Sensor {
+    let (label, direction, borehole) = match dir {
+        "1" => ("N-S borehole", Direction::Horizontal, true),
+        "2" => ("E-W borehole", Direction::Horizontal, true),
+        "3" => ("U-D borehole", Direction::Vertical, true),
+        "4" => ("N-S surface", Direction::Horizontal, false),
+        "5" => ("E-W surface", Direction::Horizontal, false),
+        "6" => ("U-D surface", Direction::Vertical, false),
+        word => (word, Direction::of_words(word), false),
+    };
+    let label = (!label.is_empty()).then(|| label.to_owned());
+    Sensor { label, direction, borehole }
 }
 
 /// The header's maximum acceleration against the samples less their mean.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use thiserror::Error;
 
-use super::Accelerogram;
+use super::{Accelerogram, SuiteMember};
 
 /// PGA in g outside of which the unit is suspected.
 const PGA_RANGE_G: (f64, f64) = (1e-4, 3.0);
@@ -113,6 +113,24 @@ pub enum Remark {
         /// At the end in s.
         trailing_s: f64,
     },
+    /// A vertical component, which rocks no block by itself.
+    #[error("a vertical component: expected a horizontal one")]
+    Vertical,
+    /// The sensor is in a borehole.
+    #[error(
+        "from a sensor in a borehole: weaker than the motion of the surface"
+    )]
+    Borehole,
+    /// A record of a folder or archive whose direction is not known.
+    #[error(
+        "neither the header nor the file's name tells the direction: horizontal? (an index says so)"
+    )]
+    Direction,
+    /// A last line without its end, whose number may be cut.
+    #[error(
+        "the last line has no line end: its number is taken as written; was the file cut?"
+    )]
+    LastLine,
     /// The two components of a pair differ in length or interval.
     #[error("{0} differs in length or interval: components not aligned?")]
     UnequalComponents(String),
@@ -142,13 +160,38 @@ impl Remark {
             Self::OneSided => "one-sided",
             Self::IntervalRounded { .. } => "interval-rounded",
             Self::Padding { .. } => "padding",
+            Self::Vertical => "vertical",
+            Self::Borehole => "borehole",
+            Self::Direction => "direction",
+            Self::LastLine => "last-line",
             Self::UnequalComponents(_) => "unequal-components",
             Self::Duplicate { .. } => "duplicate",
         }
     }
 }
 
-/// What is suspicious about one record.
+/// A record to be remarked on, beside others.
+#[derive(Clone, Copy, Debug)]
+pub struct Remarked<'a> {
+    /// The record.
+    pub record: &'a Accelerogram,
+    /// Name of its pair.
+    pub pair: Option<&'a str>,
+    /// What its reading found.
+    pub read: &'a [Remark],
+}
+
+impl<'a> From<&'a SuiteMember> for Remarked<'a> {
+    fn from(member: &'a SuiteMember) -> Self {
+        Self {
+            record: &member.accelerogram,
+            pair: member.pair.as_deref(),
+            read: &member.remarks,
+        }
+    }
+}
+
+/// What is suspicious about the samples of one record.
 ///
 /// ```
 /// use rocking::record::{Accelerogram, remarks};
@@ -254,31 +297,31 @@ pub fn duplicates(records: &[&Accelerogram]) -> Vec<(usize, usize, f64)> {
     found
 }
 
-/// What is suspicious about each of several records, given with the name of
-/// their pair: [`remarks`], components that are not alike, and
+/// What is suspicious about each of several records: what their reading
+/// found, [`remarks`], components of a pair that are not alike, and
 /// [`duplicates`].
 #[must_use]
-pub fn remarks_together(
-    records: &[(&Accelerogram, Option<&str>)],
-) -> Vec<Vec<Remark>> {
-    let mut found: Vec<Vec<Remark>> =
-        records.iter().map(|(record, _)| remarks(record)).collect();
+pub fn remarks_together(records: &[Remarked<'_>]) -> Vec<Vec<Remark>> {
+    let mut found: Vec<Vec<Remark>> = records
+        .iter()
+        .map(|one| [one.read, &remarks(one.record)].concat())
+        .collect();
     let shape = |r: &Accelerogram| (r.samples_g().len(), r.dt_s());
     let mut pairs: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    for (i, (_, pair)) in records.iter().enumerate() {
+    for (i, Remarked { pair, .. }) in records.iter().enumerate() {
         if let Some(pair) = pair {
             pairs.entry(pair).or_default().push(i);
         }
     }
-    for (i, (record, pair)) in records.iter().enumerate() {
+    for (i, Remarked { record, pair, .. }) in records.iter().enumerate() {
         let others = pair.map_or(&[][..], |pair| &pairs[pair]);
         let Some(&other) = others.iter().find(|j| **j != i) else { continue };
-        if shape(record) != shape(records[other].0) {
-            let name = records[other].0.name().to_owned();
+        if shape(record) != shape(records[other].record) {
+            let name = records[other].record.name().to_owned();
             found[i].push(Remark::UnequalComponents(name));
         }
     }
-    let motions: Vec<_> = records.iter().map(|(record, _)| *record).collect();
+    let motions: Vec<_> = records.iter().map(|one| one.record).collect();
     for (i, j, correlation) in duplicates(&motions) {
         for (of, by) in [(i, j), (j, i)] {
             let other = motions[by].name().to_owned();

@@ -2,7 +2,7 @@
 
 use super::fields::{self, Layout};
 use super::text::{self, Text, excerpt};
-use super::{Channel, Fault, RecordError, keys};
+use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 const HEADER_LINES: usize = 40;
@@ -45,5 +45,7 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
         keys::check_peak(text, peaks, expected, 1e-6 * expected, unit)?;
     }
     let label = keys::find(text, "Orientation").map(|(_, v)| v.to_owned());
-    Ok(Channel { dt: Some(dt), unit: Some(unit), samples, label, site: None })
+    let direction = Direction::of_words(label.as_deref().unwrap_or(""));
+    let (dt, unit) = (Some(dt), Some(unit));
+    Ok(Channel { dt, unit, samples, label, direction, ..Channel::default() })
 }

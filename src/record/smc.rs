@@ -6,7 +6,7 @@
 
 use super::fields::{self, Layout};
 use super::text::{Text, excerpt};
-use super::{Channel, Fault, RecordError, keys};
+use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 const TEXT_LINES: usize = 11;
@@ -79,8 +79,10 @@ pub(super) fn read(text: &Text<'_>) -> Result<Channel, RecordError> {
     let unit = AccelerationUnit::CentimetrePerSecondSquared;
     check_peak(text, &samples, &reals, unit)?;
     let (label, site) = component(text);
+    let direction = Direction::of_azimuth(label.as_deref().unwrap_or(""));
     let (dt, unit) = (Some(dt), Some(unit));
-    Ok(Channel { dt, unit, samples, label, site })
+    let rest = Channel::default();
+    Ok(Channel { dt, unit, samples, label, site, direction, ..rest })
 }
 
 /// The peak against the largest and the least sample in the header.

@@ -17,7 +17,7 @@ pub use survey::Survey;
 
 use super::{
     Accelerogram, Format, Processing, ProcessingError, ReadOptions,
-    RecordError,
+    RecordError, Remark,
 };
 use crate::units::AccelerationUnit;
 
@@ -59,6 +59,8 @@ pub struct SuiteMember {
     pub unit: AccelerationUnit,
     /// Event and station, where the file names both.
     pub site: Option<String>,
+    /// What reading found suspicious about the file.
+    pub remarks: Vec<Remark>,
     /// Name shared by the two components of a pair.
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
@@ -98,11 +100,13 @@ impl Suite {
     /// or 0); others are kept as attributes. PEER's `_SearchResults.csv` is
     /// an index too, and that of the folder it lies in. In another folder,
     /// files of no known format, histories of velocity or displacement,
-    /// vertical components, folders and links to nothing are set aside
-    /// ([`Suite::set_aside`]), and hidden files left out; any other fault
-    /// refuses the suite. So does a name that results cannot carry
-    /// ([`result_name`](super::result_name)), of a file or a record, or in a
-    /// cell of an index. Pairs are found by event and station where
+    /// vertical components, records of a sensor in a borehole (KiK-net),
+    /// folders and links to nothing are set aside ([`Suite::set_aside`]), and
+    /// hidden files left out; any other fault refuses the suite. So does a
+    /// name that results cannot carry ([`result_name`](super::result_name)),
+    /// of a file or a record, or in a cell of an index. An index may list
+    /// vertical and borehole records; a remark says so. Pairs are found by
+    /// event and station where
     /// the files name both, and otherwise by file name: what is left without
     /// the orientation at its end.
     ///

@@ -4,9 +4,11 @@ use super::*;
 
 mod columns;
 mod cosmos;
+mod directions;
+mod nations;
 mod networks;
 
-pub(super) use networks::smc;
+pub(super) use networks::{KNET, smc};
 
 fn options(dt_s: Option<f64>) -> ReadOptions {
     ReadOptions { dt_s, ..ReadOptions::default() }
@@ -300,6 +302,60 @@ fn what_is_no_record_is_refused() {
     assert_eq!(error.column(), None);
 }
 
+/// Windows programs save text in UTF-16 too.
+#[test]
+fn utf_16_is_read_with_its_mark_and_named_without() {
+    let text = at2("NPTS= 7, DT= .01 SEC");
+    let units = |big: bool| -> Vec<u8> {
+        let bytes = |unit: u16| match big {
+            true => unit.to_be_bytes(),
+            false => unit.to_le_bytes(),
+        };
+        text.encode_utf16().flat_map(bytes).collect()
+    };
+    let plain = read_text(&text).unwrap();
+    for (mark, big) in [([0xff, 0xfe], false), ([0xfe, 0xff], true)] {
+        let marked = [&mark[..], &units(big)].concat();
+        let refused = |bytes: &[u8]| {
+            read("test", bytes, &options(None)).unwrap_err().to_string()
+        };
+        assert_eq!(read("test", &marked, &options(None)), Ok(plain.clone()));
+        assert_eq!(
+            refused(&units(big)),
+            "test: text in UTF-16 with no byte order mark: expected UTF-8"
+        );
+        assert_eq!(
+            refused(&marked[..marked.len() - 1]),
+            "test: text in UTF-16 with half a character at the end: expected UTF-8"
+        );
+        assert!(refused(&marked[..90]).contains("the file ends"));
+        let lone = [&marked[..], &[0xd8; 2]].concat();
+        assert!(refused(&lone).contains("half a pair of surrogates"));
+        let binary = [&mark[..], &[0; 40]].concat();
+        assert!(refused(&binary).contains("byte 0x00 at offset 2"));
+    }
+}
+
+/// An interval far from every recorder's is refused where it is read: an
+/// analysis of it would not end.
+#[test]
+fn an_interval_that_no_record_has_is_refused() {
+    for dt in ["1e300", "1e-300", "11", "9e-7"] {
+        let text = at2(&format!("NPTS= 7, DT= {dt} SEC"));
+        let found = refusal(&text);
+        let expected = format!("test: sampling interval {dt}");
+        assert!(found.starts_with(&expected), "{found}");
+        assert!(found.contains(" s: expected 1e-6 to 10 s"), "{found}");
+        let column = "0.1\n-0.2\n0.3\n".as_bytes();
+        let given = in_g(Some(dt.parse().unwrap()));
+        let error = read("test", column, &given).unwrap_err();
+        assert_eq!(error.fault().code(), "interval-range");
+    }
+    for dt in ["10", "1e-6"] {
+        assert!(read_text(&at2(&format!("NPTS= 7, DT= {dt} SEC"))).is_ok());
+    }
+}
+
 /// Changed, cut and spliced files: an answer, never a panic, and never a
 /// record with another count than its header's.
 #[test]
@@ -316,6 +372,9 @@ fn no_bytes_make_a_reader_panic() {
         networks::KNET.to_owned(),
         networks::ESM.to_owned(),
         networks::smc(),
+        nations::AFAD.to_owned(),
+        nations::geonet(false),
+        nations::geonet(true),
         cosmos::old(),
         "t (s),a (g)\n0.00,0.1\n0.01,0.2\n0.02,1e-3\n".to_owned(),
     ];

@@ -15,12 +15,22 @@ pub(super) struct Text<'a> {
     ended: bool,
 }
 
-/// Bytes as text: UTF-8, else Latin-1 (station names); control characters
-/// mean that it is none.
+/// Bytes as text: UTF-16 with its mark, UTF-8, else Latin-1 (station names);
+/// control characters mean that it is none.
 pub(super) fn decode<'a>(
     file: &str,
     bytes: &'a [u8],
 ) -> Result<Cow<'a, str>, RecordError> {
+    if let Some(text) = utf_16(file, bytes)? {
+        let control = |c: char| c.is_ascii() && is_control(c as u8);
+        return match text.find(control) {
+            Some(at) => {
+                let (byte, offset) = (text.as_bytes()[at], 2 + 2 * at);
+                Err(Fault::NotText { byte, offset }.whole(file))
+            }
+            None => Ok(Cow::Owned(text)),
+        };
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     // Old systems end a text file with one or more Ctrl-Z.
     let mut end = bytes.len();
@@ -28,9 +38,10 @@ pub(super) fn decode<'a>(
         end -= 1;
     }
     let bytes = &bytes[..end];
-    let control =
-        |b: u8| b < 0x20 && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0c);
-    if let Some(offset) = bytes.iter().position(|&b| control(b)) {
+    if let Some(offset) = bytes.iter().position(|&b| is_control(b)) {
+        if looks_like_utf_16(bytes) {
+            return Err(Fault::Utf16("no byte order mark").whole(file));
+        }
         let fault = Fault::NotText { byte: bytes[offset], offset };
         return Err(fault.whole(file));
     }
@@ -38,6 +49,36 @@ pub(super) fn decode<'a>(
         Ok(text) => Cow::Borrowed(text),
         Err(_) => Cow::Owned(latin_1(bytes)),
     })
+}
+
+/// A control character that no text file has.
+fn is_control(byte: u8) -> bool {
+    byte < 0x20 && !matches!(byte, b'\t' | b'\n' | b'\r' | 0x0c)
+}
+
+/// A text in UTF-16 that says so by its byte order mark.
+fn utf_16(file: &str, bytes: &[u8]) -> Result<Option<String>, RecordError> {
+    let unit: fn([u8; 2]) -> u16 = match bytes {
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ => return Ok(None),
+    };
+    let (units, rest) = bytes[2..].as_chunks();
+    if !rest.is_empty() {
+        return Err(Fault::Utf16("half a character at the end").whole(file));
+    }
+    let text = char::decode_utf16(units.iter().map(|pair| unit(*pair)));
+    let text: Result<String, _> = text.collect();
+    let whole = |_| Fault::Utf16("half a pair of surrogates").whole(file);
+    text.map(Some).map_err(whole)
+}
+
+/// Whether the first characters are plain ones of two bytes.
+fn looks_like_utf_16(bytes: &[u8]) -> bool {
+    let zeros = |from: usize| {
+        bytes.iter().skip(from).step_by(2).take(4).all(|b| *b == 0)
+    };
+    bytes.len() >= 8 && zeros(0) != zeros(1)
 }
 
 fn latin_1(bytes: &[u8]) -> String {
@@ -132,15 +173,6 @@ impl<'a> Text<'a> {
     /// Whether the text ends with the end of a line.
     pub(super) fn is_ended(&self) -> bool {
         self.ended
-    }
-
-    /// Refuses a text that ends within a line, for formats in which nothing
-    /// else tells a file that was cut.
-    pub(super) fn check_ended(&self) -> Result<(), RecordError> {
-        if self.ended {
-            return Ok(());
-        }
-        Err(self.at_end(Fault::Ends("the end of this line: was it cut?")))
     }
 
     /// A fault on the line of index `index`.

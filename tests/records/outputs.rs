@@ -45,7 +45,7 @@ const IDA: &str = "ida --alpha 0.1 --p 3";
 fn remarks_travel_to_every_result() {
     let (clean, offset) = (wave(2.0, 0.0), wave(3.0, 0.1));
     let files: [(&str, &[u8]); 2] =
-        [("a.csv", clean.as_bytes()), ("b.csv", offset.as_bytes())];
+        [("a_E.csv", clean.as_bytes()), ("b_E.csv", offset.as_bytes())];
     let folder = folder("remarks", &files);
     let ida = format!("{IDA} --suite . --out ida.out");
     let (status, out, error) = rocking(&folder, &ida, "");
@@ -55,22 +55,32 @@ fn remarks_travel_to_every_result() {
     assert!(out.contains("remarks                 1 of 2 records"), "{out}");
     assert!(out.contains(told), "{out}");
     let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
-    let of_b = table.lines().find(|line| line.starts_with("b,")).unwrap();
+    let of_b = table.lines().find(|line| line.starts_with("b_E,")).unwrap();
     assert!(of_b.contains(",end-velocity offset,0.92,"), "{of_b}");
     let (_, out, _) = rocking(&folder, &format!("{ida} --json"), "");
     let json: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!(json["remarks"]["codes"][0]["code"], "offset");
     assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
-    let respond = "respond --alpha 0.1 --p 3 --record b.csv";
+    let respond = "respond --alpha 0.1 --p 3 --record b_E.csv";
     let (status, out, _) = rocking(&folder, respond, "");
     assert!(status == 0 && out.contains(told), "{out}");
-    for command in [&*ida, respond, "records b.csv"] {
+    for command in [&*ida, respond, "records b_E.csv"] {
         let strict = format!("{command} --strict");
         let (status, _, error) = rocking(&folder, &strict, "");
         assert_eq!(status, 2, "{command}");
         assert!(error.contains("--strict: remarks on 1 of "), "{error}");
     }
     let strict = format!("{ida} --strict --demean --high-pass 0.1");
+    assert_eq!(rocking(&folder, &strict, "").0, 0);
+    // A folder's file whose direction nothing tells; an index chooses it.
+    let offset = folder.join("b_E.csv");
+    std::fs::rename(offset, folder.join("b.csv")).unwrap();
+    let (status, _, error) = rocking(&folder, &strict, "");
+    assert_eq!(status, 2);
+    let words = "1 of 2 records (direction 1); b: direction: neither the";
+    assert!(error.contains(words), "{error}");
+    std::fs::write(folder.join("index.csv"), "file\na_E.csv\nb.csv").unwrap();
+    let strict = strict.replace("--suite .", "--suite index.csv");
     assert_eq!(rocking(&folder, &strict, "").0, 0);
 }
 

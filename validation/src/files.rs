@@ -211,7 +211,9 @@ impl Sink {
         };
         let folder = folder_of(&target);
         remove_left_behind(folder);
-        let part = builder().tempfile_in(folder).map_err(said)?;
+        let part = builder()
+            .tempfile_in(folder)
+            .map_err(|error| said(error, folder))?;
         // Other runs leave alone what is locked.
         part.as_file().lock()?;
         if let Ok(found) = fs::metadata(&target) {
@@ -304,7 +306,11 @@ fn builder() -> Builder<'static, 'static> {
 }
 
 /// An error of the library without the unfinished name.
-fn said(error: io::Error) -> io::Error {
+fn said(error: io::Error, folder: &Path) -> io::Error {
+    if error.kind() == io::ErrorKind::NotFound {
+        let reason = format!("there is no folder {}", folder.display());
+        return io::Error::new(error.kind(), reason);
+    }
     match error.raw_os_error() {
         Some(code) => io::Error::from_raw_os_error(code),
         None => error.kind().into(),

@@ -2,7 +2,7 @@
 
 use super::super::number::{self, Reading};
 use super::super::text::{self, Text, excerpt};
-use super::super::{Fault, RecordError, keys};
+use super::super::{Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;
 
 /// Places of what COSMOS's real header says of the series, from 1 (COSMOS
@@ -10,6 +10,9 @@ use crate::units::AccelerationUnit;
 const INTERVAL_MS: usize = 62;
 const DURATION_S: usize = 63;
 const PEAK: usize = 64;
+
+/// Place in COSMOS's integer header of the sensor's orientation, from 1.
+const ORIENTATION: usize = 54;
 
 /// What stands for an unknown value.
 const UNKNOWN: f64 = -999.0;
@@ -20,6 +23,17 @@ const PEAK_SHARE: f64 = 2e-3;
 
 const SAME_COUNT: &str = "the number of points that announces the samples";
 const SAME_INTERVAL: &str = "the interval that announces the samples";
+
+/// The direction by COSMOS's integer header: an azimuth from 1 to 360, 400 to
+/// 402 for vertical sensors, 500 to 801 for radial, transverse, longitudinal
+/// and unoriented horizontal ones.
+pub(super) fn oriented(integers: &[f64]) -> Direction {
+    match integers.get(ORIENTATION - 1) {
+        Some(400.0..=402.0) => Direction::Vertical,
+        Some(1.0..=360.0 | 500.0..=801.0) => Direction::Horizontal,
+        _ => Direction::Unknown,
+    }
+}
 
 /// The lines of a channel's header.
 pub(super) struct Header<'t, 'a> {

@@ -47,7 +47,9 @@ fn components_of_a_pair_are_compared() {
     };
     let (a, b) = (record("a", 401), record("b", 381));
     let codes = |pair| {
-        let found = remarks_together(&[(&a, Some("p")), (&b, Some(pair))]);
+        let one = |record, pair| Remarked { record, pair, read: &[] };
+        let found =
+            remarks_together(&[one(&a, Some("p")), one(&b, Some(pair))]);
         let unequal = Remark::UnequalComponents("b".to_owned());
         (found[0].contains(&unequal), found[1].len())
     };

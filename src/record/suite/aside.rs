@@ -12,6 +12,8 @@ use crate::record::{Fault, RecordError};
 pub enum AsideReason {
     /// A vertical component.
     Vertical,
+    /// A record of a sensor in a borehole.
+    Borehole,
     /// A text in no known format, or no text.
     Format,
     /// A history of velocity or displacement, or a spectrum.
@@ -32,6 +34,7 @@ impl AsideReason {
     fn of(fault: &Fault) -> Option<Self> {
         Some(match fault {
             Fault::Vertical(_) => Self::Vertical,
+            Fault::Borehole(_) => Self::Borehole,
             Fault::UnknownFormat { .. } | Fault::NotText { .. } => {
                 Self::Format
             }
@@ -50,6 +53,7 @@ impl AsideReason {
     pub fn code(self) -> &'static str {
         match self {
             Self::Vertical => "vertical",
+            Self::Borehole => "borehole",
             Self::Format => "format",
             Self::Quantity => "quantity",
             Self::Unlisted => "unlisted",
@@ -65,6 +69,7 @@ impl AsideReason {
         let one = count == 1;
         match self {
             Self::Vertical => "vertical",
+            Self::Borehole => "from a borehole",
             Self::Format => "in no known format",
             Self::Quantity => "of another quantity than acceleration",
             Self::Unlisted => "not in the index",

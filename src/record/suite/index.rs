@@ -56,19 +56,18 @@ const PEER_NUMBER: &str = "Record Sequence Number";
 /// Whether the first line has a column `file`, or any line is the head of
 /// PEER's list of records.
 pub(super) fn is_index(bytes: &[u8]) -> bool {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut lines = bytes.split(|b| *b == b'\n' || *b == b'\r');
-    let first = lines.next().and_then(|line| std::str::from_utf8(line).ok());
-    let plain = first
+    let Ok(content) = text::decode("", bytes) else { return false };
+    let mut lines = content.split(['\n', '\r']);
+    let plain = lines
+        .next()
         .and_then(|line| split(line, separator(line)))
         .is_some_and(|cells| cells.iter().any(|cell| is_file(cell)));
-    let peer = |line: &[u8]| {
-        let names = |name: &str| {
-            line.windows(name.len()).any(|part| part == name.as_bytes())
-        };
-        names(PEER_FIRST) && names(PEER_NUMBER)
-    };
-    plain || lines.any(peer)
+    plain || lines.any(is_peer)
+}
+
+/// Whether a line is the head of PEER's list of records.
+fn is_peer(line: &str) -> bool {
+    line.contains(PEER_FIRST) && line.contains(PEER_NUMBER)
 }
 
 fn is_file(cell: &str) -> bool {
@@ -86,9 +85,7 @@ impl Index {
     pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Self, SuiteError> {
         let content = text::decode(path, bytes)?;
         let lines: Vec<&str> = content.lines().collect();
-        let peer = lines.iter().position(|line| {
-            line.contains(PEER_FIRST) && line.contains(PEER_NUMBER)
-        });
+        let peer = lines.iter().position(|line| is_peer(line));
         let head = peer.unwrap_or(0);
         let mut table = Table {
             path: path.into(),
@@ -351,6 +348,7 @@ impl Row {
             },
             file: self.file.clone(),
             site: record.site,
+            remarks: record.remarks,
             format: record.format,
             unit: record.unit,
             pair: match &self.pair {

@@ -3,17 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{SuiteError, SuiteMember};
-use crate::record::text;
-
-/// Orientations that end a file name, horizontal ones.
-const NAMED: [&str; 16] = [
-    "LN", "TR", "NS", "SN", "EW", "WE", "H1", "H2", "HN", "HE", "N", "S", "E",
-    "W", "L", "T",
-];
-
-/// Names of vertical components.
-const VERTICAL: [&str; 11] =
-    ["UP", "DWN", "DN", "DOWN", "UD", "U-D", "UD1", "UD2", "V", "VER", "Z"];
+use crate::record::Direction;
+use crate::record::direction::{glued, is_azimuth, is_code};
 
 const SEPARATORS: [char; 4] = ['-', '_', '.', ':'];
 
@@ -39,109 +30,16 @@ pub(super) fn pair_key(name: &str) -> Option<String> {
     }
     let key = match name.rsplit_once(SEPARATORS) {
         Some((key, end)) if is_orientation(end) => key,
-        _ => glued(name)?,
+        _ => glued(name).filter(|(_, end)| is_orientation(end))?.0,
     };
     let key = key.trim_end_matches(SEPARATORS);
     (!key.is_empty()).then(|| key.to_owned())
 }
 
-/// A code of band, instrument and component, as FDSN networks write it.
-fn is_code(part: &str) -> bool {
-    matches!(
-        part.as_bytes(),
-        [
-            b'B' | b'E' | b'H' | b'S',
-            b'G' | b'L' | b'N',
-            b'E' | b'N' | b'Z' | b'1' | b'2' | b'3'
-        ]
-    )
-}
-
-/// Where a component points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Direction {
-    Horizontal,
-    Vertical,
-    Unknown,
-}
-
-/// The direction that a word names, or a letter.
-fn direction(word: &str) -> Direction {
-    if VERTICAL.iter().any(|v| word.eq_ignore_ascii_case(v)) {
-        return Direction::Vertical;
-    }
-    if is_code(word) {
-        return match word.ends_with('Z') {
-            true => Direction::Vertical,
-            false => Direction::Horizontal,
-        };
-    }
-    let word = word.trim_end_matches("deg").replace('-', "");
-    match is_orientation(&word) || is_bearing(&word) {
-        true => Direction::Horizontal,
-        false => Direction::Unknown,
-    }
-}
-
-/// A quadrant bearing such as `N08W`.
-fn is_bearing(word: &str) -> bool {
-    let bytes = word.as_bytes();
-    let (Some((first, rest)), true) =
-        (bytes.split_first(), (3..=4).contains(&bytes.len()))
-    else {
-        return false;
-    };
-    let (degrees, last) = rest.split_at(rest.len() - 1);
-    b"NS".contains(first)
-        && b"EW".contains(&last[0])
-        && degrees.iter().all(u8::is_ascii_digit)
-}
-
-/// The direction by what the header calls the channel: its last word that
-/// names one.
-fn labelled(label: &str) -> Direction {
-    if text::contains(label, "vert") {
-        return Direction::Vertical;
-    }
-    let words = label.split([' ', ',', ':']).rev();
-    let mut known = words.map(direction).filter(|d| *d != Direction::Unknown);
-    known.next().unwrap_or(Direction::Unknown)
-}
-
-/// Whether a component is vertical by its header, or, where the header does
-/// not tell, by the end of the record's name.
-pub(super) fn is_vertical(label: Option<&str>, name: &str) -> bool {
-    match labelled(label.unwrap_or("")) {
-        Direction::Vertical => return true,
-        Direction::Horizontal => return false,
-        Direction::Unknown => {}
-    }
-    let vertical = |word: &str| direction(word) == Direction::Vertical;
-    let end = name.rsplit(['-', '_', '.']).next().unwrap_or("");
-    (end.len() < name.len() && vertical(end))
-        || name.split('.').any(|part| is_code(part) && vertical(part))
-}
-
+/// Whether the end of a name is an orientation: a word for a horizontal
+/// component, or a number.
 fn is_orientation(end: &str) -> bool {
-    let digits = (1..=3).contains(&end.len())
-        && end.bytes().all(|b| b.is_ascii_digit());
-    let degrees = digits && end.parse::<u16>().is_ok_and(|d| d <= 360);
-    degrees || NAMED.iter().any(|name| end.eq_ignore_ascii_case(name))
-}
-
-fn glued(stem: &str) -> Option<&str> {
-    let split = |n: usize| {
-        let at = stem.len().checked_sub(n)?;
-        Some((stem.get(..at)?, stem.get(at..)?))
-    };
-    let (key, end) = split(3)?;
-    if end.bytes().all(|b| b.is_ascii_digit()) && is_orientation(end) {
-        return Some(key);
-    }
-    let (key, end) = split(2)?;
-    let letters = end.bytes().all(|b| b.is_ascii_alphabetic());
-    let after_digit = key.ends_with(|c: char| c.is_ascii_digit());
-    (letters && after_digit && is_orientation(end)).then_some(key)
+    is_azimuth(end) || Direction::of_word(end) == Direction::Horizontal
 }
 
 /// Gives the two records that share event and station, or else a name but

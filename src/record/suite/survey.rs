@@ -8,8 +8,8 @@ use super::{
 };
 use super::{index, pairing};
 use crate::record::{
-    Fault, Record, RecordError, file_bytes, is_record, name_of, read_all,
-    result_name, stem,
+    Direction, Fault, Record, RecordError, Remark, file_bytes, is_record,
+    name_of, read_all, result_name, stem,
 };
 
 /// The index in a folder or archive as PEER's site delivers it.
@@ -18,7 +18,10 @@ const PEER_RESULTS: &str = "_SearchResults.csv";
 /// What a folder or index holds, refused records included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
+    /// The folder, index, archive or record, in messages.
     path: String,
+    /// Name of the suite.
+    name: String,
     members: Vec<Result<SuiteMember, SuiteError>>,
     set_aside: SetAside,
     study_rule: StudyRule,
@@ -52,9 +55,10 @@ impl Survey {
         if !index::is_index(&bytes) && is_record(&bytes) {
             let base = base.display().to_string();
             let names = [name_of(path)];
-            return Self::of_files(&base, &names, options, |_| {
-                Ok(bytes.clone())
-            });
+            let read = |_: &str| Ok(bytes.clone());
+            let survey = Self::of_files(&base, &names, options, read)?;
+            let name = stem(&shown).to_owned();
+            return Ok(Self { path: shown, name, ..survey });
         }
         Self::of_index(&shown, &bytes, options, |file| {
             file_bytes(&base.join(file))
@@ -96,11 +100,12 @@ impl Survey {
             let bytes = file_bytes(results)?;
             let shown = format!("{path}/{results}");
             let mut listed = BTreeSet::from([(*results).clone()]);
-            let mut survey =
-                Self::of_index(&shown, &bytes, options, |name| {
-                    listed.insert(name.to_owned());
-                    file_bytes(name)
-                })?;
+            let survey = Self::of_index(&shown, &bytes, options, |name| {
+                listed.insert(name.to_owned());
+                file_bytes(name)
+            })?;
+            let name = container(path).to_owned();
+            let mut survey = Self { name, ..survey };
             for name in names.iter().filter(|name| !listed.contains(**name)) {
                 let shown = format!("{path}/{name}");
                 survey.refuse(name, Fault::Unlisted.whole(&shown));
@@ -109,13 +114,14 @@ impl Survey {
         }
         let mut survey = Self {
             path: path.to_owned(),
+            name: container(path).to_owned(),
             members: Vec::new(),
             set_aside: SetAside::default(),
             study_rule: StudyRule::FirstName,
             paired: false,
         };
         for name in names {
-            let shown = format!("{path}/{name}");
+            let shown = Path::new(path).join(name).display().to_string();
             let records = file_bytes(name)
                 .and_then(|bytes| read_all(&shown, &bytes, &options.read));
             let found = records.unwrap_or_else(|error| {
@@ -156,8 +162,12 @@ impl Survey {
         let member =
             |row: index::Row| row.member(&file_bytes(row.file())?, options);
         let members = index.into_rows().into_iter().map(member).collect();
+        // An index as PEER names it has its folder's name.
+        let folder = path.strip_suffix(PEER_RESULTS).map(container);
+        let name = folder.filter(|folder| !folder.is_empty());
         Ok(Self {
             path: path.to_owned(),
+            name: name.unwrap_or(stem(path)).to_owned(),
             members,
             set_aside: SetAside::default(),
             study_rule,
@@ -183,7 +193,7 @@ impl Survey {
     /// The first refused record; [`SuiteError::Empty`] without any; a name
     /// that two records share; a pair that is none.
     pub fn into_suite(self) -> Result<Suite, SuiteError> {
-        let Self { path, members, set_aside, study_rule, paired } = self;
+        let Self { path, name, members, set_aside, study_rule, paired } = self;
         let mut members =
             members.into_iter().collect::<Result<Vec<_>, _>>()?;
         if members.is_empty() {
@@ -197,28 +207,34 @@ impl Survey {
             pairing::mark_first(&mut members);
         }
         pairing::check_pairs(&path, &members)?;
-        let name = suite_name(&path);
         Ok(Suite { name, members, study_rule, set_aside })
     }
 }
 
-/// Name of a suite by its folder or index.
-fn suite_name(path: &str) -> String {
-    let folder = path.strip_suffix(PEER_RESULTS).filter(|f| !f.is_empty());
-    stem(folder.unwrap_or(path).trim_end_matches('/')).to_owned()
+/// Name of a folder, whole, or of a zip without its ending.
+fn container(path: &str) -> &str {
+    let path = path.trim_end_matches('/');
+    let name = path.rsplit('/').next().unwrap_or(path);
+    name.strip_suffix(".zip").unwrap_or(name)
 }
 
 /// A record of a folder as a member of the suite, unless it is vertical or
-/// results cannot carry the file's name.
+/// from a borehole, or results cannot carry the file's name.
 fn horizontal(
     shown: &str,
     file: &str,
     record: Record,
 ) -> Result<SuiteMember, RecordError> {
-    let label = record.channel.as_deref();
-    if pairing::is_vertical(label, record.accelerogram.name()) {
-        let name = record.accelerogram.name().to_owned();
-        return Err(Fault::Vertical(name).whole(shown));
+    let name = || record.accelerogram.name().to_owned();
+    if record.direction == Direction::Vertical {
+        return Err(Fault::Vertical(name()).whole(shown));
+    }
+    if record.borehole {
+        return Err(Fault::Borehole(name()).whole(shown));
+    }
+    let mut remarks = record.remarks;
+    if record.direction == Direction::Unknown {
+        remarks.push(Remark::Direction);
     }
     result_name(file).map_err(|error| Fault::Name(error).whole(shown))?;
     Ok(SuiteMember {
@@ -227,6 +243,7 @@ fn horizontal(
         format: record.format,
         unit: record.unit,
         site: record.site,
+        remarks,
         pair: None,
         study_component: false,
         attributes: BTreeMap::new(),

@@ -1,6 +1,6 @@
 //! Indexes, folders, pairs: what is read, and what must be refused.
 
-use super::pairing::{is_vertical, pair_key};
+use super::pairing::pair_key;
 use super::*;
 
 const MOTION: &str = "0\n0.2\n-0.1\n";
@@ -157,30 +157,6 @@ fn pairs_share_a_name_but_for_the_orientation() {
     for (stem, key) in cases {
         assert_eq!(pair_key(stem).as_deref(), key, "{stem}");
     }
-    let verticals = [
-        (None, "A_UP"),
-        (None, "A-DWN"),
-        (None, "A.UD2"),
-        (None, "IV.AQU..HNZ.D.1"),
-        (Some("2 Up"), "A:2_Up"),
-        (Some("U-D"), "A"),
-        (Some("HNZ"), "A"),
-    ];
-    for (label, name) in verticals {
-        assert!(is_vertical(label, name), "{name}");
-    }
-    // What the header says comes before the file's name.
-    for (label, name) in [
-        (None, "UP"),
-        (None, "A_000"),
-        (Some("1 90 deg"), "A:1_90_deg"),
-        (Some("90"), "A_UP"),
-        (Some("1 N08W"), "A.UD"),
-        (Some("E-W"), "A-V"),
-        (Some("Other"), "A"),
-    ] {
-        assert!(!is_vertical(label, name), "{name}");
-    }
 }
 
 #[test]
@@ -226,6 +202,91 @@ fn smc_components_are_told_by_their_header() {
     let [count] = suite.set_aside().counts()[..] else { panic!() };
     assert_eq!((count.reason, count.files), (AsideReason::Vertical, 1));
     assert_eq!(count.first, "0111b.smc");
+}
+
+/// The six files of a KiK-net station, and one of which nothing is known.
+fn kiknet() -> Vec<(String, String)> {
+    let text = crate::record::tests::KNET;
+    let file = |(name, dir): (&str, &str)| {
+        (format!("AAAH01.{name}"), text.replace("E-W", dir))
+    };
+    let channels = [
+        ("EW1", "2"),
+        ("EW2", "5"),
+        ("NS1", "1"),
+        ("NS2", "4"),
+        ("UD1", "3"),
+        ("UD2", "6"),
+        ("xy", "9"),
+    ];
+    channels.into_iter().map(file).collect()
+}
+
+#[test]
+fn of_a_kiknet_station_the_two_surface_components_make_a_suite() {
+    let files = kiknet();
+    let names: Vec<String> = files.iter().map(|f| f.0.clone()).collect();
+    let bytes = |name: &str| {
+        let file = files.iter().find(|f| f.0 == name).unwrap();
+        Ok(file.1.clone().into_bytes())
+    };
+    let options = SuiteOptions::default();
+    let survey = Survey::of_files("d", &names, &options, bytes).unwrap();
+    let aside: Vec<_> = survey
+        .set_aside()
+        .all()
+        .iter()
+        .map(|aside| format!("{} {}", aside.file, aside.reason.code()))
+        .collect();
+    assert_eq!(
+        aside,
+        [
+            "AAAH01.EW1 borehole",
+            "AAAH01.NS1 borehole",
+            "AAAH01.UD1 vertical",
+            "AAAH01.UD2 vertical"
+        ]
+    );
+    let suite = survey.into_suite().unwrap();
+    let kept: Vec<_> = suite.members().iter().map(|m| &*m.file).collect();
+    assert_eq!(kept, ["AAAH01.EW2", "AAAH01.NS2", "AAAH01.xy"]);
+    let [(study, other)] = suite.both()[..] else { panic!() };
+    assert_eq!((&*study.file, &*other.file), ("AAAH01.EW2", "AAAH01.NS2"));
+    // Of the third, neither the header nor the name tells the direction.
+    let remarks = |m: &SuiteMember| m.remarks.clone();
+    assert_eq!(remarks(study), []);
+    assert_eq!(remarks(&suite.members()[2]), [Remark::Direction]);
+    // An index says what is wanted, and a remark what it is.
+    let index = "file\nAAAH01.NS1\nAAAH01.UD2\nAAAH01.NS2\nAAAH01.xy\n";
+    let index = index.as_bytes();
+    let suite = Suite::from_index("i.csv", index, &options, bytes).unwrap();
+    let found: Vec<_> = suite.members().iter().map(remarks).collect();
+    let expected =
+        [vec![Remark::Borehole], vec![Remark::Vertical], vec![], vec![]];
+    assert_eq!(found, expected);
+    assert_eq!(suite.both().len(), 0);
+}
+
+#[test]
+fn a_suite_has_the_name_of_its_folder_or_file() {
+    let options = SuiteOptions::default();
+    let names = ["A.EW".to_owned()];
+    let bytes = |_: &str| Ok(crate::record::tests::KNET.into());
+    for (path, name) in [
+        ("M6.5_0917", "M6.5_0917"),
+        ("x/M6.5_0917/", "M6.5_0917"),
+        ("x/peer.v2.zip", "peer.v2"),
+    ] {
+        let survey = Survey::of_files(path, &names, &options, bytes);
+        assert_eq!(survey.unwrap().into_suite().unwrap().name(), name);
+    }
+    for (path, name) in
+        [("x/M6.5.csv", "M6.5"), ("M6.5_x/_SearchResults.csv", "M6.5_x")]
+    {
+        let index = b"file\nA.EW\n";
+        let suite = Suite::from_index(path, index, &options, bytes).unwrap();
+        assert_eq!(suite.name(), name);
+    }
 }
 
 /// AT2 names the component at the end of its second line.

@@ -159,9 +159,65 @@ fn a_first_line_unlike_all_others_is_refused() {
         let text = format!("{head}\n{rows}");
         assert!(read("t", text.as_bytes(), &in_g(Some(0.01))).is_ok());
     }
-    // Whole although no line end follows; cut, and shown by its digits.
-    let whole = rows.trim_end();
-    assert!(read("t", whole.as_bytes(), &in_g(Some(0.01))).is_ok());
-    let cut = refused(&whole[..whole.len() - 1]).to_string();
-    assert!(cut.contains("expected 5 decimals"), "{cut}");
+    // A negative number is neither, however it is written.
+    for text in ["-1.315\n0.7936\n0.1828\n", "-4\n0.1\n0.2\n0.3\n0.4\n"] {
+        let record = read("t", text.as_bytes(), &in_g(Some(0.01))).unwrap();
+        assert!(record.accelerogram.samples_g()[0] < 0.0);
+    }
+}
+
+/// A last line without its end is read. Where the form of its number does
+/// not prove it whole, a remark says so; where it shows a cut, it is refused.
+#[test]
+fn a_last_line_needs_no_end() {
+    let read = |text: &str| read("t", text.as_bytes(), &in_g(Some(0.01)));
+    let even = "0.00123\n-0.00456\n0.00789\n0.00012\n";
+    // Numbers as MATLAB writes them: a bare 0 beside 15 decimals.
+    let uneven = "                   0\n   0.000610352010000\n\
+        \x20  0.001220704020000\n                   0\n  -0.032411769120000\n";
+    let powers = "0.0012\n-1.25e-05\n0.0034\n2.5e-12\n0.004\n-0.05\n";
+    let pairs = "0.00 0.1\n0.01 -0.25\n0.02 0.125\n0.03 0\n0.04 0.5\n";
+    for (text, told) in [
+        (even, false),
+        (uneven, true),
+        (powers, true),
+        (pairs, true),
+        ("-1.315\n0.7936\n0.1828\n", true),
+    ] {
+        let whole = read(text).unwrap();
+        assert_eq!(whole.remarks, []);
+        let open = read(text.trim_end()).expect(text);
+        assert_eq!(open.accelerogram, whole.accelerogram);
+        let expected = told.then_some(Remark::LastLine);
+        assert_eq!(open.remarks, Vec::from_iter(expected), "{text}");
+    }
+    let cases = [
+        (even, 1, "\"0.0001\": expected 5 decimals and no exponent"),
+        (powers, 0, ""),
+    ];
+    for (text, bytes, expected) in cases {
+        let cut = text.trim_end();
+        let found = read(&cut[..cut.len() - bytes]);
+        match found {
+            Ok(_) => assert_eq!(expected, ""),
+            Err(error) => assert!(error.to_string().contains(expected)),
+        }
+    }
+    // A cut exponent would make another number of a small one.
+    for last in ["-1.25e-0", "-1.25", "0.5", "-1.25e", "-1.", "-"] {
+        let cut = powers.replace("-0.05\n", last);
+        assert!(read(&cut).is_err(), "{last}");
+        let ended = read(&format!("{cut}\n"));
+        let number = last.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+        assert_eq!(ended.is_ok(), number, "{last}");
+    }
+    let found = read(&powers.replace("-0.05\n", "-1.25")).unwrap_err();
+    assert_eq!(
+        found.to_string(),
+        "t:6: \"-1.25\": expected an exponent of 4 characters, as in other numbers, or the end of the line"
+    );
+    // The same in the one format with a header that has one sample a line.
+    let esm = networks::ESM.replace("-1.500000", "-1.5");
+    let esm = esm.replace("3.000000\n", "3.0");
+    assert_eq!(read_text(&esm).unwrap().remarks, [Remark::LastLine]);
 }

@@ -3,7 +3,7 @@
 
 use super::*;
 
-pub(super) const KNET: &str = "Origin Time       1900/01/01 00:00:00\n\
+pub(in crate::record) const KNET: &str = "Origin Time       1900/01/01 00:00:00\n\
     Lat.              38.103\n\
     Long.             142.860\n\
     Depth. (km)       24\n\

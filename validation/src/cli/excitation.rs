@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use rocking::excitation::{NormalisedRecord, Pulse, PulseKind};
-use rocking::record::{Accelerogram, SetAside, read_file};
+use rocking::record::{Accelerogram, Record, Remarked, SetAside, read_file};
 
 use super::Failure;
 use super::names::{INTENSITIES, named};
@@ -145,9 +145,12 @@ impl ExcitationArgs {
         }
         if let Some(path) = &self.record {
             let options = self.reading.options(gravity_m_s2);
-            let record = read_file(path, &options)?.accelerogram;
-            let record = self.processing.processing()?.apply(&record)?;
-            let remarks = Remarks::of(&[(&record, None)]);
+            let Record { accelerogram, remarks: read, .. } =
+                read_file(path, &options)?;
+            let record = self.processing.processing()?.apply(&accelerogram)?;
+            let remarked =
+                Remarked { record: &record, pair: None, read: &read };
+            let remarks = Remarks::of(&[remarked]);
             self.reading.judge(&SetAside::default(), &remarks)?;
             let unit = NormalisedRecord::new(&record);
             let target =

@@ -13,7 +13,7 @@ use rocking::ida::{
     Resurrections,
 };
 use rocking::integrator::{Model, Order, WorkLimit};
-use rocking::record::{Suite, SuiteMember};
+use rocking::record::{Remarked, Suite, SuiteMember};
 
 use self::forces::{Audit, ForcesArgs};
 use super::limit::{LimitArgs, curve_refused};
@@ -176,9 +176,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn remarks_on(chosen: &[&SuiteMember]) -> Remarks {
-    let chosen = chosen.iter();
-    let named = chosen.map(|m| (&m.accelerogram, m.pair.as_deref()));
-    Remarks::of(&named.collect::<Vec<_>>())
+    let chosen = chosen.iter().map(|member| Remarked::from(*member));
+    Remarks::of(&chosen.collect::<Vec<_>>())
 }
 
 /// A table and what it was made of.

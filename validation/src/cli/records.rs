@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Aside, Format, ReadOptions, RecordError, Remark, SetAside, Suite,
-    SuiteMember,
+    self, Aside, Format, ReadOptions, RecordError, Remark, Remarked, SetAside,
+    Suite, SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use serde_json::{Value, json};
@@ -58,12 +58,18 @@ struct Listed {
     motion: record::Accelerogram,
     /// Pair and whether the study uses this component, in a suite.
     place: Option<(Option<String>, bool)>,
+    /// What reading found; with what the samples show, once all are read.
     remarks: Vec<Remark>,
 }
 
 impl Listed {
     fn pair(&self) -> Option<&str> {
         self.place.as_ref().and_then(|(pair, _)| pair.as_deref())
+    }
+
+    fn remarked(&self) -> Remarked<'_> {
+        let (record, pair) = (&self.motion, self.pair());
+        Remarked { record, pair, read: &self.remarks }
     }
 
     fn member(member: &SuiteMember, in_suite: bool) -> Self {
@@ -74,7 +80,7 @@ impl Listed {
             motion: member.accelerogram.clone(),
             place: in_suite
                 .then(|| (member.pair.clone(), member.study_component)),
-            remarks: Vec::new(),
+            remarks: member.remarks.clone(),
         }
     }
 }
@@ -165,8 +171,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if !listing.refused.is_empty() {
         return Err(Failure::input(causes(&listing.refused)));
     }
-    let all = listing.records.iter();
-    let all = all.map(|listed| (&listed.motion, listed.pair()));
+    let all = listing.records.iter().map(Listed::remarked);
     let remarks = Remarks::of(&all.collect::<Vec<_>>());
     args.reading.judge(&listing.set_aside, &remarks)
 }
@@ -209,7 +214,7 @@ impl Listing {
                     unit: record.unit,
                     motion: record.accelerogram,
                     place: None,
-                    remarks: Vec::new(),
+                    remarks: record.remarks,
                 }))
             }
         }
@@ -263,11 +268,8 @@ impl Listing {
     }
 
     fn remark(&mut self) {
-        let records: Vec<_> = self
-            .records
-            .iter()
-            .map(|listed| (&listed.motion, listed.pair()))
-            .collect();
+        let records: Vec<_> =
+            self.records.iter().map(Listed::remarked).collect();
         let found = record::remarks_together(&records);
         for (listed, remarks) in self.records.iter_mut().zip(found) {
             listed.remarks = remarks;

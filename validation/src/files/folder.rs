@@ -57,7 +57,7 @@ impl Folder {
                 use std::os::unix::fs::PermissionsExt as _;
                 builder.permissions(fs::Permissions::from_mode(0o777));
             }
-            let part = builder.tempdir_in(path).map_err(said)?;
+            let part = builder.tempdir_in(path).map_err(|e| said(e, path))?;
             let lock = File::create(part.path().join(LOCK))?;
             lock.lock()?;
             let path = path.to_owned();

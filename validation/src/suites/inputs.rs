@@ -108,6 +108,11 @@ pub fn survey_zip(
     let size = size.map_err(|e| unreadable(e.to_string()))?;
     let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
     let index_limit = left / INDEX_PART;
+    if !has_end(&mut archive, size).map_err(|e| unreadable(e.to_string()))? {
+        let cut =
+            "the archive is cut: expected a list of its files at its end";
+        return Err(unreadable(cut.to_owned()));
+    }
     let refuse = |e: zip::result::ZipError| unreadable(e.to_string());
     let opened = ZipArchive::new(&mut archive).map_err(refuse)?;
     let start = opened.central_directory_start();
@@ -166,6 +171,15 @@ fn doubled_names(
             doubled.push(name);
         }
     }
+}
+
+/// Whether an archive of `size` bytes has the record that ends every zip: 22
+/// bytes and a comment of at most 65,535.
+fn has_end(archive: &mut (impl Read + Seek), size: u64) -> io::Result<bool> {
+    let mut end = Vec::new();
+    archive.seek(SeekFrom::Start(size.saturating_sub(22 + 65_535)))?;
+    archive.read_to_end(&mut end)?;
+    Ok(end.windows(4).any(|bytes| bytes == b"PK\x05\x06"))
 }
 
 /// The folder of an archive that PEER's search results lie in, if any, and

@@ -1,18 +1,22 @@
 //! What is suspicious about the records of a command, told wherever its
 //! results are.
 
-use rocking::record::{Accelerogram, Remark, Suite, remarks_together};
+use rocking::record::{Remark, Remarked, Suite, remarks_together};
 use serde_json::{Value, json};
 
 /// Codes of remarks, the gravest first.
-const GRAVEST: [&str; 11] = [
+const GRAVEST: [&str; 15] = [
     "units",
     "interval",
+    "vertical",
+    "borehole",
     "flat",
     "clipped",
     "offset",
     "one-sided",
+    "last-line",
     "duplicate",
+    "direction",
     "unequal-components",
     "interval-rounded",
     "end-velocity",
@@ -29,9 +33,9 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Remarks on records, given with the names of their pairs.
+    /// Remarks on records.
     #[must_use]
-    pub fn of(records: &[(&Accelerogram, Option<&str>)]) -> Self {
+    pub fn of(records: &[Remarked<'_>]) -> Self {
         let mut remarks = remarks_together(records);
         for of_one in &mut remarks {
             let mut seen = Vec::new();
@@ -41,7 +45,7 @@ impl Remarks {
                 is_new
             });
         }
-        let named = records.iter().map(|(record, _)| record.name().to_owned());
+        let named = records.iter().map(|one| one.record.name().to_owned());
         let found = named.zip(remarks).filter(|(_, all)| !all.is_empty());
         Self { records: records.len(), found: found.collect() }
     }
@@ -49,8 +53,7 @@ impl Remarks {
     /// Remarks on all records of a suite.
     #[must_use]
     pub fn on(suite: &Suite) -> Self {
-        let all = suite.members().iter();
-        let all = all.map(|m| (&m.accelerogram, m.pair.as_deref()));
+        let all = suite.members().iter().map(Remarked::from);
         Self::of(&all.collect::<Vec<_>>())
     }
 
@@ -113,6 +116,8 @@ impl Remarks {
 
 #[cfg(test)]
 mod tests {
+    use rocking::record::Accelerogram;
+
     use super::*;
 
     #[test]
@@ -125,8 +130,8 @@ mod tests {
         };
         let clean = [motion("a", 0.3, 0.0)];
         let of = |records: &[Accelerogram]| {
-            let all: Vec<_> = records.iter().map(|r| (r, None)).collect();
-            Remarks::of(&all)
+            let one = |record| Remarked { record, pair: None, read: &[] };
+            Remarks::of(&records.iter().map(one).collect::<Vec<_>>())
         };
         assert_eq!(of(&clean).words(), None);
         let mixed = [

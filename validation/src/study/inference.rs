@@ -514,7 +514,12 @@ fn many(
     };
     let worst = (0..deciding.len())
         .filter(|k| verdicts[*k] == verdict_of_all)
-        .max_by(|a, b| reach(*a).total_cmp(&reach(*b)))
+        .max_by(|a, b| {
+            // A cell without an interval has no reach to be compared.
+            let known = |k: usize| (reach(k).is_finite(), reach(k));
+            let ((a, of_a), (b, of_b)) = (known(*a), known(*b));
+            a.cmp(&b).then(of_a.total_cmp(&of_b))
+        })
         .unwrap_or(0);
     let total = deciding.len() as f64;
     if rule.quantifier == Quantifier::All {

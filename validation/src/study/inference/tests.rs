@@ -173,7 +173,7 @@ fn a_count_far_above_a_limit_is_seen_among_many_cells() {
 fn a_cell_that_no_replicate_moves_is_open() {
     // All records have the value 1: the bootstrap knows no error.
     let draws = Draws::new([80, 40]);
-    let (cells, ranked) = cells(&[0.0, 0.01]);
+    let (cells, ranked) = cells(&[0.0, 0.2]);
     let constant = Ranked::new(&[1.0; 80]);
     let medians = |draw: Draw<'_>| -> Vec<f64> {
         let counts = draw.of(SuiteKind::Ordinary);
@@ -183,6 +183,9 @@ fn a_cell_that_no_replicate_moves_is_open() {
     let rule = rule(Quantifier::All, Region::Within(0.8, 1.2));
     let found =
         judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured);
-    assert_eq!(found.cells.map(|c| c.inside), Some(1));
+    assert_eq!(found.cells.map(|c| c.inside), Some(0));
     assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    // The cell that is shown has an interval.
+    assert_eq!(found.at, "cell 1");
+    assert!(found.low.is_finite() && found.high.is_finite());
 }

@@ -75,6 +75,7 @@ pub mod ida;
 pub mod integrator;
 pub mod intensity;
 pub mod number;
+pub mod procedures;
 pub mod record;
 pub mod statistics;
 pub mod streams;

@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
+use rocking::procedures::Shift;
+use rocking::procedures::fit::ShiftError;
 use rocking::statistics::lilliefors::{
     Assessment, Inapplicable, LillieforsError, Null, NullDistribution, Scale,
     ShiftedNull, Table, Verdict,
@@ -13,7 +15,7 @@ use rocking::statistics::normality::{
 use rocking::statistics::{ExtendedSample, Sample};
 use serde_json::{Value, json};
 
-use super::samples::{SampleFile, Shift};
+use super::samples::SampleFile;
 use super::{Failure, print, print_json, progress, with_threads};
 use crate::files::Outputs;
 use crate::table::Table as Csv;
@@ -145,7 +147,7 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
 fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     let whole = file.extended()?;
     let simulates = args.replicates.is_some()
-        || args.shift == Some(Shift::Min)
+        || args.shift == Some(Shift::Smallest)
         || is_beyond_table(whole.len());
     if !simulates && (args.seed.is_some() || args.threads.is_some()) {
         return Err(Failure::input(
@@ -156,9 +158,9 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     let (scale, sample) = match shift {
         None => (Scale::Linear, whole),
         Some(shift) => {
-            let (shift, above) = shift.split(file.values())?;
+            let (shift, above) = shift.split(&file.censored()?)?;
             let scale = Scale::Logarithmic { shift };
-            (scale, ExtendedSample::try_new(&above)?)
+            (scale, ExtendedSample::try_new(above.values())?)
         }
     };
     let (method, simulated) = simulated_null(args, &sample, file.values())?;
@@ -181,9 +183,9 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
 
 /// A shift that Lilliefors' null knows: a third fitted parameter has another.
 fn known_shift(text: &str) -> Result<Shift, String> {
-    match text.parse()? {
+    match text.parse().map_err(|e: ShiftError| e.to_string())? {
         Shift::Free => Err("expected a number, not negative, or `min`; \
-             `rocking fragility --compare` tests a fitted shift"
+             `rocking fragility choose` tests a fitted shift"
             .into()),
         shift => Ok(shift),
     }
@@ -204,7 +206,7 @@ fn simulated_null(
     if n < 4 || sample.censored() > 0 {
         return Ok(("none", None));
     }
-    if args.shift == Some(Shift::Min) {
+    if args.shift == Some(Shift::Smallest) {
         let replicates = args.replicates.unwrap_or(REPLICATES_BEYOND);
         let null = ShiftedNull::smallest_value(values, replicates, seed)?;
         return Ok(("simulation, smallest value as shift", Some(null.null)));
@@ -246,7 +248,7 @@ fn others(
 ) -> Result<[Option<Other>; 3], Failure> {
     let none = [None, None, None];
     let Some(tested) = &assessment.tested else { return Ok(none) };
-    let given = args.shift != Some(Shift::Min)
+    let given = args.shift != Some(Shift::Smallest)
         && (4..=Battery::MOST_VALUES).contains(&tested.len());
     if let Some(replicates) = args.replicates.filter(|_| given) {
         let seed = args.seed.unwrap_or(0);

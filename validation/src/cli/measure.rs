@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use rocking::integrator::Model;
 use rocking::intensity::{Measures, Settings};
+use rocking::procedures::ranking::Candidate;
 use rocking::record::SuiteMember;
 
 use super::capacities::ida;
@@ -175,6 +176,24 @@ fn uplift(table: &ida::Suite) -> Result<f64, Failure> {
 }
 
 impl Ground {
+    /// The measures as candidates of a ranking.
+    ///
+    /// # Errors
+    /// As [`Ground::at_uplift`].
+    pub fn candidates(
+        &self,
+        measures: &[Measure],
+    ) -> Result<Vec<Candidate>, Failure> {
+        let candidate = |measure: &Measure| {
+            Ok(Candidate {
+                im: measure.to_string(),
+                at_uplift: self.at_uplift(measure)?,
+                squared: measure.is_squared(),
+            })
+        };
+        measures.iter().map(candidate).collect()
+    }
+
     /// The measure of each record where PGA/(g tan alpha) is 1.
     ///
     /// # Errors

@@ -11,7 +11,9 @@ pub mod capacities;
 pub mod choice;
 pub mod comparison;
 pub mod fit;
+pub mod normality;
 pub mod ranking;
+pub mod stripes;
 pub mod summary;
 
 pub use choice::{Choice, choose};
@@ -20,7 +22,9 @@ pub use fit::{
     Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Shift,
     fit_levels, fit_sample,
 };
+pub use normality::{Normality, NormalityOptions, test_normality};
 pub use ranking::{Ranking, rank};
+pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 
 /// Writes a value, or why there is none as `{"reason": "..."}`.

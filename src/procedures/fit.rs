@@ -12,6 +12,7 @@ pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use crate::procedures::capacities;
+use crate::statistics::lilliefors::LillieforsError;
 use crate::statistics::lognormal::{
     FitError, FitMethod, LognormalFit, profile_shift,
 };
@@ -162,6 +163,24 @@ pub enum ProcedureError {
         /// Number of records.
         expected: usize,
     },
+    /// No record was run up to an intensity.
+    #[error("intensity {0}: no record was run so far")]
+    NotRun(f64),
+    /// An EDP level is positive.
+    #[error("EDP level {0}: expected a positive number, or inf")]
+    EdpLevel(f64),
+    /// A test that is refused.
+    #[error(transparent)]
+    Test(#[from] LillieforsError),
+    /// A level of a test.
+    #[error("level {0}: expected a number between 0 and 1")]
+    Level(f64),
+    /// A third fitted parameter has another null distribution.
+    #[error(
+        "a free shift: expected a number, not negative, or min; a choice of \
+         distributions tests a fitted shift"
+    )]
+    FreeShiftTested,
     /// A free shift maximises a likelihood.
     #[error("shift free with method {0}: expected the method mle")]
     FreeShift(FitMethod),

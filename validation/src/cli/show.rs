@@ -233,14 +233,15 @@ fn flatten(
     }
 }
 
-/// A value with the ends of its interval: a struct with `point`, `low` and
-/// `high`.
+/// A value with the ends of its interval: a struct with `point` or `value`,
+/// `low` and `high`.
 fn interval(fields: &[(String, Node)]) -> Option<String> {
     let at = |wanted: &str| {
         let found = fields.iter().find(|(name, _)| name == wanted);
         found.map(|(_, value)| cell(value))
     };
-    let (point, low, high) = (at("point")?, at("low")?, at("high")?);
+    let point = at("point").or_else(|| at("value"))?;
+    let (low, high) = (at("low")?, at("high")?);
     Some(format!("{point} [{low}, {high}]"))
 }
 

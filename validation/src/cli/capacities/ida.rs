@@ -119,6 +119,12 @@ pub struct Suite {
 }
 
 impl Suite {
+    /// The curves, in the order of the table.
+    #[must_use]
+    pub fn into_curves(self) -> Vec<ResponseCurve> {
+        self.curves.into_iter().map(|(_, curve)| curve).collect()
+    }
+
     /// The curves against a measure whose values at intensity 1 are these:
     /// proportional to the intensity, or to its square.
     ///

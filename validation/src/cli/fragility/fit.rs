@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
-use rocking::capacity::{InversionRule, ResponseCurve};
+use rocking::capacity::InversionRule;
 use rocking::procedures::fit::Band;
 use rocking::procedures::{
     Draws, FitOptions, FragilityFit, LevelFit, Shift, fit_levels, fit_sample,
@@ -205,9 +205,7 @@ fn of_levels(
     options: &FitOptions,
 ) -> Result<(), Failure> {
     let measure = args.im.unwrap_or(Intensity::Pga);
-    let suite = ida::read(path, measure)?;
-    let curves: Vec<ResponseCurve> =
-        suite.curves.into_iter().map(|(_, curve)| curve).collect();
+    let curves = ida::read(path, measure)?.into_curves();
     let rule = args.point.unwrap_or(InversionRule::Median);
     let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
     let found =

@@ -11,15 +11,15 @@ use rocking::capacity::{
     Capacity, CapacityError, InversionRule, ResponseCurve,
     inversion_discrepancy,
 };
+use rocking::intensity::IntensityMeasure;
 use rocking::statistics::{ExtendedSample, QuantileType};
 use serde_json::{Value, json};
 
 use super::measure::GroundArgs;
-use super::names::{CROSSINGS, named};
+use super::names;
 use super::samples::SAMPLE_OF;
 use super::{Failure, print, print_json};
 use crate::files::Outputs;
-use crate::measure::Measure;
 use crate::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
@@ -51,7 +51,7 @@ pub struct Args {
     /// periods in s, 5 % damping) or column:NAME (of --attributes or the
     /// index, proportional to the acceleration) [default: pga].
     #[arg(long, value_name = "MEASURE", conflicts_with = "curve")]
-    im: Option<Measure>,
+    im: Option<IntensityMeasure>,
     #[command(flatten)]
     ground: GroundArgs,
     /// EDP levels, FIRST:LAST:STEP or separated by commas.
@@ -64,7 +64,7 @@ pub struct Args {
     levels: Levels,
     /// Which single capacity is made of several crossings, for the quantiles
     /// over the records of --ida [default: median].
-    #[arg(long, value_parser = named(CROSSINGS), conflicts_with = "curve")]
+    #[arg(long, value_parser = names::crossing(), conflicts_with = "curve")]
     point: Option<InversionRule>,
     /// EDP level of the sample written to --out.
     #[arg(long, value_name = "E", requires = "out", conflicts_with = "curve")]
@@ -171,14 +171,15 @@ fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
         });
         return print_json(out);
     }
-    let mut text = format!(
-        "{:>8} {:>10} {:>10} {:>10} {:>10}  crossings\n",
-        "EDP", "median", "first", "last", "monotone"
-    );
+    let mut text = format!("{:>8}", "EDP");
+    for rule in InversionRule::ALL {
+        write!(text, " {rule:>10}")?;
+    }
+    text += "  crossings\n";
     for &level in &args.levels.0 {
         let crossings = curve.crossings(level)?;
         write!(text, "{level:>8}")?;
-        for rule in RULES {
+        for rule in InversionRule::ALL {
             write!(text, " {:>10.6}", crossings.capacity(rule).im())?;
         }
         text += " ";
@@ -189,13 +190,6 @@ fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
     }
     print(&text)
 }
-
-const RULES: [InversionRule; 4] = [
-    InversionRule::Median,
-    InversionRule::First,
-    InversionRule::Last,
-    InversionRule::Monotone,
-];
 
 /// The crossings and capacities of a curve at every level, as JSON.
 fn levels(
@@ -213,9 +207,9 @@ fn levels(
                 .map(|im| json!(told(*im)))
                 .collect::<Vec<_>>(),
         });
-        for rule in RULES {
+        for rule in InversionRule::ALL {
             let im = crossings.capacity(rule).im();
-            row[rule.to_string()] = json!(told(im));
+            row[rule.name()] = json!(told(im));
         }
         Ok(row)
     };
@@ -223,7 +217,7 @@ fn levels(
 }
 
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
-    let measure = args.im.as_ref().unwrap_or(&Measure::Pga);
+    let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::Pga);
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
@@ -268,19 +262,16 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
 fn suite(
     args: &Args,
     path: &Path,
-    measure: &Measure,
+    measure: &IntensityMeasure,
 ) -> Result<ida::Suite, Failure> {
-    if measure.is_in_table() {
+    if let Some(intensity) = measure.dimensionless() {
         if args.ground.is_given() {
             return Err(Failure::input(format!(
-                "--suite is not used for {measure}, which the table holds"
+                "--suite is not used for {}, which the table holds",
+                intensity.words()
             )));
         }
-        let by = match measure {
-            Measure::Pgv => Intensity::Pgv,
-            _ => Intensity::Pga,
-        };
-        return Ok(ida::read(path, by)?);
+        return Ok(ida::read(path, intensity)?);
     }
     let suite = ida::read(path, Intensity::Pga)?;
     let ground = args.ground.ground(&suite, std::slice::from_ref(measure))?;
@@ -291,16 +282,17 @@ fn suite(
 /// The sample file of the records' capacities at a level.
 fn sample(
     suite: &ida::Suite,
-    measure: &Measure,
+    measure: &IntensityMeasure,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
     let (alpha_rad, p_rad_s) = &suite.block;
     let setting = &suite.setting;
     let mut text = format!(
-        "{SAMPLE_OF}{measure} at EDP {level}, {rule} crossing\n\
+        "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
          # alpha {} rad, p {p_rad_s} rad/s, eta {}, {}, overturned at {}, \
          {}, g {} m/s2, processing: {}, {}\n",
+        measure.words(),
         alpha_rad.as_deref().unwrap_or("adjusted"),
         setting.eta,
         setting.model,
@@ -378,9 +370,9 @@ fn json(
     };
     Ok(json!({
         "im_r": json!(suite.told(suite.im_r)),
-        "im": args.im.as_ref().unwrap_or(&Measure::Pga).to_string(),
+        "im": args.im.as_ref().unwrap_or(&IntensityMeasure::Pga).words(),
         "n": suite.curves.len(),
-        "point": rule.to_string(),
+        "point": rule,
         "quantile_type": 5,
         "rows_after_overturning": suite.after_overturning,
         "levels": rows.iter().map(summary).collect::<Vec<_>>(),

@@ -14,13 +14,14 @@ pub(super) use counts::COLUMNS as COUNTS;
 
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
+use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::InversionRule;
 use rocking::fragility::{FragilityError, c_max, eq5, eq6, eq7};
+use rocking::statistics::lognormal::FitMethod;
 use serde_json::{Map, Value, json};
 
 use super::capacities::Levels;
-use super::names::{CROSSINGS, INTENSITIES, named};
+use super::names;
 use super::samples::Shift;
 use super::{Failure, print, print_json};
 use crate::paper::Intensity;
@@ -95,12 +96,12 @@ pub struct Args {
     /// not say it.
     #[arg(
         long,
-        value_parser = named(INTENSITIES),
+        value_parser = names::intensity(),
         conflicts_with = "transform"
     )]
     im: Option<Intensity>,
     /// Which single capacity is made of several crossings [default: median].
-    #[arg(long, value_parser = named(CROSSINGS), requires = "ida")]
+    #[arg(long, value_parser = names::crossing(), requires = "ida")]
     point: Option<InversionRule>,
     /// Eqs. 5 to 7 from given numbers.
     #[arg(long)]
@@ -114,8 +115,12 @@ pub struct Args {
     #[arg(long, value_name = "X|min|free", allow_hyphen_values = true)]
     shift: Option<Shift>,
     /// How the lognormal distribution is fitted [default: mle].
-    #[arg(long, conflicts_with = "transform")]
-    method: Option<Method>,
+    #[arg(
+        long,
+        value_parser = names::fit_method(),
+        conflicts_with = "transform"
+    )]
+    method: Option<FitMethod>,
     /// Type of the quantiles, 1 to 9 [default: 5].
     #[arg(long, value_name = "TYPE", conflicts_with = "transform")]
     quantile_type: Option<u8>,
@@ -193,23 +198,6 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
-}
-
-/// How a lognormal distribution is fitted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Method {
-    /// Maximum likelihood (divisor n); values `>LIMIT` enter by their limits.
-    Mle,
-    /// Mean and standard deviation of the logarithms (divisor n - 1).
-    Moment,
-    /// The same of the values up to the 95 % quantile.
-    Trimmed,
-    /// Median and half the logarithm of the ratio of the 84 and 16 %
-    /// quantiles.
-    Quantile,
-    /// Maximum likelihood, values above the 95 % quantile and infinite ones
-    /// right-censored at the largest value left, values `>LIMIT` at theirs.
-    Censored,
 }
 
 /// Runs the command.

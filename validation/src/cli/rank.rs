@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args as ClapArgs;
 use libm::log;
 use rocking::capacity::{Capacity, InversionRule};
+use rocking::intensity::{Intensity, IntensityMeasure as M};
 use rocking::statistics::bootstrap::{Bootstrap, Estimate, estimate};
 use rocking::statistics::lognormal::fit_intervals;
 use rocking::statistics::regression::{Line, line};
@@ -13,15 +14,13 @@ use serde_json::{Value, json};
 
 use super::capacities::ida;
 use super::measure::{Ground, GroundArgs};
-use super::names::{CROSSINGS, named};
+use super::names;
 use super::{Failure, print, print_json, with_threads};
 use crate::draw::figures::{
     Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
 use crate::draw::markup;
 use crate::files::Outputs;
-use crate::measure::Measure;
-use crate::paper::Intensity;
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -57,11 +56,15 @@ pub struct Args {
     /// pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1, 2, 3 and 4 s, and
     /// avgsa:0.5,1,1.5,2,3]. Ratios are to the first one.
     #[arg(long, value_name = "MEASURE")]
-    im: Vec<Measure>,
+    im: Vec<M>,
     #[command(flatten)]
     ground: GroundArgs,
     /// Which single capacity is made of several crossings.
-    #[arg(long, value_parser = named(CROSSINGS), default_value = "median")]
+    #[arg(
+        long,
+        value_parser = names::crossing(),
+        default_value_t = InversionRule::Median
+    )]
     point: InversionRule,
     /// Column of the magnitude.
     #[arg(long, value_name = "COLUMN")]
@@ -93,7 +96,7 @@ pub struct Args {
 
 /// A measure, and what was found of it.
 struct Row {
-    measure: Measure,
+    measure: M,
     median: f64,
     beta: Option<Estimate>,
     /// Dispersion over that of the first measure.
@@ -105,7 +108,7 @@ struct Row {
 impl Row {
     fn name(&self) -> String {
         let of = if self.measure.is_squared() { "root of " } else { "" };
-        format!("{of}{}", self.measure)
+        format!("{of}{}", self.measure.words())
     }
 }
 
@@ -118,11 +121,10 @@ type Capacities = Vec<(f64, f64)>;
 /// [`Failure`] for files that are refused, or capacities that make no fit.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let measures = if args.im.is_empty() {
-        let sa = [0.5, 1.0, 2.0, 3.0, 4.0].map(Measure::Sa);
-        let mut all = vec![Measure::Pga, Measure::Pgv, Measure::Pgd];
-        all.extend([Measure::Arias, Measure::Cav, Measure::PgvDuration]);
-        all.extend(sa);
-        all.push(Measure::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
+        let mut all = vec![M::Pga, M::Pgv, M::Pgd, M::Arias, M::Cav];
+        all.push(M::PgvDuration);
+        all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(M::Sa));
+        all.push(M::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
         all
     } else {
         args.im.clone()
@@ -156,7 +158,7 @@ fn rank(
     args: &Args,
     ground: &Ground,
     capacities: &[(f64, f64)],
-    measures: Vec<Measure>,
+    measures: Vec<M>,
 ) -> Result<(Vec<Row>, usize), Failure> {
     let mut all: Vec<Capacities> = Vec::new();
     for measure in &measures {
@@ -203,8 +205,9 @@ fn rank(
     let mut rows = Vec::new();
     let first = beta(&all[0]);
     for (i, measure) in measures.into_iter().enumerate() {
-        let fit = fit_intervals(&all[i], 0.0)
-            .map_err(|error| Failure::input(format!("{measure}: {error}")))?;
+        let fit = fit_intervals(&all[i], 0.0).map_err(|error| {
+            Failure::input(format!("{}: {error}", measure.words()))
+        })?;
         let own = fit.distribution.dispersion();
         let column: Vec<f64> = drawn.iter().map(|row| row[i]).collect();
         let ratios: Vec<f64> =
@@ -219,6 +222,22 @@ fn rank(
         });
     }
     Ok((rows, censored))
+}
+
+/// A few letters, for the tick of an axis; Arias intensity by its root.
+fn short(measure: &M) -> String {
+    match measure {
+        M::Arias => "√Arias".into(),
+        M::PgvDuration => "PGV D".into(),
+        M::Sa(period_s) => format!("SA({period_s})"),
+        M::AverageSa(periods_s) => {
+            let (first, last) = (periods_s.first(), periods_s.last());
+            let of = |t: Option<&f64>| t.copied().unwrap_or(f64::NAN);
+            format!("SA({}–{})", of(first), of(last))
+        }
+        M::Column(name) => name.clone(),
+        word => word.to_string().to_uppercase(),
+    }
 }
 
 impl Args {
@@ -282,7 +301,7 @@ impl Args {
             range: None,
             categories: rows
                 .iter()
-                .map(|row| markup::escape(&row.measure.short()))
+                .map(|row| markup::escape(&short(&row.measure)))
                 .collect(),
             second: None,
         };

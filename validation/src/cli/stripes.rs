@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::capacities::{Levels, ida};
 use super::fragility::COUNTS;
-use super::names::{INTENSITIES, named};
+use super::names;
 use super::{Failure, print, print_json};
 use crate::files::Outputs;
 use crate::json;
@@ -33,7 +33,11 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     ida: PathBuf,
     /// Intensity measure.
-    #[arg(long, value_parser = named(INTENSITIES), default_value = "pga")]
+    #[arg(
+        long,
+        value_parser = names::intensity(),
+        default_value_t = Intensity::Pga
+    )]
     im: Intensity,
     /// Intensities, FIRST:LAST:STEP or separated by commas.
     #[arg(long, value_name = "LEVELS", allow_hyphen_values = true)]

@@ -15,19 +15,19 @@ use serde_json::json;
 use super::limits::Limited;
 use super::sample::Plan;
 use super::{Args, blocks};
-use crate::cli::names::{Named, named};
+use crate::cli::names::named;
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
 use crate::files::Outputs;
 use crate::paper::Intensity;
 
-/// Formats of other programs.
-const FORMATS: &[Named<Format>] = &[
-    ("nrml", Format::Nrml, "OpenQuake's NRML 0.5: PGA in g, PGV in cm/s"),
-    ("pelicun", Format::Pelicun, "CSV, and JSON beside it: g, m/s"),
-    ("pact", Format::Pact, "Median and dispersion, not shifted: g, m/s"),
-    ("csv", Format::Csv, "All parameters: g, m/s"),
+/// What the help says of the formats.
+const FORMATS: [&str; 4] = [
+    "OpenQuake's NRML 0.5: PGA in g, PGV in cm/s",
+    "CSV, and JSON beside it: g, m/s",
+    "Median and dispersion, not shifted: g, m/s",
+    "All parameters: g, m/s",
 ];
 
 /// Flags that make a file of a block's fragility.
@@ -37,7 +37,7 @@ pub(super) struct ExportArgs {
     #[arg(
         long,
         value_name = "FORMAT",
-        value_parser = named(FORMATS),
+        value_parser = named(Format::ALL, Format::name, FORMATS),
         requires = "out",
         conflicts_with_all = ["ida", "transform", "bootstrap"]
     )]

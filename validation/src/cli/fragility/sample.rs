@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 use super::band::Band;
 use super::limits::Limited;
-use super::{Args, Method, insert, rows, show};
+use super::{Args, insert, rows, show};
 use crate::cli::samples::{SampleFile, Shift};
 use crate::cli::{Failure, print, print_json, with_threads};
 use crate::files::{Output, Outputs};
@@ -41,13 +41,8 @@ impl Plan {
     pub(super) fn new(args: &Args) -> Result<Self, Failure> {
         let quantile_type =
             QuantileType::try_new(args.quantile_type.unwrap_or(5))?;
-        let method = match args.method.unwrap_or(Method::Mle) {
-            Method::Mle => FitMethod::MaximumLikelihood,
-            Method::Moment => FitMethod::Moment,
-            Method::Trimmed => FitMethod::Trimmed(quantile_type),
-            Method::Quantile => FitMethod::Quantile(quantile_type),
-            Method::Censored => FitMethod::Censored(quantile_type),
-        };
+        let named = args.method.unwrap_or(FitMethod::MaximumLikelihood);
+        let method = named.with_quantile_type(quantile_type);
         let shift = args.shift.unwrap_or(Shift::Given(0.0));
         if shift == Shift::Free && method != FitMethod::MaximumLikelihood {
             return Err(Failure::input(format!(

@@ -12,6 +12,8 @@ mod endless;
 mod engines;
 #[path = "pins/hold.rs"]
 mod hold;
+#[path = "mechanics/names.rs"]
+mod names;
 #[path = "properties/mechanics.rs"]
 mod properties;
 #[path = "mechanics/pulses.rs"]

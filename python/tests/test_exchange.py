@@ -98,7 +98,7 @@ def test_what_no_reader_takes_is_refused_as_the_command_line_says(
         assert done.returncode == 2, done.stdout
         assert str(refused.value) in done.stderr
     wrongs: list[tuple[dict[str, Any], str]] = [
-        ({"im": "sa"}, 'im "sa": expected one of pga, pgv'),
+        ({"im": "sa"}, 'intensity "sa": expected one of pga, pgv'),
         ({"im": "pgv", "gravity": 0.0}, "gravity 0 m/s2: expected"),
         ({"im": "pga", "model": "both"}, "expected one of nonlinear"),
     ]

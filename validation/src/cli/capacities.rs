@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::{Capacity, InversionRule, ResponseCurve};
+use rocking::intensity::IntensityMeasure;
 use rocking::procedures::capacities::{
     LevelCapacities, LevelCrossings, crossings, levels,
 };
@@ -15,11 +16,10 @@ use serde::Serialize;
 
 use super::Failure;
 use super::measure::GroundArgs;
-use super::names::{CROSSINGS, named};
+use super::names;
 use super::samples::SAMPLE_OF;
 use super::show::show;
 use crate::files::Outputs;
-use crate::measure::Measure;
 use crate::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
@@ -51,7 +51,7 @@ pub struct Args {
     /// periods in s, 5 % damping) or column:NAME (of --attributes or the
     /// index, proportional to the acceleration) [default: pga].
     #[arg(long, value_name = "MEASURE", conflicts_with = "curve")]
-    im: Option<Measure>,
+    im: Option<IntensityMeasure>,
     #[command(flatten)]
     ground: GroundArgs,
     /// EDP levels, FIRST:LAST:STEP or separated by commas.
@@ -64,7 +64,7 @@ pub struct Args {
     levels: Levels,
     /// Which single capacity is made of several crossings, for the quantiles
     /// over the records of --ida [default: median].
-    #[arg(long, value_parser = named(CROSSINGS), conflicts_with = "curve")]
+    #[arg(long, value_parser = names::crossing(), conflicts_with = "curve")]
     point: Option<InversionRule>,
     /// EDP level of the sample written to --out.
     #[arg(long, value_name = "E", requires = "out", conflicts_with = "curve")]
@@ -200,7 +200,7 @@ struct Record {
 }
 
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
-    let measure = args.im.as_ref().unwrap_or(&Measure::Pga);
+    let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::Pga);
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
@@ -227,7 +227,7 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let curves = suite.clone().into_curves();
     let levels = levels(&curves, &args.levels.0, rule, measured)?;
     let found = Shown {
-        im: measure.to_string(),
+        im: measure.words(),
         im_r: measured(suite.im_r),
         n: curves.len(),
         point: rule.to_string(),
@@ -243,19 +243,16 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
 fn suite(
     args: &Args,
     path: &Path,
-    measure: &Measure,
+    measure: &IntensityMeasure,
 ) -> Result<ida::Suite, Failure> {
-    if measure.is_in_table() {
+    if let Some(intensity) = measure.dimensionless() {
         if args.ground.is_given() {
             return Err(Failure::input(format!(
-                "--suite is not used for {measure}, which the table holds"
+                "--suite is not used for {}, which the table holds",
+                intensity.words()
             )));
         }
-        let by = match measure {
-            Measure::Pgv => Intensity::Pgv,
-            _ => Intensity::Pga,
-        };
-        return Ok(ida::read(path, by)?);
+        return Ok(ida::read(path, intensity)?);
     }
     let suite = ida::read(path, Intensity::Pga)?;
     let ground = args.ground.ground(&suite, std::slice::from_ref(measure))?;
@@ -266,16 +263,17 @@ fn suite(
 /// The sample file of the records' capacities at a level.
 fn sample(
     suite: &ida::Suite,
-    measure: &Measure,
+    measure: &IntensityMeasure,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
     let (alpha_rad, p_rad_s) = &suite.block;
     let setting = &suite.setting;
     let mut text = format!(
-        "{SAMPLE_OF}{measure} at EDP {level}, {rule} crossing\n\
+        "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
          # alpha {} rad, p {p_rad_s} rad/s, eta {}, {}, overturned at {}, \
          {}, g {} m/s2, processing: {}, {}\n",
+        measure.words(),
         alpha_rad.as_deref().unwrap_or("adjusted"),
         setting.eta,
         setting.model,

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::Args as ClapArgs;
 use libm::log;
 use rocking::capacity::{Capacity, InversionRule};
+use rocking::intensity::{Intensity, IntensityMeasure as M};
 use rocking::procedures::ranking::{Covariate, Ranked};
 use rocking::procedures::{Draws, Ranking, rank};
 use serde::Serialize;
 
 use super::capacities::ida;
 use super::measure::{Ground, GroundArgs};
-use super::names::{CROSSINGS, named};
+use super::names;
 use super::show::show;
 use super::{Failure, with_threads};
 use crate::draw::figures::{
@@ -19,8 +20,6 @@ use crate::draw::figures::{
 };
 use crate::draw::markup;
 use crate::files::Outputs;
-use crate::measure::Measure;
-use crate::paper::Intensity;
 
 /// Efficiency and sufficiency of intensity measures for a block.
 ///
@@ -53,11 +52,15 @@ pub struct Args {
     /// pgv, pgd, arias, cav, pgv-d575, sa at 0.5, 1, 2, 3 and 4 s, and
     /// avgsa:0.5,1,1.5,2,3]. Ratios are to the first one.
     #[arg(long, value_name = "MEASURE")]
-    im: Vec<Measure>,
+    im: Vec<M>,
     #[command(flatten)]
     ground: GroundArgs,
     /// Which single capacity is made of several crossings.
-    #[arg(long, value_parser = named(CROSSINGS), default_value = "median")]
+    #[arg(
+        long,
+        value_parser = names::crossing(),
+        default_value_t = InversionRule::Median
+    )]
     point: InversionRule,
     /// Column of the magnitude.
     #[arg(long, value_name = "COLUMN")]
@@ -96,11 +99,10 @@ struct Shown {
 /// [`Failure`] for files that are refused, or capacities that make no fit.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let measures = if args.im.is_empty() {
-        let sa = [0.5, 1.0, 2.0, 3.0, 4.0].map(Measure::Sa);
-        let mut all = vec![Measure::Pga, Measure::Pgv, Measure::Pgd];
-        all.extend([Measure::Arias, Measure::Cav, Measure::PgvDuration]);
-        all.extend(sa);
-        all.push(Measure::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
+        let mut all = vec![M::Pga, M::Pgv, M::Pgd, M::Arias, M::Cav];
+        all.push(M::PgvDuration);
+        all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(M::Sa));
+        all.push(M::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
         all
     } else {
         args.im.clone()
@@ -132,6 +134,22 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     show(args.json, &Shown { edp: args.at, point, ranking })
 }
 
+/// A few letters, for the tick of an axis; Arias intensity by its root.
+fn short(measure: &M) -> String {
+    match measure {
+        M::Arias => "√Arias".into(),
+        M::PgvDuration => "PGV D".into(),
+        M::Sa(period_s) => format!("SA({period_s})"),
+        M::AverageSa(periods_s) => {
+            let (first, last) = (periods_s.first(), periods_s.last());
+            let of = |t: Option<&f64>| t.copied().unwrap_or(f64::NAN);
+            format!("SA({}–{})", of(first), of(last))
+        }
+        M::Column(name) => name.clone(),
+        word => word.to_string().to_uppercase(),
+    }
+}
+
 impl Args {
     /// The columns on which slopes are asked for.
     fn covariates(&self, ground: &Ground) -> Result<Vec<Covariate>, Failure> {
@@ -148,7 +166,7 @@ impl Args {
     }
 
     /// The dispersions, side by side.
-    fn chart(&self, measures: &[Measure], rows: &[Ranked]) -> Chart {
+    fn chart(&self, measures: &[M], rows: &[Ranked]) -> Chart {
         let none = (f64::NAN, f64::NAN);
         let beta = rows.iter().map(|row| row.dispersion.as_ref());
         let x = ChartAxis {
@@ -157,7 +175,7 @@ impl Args {
             range: None,
             categories: measures
                 .iter()
-                .map(|measure| markup::escape(&measure.short()))
+                .map(|measure| markup::escape(&short(measure)))
                 .collect(),
             second: None,
         };

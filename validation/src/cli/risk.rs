@@ -13,7 +13,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::unit_intensity;
 use serde_json::{Value, json};
 
-use super::names::{INTENSITIES, named};
+use super::names;
 use super::samples::{Opened, SampleFile};
 use super::scene::BlockArgs;
 use super::{Failure, print, print_json};
@@ -57,7 +57,7 @@ pub struct Args {
     #[arg(long, value_name = "X|min", allow_hyphen_values = true)]
     shift: Option<Shift>,
     /// Intensity measure of a sample that does not say it.
-    #[arg(long, value_parser = named(INTENSITIES), requires = "sample")]
+    #[arg(long, value_parser = names::intensity(), requires = "sample")]
     im: Option<Intensity>,
     #[command(flatten)]
     block: BlockArgs,

@@ -14,7 +14,6 @@ use rocking::statistics::{
 };
 use thiserror::Error;
 
-use super::names::{INTENSITIES, MODELS};
 use crate::paper::Intensity;
 
 /// Why a sample file was refused.
@@ -127,12 +126,11 @@ impl SampleSetting {
         let p = words.next()?.strip_prefix("p ")?.strip_suffix(" rad/s");
         let eta = words.next()?.strip_prefix("eta ");
         let model = words.next()?;
-        let model = MODELS.iter().find(|named| named.0 == model);
         Some(Self {
             alpha_rad: alpha.and_then(number),
             p_rad_s: p.and_then(number),
             eta: eta.and_then(number),
-            model: model.map(|named| named.1),
+            model: model.parse().ok(),
         })
     }
 }
@@ -325,8 +323,9 @@ impl SampleFile {
     #[must_use]
     pub fn intensity(&self) -> Option<Intensity> {
         let measure = self.of()?.split(" at EDP ").next()?;
-        let all = INTENSITIES.iter().map(|named| named.1);
-        all.into_iter().find(|intensity| intensity.words() == measure)
+        Intensity::ALL
+            .into_iter()
+            .find(|intensity| intensity.words() == measure)
     }
 
     /// The intensity measure, that of the file or the one given.

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::Failure;
 use super::capacities::{Levels, ida};
 use super::fragility::COUNTS;
-use super::names::{INTENSITIES, named};
+use super::names;
 use super::show::show;
 use crate::files::Outputs;
 use crate::paper::Intensity;
@@ -31,7 +31,11 @@ pub struct Args {
     #[arg(long, value_name = "FILE")]
     ida: PathBuf,
     /// Intensity measure.
-    #[arg(long, value_parser = named(INTENSITIES), default_value = "pga")]
+    #[arg(
+        long,
+        value_parser = names::intensity(),
+        default_value_t = Intensity::Pga
+    )]
     im: Intensity,
     /// Intensities, FIRST:LAST:STEP or separated by commas.
     #[arg(long, value_name = "LEVELS", allow_hyphen_values = true)]

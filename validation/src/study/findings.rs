@@ -1,7 +1,5 @@
 //! Everything that a study found, as [`Findings`].
 
-use rocking::integrator::Overturning;
-
 use super::analyses::{Plan, SuiteResults};
 use super::estimates::{self, wilson};
 use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
@@ -46,11 +44,7 @@ fn settings(plan: &Plan) -> Settings {
     Settings {
         arms: plan.arms.clone(),
         eta: plan.setup.restitution.velocity_ratio(),
-        overturning: match plan.setup.overturning {
-            Overturning::Alpha => "alpha",
-            Overturning::HalfPi => "half-pi",
-        }
-        .into(),
+        overturning: plan.setup.overturning,
         refinement_im: plan.setup.tolerance,
     }
 }

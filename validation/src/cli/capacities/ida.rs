@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rocking::capacity::{CapacityError, ResponseCurve};
+use rocking::ida::Adjust;
 use thiserror::Error;
 
 use crate::cli::samples::Opened;
@@ -231,7 +232,7 @@ impl Common {
     fn of(fields: &csv::StringRecord) -> Self {
         let cell = |column: usize| fields[column].to_owned();
         let setting = Setting::of(cell);
-        let scaled = setting.by == "record-scaling";
+        let scaled = setting.by.parse() == Ok(Adjust::RecordScaling);
         let alpha_rad = scaled.then(|| cell(1));
         Self { alpha_rad, p_rad_s: cell(2), setting }
     }

@@ -15,26 +15,30 @@ use serde_json::json;
 
 use super::blocks;
 use super::fit::FitArgs;
-use crate::cli::names::{INTENSITIES, Named, named};
+use crate::cli::names::{self, named};
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
 use crate::files::Outputs;
 use crate::paper::Intensity;
 
-/// Formats of other programs.
-const FORMATS: &[Named<Format>] = &[
-    ("nrml", Format::Nrml, "OpenQuake's NRML 0.5: PGA in g, PGV in cm/s"),
-    ("pelicun", Format::Pelicun, "CSV, and JSON beside it: g, m/s"),
-    ("pact", Format::Pact, "Median and dispersion, not shifted: g, m/s"),
-    ("csv", Format::Csv, "All parameters: g, m/s"),
+/// What the help says of the formats.
+const FORMATS: [&str; 4] = [
+    "OpenQuake's NRML 0.5: PGA in g, PGV in cm/s",
+    "CSV, and JSON beside it: g, m/s",
+    "Median and dispersion, not shifted: g, m/s",
+    "All parameters: g, m/s",
 ];
 
 /// Writes fragilities of blocks of given size for another program.
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Format of the file.
-    #[arg(long, value_name = "FORMAT", value_parser = named(FORMATS))]
+    #[arg(
+        long,
+        value_name = "FORMAT",
+        value_parser = named(Format::ALL, Format::name, FORMATS)
+    )]
     format: Format,
     /// The file; `-` is standard output, and nothing else is printed then.
     #[arg(long, value_name = "FILE")]
@@ -43,7 +47,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
     /// Intensity measure of a sample that does not say it.
-    #[arg(long, value_parser = named(INTENSITIES))]
+    #[arg(long, value_parser = names::intensity())]
     im: Option<Intensity>,
     #[command(flatten)]
     fit: FitArgs,

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{ArgGroup, Args as ClapArgs, ValueEnum};
+use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::InversionRule;
 use rocking::procedures::fit::Band;
 use rocking::procedures::{
@@ -13,7 +13,7 @@ use rocking::statistics::lognormal::FitMethod;
 use serde::Serialize;
 
 use crate::cli::capacities::{Levels, ida};
-use crate::cli::names::{CROSSINGS, INTENSITIES, named};
+use crate::cli::names;
 use crate::cli::samples::SampleFile;
 use crate::cli::show::show;
 use crate::cli::{Failure, with_threads};
@@ -46,11 +46,11 @@ pub(super) struct Args {
     )]
     at: Option<Levels>,
     /// Which capacity is made of several crossings [default: median].
-    #[arg(long, value_parser = named(CROSSINGS), requires = "ida")]
+    #[arg(long, value_parser = names::crossing(), requires = "ida")]
     point: Option<InversionRule>,
     /// Intensity measure of --ida [default: pga], or of a sample that does
     /// not say it.
-    #[arg(long, value_parser = named(INTENSITIES))]
+    #[arg(long, value_parser = names::intensity())]
     im: Option<Intensity>,
     #[command(flatten)]
     fit: FitArgs,
@@ -97,29 +97,14 @@ pub(super) struct FitArgs {
     )]
     shift: Shift,
     /// How the lognormal distribution is fitted.
-    #[arg(long, value_enum, default_value_t = Method::Mle)]
-    method: Method,
+    #[arg(long, value_parser = names::fit_method(), default_value = "mle")]
+    method: FitMethod,
     /// Type of the quantiles, 1 to 9.
     #[arg(long, value_name = "TYPE", default_value_t = 5)]
     quantile_type: u8,
     /// Constant c of Eq. 7.
     #[arg(long, default_value_t = 1.0)]
     c: f64,
-}
-
-/// How a lognormal distribution is fitted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Method {
-    /// Maximum likelihood; values `>LIMIT` enter by their limits.
-    Mle,
-    /// Mean and standard deviation of the logarithms (divisor n - 1).
-    Moment,
-    /// Moments of the values up to the 95 % quantile.
-    Trimmed,
-    /// Median, and half the logarithm of the 84 over the 16 % quantile.
-    Quantile,
-    /// Maximum likelihood, values above the 95 % quantile right-censored.
-    Censored,
 }
 
 impl FitArgs {
@@ -129,13 +114,7 @@ impl FitArgs {
     /// [`Failure`] for a type of quantile that there is none of.
     pub(super) fn options(&self) -> Result<FitOptions, Failure> {
         let quantile_type = QuantileType::try_new(self.quantile_type)?;
-        let method = match self.method {
-            Method::Mle => FitMethod::MaximumLikelihood,
-            Method::Moment => FitMethod::Moment,
-            Method::Trimmed => FitMethod::Trimmed(quantile_type),
-            Method::Quantile => FitMethod::Quantile(quantile_type),
-            Method::Censored => FitMethod::Censored(quantile_type),
-        };
+        let method = self.method.with_quantile_type(quantile_type);
         let (shift, c) = (self.shift, self.c);
         let default = FitOptions::default();
         Ok(FitOptions { method, shift, quantile_type, c, ..default })

@@ -10,6 +10,7 @@
 pub mod capacities;
 pub mod choice;
 pub mod comparison;
+pub mod counts;
 pub mod fit;
 pub mod normality;
 pub mod ranking;
@@ -18,6 +19,7 @@ pub mod summary;
 
 pub use choice::{Choice, choose};
 pub use comparison::{Comparison, compare};
+pub use counts::{CountsFragility, fit_stripes};
 pub use fit::{
     Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Shift,
     fit_levels, fit_sample,

@@ -20,7 +20,6 @@ pub struct Stripe {
 /// A lognormal fragility fitted to counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CountsFit {
     /// The fit; its log-likelihood is that of the binomial distributions,
     /// their coefficients included, and its size the number of records run.

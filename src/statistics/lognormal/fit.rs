@@ -186,7 +186,6 @@ pub enum FitError {
 /// A fitted lognormal distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LognormalFit {
     /// The distribution.
     pub distribution: Lognormal,

@@ -4,7 +4,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
-use rocking::statistics::lognormal::{Stripe, fit_counts};
+use rocking::procedures::fit_stripes;
+use rocking::statistics::lognormal::Stripe;
 
 use crate::cli::Failure;
 use crate::cli::samples::Opened;
@@ -37,7 +38,7 @@ pub(super) struct Args {
 /// [`Failure`] for a table that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let path = &args.counts;
-    let found = fit_counts(&read(path)?, args.shift).map_err(|error| {
+    let found = fit_stripes(&read(path)?, args.shift).map_err(|error| {
         Failure::input(format!("{}: {error}", path.display()))
     })?;
     show(args.json, &found)

@@ -79,14 +79,8 @@ mod analysis {
         });
     }
 
-    #[divan::bench(args = [4, 6, 8, 10])]
-    fn thirty_at_order(bencher: Bencher, order: u32) {
-        let order = match order {
-            4 => Order::Four,
-            6 => Order::Six,
-            8 => Order::Eight,
-            _ => Order::Ten,
-        };
+    #[divan::bench(args = Order::ALL)]
+    fn thirty_at_order(bencher: Bencher, order: Order) {
         all(bencher, Some(order));
     }
 

@@ -5,7 +5,7 @@ mod record_index;
 
 pub(crate) use pulse::Shape;
 
-pub use pulse::{Pulse, PulseError, PulseKind};
+pub use pulse::{Pulse, PulseError, PulseKind, PulseName, PulseParameter};
 pub(crate) use record_index::{RUN, RecordIndex, Remaining, Window};
 
 use crate::number::Number;

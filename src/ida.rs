@@ -21,6 +21,7 @@ use crate::excitation::NormalisedRecord;
 use crate::integrator::{
     Forces, Model, Order, Overturning, SceneError, WorkLimit,
 };
+use crate::names::named;
 use crate::number::dispatch::Isa;
 pub use certification::{Certification, Told};
 use climb::Climb;
@@ -53,6 +54,11 @@ pub enum Adjust {
     /// rotation is normalised by the adjusted alpha.
     SlendernessAdjustment,
 }
+
+named!(Adjust, "adjustment", {
+    RecordScaling = "record-scaling",
+    SlendernessAdjustment = "slenderness-adjustment",
+});
 
 /// One kind of analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]

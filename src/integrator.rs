@@ -40,6 +40,7 @@ pub use scene::{
     Scene, Side, Work,
 };
 
+use crate::names::named;
 use crate::number::dispatch::Isa;
 use run::run;
 pub(crate) use screen::DOUBTFUL;
@@ -91,6 +92,8 @@ pub enum Order {
     /// Order 10.
     Ten,
 }
+
+named!(Order, "order", { Four = "4", Six = "6", Eight = "8", Ten = "10" });
 
 /// How a scene is integrated in double precision. The default is what
 /// [`respond`] does.

@@ -11,11 +11,13 @@
 
 mod energy;
 mod fourier;
+mod measure;
 mod oscillator;
 mod rotation;
 mod settings;
 pub mod velocity_pulse;
 
+pub use measure::{Intensity, IntensityMeasure};
 pub use settings::{DEFAULT_PERIODS_S, Settings};
 
 use thiserror::Error;

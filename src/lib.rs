@@ -52,6 +52,9 @@
 //! `examples/fragility.rs` goes from a folder of records to a fragility in 25
 //! lines.
 //!
+//! The feature `serde`, off by default, serialises choices such as
+//! [`Model`](integrator::Model) as their [`names`].
+//!
 //! # What is modelled
 //!
 //! A planar, rigid, symmetric block on a rigid base under horizontal ground
@@ -75,7 +78,9 @@ pub mod fragility;
 pub mod ida;
 pub mod integrator;
 pub mod intensity;
+pub mod names;
 pub mod number;
+pub mod procedures;
 pub mod record;
 pub mod statistics;
 pub mod stop;

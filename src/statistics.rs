@@ -7,6 +7,7 @@
 pub mod acceptance;
 pub mod bootstrap;
 pub mod boxplot;
+pub mod censored;
 pub mod choice;
 pub mod lilliefors;
 pub mod lognormal;
@@ -24,6 +25,7 @@ pub mod sample;
 pub mod two_sample;
 
 pub use boxplot::Boxplot;
+pub use censored::CensoredSample;
 pub use lognormal::Lognormal;
 pub use proportion::Proportion;
 pub use quantile::QuantileType;

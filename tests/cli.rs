@@ -306,13 +306,12 @@ fn json_is_json_and_missing_values_have_reasons() {
     for arguments in [
         "ida --alpha 0.1 --p 3 --suite s --out ida.csv",
         "capacities --curve 1:0,1.1:0.2,1.2:0.5 --overturning 1.7",
-        "fragility --sample a.txt --shift 1",
-        "fragility --transform --im50 2 --beta 0.5 --shift 1 --c 1",
-        "fragility --transform --im50 1.05 --beta 0.5 --shift 1 --c 1",
+        "fragility fit --sample a.txt --shift 1",
+        "fragility transform --im50 2 --beta 0.5 --shift 1 --c 1",
+        "fragility transform --im50 1.05 --beta 0.5 --shift 1 --c 1",
         "lilliefors --sample a.txt --log",
         "lilliefors --critical-values --n 10 --replicates 500",
-        "boxplot --sample b.txt",
-        "quantile --sample b.txt --at 0.5,1",
+        "sample --sample b.txt --at 0.5,1",
         "compare --a a.txt --b b.txt",
         "records s",
     ] {

@@ -1,4 +1,4 @@
-"""Files of `rocking fragility --export`, read back by their readers.
+"""Files of `rocking fragility export`, read back by their readers.
 
     python3 tests/exchange.py target/release/rocking
 
@@ -41,9 +41,9 @@ SAMPLE = """1.32 1.41 1.56 1.63 1.77 1.9 2.04 2.1 2.31 2.5 2.64 2.77 2.92
 TOLERANCE = 5e-4
 
 
-def rocking(folder, *flags):
+def rocking(folder, *words):
     done = subprocess.run(
-        [BINARY, "fragility", *flags], cwd=folder, check=True,
+        [BINARY, "fragility", *words], cwd=folder, check=True,
         capture_output=True, text=True)
     return done.stdout
 
@@ -53,7 +53,7 @@ def truth(fitted, factor, im):
     excess = im / factor - fitted["shift"]
     if excess <= 0:
         return 0.0
-    score = (math.log(excess) - fitted["mu"]) / fitted["beta"]
+    score = (math.log(excess) - fitted["log_mean"]) / fitted["dispersion"]
     return 0.5 * math.erfc(-score / math.sqrt(2))
 
 
@@ -138,12 +138,13 @@ def single(folder):
     for measure, shift in [
             ("pga", "0"), ("pga", "1"), ("pgv", "0"), ("pgv", "0.4")]:
         sample = ["--sample", "sample.txt", "--shift", shift]
-        fitted = json.loads(rocking(folder, *sample, "--json"))
+        fitted = json.loads(rocking(folder, "fit", *sample, "--json"))
+        fitted = fitted["fitted"]
         block = ["--im", measure, "--alpha", str(ALPHA), "--p", str(P)]
         files = "block.xml", "block.csv"
         for form, file in zip(["nrml", "pelicun"], files):
-            rocking(folder, *sample, *block, "--id", "block", "--export",
-                    form, "--out", file)
+            rocking(folder, "export", *sample, *block, "--id", "block",
+                    "--format", form, "--out", file)
         library = json.loads((folder / "block.json").read_text())
         assert list(library) == ["block"]
         pga = measure == "pga"
@@ -175,7 +176,8 @@ def tour(folder):
     assert len(objects) == len(openquake(folder / "objects.xml")) == 3
     for row in objects:
         fitted = json.loads(rocking(
-            folder, "--sample", row["sample"], "--shift", "1", "--json"))
+            folder, "fit", "--sample", row["sample"], "--shift", "1",
+            "--json"))["fitted"]
         # tan alpha is width over height.
         metres = float(row["width_m"]) / float(row["height_m"])
         worst = max(worst, compare(

@@ -4,6 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use rocking::capacity::InversionRule;
+use rocking::excitation::PulseName;
+use rocking::ida::Adjust;
+use rocking::integrator::{Model, Overturning};
+use rocking::statistics::QuantileType;
+use rocking::statistics::lognormal::FitMethod;
 use serde::Deserialize;
 
 #[path = "house/fixtures.rs"]
@@ -22,30 +28,38 @@ type Edges = &'static [(&'static str, &'static [&'static str])];
 /// The modules of the core.
 const CORE: Edges = &[
     ("block", &[]),
-    ("capacity", &["statistics"]),
-    ("excitation", &["number", "record"]),
+    ("capacity", &["names", "statistics"]),
+    ("excitation", &["names", "number", "record"]),
     ("fragility", &["statistics"]),
     (
         "ida",
-        &["block", "capacity", "excitation", "integrator", "number", "record"],
+        &[
+            "block",
+            "capacity",
+            "excitation",
+            "integrator",
+            "names",
+            "number",
+            "record",
+        ],
     ),
-    ("integrator", &["block", "excitation", "number", "record", "stop"]),
-    ("intensity", &["record", "stop", "units"]),
+    (
+        "integrator",
+        &["block", "excitation", "names", "number", "record", "stop"],
+    ),
+    ("intensity", &["names", "record", "stop", "units"]),
+    ("names", &[]),
     ("number", &[]),
     ("record", &["stop", "units"]),
-    ("statistics", &["number", "stop", "streams"]),
+    ("statistics", &["names", "number", "stop", "streams"]),
     ("stop", &[]),
     ("streams", &[]),
     ("units", &[]),
 ];
 
 /// The modules of the texts that other programs read.
-const EXCHANGE: Edges = &[
-    ("format", &["fragility", "intensity", "table"]),
-    ("fragility", &["intensity"]),
-    ("intensity", &[]),
-    ("table", &[]),
-];
+const EXCHANGE: Edges =
+    &[("format", &["fragility", "table"]), ("fragility", &[]), ("table", &[])];
 
 /// The modules of the embedded suites.
 const SYNTHESIS: Edges = &[
@@ -69,7 +83,6 @@ const HARNESS: Edges = &[
             "files",
             "findings",
             "json",
-            "measure",
             "paper",
             "proof",
             "report",
@@ -97,7 +110,6 @@ const HARNESS: Edges = &[
             "curves",
             "draw",
             "findings",
-            "measure",
             "paper",
             "suites",
             "surrogate",
@@ -112,7 +124,6 @@ const HARNESS: Edges = &[
     ("sweep", &["files", "suites", "table"]),
     ("findings", &["json", "paper"]),
     ("suites", &["paper", "table"]),
-    ("measure", &[]),
     ("paper", &["words"]),
     ("curves", &[]),
     ("table", &[]),
@@ -150,6 +161,9 @@ const SOURCES: [&str; 7] = [
 /// Dependencies of the core. Whoever uses the core gets all of them.
 const CORE_DEPENDENCIES: &[&str] =
     &["libm", "nalgebra", "rand", "rayon", "statrs", "thiserror"];
+
+/// The core's optional dependency, and the feature that brings it in.
+const CORE_OPTION: &str = "serde";
 
 /// The only files with `unsafe` begin so.
 const UNSAFE: &str = "src/number/dispatch";
@@ -319,14 +333,56 @@ fn manifest(path: &str) -> Manifest {
 }
 
 #[test]
-fn the_core_has_six_dependencies_and_no_features() {
+fn the_core_has_six_dependencies_and_a_seventh_by_a_feature_that_is_off() {
     let core = manifest("Cargo.toml");
-    let found: Vec<&String> = core.dependencies.keys().collect();
-    assert_eq!(found, CORE_DEPENDENCIES);
+    let is_option = |of: &toml::Value| {
+        of.get("optional").and_then(toml::Value::as_bool) == Some(true)
+    };
+    let (options, always): (Vec<_>, Vec<_>) =
+        core.dependencies.iter().partition(|(_, of)| is_option(of));
+    let names = |all: Vec<(&String, _)>| -> Vec<String> {
+        all.into_iter().map(|(name, _)| name.clone()).collect()
+    };
+    assert_eq!(names(always), CORE_DEPENDENCIES);
+    assert_eq!(names(options), [CORE_OPTION]);
+    let dep = toml::Value::from(vec![format!("dep:{CORE_OPTION}")]);
+    let features = BTreeMap::from([(CORE_OPTION.to_owned(), dep)]);
+    assert_eq!(core.features, features);
     let tests: Vec<&String> = core.dev_dependencies.keys().collect();
     assert_eq!(tests, ["proptest", "serde_json"]);
     assert!(core.build_dependencies.is_empty());
-    assert!(core.features.is_empty());
+}
+
+/// Names that files and commands share: as a literal, in the core alone.
+#[test]
+fn the_core_s_names_are_spelled_once() {
+    let methods = FitMethod::all(QuantileType::default());
+    let names = Adjust::ALL
+        .map(Adjust::name)
+        .into_iter()
+        .chain(PulseName::ALL[5..].iter().map(|pulse| pulse.name()))
+        .chain(methods[..2].iter().map(|method| method.name()))
+        .chain([Model::Linearized.name(), Overturning::HalfPi.name()])
+        .chain([InversionRule::Monotone.name(), "pgv-d575"]);
+    let folders = [&SOURCES[..5], &["python/src", "benches"]].concat();
+    let texts: Vec<(String, String)> = sources(&folders)
+        .into_iter()
+        .filter(|path| !path.ends_with("tests.rs"))
+        .map(|path| (path.clone(), read(&path)))
+        .collect();
+    let mut problems = Vec::new();
+    for name in names {
+        let literal = format!("\"{name}\"");
+        let places: Vec<&str> = texts
+            .iter()
+            .filter(|(_, text)| text.contains(&literal))
+            .map(|(path, _)| path.as_str())
+            .collect();
+        if places.len() != 1 || !places[0].starts_with("src/") {
+            problems.push(format!("{name}: spelled in {places:?}"));
+        }
+    }
+    pass(&problems);
 }
 
 #[test]

@@ -12,6 +12,8 @@ mod drawn;
 mod endless;
 #[path = "mechanics/engines.rs"]
 mod engines;
+#[path = "mechanics/names.rs"]
+mod names;
 #[path = "properties/mechanics.rs"]
 mod properties;
 #[path = "mechanics/pulses.rs"]

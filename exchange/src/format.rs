@@ -74,6 +74,21 @@ pub struct Texts {
 }
 
 impl Format {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::Nrml, Self::Pelicun, Self::Pact, Self::Csv];
+
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Nrml => "nrml",
+            Self::Pelicun => "pelicun",
+            Self::Pact => "pact",
+            Self::Csv => "csv",
+        }
+    }
+
     /// Extension of a second file beside the main one.
     #[must_use]
     pub fn beside(self) -> Option<&'static str> {

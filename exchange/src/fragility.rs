@@ -9,9 +9,8 @@ use std::str::FromStr;
 
 use rocking::block::Block;
 use rocking::integrator::{Model, uplift_threshold};
+use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
-
-use crate::intensity::Intensity;
 
 /// Most characters of a name that OpenQuake takes.
 const LONGEST: usize = 75;
@@ -97,7 +96,8 @@ pub struct BlockFragility {
 /// ```
 /// use rocking::Block;
 /// use rocking::integrator::Model;
-/// use rocking_exchange::{Intensity, unit_intensity};
+/// use rocking::intensity::Intensity;
+/// use rocking_exchange::unit_intensity;
 /// let block = Block::try_new(0.15, 3.0)?;
 /// let pgv = unit_intensity(Intensity::Pgv, &block, Model::Nonlinear, 9.81);
 /// assert!((pgv - 9.81 * 0.151_135_218_058 / 3.0).abs() < 1e-11);
@@ -130,7 +130,8 @@ pub fn unit(intensity: Intensity) -> &'static str {
 /// alone are known.
 ///
 /// ```
-/// use rocking_exchange::{Intensity, unstated_origin};
+/// use rocking::intensity::Intensity;
+/// use rocking_exchange::unstated_origin;
 /// let words = unstated_origin(86, Intensity::Pga);
 /// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
 /// ```

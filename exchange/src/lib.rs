@@ -7,10 +7,9 @@
 //! ```
 //! use rocking::Block;
 //! use rocking::integrator::Model;
+//! use rocking::intensity::Intensity;
 //! use rocking::statistics::Lognormal;
-//! use rocking_exchange::{
-//!     BlockFragility, Format, Id, Intensity, unit_intensity,
-//! };
+//! use rocking_exchange::{BlockFragility, Format, Id, unit_intensity};
 //! let block = Block::try_new(0.15, 3.0)?;
 //! let pga = Intensity::Pga;
 //! let unit_g = unit_intensity(pga, &block, Model::Nonlinear, 9.80665);
@@ -31,11 +30,9 @@
 
 mod format;
 mod fragility;
-mod intensity;
 pub mod table;
 
 pub use format::{ExchangeError, Format, Pact, Texts};
 pub use fragility::{
     BlockFragility, Id, unit, unit_intensity, unstated_origin,
 };
-pub use intensity::Intensity;

@@ -189,7 +189,8 @@ class Fragility(Frozen):
         Returns
         -------
         str
-            The text, with the bytes of `rocking fragility --export nrml`.
+            The text, with the bytes of `rocking fragility export
+            --format nrml`.
 
         >>> fit = fit_fragility([1.5, 2.0, 3.0], shift=1.0)
         >>> text = fit.to_nrml(Block(alpha=0.2, p=3.0), im="pga")

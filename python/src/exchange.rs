@@ -1,12 +1,13 @@
 //! Fragilities as texts of other programs.
 
 use pyo3::prelude::*;
+use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
 use rocking_exchange::{
-    BlockFragility, Format, Id, Intensity, unit_intensity, unstated_origin,
+    BlockFragility, Format, Id, unit_intensity, unstated_origin,
 };
 
-use crate::given::{block_of, choose, model_of, positive_gravity, refuse};
+use crate::given::{block_of, choose, positive_gravity, refuse};
 
 /// What a fragility does not say of itself.
 #[derive(FromPyObject)]
@@ -36,13 +37,12 @@ pub fn exchange(
     n: usize,
     wanted: Wanted,
 ) -> PyResult<(String, Option<String>)> {
-    let formats = [("nrml", Format::Nrml), ("pelicun", Format::Pelicun)];
+    let formats = [Format::Nrml, Format::Pelicun].map(|f| (f.name(), f));
     let format = choose("format", format, &formats)?;
-    let measures = Intensity::ALL.map(|im| (im.name(), im));
-    let intensity = choose("im", &wanted.im, &measures)?;
+    let intensity: Intensity = wanted.im.parse().map_err(refuse)?;
     let block = block_of(wanted.block)?;
     let gravity_m_s2 = positive_gravity(wanted.gravity)?;
-    let model = model_of(&wanted.model)?;
+    let model = wanted.model.parse().map_err(refuse)?;
     let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
     let fragility = Lognormal::try_new(law.0, law.1, law.2).map_err(refuse)?;
     let id = wanted.id.map_or_else(|| Id::of(&block), |id| id.parse());

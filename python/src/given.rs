@@ -8,7 +8,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rocking::block::{Block, Restitution};
-use rocking::excitation::{Pulse, PulseKind};
+use rocking::excitation::{Pulse, PulseName, PulseParameter};
 use rocking::integrator::{self, Model, Overturning};
 use rocking::record::Accelerogram;
 use rocking::units::AccelerationUnit;
@@ -51,13 +51,6 @@ pub struct Physics {
     overturn: String,
 }
 
-/// The equation of motion, as Python names it.
-pub fn model_of(name: &str) -> PyResult<Model> {
-    let models =
-        [("nonlinear", Model::Nonlinear), ("linearized", Model::Linearized)];
-    choose("model", name, &models)
-}
-
 /// Gravity in m/s2, checked.
 pub fn positive_gravity(gravity_m_s2: f64) -> PyResult<f64> {
     if gravity_m_s2 > 0.0 && gravity_m_s2.is_finite() {
@@ -70,13 +63,11 @@ pub fn positive_gravity(gravity_m_s2: f64) -> PyResult<f64> {
 
 impl Physics {
     pub fn model(&self) -> PyResult<Model> {
-        model_of(&self.model)
+        self.model.parse().map_err(refuse)
     }
 
     pub fn overturning(&self) -> PyResult<Overturning> {
-        let criteria =
-            [("alpha", Overturning::Alpha), ("half-pi", Overturning::HalfPi)];
-        choose("overturn", &self.overturn, &criteria)
+        self.overturn.parse().map_err(refuse)
     }
 
     pub fn restitution(&self, block: &Block) -> PyResult<Restitution> {
@@ -143,55 +134,22 @@ pub fn pulse_of(
     numbers: &BTreeMap<String, f64>,
 ) -> PyResult<Pulse> {
     let mut left = numbers.clone();
-    let mut need = |key: &str| {
+    let pulse: PulseName = name.parse().map_err(refuse)?;
+    let kind = pulse.kind(|parameter| {
+        let key = match parameter {
+            PulseParameter::Amplitude => "amplitude_g",
+            PulseParameter::Omega => "omega",
+            PulseParameter::Duration => "duration",
+            PulseParameter::Period => "period",
+            PulseParameter::Cycles => "cycles",
+            PulseParameter::Velocity => "velocity_g_s",
+            PulseParameter::Frequency => "frequency_hz",
+            PulseParameter::Gamma => "gamma",
+            PulseParameter::Phase => "phase_rad",
+        };
         left.remove(key)
             .ok_or_else(|| refuse(format!("pulse {name:?} needs {key}")))
-    };
-    let kind = match name {
-        "one-sine" => PulseKind::OneSine {
-            amplitude: need("amplitude_g")?,
-            omega_rad_s: need("omega")?,
-        },
-        "half-sine" => PulseKind::HalfSine {
-            amplitude: need("amplitude_g")?,
-            omega_rad_s: need("omega")?,
-        },
-        "one-cosine" => PulseKind::OneCosine {
-            amplitude: need("amplitude_g")?,
-            omega_rad_s: need("omega")?,
-        },
-        "rectangle" => PulseKind::Rectangle {
-            amplitude: need("amplitude_g")?,
-            duration_s: need("duration")?,
-        },
-        "triangle" => PulseKind::Triangle {
-            amplitude: need("amplitude_g")?,
-            duration_s: need("duration")?,
-        },
-        "ricker-symmetric" => PulseKind::RickerSymmetric {
-            amplitude: need("amplitude_g")?,
-            period_s: need("period")?,
-            cycles: need("cycles")?,
-        },
-        "ricker-antisymmetric" => PulseKind::RickerAntisymmetric {
-            amplitude: need("amplitude_g")?,
-            period_s: need("period")?,
-            cycles: need("cycles")?,
-        },
-        "mavroeidis-papageorgiou" => PulseKind::MavroeidisPapageorgiou {
-            velocity: need("velocity_g_s")?,
-            frequency_hz: need("frequency_hz")?,
-            gamma: need("gamma")?,
-            phase_rad: need("phase_rad")?,
-        },
-        _ => {
-            return Err(refuse(format!(
-                "pulse {name:?}: expected one of one-sine, half-sine, \
-                 one-cosine, rectangle, triangle, ricker-symmetric, \
-                 ricker-antisymmetric, mavroeidis-papageorgiou"
-            )));
-        }
-    };
+    })?;
     if let Some(key) = left.keys().next() {
         return Err(refuse(format!("pulse {name:?} has no use for {key}")));
     }

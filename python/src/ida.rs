@@ -8,12 +8,12 @@ use rayon::prelude::*;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Batch, Grid, IdaCurve, IdaPoint, curves,
+    Analysis, Batch, Grid, IdaCurve, IdaPoint, curves,
 };
 use rocking::integrator::Outcome;
 use rocking::stop;
 
-use crate::given::{Given, Physics, block_of, choose, records_of, refuse};
+use crate::given::{Given, Physics, block_of, records_of, refuse};
 use crate::work;
 
 /// Levels and how they are reached.
@@ -61,15 +61,11 @@ pub fn ida<'py>(
         (None, Some(step_g)) => Grid::Pga { step_g },
         _ => return Err(refuse("expected one of step_g and step_im")),
     };
-    let adjustments = [
-        ("record-scaling", Adjust::RecordScaling),
-        ("slenderness-adjustment", Adjust::SlendernessAdjustment),
-    ];
     let analysis = Analysis {
         model: physics.model()?,
         overturning: physics.overturning()?,
         grid,
-        adjust: choose("by", &scan.by, &adjustments)?,
+        adjust: scan.by.parse().map_err(refuse)?,
         refine: scan.refine,
         highest_im: scan.highest_im,
         certify: scan.certify,
@@ -185,15 +181,7 @@ pub fn capacities<'py>(
     levels: Vec<f64>,
     rule: &str,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let rules = [
-        InversionRule::Median,
-        InversionRule::First,
-        InversionRule::Last,
-        InversionRule::Monotone,
-    ]
-    .map(|rule| (rule.to_string(), rule));
-    let rules = rules.each_ref().map(|(name, rule)| (name.as_str(), *rule));
-    let rule = choose("rule", rule, &rules)?;
+    let rule: InversionRule = rule.parse().map_err(refuse)?;
     let curves = rows.curves()?;
     let at = |level: f64, curve: &ResponseCurve| {
         if level == f64::INFINITY {

@@ -60,13 +60,7 @@ pub fn fit_fragility<'py>(
     seed: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let t = QuantileType::try_new(quantile_type).map_err(refuse)?;
-    let methods = [
-        ("mle", FitMethod::MaximumLikelihood),
-        ("moment", FitMethod::Moment),
-        ("quantile", FitMethod::Quantile(t)),
-        ("trimmed", FitMethod::Trimmed(t)),
-        ("censored", FitMethod::Censored(t)),
-    ];
+    let methods = FitMethod::all(t).map(|method| (method.name(), method));
     let method = choose("method", method, &methods)?;
     let values = values.as_slice()?.to_vec();
     let whole = ExtendedSample::try_new(&values).map_err(refuse)?;

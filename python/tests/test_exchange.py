@@ -28,7 +28,7 @@ def test_a_text_has_the_bytes_of_the_command_line(
     said = {}
     for name in ("nrml", "pelicun"):
         out = tmp_path / f"{name}.csv"
-        command("fragility", *flags, "--export", name, "--out", out)
+        command("fragility", "export", *flags, "--format", name, "--out", out)
         said[name] = out.read_bytes()
     fit = rk.fit_fragility(SAMPLE, shift=shift)
     text = fit.to_nrml(block, tmp_path / "own.xml", im=im, gravity=9.81)
@@ -84,21 +84,21 @@ def test_what_no_reader_takes_is_refused_as_the_command_line_says(
         ),
         (
             lambda: tiny.to_pelicun(block, out, im="pga"),
-            ["--sample", small, "--shift", 9e-10, "--export", "pelicun"],
+            ["--sample", small, "--shift", 9e-10, "--format", "pelicun"],
         ),
     ]
     for call, flags in calls:
         with pytest.raises(ValueError) as refused:
             call()
         flags += ["--im", "pga", "--alpha", 0.2, "--p", 3, "--out", out]
-        if "--export" not in flags:
-            flags += ["--export", "nrml"]
-        words = [str(program), "fragility", *(str(flag) for flag in flags)]
+        if "--format" not in flags:
+            flags += ["--format", "nrml"]
+        words = [str(program), "fragility", "export", *map(str, flags)]
         done = subprocess.run(words, capture_output=True, text=True)
         assert done.returncode == 2, done.stdout
         assert str(refused.value) in done.stderr
     wrongs: list[tuple[dict[str, Any], str]] = [
-        ({"im": "sa"}, 'im "sa": expected one of pga, pgv'),
+        ({"im": "sa"}, 'intensity "sa": expected one of pga, pgv'),
         ({"im": "pgv", "gravity": 0.0}, "gravity 0 m/s2: expected"),
         ({"im": "pga", "model": "both"}, "expected one of nonlinear"),
     ]

@@ -64,24 +64,21 @@ def test_capacities_and_a_fragility_have_the_bits_of_the_command_line(
         assert ida.capacities(0.5, im=im).tolist() == expected
     sample = ["--sample", tmp_path / "pga.txt", "--shift", 1]
     said = json.loads(
-        command("fragility", *sample, "--bootstrap", 200, "--json")
+        command("fragility", "fit", *sample, "--bootstrap", 200, "--json")
     )
     fit = rk.fit_fragility(ida.capacities(0.5), shift=1.0, n_resamples=200)
-    for key in ("median", "beta", "log_likelihood", "ks_distance"):
+    assert fit.median == said["fitted"]["median"]
+    assert fit.beta == said["fitted"]["dispersion"]
+    for key in ("log_likelihood", "ks_distance"):
         assert getattr(fit, key) == said[key], key
-    interval = said["bootstrap"]["median"]
-    assert fit.confidence_interval() == (
-        interval["bca_low"],
-        interval["bca_high"],
-    )
-    assert fit.confidence_interval(method="percentile") == (
-        interval["low"],
-        interval["high"],
-    )
+    for method, key in (("BCa", "bca"), ("percentile", "percentile")):
+        interval = said["bootstrap"]["median"][key]
+        found = fit.confidence_interval(method=method)
+        assert found == (interval["low"], interval["high"])
     said = json.loads(command("lilliefors", *sample, "--log", "--json"))
     test = rk.lilliefors(ida.capacities(0.5), shift=1.0)
-    assert test.statistic == said["statistic"]
-    assert test.pvalue == said["p_value"]
+    assert test.statistic == said["statistic"]["d"]
+    assert test.pvalue == said["p_value"]["value"]
     assert test.critical_value == said["critical_value"]
     assert test.verdict == said["verdict"]
 

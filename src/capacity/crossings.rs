@@ -1,8 +1,7 @@
 //! All crossings of a level, and the single capacities made of them.
 
-use std::fmt;
-
 use super::{CapacityError, ResponseCurve};
+use crate::names::named;
 
 /// An intensity that reaches a level, or the statement that none did.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,16 +45,12 @@ pub enum InversionRule {
     Monotone,
 }
 
-impl fmt::Display for InversionRule {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Median => "median",
-            Self::First => "first",
-            Self::Last => "last",
-            Self::Monotone => "monotone",
-        })
-    }
-}
+named!(InversionRule, "inversion rule", {
+    Median = "median",
+    First = "first",
+    Last = "last",
+    Monotone = "monotone",
+});
 
 /// All intensities at which a curve crosses a level, in ascending order.
 ///

@@ -4,7 +4,7 @@ mod bound;
 mod kind;
 mod peaks;
 
-pub use kind::{PulseError, PulseKind};
+pub use kind::{PulseError, PulseKind, PulseName, PulseParameter};
 
 use crate::number::{Number, Real};
 use peaks::gauss;

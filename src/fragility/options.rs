@@ -48,13 +48,7 @@ impl Recipe {
     /// quantiles, and Eq. 7 with each method, centre and constant.
     #[must_use]
     pub fn all(quantile_type: QuantileType) -> Vec<Self> {
-        let methods = [
-            FitMethod::MaximumLikelihood,
-            FitMethod::Moment,
-            FitMethod::Trimmed(quantile_type),
-            FitMethod::Quantile(quantile_type),
-            FitMethod::Censored(quantile_type),
-        ];
+        let methods = FitMethod::all(quantile_type);
         let mut all: Vec<Self> =
             methods.iter().copied().map(Self::Unshifted).collect();
         all.extend(methods.iter().copied().map(Self::Shifted));

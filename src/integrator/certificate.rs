@@ -7,6 +7,8 @@
 //! certificate keeps, for each kind of decision, the least ratio of a
 //! decision's margin to the error of that margin.
 
+use crate::names::named;
+
 /// Ratio of margin to error from which on a decision is clear.
 ///
 /// Errors are bounds of 32 standard deviations, propagated linearly; the
@@ -40,30 +42,14 @@ pub enum Decision {
     Propagation,
 }
 
-impl Decision {
-    /// All kinds.
-    pub const ALL: [Self; 6] = [
-        Self::Uplift,
-        Self::Contact,
-        Self::Rest,
-        Self::Overturning,
-        Self::End,
-        Self::Propagation,
-    ];
-
-    /// The kind in a word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Uplift => "uplift",
-            Self::Contact => "contact",
-            Self::Rest => "rest",
-            Self::Overturning => "overturning",
-            Self::End => "end",
-            Self::Propagation => "propagation",
-        }
-    }
-}
+named!(Decision, "decision", {
+    Uplift = "uplift",
+    Contact = "contact",
+    Rest = "rest",
+    Overturning = "overturning",
+    End = "end",
+    Propagation = "propagation",
+});
 
 /// The least clear decision of a kind.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,6 +7,7 @@ use crate::integrator::{
     Assessment, Certificate, Clearance, Observe, Outcome, Response, Scene,
     SceneError, Solver, WorkLimit,
 };
+use crate::names::named;
 use crate::number::Real;
 use crate::number::double::DoubleDouble;
 use crate::number::octuple::Octuple;
@@ -22,17 +23,11 @@ pub enum Arithmetic {
     Octuple,
 }
 
-impl Arithmetic {
-    /// The arithmetic in a word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Double => "double",
-            Self::DoubleDouble => "double-double",
-            Self::Octuple => "octuple",
-        }
-    }
-}
+named!(Arithmetic, "arithmetic", {
+    Double = "double",
+    DoubleDouble = "double-double",
+    Octuple = "octuple",
+});
 
 /// How a fate is asked for. The default is that of the whole run, within the
 /// default limit of work, without a word on the way.

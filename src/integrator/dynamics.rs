@@ -16,6 +16,7 @@
 //! lose nothing in the shorter form u'' = sin(u - alpha) - f cos(u - alpha).
 
 use crate::block::{Block, Restitution};
+use crate::names::named;
 use crate::number::{Number, Real};
 
 /// Equation of motion.
@@ -35,6 +36,13 @@ pub enum Overturning {
     /// |theta| exceeds pi/2.
     HalfPi,
 }
+
+named!(Model, "model", { Nonlinear = "nonlinear", Linearized = "linearized" });
+
+named!(Overturning, "overturning criterion", {
+    Alpha = "alpha",
+    HalfPi = "half-pi",
+});
 
 /// Constants of a run.
 #[derive(Clone, Copy, Debug)]

@@ -9,6 +9,7 @@ use crate::streams::{Streams, below};
 
 /// A point estimate with its standard error and interval.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Estimate {
     /// The estimate from the sample itself.

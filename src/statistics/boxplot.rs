@@ -41,6 +41,7 @@ pub enum BoxplotError {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Boxplot {
     /// Size of the sample.
@@ -67,6 +68,7 @@ pub struct Boxplot {
 
 /// An interval of the median between two order statistics.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct MedianInterval {
     /// Value of the lower order statistic.

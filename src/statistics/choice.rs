@@ -1,8 +1,6 @@
 //! The choice of a distribution: likelihood, information criteria and
 //! goodness of fit of several families, side by side.
 
-use std::fmt;
-
 use libm::{exp, log, pow};
 use rand::Rng as _;
 use rayon::prelude::*;
@@ -10,6 +8,7 @@ use rayon::prelude::*;
 use super::lognormal::{self, FitError, FitMethod, profile_shift};
 use super::rivals::{self, ExtremeValue, Family, RivalFit, fit_extreme_value};
 use super::{ExtendedSample, Lognormal, monte_carlo};
+use crate::names::named;
 use crate::stop;
 use crate::streams::{Stream, Streams, standard_normal};
 
@@ -29,16 +28,15 @@ pub enum Model {
     ExtremeValue,
 }
 
-impl Model {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Lognormal,
-        Self::ShiftedLognormal,
-        Self::Weibull,
-        Self::Gamma,
-        Self::ExtremeValue,
-    ];
+named!(Model, "distribution", {
+    Lognormal = "lognormal",
+    ShiftedLognormal = "shifted lognormal",
+    Weibull = "Weibull",
+    Gamma = "gamma",
+    ExtremeValue = "generalized extreme value",
+});
 
+impl Model {
     /// Number of fitted parameters k.
     #[must_use]
     pub fn parameters(self) -> usize {
@@ -46,18 +44,6 @@ impl Model {
             Self::Lognormal | Self::Weibull | Self::Gamma => 2,
             Self::ShiftedLognormal | Self::ExtremeValue => 3,
         }
-    }
-}
-
-impl fmt::Display for Model {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Lognormal => "lognormal",
-            Self::ShiftedLognormal => "shifted lognormal",
-            Self::Weibull => "Weibull",
-            Self::Gamma => "gamma",
-            Self::ExtremeValue => "generalized extreme value",
-        })
     }
 }
 

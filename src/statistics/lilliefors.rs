@@ -19,6 +19,8 @@ pub use shift::ShiftedNull;
 pub use simulation::{CriticalValue, NullDistribution};
 pub use table::Table;
 
+use std::fmt;
+
 use super::{Sample, normal};
 
 /// Why the test was refused.
@@ -94,6 +96,7 @@ pub enum LillieforsError {
 
 /// Lilliefors' D and its one-sided parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Statistic {
     /// Size of the sample.
@@ -180,6 +183,7 @@ fn scores(sample: &Sample, least: usize) -> Result<Vec<f64>, LillieforsError> {
 
 /// A p-value with the interval of its Monte Carlo error (95 %).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct PValue {
     /// The estimate.
@@ -188,6 +192,26 @@ pub struct PValue {
     pub low: f64,
     /// Upper end of the interval.
     pub high: f64,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rejected => "rejected",
+            Self::NotRejected => "not-rejected",
+            Self::Indeterminate => "indeterminate",
+        })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl serde::Serialize for Verdict {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
+    }
 }
 
 /// What a test says at a level.

@@ -53,6 +53,23 @@ pub struct Lognormal {
     dispersion: f64,
 }
 
+/// Written with its median beside its parameters.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Lognormal {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut all = to.serialize_struct("Lognormal", 4)?;
+        all.serialize_field("shift", &self.shift)?;
+        all.serialize_field("log_mean", &self.log_mean)?;
+        all.serialize_field("dispersion", &self.dispersion)?;
+        all.serialize_field("median", &self.median())?;
+        all.end()
+    }
+}
+
 impl Lognormal {
     /// A lognormal distribution above `shift`.
     ///

@@ -47,9 +47,11 @@ pub enum PairedError {
 
 /// Pairs sorted by what they allow.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Pairs {
     /// Ratios a/b of the usable pairs, in the order given.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub ratios: Vec<f64>,
     /// All pairs.
     pub n: usize,
@@ -132,6 +134,7 @@ impl Pairs {
 
 /// Exact two-sided binomial test with probability 1/2.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SignTest {
     /// Number above (or first kind of discordance).

@@ -34,6 +34,7 @@ pub enum RegressionError {
 /// The line y = intercept + slope x with the least sum of squares.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Line {
     /// Value at x = 0, in units of y.
     pub intercept: f64,

@@ -7,8 +7,6 @@
 mod extreme;
 mod incomplete;
 
-use std::fmt;
-
 use libm::{exp, expm1, lgamma, log};
 
 pub use extreme::{ExtremeValue, fit_extreme_value};
@@ -16,6 +14,7 @@ pub use extreme::{ExtremeValue, fit_extreme_value};
 use super::lognormal::{FitError, shifted_finite};
 use super::sample::{mean, sum_of_squares};
 use super::{ExtendedSample, Sample};
+use crate::names::named;
 
 /// A family of distributions above a shift.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,20 +28,11 @@ pub enum Family {
     Gamma,
 }
 
-impl Family {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Weibull, Self::Frechet, Self::Gamma];
-}
-
-impl fmt::Display for Family {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Weibull => "Weibull",
-            Self::Frechet => "Frechet",
-            Self::Gamma => "gamma",
-        })
-    }
-}
+named!(Family, "family of distributions", {
+    Weibull = "Weibull",
+    Frechet = "Frechet",
+    Gamma = "gamma",
+});
 
 /// A fitted rival, in x - shift.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -141,6 +141,14 @@ impl ExtendedSample {
         Ok(Self { sorted, finite })
     }
 
+    /// A sample of values that are known to make one.
+    pub(super) fn of(values: &[f64]) -> Self {
+        let mut sorted = values.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let finite = sorted.partition_point(|x| x.is_finite());
+        Self { sorted, finite }
+    }
+
     /// All values in ascending order, infinite ones last.
     #[must_use]
     pub fn sorted(&self) -> &[f64] {

@@ -213,7 +213,7 @@ fn a_study_takes_no_curves_of_a_sweep_that_lacks_some() {
 #[test]
 fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     let place = folder("sweep-surrogate", &[]);
-    let found = json(&place, "fragility --alpha 0.15 --p 3 --json");
+    let found = json(&place, "fragility surface --alpha 0.15 --p 3 --json");
     for suite in ["ordinary", "pulse-type"] {
         let own = &found["suites"][suite];
         let median = own["median"].as_f64().unwrap();
@@ -235,10 +235,10 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     for (arguments, names) in [
         ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),
         ("--alpha 0.2 --p 8", ["p 8", "1 to 6 rad/s"]),
-        ("--alpha 0.2 --p 3 --shift 1", ["--shift", "--sample"]),
+        ("--alpha 0.2 --p 3 --shift 1", ["--shift", "unexpected"]),
         ("--width-m 4 --height-m 40", ["p 0.", "range of the surrogate"]),
     ] {
-        refused_for(&place, &format!("fragility {arguments}"), &names);
+        refused_for(&place, &format!("fragility surface {arguments}"), &names);
     }
 }
 

@@ -191,16 +191,16 @@ fn tables_and_samples_know_what_they_are() {
     assert_eq!((status, error.as_str()), (0, ""));
     assert!(sample.starts_with("# Sample of PGA/(g tan alpha) at EDP 1, "));
     assert!(sample.contains("# alpha 0.1 rad, p 3 rad/s, eta 0.92, "));
-    let fit = "fragility --sample - --shift 1";
+    let fit = "fragility fit --sample - --shift 1";
     assert_eq!(rocking(&folder, fit, &sample).0, 0);
-    let fits = "fragility --ida - --at 0.5,1 --shift 1 --json";
+    let fits = "fragility fit --ida - --at 0.5,1 --shift 1 --json";
     let (status, fits, error) = rocking(&folder, fits, &table);
     assert_eq!((status, error.as_str()), (0, ""));
     let fits: serde_json::Value = serde_json::from_str(&fits).unwrap();
     let one = rocking(&folder, &format!("{fit} --json"), &sample).1;
     let one: serde_json::Value = serde_json::from_str(&one).unwrap();
     assert_eq!(fits["levels"].as_array().unwrap().len(), 2);
-    for key in ["median", "beta", "im50", "unshifted_beta"] {
+    for key in ["n", "fitted", "im50", "unshifted"] {
         assert_eq!(fits["levels"][1][key], one[key], "{key}");
     }
     // Tables of two analyses are not one.

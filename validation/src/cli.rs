@@ -15,7 +15,6 @@ use rocking::stop::{Stop, StopError};
 use signal_hook::consts::SIGABRT;
 use signal_hook::flag::register_conditional_shutdown;
 
-pub mod boxplot;
 pub mod capacities;
 pub mod compare;
 pub mod completions;
@@ -29,14 +28,15 @@ pub mod man;
 pub mod measure;
 mod names;
 pub mod processing;
-pub mod quantile;
 pub mod rank;
 pub mod reading;
 pub mod records;
 pub mod respond;
 pub mod risk;
+pub mod sample;
 pub mod samples;
 pub mod scene;
+pub mod show;
 pub mod speed;
 pub mod stripes;
 pub mod study;
@@ -65,7 +65,6 @@ enum Command {
     Respond(Box<respond::Args>),
     Ida(Box<ida::Args>),
     Records(records::Args),
-    Boxplot(boxplot::Args),
     Capacities(capacities::Args),
     Compare(compare::Args),
     Completions(completions::Args),
@@ -73,9 +72,9 @@ enum Command {
     Fragility(fragility::Args),
     Lilliefors(lilliefors::Args),
     Man(man::Args),
-    Quantile(quantile::Args),
     Rank(Box<rank::Args>),
     Risk(risk::Args),
+    Sample(sample::Args),
     Speed(speed::Args),
     Stripes(stripes::Args),
     Study(study::Args),
@@ -279,7 +278,6 @@ pub fn run() -> ExitCode {
         Command::Respond(args) => respond::run(&args),
         Command::Ida(args) => ida::run(&args),
         Command::Records(args) => records::run(&args),
-        Command::Boxplot(args) => boxplot::run(&args),
         Command::Capacities(args) => capacities::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Completions(args) => completions::run(&args, command()),
@@ -287,9 +285,9 @@ pub fn run() -> ExitCode {
         Command::Fragility(args) => fragility::run(&args),
         Command::Lilliefors(args) => lilliefors::run(&args),
         Command::Man(args) => man::run(&args, command()),
-        Command::Quantile(args) => quantile::run(&args),
         Command::Rank(args) => rank::run(&args),
         Command::Risk(args) => risk::run(&args),
+        Command::Sample(args) => sample::run(&args),
         Command::Speed(args) => {
             with_threads(None, || speed::run(&args)).flatten()
         }

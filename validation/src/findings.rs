@@ -9,6 +9,7 @@ mod claims;
 use std::fmt;
 
 use rocking::block::Block;
+use rocking::integrator::Overturning;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
@@ -53,8 +54,8 @@ pub struct Settings {
     /// Coefficient of restitution.
     #[serde(with = "nine")]
     pub eta: f64,
-    /// Overturning criterion, by its name on the command line.
-    pub overturning: String,
+    /// Overturning criterion.
+    pub overturning: Overturning,
     /// Width in IM to which first overturnings are bisected.
     #[serde(with = "nine")]
     pub refinement_im: f64,

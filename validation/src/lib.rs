@@ -13,7 +13,6 @@ pub mod draw;
 pub mod files;
 pub mod findings;
 pub mod json;
-pub mod measure;
 pub mod paper;
 pub mod proof;
 pub mod report;

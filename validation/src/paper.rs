@@ -5,7 +5,7 @@
 use std::fmt;
 
 use rocking::block::Block;
-pub use rocking_exchange::Intensity;
+pub use rocking::intensity::Intensity;
 use serde::{Deserialize, Serialize};
 
 use crate::words::named;

@@ -8,11 +8,11 @@
 
 use maud::{Markup, PreEscaped, html};
 use rocking::fragility::points::points;
+use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
 
 use super::{ExchangeError, TAIL, TOLERANCE};
 use crate::fragility::{BlockFragility, Id};
-use crate::intensity::Intensity;
 use crate::table::number;
 
 const HEAD: &str = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";

@@ -9,11 +9,11 @@
 //!   that of the component applied.
 
 use rocking::fragility::points::points;
+use rocking::intensity::Intensity;
 use serde_json::{Map, json};
 
 use super::{ExchangeError, TOLERANCE};
 use crate::fragility::{BlockFragility, Id, unit};
-use crate::intensity::Intensity;
 use crate::table::{Table, number};
 
 /// Steps that pelicun tells from none.

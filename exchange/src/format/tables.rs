@@ -1,10 +1,10 @@
 //! Tables of parameters: for PACT, and for any program.
 
+use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
 
 use super::ExchangeError;
 use crate::fragility::{BlockFragility, Id, unit};
-use crate::intensity::Intensity;
 use crate::table::{Table, number, optional};
 
 /// Median and dispersion as FEMA P-58's PACT is told them by hand.
@@ -26,7 +26,8 @@ impl Pact {
     ///
     /// ```
     /// use rocking::statistics::Lognormal;
-    /// use rocking_exchange::{Intensity, Pact};
+    /// use rocking::intensity::Intensity;
+    /// use rocking_exchange::Pact;
     /// let fitted = Lognormal::try_new(0.0, 0.0, 0.5)?;
     /// let told = Pact::of(Intensity::Pgv, &fitted).expect("no shift");
     /// assert_eq!((told.demand, told.unit), ("PGV", "m/s"));

@@ -2,11 +2,11 @@
 
 use rocking::block::Block;
 use rocking::integrator::Model;
+use rocking::intensity::Intensity;
 use rocking::statistics::{Lognormal, normal};
 
 use super::*;
 use crate::fragility::unit_intensity;
-use crate::intensity::Intensity;
 
 /// A block whose fragility in its own PGA or PGV has a shift or none.
 fn one(intensity: Intensity, shift: f64) -> BlockFragility {

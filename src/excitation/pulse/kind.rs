@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::names::named;
+
 /// Shape of a pulse. The constructor says in which unit its amplitude is:
 /// multiples of gravity for [`Pulse::try_new`](super::Pulse::try_new), m/s2
 /// for [`Pulse::try_new_si`](super::Pulse::try_new_si) (a velocity: gravity
@@ -79,6 +81,102 @@ pub enum PulseKind {
         gamma: f64,
         /// Phase nu in rad.
         phase_rad: f64,
+    },
+}
+
+/// A parameter of a [`PulseKind`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PulseParameter {
+    /// Amplitude of the acceleration.
+    Amplitude,
+    /// Circular frequency in rad/s.
+    Omega,
+    /// Duration in s.
+    Duration,
+    /// Period in s.
+    Period,
+    /// Length in periods.
+    Cycles,
+    /// Amplitude of the velocity.
+    Velocity,
+    /// Prevailing frequency in Hz.
+    Frequency,
+    /// Oscillatory character gamma.
+    Gamma,
+    /// Phase in rad.
+    Phase,
+}
+
+/// Makes [`PulseName`] of a table: variant, name, fields and parameters.
+macro_rules! pulses {
+    ($($kind:ident = $name:literal {
+        $($field:ident: $parameter:ident),+
+    },)+) => {
+        /// The name of a [`PulseKind`], without its parameters.
+        ///
+        /// ```
+        /// use rocking::excitation::{PulseKind, PulseName, PulseParameter};
+        /// let name: PulseName = "one-sine".parse()?;
+        /// let kind = name.kind(|parameter| match parameter {
+        ///     PulseParameter::Amplitude => Ok(0.3),
+        ///     PulseParameter::Omega => Ok(6.0),
+        ///     other => Err(format!("{name} has no {other:?}")),
+        /// })?;
+        /// let sine = PulseKind::OneSine { amplitude: 0.3, omega_rad_s: 6.0 };
+        /// assert_eq!(kind, sine);
+        /// # Ok::<(), Box<dyn std::error::Error>>(())
+        /// ```
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum PulseName {
+            $(#[doc = concat!("[`PulseKind::", stringify!($kind), "`].")]
+            $kind,)+
+        }
+
+        named!(PulseName, "pulse", { $($kind = $name),+ });
+
+        impl PulseName {
+            /// The pulse of this name with the values of its parameters.
+            ///
+            /// # Errors
+            /// That of `value`.
+            pub fn kind<E>(
+                self,
+                mut value: impl FnMut(PulseParameter) -> Result<f64, E>,
+            ) -> Result<PulseKind, E> {
+                Ok(match self {
+                    $(Self::$kind => PulseKind::$kind {
+                        $($field: value(PulseParameter::$parameter)?),+
+                    }),+
+                })
+            }
+
+            /// Its parameters, as [`kind`](Self::kind) asks for them.
+            #[must_use]
+            pub fn parameters(self) -> &'static [PulseParameter] {
+                match self {
+                    $(Self::$kind => &[$(PulseParameter::$parameter),+]),+
+                }
+            }
+        }
+    };
+}
+
+pulses! {
+    OneSine = "one-sine" { amplitude: Amplitude, omega_rad_s: Omega },
+    HalfSine = "half-sine" { amplitude: Amplitude, omega_rad_s: Omega },
+    OneCosine = "one-cosine" { amplitude: Amplitude, omega_rad_s: Omega },
+    Rectangle = "rectangle" { amplitude: Amplitude, duration_s: Duration },
+    Triangle = "triangle" { amplitude: Amplitude, duration_s: Duration },
+    RickerSymmetric = "ricker-symmetric" {
+        amplitude: Amplitude, period_s: Period, cycles: Cycles
+    },
+    RickerAntisymmetric = "ricker-antisymmetric" {
+        amplitude: Amplitude, period_s: Period, cycles: Cycles
+    },
+    MavroeidisPapageorgiou = "mavroeidis-papageorgiou" {
+        velocity: Velocity, frequency_hz: Frequency, gamma: Gamma,
+        phase_rad: Phase
     },
 }
 

@@ -31,6 +31,7 @@ pub struct NullDistribution {
 
 /// A critical value with its Monte Carlo error.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct CriticalValue {
     /// The order statistic of rank ceil((1 - level)(N + 1)): a sample's D

@@ -1,6 +1,7 @@
 //! Fitting a lognormal distribution, with a given shift, in named ways.
 
 use std::fmt;
+use std::str::FromStr;
 
 use libm::log;
 use thiserror::Error;
@@ -8,6 +9,7 @@ use thiserror::Error;
 use super::censored::Observation::{Exact, Interval};
 use super::censored::maximise;
 use super::{Lognormal, LognormalError};
+use crate::names::{UnknownName, as_text, find};
 use crate::statistics::sample::{mean, sum_of_squares};
 use crate::statistics::{ExtendedSample, QuantileType};
 
@@ -31,17 +33,69 @@ pub enum FitMethod {
     Censored(QuantileType),
 }
 
+impl FitMethod {
+    /// All of them, their quantiles of this type.
+    #[must_use]
+    pub fn all(quantile_type: QuantileType) -> [Self; 5] {
+        [
+            Self::MaximumLikelihood,
+            Self::Moment,
+            Self::Trimmed(quantile_type),
+            Self::Quantile(quantile_type),
+            Self::Censored(quantile_type),
+        ]
+    }
+
+    /// The name, without the type of quantiles.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MaximumLikelihood => "mle",
+            Self::Moment => "moment",
+            Self::Quantile(_) => "quantile",
+            Self::Trimmed(_) => "trimmed",
+            Self::Censored(_) => "censored",
+        }
+    }
+
+    /// The same method, its quantiles of this type.
+    #[must_use]
+    pub fn with_quantile_type(self, quantile_type: QuantileType) -> Self {
+        let mut all = Self::all(quantile_type).into_iter();
+        all.find(|own| own.name() == self.name()).unwrap_or(self)
+    }
+}
+
 impl fmt::Display for FitMethod {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::MaximumLikelihood => f.write_str("mle"),
-            Self::Moment => f.write_str("moment"),
-            Self::Quantile(t) => write!(f, "quantile (type {t})"),
-            Self::Trimmed(t) => write!(f, "trimmed (type {t})"),
-            Self::Censored(t) => write!(f, "censored (type {t})"),
+            Self::MaximumLikelihood | Self::Moment => f.write_str(self.name()),
+            Self::Quantile(t) | Self::Trimmed(t) | Self::Censored(t) => {
+                write!(f, "{} (type {t})", self.name())
+            }
         }
     }
 }
+
+/// Reads what `Display` writes; a name alone has the default type of
+/// quantiles.
+impl FromStr for FitMethod {
+    type Err = UnknownName;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let types = (1..=9).filter_map(|n| QuantileType::try_new(n).ok());
+        let mut written = types.flat_map(Self::all);
+        written.find(|m| m.to_string() == text).map_or_else(
+            || {
+                let all = Self::all(QuantileType::default());
+                find("fit method", text, &all, Self::name)
+            },
+            Ok,
+        )
+    }
+}
+
+as_text!(FitMethod);
 
 /// Why a fit was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]

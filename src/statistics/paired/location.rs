@@ -10,6 +10,7 @@ use crate::stop;
 
 /// Equivalence of the mean of ln ratio to 0 by two one-sided t tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Equivalence {
     /// Margin m: the bounds are -ln(1 + m) and ln(1 + m).
@@ -71,6 +72,7 @@ pub fn equivalence(
 
 /// Equivalence of the median ratio to 1 by two one-sided sign tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SignEquivalence {
     /// Margin m: the bounds are 1/(1 + m) and 1 + m.
@@ -106,6 +108,7 @@ pub fn sign_equivalence(
 
 /// The median of pairwise means of ln ratio, with its interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct HodgesLehmann {
     /// exp of the median of the Walsh averages of ln ratio.

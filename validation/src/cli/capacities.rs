@@ -7,19 +7,20 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::capacity::{
-    Capacity, CapacityError, InversionRule, ResponseCurve,
-    inversion_discrepancy,
+use rocking::capacity::{Capacity, InversionRule, ResponseCurve};
+use rocking::intensity::IntensityMeasure;
+use rocking::procedures::capacities::{
+    LevelCapacities, LevelCrossings, crossings, levels,
 };
-use rocking::statistics::{ExtendedSample, QuantileType};
-use serde_json::{Value, json};
+use serde::Serialize;
 
+use super::Failure;
 use super::measure::GroundArgs;
-use super::names::{CROSSINGS, named};
+use super::names;
 use super::samples::SAMPLE_OF;
-use super::{Failure, print, print_json, with_threads};
+use super::show::show;
+use super::with_threads;
 use crate::files::Outputs;
-use crate::measure::Measure;
 use crate::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
@@ -51,7 +52,7 @@ pub struct Args {
     /// periods in s, 5 % damping) or column:NAME (of --attributes or the
     /// index, proportional to the acceleration) [default: pga].
     #[arg(long, value_name = "MEASURE", conflicts_with = "curve")]
-    im: Option<Measure>,
+    im: Option<IntensityMeasure>,
     #[command(flatten)]
     ground: GroundArgs,
     /// EDP levels, FIRST:LAST:STEP or separated by commas.
@@ -64,7 +65,7 @@ pub struct Args {
     levels: Levels,
     /// Which single capacity is made of several crossings, for the quantiles
     /// over the records of --ida [default: median].
-    #[arg(long, value_parser = named(CROSSINGS), conflicts_with = "curve")]
+    #[arg(long, value_parser = names::crossing(), conflicts_with = "curve")]
     point: Option<InversionRule>,
     /// EDP level of the sample written to --out.
     #[arg(long, value_name = "E", requires = "out", conflicts_with = "curve")]
@@ -164,66 +165,43 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
-    if args.json {
-        let out = json!({
-            "im_r": json!(curve.onset_im()),
-            "levels": levels(curve, &args.levels.0, |im| im)?,
-        });
-        return print_json(out);
-    }
-    let mut text = format!(
-        "{:>8} {:>10} {:>10} {:>10} {:>10}  crossings\n",
-        "EDP", "median", "first", "last", "monotone"
-    );
-    for &level in &args.levels.0 {
-        let crossings = curve.crossings(level)?;
-        write!(text, "{level:>8}")?;
-        for rule in RULES {
-            write!(text, " {:>10.6}", crossings.capacity(rule).im())?;
-        }
-        text += " ";
-        for im in crossings.all() {
-            write!(text, " {im:.6}")?;
-        }
-        text += "\n";
-    }
-    print(&text)
+    let levels = crossings(curve, &args.levels.0, |im| im)?;
+    show(args.json, &Crossed { im_r: curve.onset_im(), levels })
 }
 
-const RULES: [InversionRule; 4] = [
-    InversionRule::Median,
-    InversionRule::First,
-    InversionRule::Last,
-    InversionRule::Monotone,
-];
+/// Crossings of one curve.
+#[derive(Serialize)]
+struct Crossed {
+    im_r: f64,
+    levels: Vec<LevelCrossings>,
+}
 
-/// The crossings and capacities of a curve at every level, as JSON.
-fn levels(
-    curve: &ResponseCurve,
-    levels: &[f64],
-    told: impl Fn(f64) -> f64,
-) -> Result<Vec<Value>, CapacityError> {
-    let row = |&level: &f64| {
-        let crossings = curve.crossings(level)?;
-        let mut row = json!({
-            "edp": json!(level),
-            "crossings": crossings
-                .all()
-                .iter()
-                .map(|im| json!(told(*im)))
-                .collect::<Vec<_>>(),
-        });
-        for rule in RULES {
-            let im = crossings.capacity(rule).im();
-            row[rule.to_string()] = json!(told(im));
-        }
-        Ok(row)
-    };
-    levels.iter().map(row).collect()
+/// Capacities of a suite.
+#[derive(Serialize)]
+struct Shown {
+    im: String,
+    im_r: f64,
+    n: usize,
+    point: String,
+    quantile_type: u8,
+    rows_after_overturning: usize,
+    levels: Vec<LevelCapacities>,
+    /// Each record alone: in JSON, since its crossings are many.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    records: Option<Vec<Record>>,
+}
+
+/// Crossings of one record.
+#[derive(Serialize)]
+struct Record {
+    record: String,
+    onset_im: f64,
+    overturning_im: Option<f64>,
+    levels: Vec<LevelCrossings>,
 }
 
 fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
-    let measure = args.im.as_ref().unwrap_or(&Measure::Pga);
+    let measure = args.im.as_ref().unwrap_or(&IntensityMeasure::Pga);
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
@@ -235,52 +213,47 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
             return Ok(());
         }
     }
-    let mut rows = Vec::new();
-    for &level in &args.levels.0 {
-        rows.push((level, quantiles(&suite, level, rule)?));
-    }
-    if args.json {
-        return print_json(json(args, &suite, rule, &rows)?);
-    }
-    let mut text = format!(
-        "{} records, IM_R {:.6}, {rule} crossing\n\
-         {:>8} {:>10} {:>10} {:>10} {:>9}\n",
-        suite.curves.len(),
-        suite.told(suite.im_r),
-        "EDP",
-        "16 %",
-        "50 %",
-        "84 %",
-        "censored"
-    );
-    for (level, q) in rows {
-        let [low, median, high] = q.values;
-        writeln!(
-            text,
-            "{level:>8} {low:>10.5} {median:>10.5} {high:>10.5} {:>9}",
-            q.censored
-        )?;
-    }
-    print(&text)
+    let measured = |im: f64| suite.told(im);
+    let record = |(record, curve): &(String, ResponseCurve)| {
+        Ok::<_, Failure>(Record {
+            record: record.clone(),
+            onset_im: measured(curve.onset_im()),
+            overturning_im: curve.overturning_im().map(measured),
+            levels: crossings(curve, &args.levels.0, measured)?,
+        })
+    };
+    let records = args.json.then(|| suite.curves.iter().map(record));
+    let records = records.map(Iterator::collect::<Result<_, _>>);
+    let records = records.transpose()?;
+    let curves = suite.clone().into_curves();
+    let levels = levels(&curves, &args.levels.0, rule, measured)?;
+    let found = Shown {
+        im: measure.words(),
+        im_r: measured(suite.im_r),
+        n: curves.len(),
+        point: rule.to_string(),
+        quantile_type: 5,
+        rows_after_overturning: suite.after_overturning,
+        levels,
+        records,
+    };
+    show(args.json, &found)
 }
 
 /// The curves of a table against a measure.
 fn suite(
     args: &Args,
     path: &Path,
-    measure: &Measure,
+    measure: &IntensityMeasure,
 ) -> Result<ida::Suite, Failure> {
-    if measure.is_in_table() {
+    if let Some(intensity) = measure.dimensionless() {
         if args.ground.is_given() {
             return Err(Failure::input(format!(
-                "--suite is not used for {measure}, which the table holds"
+                "--suite is not used for {}, which the table holds",
+                intensity.words()
             )));
         }
-        let by = match measure {
-            Measure::Pgv => Intensity::Pgv,
-            _ => Intensity::Pga,
-        };
-        return Ok(ida::read(path, by)?);
+        return Ok(ida::read(path, intensity)?);
     }
     let suite = ida::read(path, Intensity::Pga)?;
     let measures = std::slice::from_ref(measure);
@@ -292,16 +265,17 @@ fn suite(
 /// The sample file of the records' capacities at a level.
 fn sample(
     suite: &ida::Suite,
-    measure: &Measure,
+    measure: &IntensityMeasure,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
     let (alpha_rad, p_rad_s) = &suite.block;
     let setting = &suite.setting;
     let mut text = format!(
-        "{SAMPLE_OF}{measure} at EDP {level}, {rule} crossing\n\
+        "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
          # alpha {} rad, p {p_rad_s} rad/s, eta {}, {}, overturned at {}, \
          {}, g {} m/s2, processing: {}, {}\n",
+        measure.words(),
         alpha_rad.as_deref().unwrap_or("adjusted"),
         setting.eta,
         setting.model,
@@ -323,68 +297,4 @@ fn sample(
         }
     }
     Ok(text)
-}
-
-/// Quantiles of the records' capacities at a level.
-struct Quantiles {
-    values: [f64; 3],
-    censored: usize,
-    /// Largest difference to the stripe fragility.
-    discrepancy: f64,
-}
-
-fn quantiles(
-    suite: &ida::Suite,
-    level: f64,
-    rule: InversionRule,
-) -> Result<Quantiles, Failure> {
-    let mut ims = Vec::new();
-    for (_, curve) in &suite.curves {
-        ims.push(suite.told(curve.capacity(level, rule)?.im()));
-    }
-    let sample = ExtendedSample::try_new(&ims)?;
-    let at = |p| QuantileType::default().of_extended(&sample, p);
-    let values = [at(0.16)?, at(0.5)?, at(0.84)?];
-    let curves: Vec<ResponseCurve> =
-        suite.curves.iter().map(|(_, curve)| curve.clone()).collect();
-    let discrepancy = inversion_discrepancy(&curves, level, rule)?;
-    Ok(Quantiles { values, censored: sample.censored(), discrepancy })
-}
-
-fn json(
-    args: &Args,
-    suite: &ida::Suite,
-    rule: InversionRule,
-    rows: &[(f64, Quantiles)],
-) -> Result<Value, Failure> {
-    let mut records = Vec::new();
-    for (record, curve) in &suite.curves {
-        let overturning = curve.overturning_im().map(|im| suite.told(im));
-        records.push(json!({
-            "record": record,
-            "onset_im": json!(suite.told(curve.onset_im())),
-            "overturning_im": json!(overturning),
-            "levels": levels(curve, &args.levels.0, |im| suite.told(im))?,
-        }));
-    }
-    let summary = |(level, q): &(f64, Quantiles)| {
-        json!({
-            "edp": json!(*level),
-            "im16": json!(q.values[0]),
-            "im50": json!(q.values[1]),
-            "im84": json!(q.values[2]),
-            "censored": q.censored,
-            "stripe_discrepancy": json!(q.discrepancy),
-        })
-    };
-    Ok(json!({
-        "im_r": json!(suite.told(suite.im_r)),
-        "im": args.im.as_ref().unwrap_or(&Measure::Pga).to_string(),
-        "n": suite.curves.len(),
-        "point": rule.to_string(),
-        "quantile_type": 5,
-        "rows_after_overturning": suite.after_overturning,
-        "levels": rows.iter().map(summary).collect::<Vec<_>>(),
-        "records": records,
-    }))
 }

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
-use rocking::excitation::{NormalisedRecord, Pulse, PulseKind};
+use rocking::excitation::{
+    NormalisedRecord, Pulse, PulseKind, PulseName, PulseParameter,
+};
 use rocking::record::{Accelerogram, Record, Remarked, SetAside, read_file};
 
 use super::Failure;
-use super::names::{INTENSITIES, named};
+use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use crate::paper::Intensity;
@@ -29,7 +30,12 @@ pub struct ExcitationArgs {
     #[command(flatten)]
     processing: ProcessingArgs,
     /// An analytic pulse from t = 0.
-    #[arg(long, value_enum, value_name = "KIND", conflicts_with = "free")]
+    #[arg(
+        long,
+        value_name = "KIND",
+        value_parser = named(PulseName::ALL, PulseName::name, [""; 8]),
+        conflicts_with = "free"
+    )]
     pulse: Option<PulseName>,
     /// Peak acceleration in m/s2 (all pulses but mavroeidis-papageorgiou).
     #[arg(long, value_name = "A")]
@@ -75,20 +81,8 @@ pub struct ExcitationArgs {
     im: Option<f64>,
     /// Which intensity: PGA/(g tan alpha) or p PGV/(g tan alpha); g alpha
     /// for Eq. 2 [default: pga].
-    #[arg(long, value_parser = named(INTENSITIES), requires = "im")]
+    #[arg(long, value_parser = names::intensity(), requires = "im")]
     im_kind: Option<Intensity>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PulseName {
-    OneSine,
-    HalfSine,
-    OneCosine,
-    Rectangle,
-    Triangle,
-    RickerSymmetric,
-    RickerAntisymmetric,
-    MavroeidisPapageorgiou,
 }
 
 /// The excitation, owned.
@@ -194,27 +188,26 @@ impl ExcitationArgs {
         self.pga.or(by_im)
     }
 
+    /// The parameters of pulses: flags and values.
+    fn parameters(&self) -> [(PulseParameter, &str, Option<f64>); 9] {
+        use PulseParameter as P;
+        [
+            (P::Amplitude, "--amplitude-m-s2", self.amplitude_m_s2),
+            (P::Omega, "--omega-rad-s", self.omega_rad_s),
+            (P::Duration, "--duration-s", self.duration_s),
+            (P::Period, "--period-s", self.period_s),
+            (P::Cycles, "--cycles", self.cycles),
+            (P::Velocity, "--velocity-m-s", self.velocity_m_s),
+            (P::Frequency, "--frequency-hz", self.frequency_hz),
+            (P::Gamma, "--gamma", self.gamma),
+            (P::Phase, "--phase-rad", self.phase_rad),
+        ]
+    }
+
     /// Refuses a flag that the chosen excitation has no use for.
     fn refuse_unused(&self) -> Result<(), Failure> {
-        use PulseName as P;
-        let sines = [P::OneSine, P::HalfSine, P::OneCosine];
-        let shapes = [P::Rectangle, P::Triangle];
-        let rickers = [P::RickerSymmetric, P::RickerAntisymmetric];
-        let mavroeidis = [P::MavroeidisPapageorgiou];
-        let amplitudes = [&sines[..], &shapes[..], &rickers[..]].concat();
-        let used: [(&str, bool, &[P]); 9] = [
-            ("--amplitude-m-s2", self.amplitude_m_s2.is_some(), &amplitudes),
-            ("--omega-rad-s", self.omega_rad_s.is_some(), &sines),
-            ("--duration-s", self.duration_s.is_some(), &shapes),
-            ("--period-s", self.period_s.is_some(), &rickers),
-            ("--cycles", self.cycles.is_some(), &rickers),
-            ("--velocity-m-s", self.velocity_m_s.is_some(), &mavroeidis),
-            ("--frequency-hz", self.frequency_hz.is_some(), &mavroeidis),
-            ("--gamma", self.gamma.is_some(), &mavroeidis),
-            ("--phase-rad", self.phase_rad.is_some(), &mavroeidis),
-        ];
         let chosen = match self.pulse {
-            Some(kind) => format!("--pulse {}", kind.name()),
+            Some(name) => format!("--pulse {name}"),
             None if self.free => "--free".to_owned(),
             None => "--record".to_owned(),
         };
@@ -231,9 +224,9 @@ impl ExcitationArgs {
         if self.im_kind.is_some() && self.im.is_none() {
             return Err(Failure::input("--im-kind is not used without --im"));
         }
-        for (flag, given, pulses) in used {
-            let fits = self.pulse.is_some_and(|kind| pulses.contains(&kind));
-            if given && !fits {
+        let used = self.pulse.map_or(&[][..], PulseName::parameters);
+        for (parameter, flag, given) in self.parameters() {
+            if given.is_some() && !used.contains(&parameter) {
                 return unused(flag);
             }
         }
@@ -247,54 +240,16 @@ impl ExcitationArgs {
                 "expected --record, --pulse or --free",
             ));
         };
-        let need = |flag: &str, value: Option<f64>| {
-            value.ok_or_else(|| {
-                Failure::input(format!("--pulse {} needs {flag}", name.name()))
-            })
-        };
-        let amplitude = || need("--amplitude-m-s2", self.amplitude_m_s2);
-        let omega_rad_s = || need("--omega-rad-s", self.omega_rad_s);
-        let duration_s = || need("--duration-s", self.duration_s);
-        let period_s = || need("--period-s", self.period_s);
-        let cycles = self.cycles.unwrap_or(4.0);
-        Ok(match name {
-            PulseName::OneSine => PulseKind::OneSine {
-                amplitude: amplitude()?,
-                omega_rad_s: omega_rad_s()?,
-            },
-            PulseName::HalfSine => PulseKind::HalfSine {
-                amplitude: amplitude()?,
-                omega_rad_s: omega_rad_s()?,
-            },
-            PulseName::OneCosine => PulseKind::OneCosine {
-                amplitude: amplitude()?,
-                omega_rad_s: omega_rad_s()?,
-            },
-            PulseName::Rectangle => PulseKind::Rectangle {
-                amplitude: amplitude()?,
-                duration_s: duration_s()?,
-            },
-            PulseName::Triangle => PulseKind::Triangle {
-                amplitude: amplitude()?,
-                duration_s: duration_s()?,
-            },
-            PulseName::RickerSymmetric => PulseKind::RickerSymmetric {
-                amplitude: amplitude()?,
-                period_s: period_s()?,
-                cycles,
-            },
-            PulseName::RickerAntisymmetric => PulseKind::RickerAntisymmetric {
-                amplitude: amplitude()?,
-                period_s: period_s()?,
-                cycles,
-            },
-            PulseName::MavroeidisPapageorgiou => {
-                PulseKind::MavroeidisPapageorgiou {
-                    velocity: need("--velocity-m-s", self.velocity_m_s)?,
-                    frequency_hz: need("--frequency-hz", self.frequency_hz)?,
-                    gamma: need("--gamma", self.gamma)?,
-                    phase_rad: need("--phase-rad", self.phase_rad)?,
-                }
+        name.kind(|parameter| {
+            let mut all = self.parameters().into_iter();
+            let own = all.find(|(own, ..)| *own == parameter);
+            match own {
+                Some((_, _, Some(value))) => Ok(value),
+                Some((PulseParameter::Cycles, ..)) => Ok(4.0),
+                own => Err(Failure::input(format!(
+                    "--pulse {name} needs {}",
+                    own.map_or("", |(_, flag, _)| flag)
+                ))),
             }
         })
     }
@@ -334,15 +289,8 @@ impl ExcitationArgs {
         let file = self.record.as_deref().and_then(|path| path.file_stem());
         match (file, self.pulse) {
             (Some(stem), _) => stem.to_string_lossy().into_owned(),
-            (None, Some(pulse)) => pulse.name(),
+            (None, Some(pulse)) => pulse.to_string(),
             (None, None) => "free motion".to_owned(),
         }
-    }
-}
-
-impl PulseName {
-    fn name(self) -> String {
-        self.to_possible_value()
-            .map_or_else(String::new, |value| value.get_name().to_owned())
     }
 }

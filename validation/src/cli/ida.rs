@@ -17,7 +17,7 @@ use rocking::record::{Remarked, Suite, SuiteMember};
 
 use self::forces::{Audit, ForcesArgs};
 use super::limit::{LimitArgs, curve_refused};
-use super::names::{ADJUSTMENTS, ORDERS, name_of, named};
+use super::names;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::respond::outcome_name;
@@ -64,8 +64,8 @@ pub struct Args {
     /// How intensity is reached.
     #[arg(
         long,
-        value_parser = named(ADJUSTMENTS),
-        default_value = "record-scaling"
+        value_parser = names::adjustment(),
+        default_value_t = Adjust::RecordScaling
     )]
     by: Adjust,
     /// Go on above the first overturning and look where the block stands
@@ -83,7 +83,7 @@ pub struct Args {
     certify: bool,
     /// Step Eq. 1 at this order of the Taylor polynomial, whatever it leaves
     /// [default: as high as each step needs for double precision].
-    #[arg(long, value_parser = named(ORDERS), conflicts_with = "certify")]
+    #[arg(long, value_parser = names::order(), conflicts_with = "certify")]
     order: Option<Order>,
     /// Threads [default: all].
     #[arg(long, value_name = "N")]
@@ -283,9 +283,9 @@ impl Job<'_> {
         let p = analysis.block.frequency_rad_s();
         let setting = Setting {
             eta: analysis.restitution.velocity_ratio().to_string(),
-            model: self.args.model.model_name().to_owned(),
-            overturn: self.args.model.overturning_name().to_owned(),
-            by: name_of(ADJUSTMENTS, &self.args.by).to_owned(),
+            model: self.args.model.model().to_string(),
+            overturn: self.args.model.overturning().to_string(),
+            by: self.args.by.to_string(),
             gravity_m_s2: gravity_m_s2.to_string(),
             processing: self.processing.clone().unwrap_or("none".into()),
             software: SOFTWARE.to_owned(),

@@ -5,16 +5,15 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use rocking::integrator::Model;
-use rocking::intensity::{Measures, Settings};
+use rocking::intensity::{Intensity, IntensityMeasure, Measures, Settings};
+use rocking::procedures::ranking::Candidate;
 use rocking::record::SuiteMember;
 
 use super::capacities::ida;
-use super::names::MODELS;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
 use super::{Failure, SOFTWARE, note};
-use crate::measure::Measure;
 use crate::suites::inputs::read_suite;
 use crate::suites::remarks::Remarks;
 
@@ -74,11 +73,12 @@ impl GroundArgs {
     pub fn ground(
         &self,
         table: &ida::Suite,
-        measures: &[Measure],
+        measures: &[IntensityMeasure],
     ) -> Result<Ground, Failure> {
         let Some(path) = &self.suite else {
-            let told = measures.iter().find(|m| !m.is_in_table());
-            let told = told.map_or(String::new(), |m| format!("{m}: "));
+            let told = measures.iter().find(|m| m.dimensionless().is_none());
+            let told =
+                told.map_or(String::new(), |m| format!("{}: ", m.words()));
             return Err(Failure::input(format!(
                 "{told}expected --suite, the records that the table was made \
                  of"
@@ -126,7 +126,7 @@ impl GroundArgs {
         let own = self.attributes.as_deref().map(read_attributes);
         let own = own.transpose()?.unwrap_or_default();
         let mut periods: Vec<f64> = Vec::new();
-        for period in measures.iter().flat_map(Measure::periods) {
+        for period in measures.iter().flat_map(IntensityMeasure::periods_s) {
             if !periods.contains(period) {
                 periods.push(*period);
             }
@@ -167,11 +167,9 @@ fn uplift(table: &ida::Suite) -> Result<f64, Failure> {
         ));
     };
     let alpha_rad = alpha.parse::<f64>().ok().filter(|a| *a > 0.0);
-    let model = &table.setting.model;
-    let model = MODELS.iter().find(|(name, ..)| name == model);
-    match (alpha_rad, model) {
-        (Some(alpha_rad), Some((_, Model::Linearized, _))) => Ok(alpha_rad),
-        (Some(alpha_rad), Some(_)) => Ok(libm::tan(alpha_rad)),
+    match (alpha_rad, table.setting.model.parse()) {
+        (Some(alpha_rad), Ok(Model::Linearized)) => Ok(alpha_rad),
+        (Some(alpha_rad), Ok(Model::Nonlinear)) => Ok(libm::tan(alpha_rad)),
         _ => Err(Failure::input(format!(
             "alpha `{alpha}`, model `{}` of the table: expected what \
              {SOFTWARE} writes",
@@ -181,27 +179,45 @@ fn uplift(table: &ida::Suite) -> Result<f64, Failure> {
 }
 
 impl Ground {
+    /// The measures as candidates of a ranking.
+    ///
+    /// # Errors
+    /// As [`Ground::at_uplift`].
+    pub fn candidates(
+        &self,
+        measures: &[IntensityMeasure],
+    ) -> Result<Vec<Candidate>, Failure> {
+        let candidate = |measure: &IntensityMeasure| {
+            Ok(Candidate {
+                im: measure.words(),
+                at_uplift: self.at_uplift(measure)?,
+                squared: measure.is_squared(),
+            })
+        };
+        measures.iter().map(candidate).collect()
+    }
+
     /// The measure of each record where PGA/(g tan alpha) is 1.
     ///
     /// # Errors
     /// [`Failure`] for a column that a record lacks, or whose cell is not
     /// positive.
-    pub fn at_uplift(&self, measure: &Measure) -> Result<Vec<f64>, Failure> {
+    pub fn at_uplift(
+        &self,
+        measure: &IntensityMeasure,
+    ) -> Result<Vec<f64>, Failure> {
         let of = |record: &Unscaled| {
             let (m, factor) = (&record.measures, record.factor);
-            let at = |period: f64| {
-                let place = self.periods_s.iter().position(|t| *t == period);
-                let place = place.unwrap_or(usize::MAX);
-                let all = &m.spectral_acceleration_g;
-                all.get(place).copied().unwrap_or(f64::NAN)
-            };
+            if let IntensityMeasure::Column(name) = measure {
+                return Ok(factor * self.cell(record, name)?);
+            }
             let power = if measure.is_squared() { 2 } else { 1 };
             let scaled = (0..power).fold(1.0, |all, _| all * factor);
-            Ok(match measure {
-                Measure::Pga => 1.0,
-                Measure::Pgv => self.pgv_factor * factor * m.pgv_m_s,
-                Measure::Column(name) => factor * self.cell(record, name)?,
-                _ => scaled * measure.value(m, &at).unwrap_or(f64::NAN),
+            let value = || measure.value(m, &self.periods_s);
+            Ok(match measure.dimensionless() {
+                Some(Intensity::Pga) => 1.0,
+                Some(Intensity::Pgv) => self.pgv_factor * factor * m.pgv_m_s,
+                None => scaled * value().unwrap_or(f64::NAN),
             })
         };
         self.records.iter().map(of).collect()

@@ -1,86 +1,93 @@
-//! Values of the core that the command line calls by name.
+//! Flags whose value is one of a few names.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use rocking::capacity::InversionRule;
 use rocking::ida::Adjust;
 use rocking::integrator::{Model, Order, Overturning};
+use rocking::statistics::QuantileType;
+use rocking::statistics::lognormal::FitMethod;
 
 use crate::paper::{Arm, Intensity};
 
-/// A name, the value, and what the help says of it, if anything.
-pub type Named<T> = (&'static str, T, &'static str);
-
-/// Equations of motion.
-pub const MODELS: &[Named<Model>] = &[
-    ("nonlinear", Model::Nonlinear, "Eq. 1"),
-    ("linearized", Model::Linearized, "Eq. 2"),
-];
-
-/// When a block counts as overturned.
-pub const OVERTURNING: &[Named<Overturning>] = &[
-    ("alpha", Overturning::Alpha, "|theta| reaches alpha"),
-    ("half-pi", Overturning::HalfPi, "|theta| exceeds pi/2"),
-];
-
-/// Intensity measures.
-pub const INTENSITIES: &[Named<Intensity>] = &[
-    ("pga", Intensity::Pga, "PGA/(g tan alpha)"),
-    ("pgv", Intensity::Pgv, "p PGV/(g tan alpha)"),
-];
-
-/// Which single capacity is made of several crossings.
-pub const CROSSINGS: &[Named<InversionRule>] = &[
-    ("median", InversionRule::Median, "The median crossing"),
-    ("first", InversionRule::First, "The first crossing"),
-    ("last", InversionRule::Last, "The last crossing"),
-    (
-        "monotone",
-        InversionRule::Monotone,
-        "The length of intensity below the level",
-    ),
-];
-
-/// How intensity is reached.
-pub const ADJUSTMENTS: &[Named<Adjust>] = &[
-    ("record-scaling", Adjust::RecordScaling, "Scale the record"),
-    (
-        "slenderness-adjustment",
-        Adjust::SlendernessAdjustment,
-        "Keep the record and adjust alpha",
-    ),
-];
-
-/// Orders of the Taylor polynomial.
-pub const ORDERS: &[Named<Order>] = &[
-    ("4", Order::Four, "A first look"),
-    ("6", Order::Six, "Exploring large numbers of analyses"),
-    ("8", Order::Eight, "Statistics of many analyses"),
-    ("10", Order::Ten, "More accurate than most steps need"),
-];
-
-/// Arms of the study.
-pub const ARMS: &[Named<Arm>] =
-    &[("A", Arm::A, ""), ("B", Arm::B, ""), ("C", Arm::C, "")];
-
-/// Reads one of these names.
-pub fn named<T: Copy + Send + Sync + 'static>(
-    values: &'static [Named<T>],
+/// What each of some values is called, and what the help says of it, if
+/// anything.
+pub fn named<T: Copy + Send + Sync + 'static, const N: usize>(
+    values: [T; N],
+    name: fn(T) -> &'static str,
+    help: [&'static str; N],
 ) -> impl TypedValueParser<Value = T> {
-    let names = values.iter().map(|(name, _, help)| {
-        let name = PossibleValue::new(*name);
-        if help.is_empty() { name } else { name.help(*help) }
+    let names = values.into_iter().zip(help).map(move |(value, help)| {
+        let name = PossibleValue::new(name(value));
+        if help.is_empty() { name } else { name.help(help) }
     });
-    PossibleValuesParser::new(names).try_map(|name| {
-        let found = values.iter().find(|value| value.0 == name);
-        found.map(|value| value.1).ok_or("expected one of the names")
+    PossibleValuesParser::new(names).try_map(move |found| {
+        let value = values.into_iter().find(|value| name(*value) == found);
+        value.ok_or("expected one of the names")
     })
 }
 
-/// The name of a value, empty where it has none.
-pub fn name_of<T: PartialEq>(
-    values: &'static [Named<T>],
-    value: &T,
-) -> &'static str {
-    let found = values.iter().find(|named| named.1 == *value);
-    found.map_or("", |named| named.0)
+/// Equations of motion.
+pub fn model() -> impl TypedValueParser<Value = Model> {
+    named(Model::ALL, Model::name, ["Eq. 1", "Eq. 2"])
+}
+
+/// When a block counts as overturned.
+pub fn overturning() -> impl TypedValueParser<Value = Overturning> {
+    let help = ["|theta| reaches alpha", "|theta| exceeds pi/2"];
+    named(Overturning::ALL, Overturning::name, help)
+}
+
+/// Dimensionless intensity measures.
+pub fn intensity() -> impl TypedValueParser<Value = Intensity> {
+    let help = Intensity::ALL.map(Intensity::words);
+    named(Intensity::ALL, Intensity::name, help)
+}
+
+/// Which single capacity is made of several crossings.
+pub fn crossing() -> impl TypedValueParser<Value = InversionRule> {
+    let help = [
+        "The median crossing",
+        "The first crossing",
+        "The last crossing",
+        "The length of intensity below the level",
+    ];
+    named(InversionRule::ALL, InversionRule::name, help)
+}
+
+/// How intensity is reached.
+pub fn adjustment() -> impl TypedValueParser<Value = Adjust> {
+    let help = ["Scale the record", "Keep the record and adjust alpha"];
+    named(Adjust::ALL, Adjust::name, help)
+}
+
+/// Orders of the Taylor polynomial.
+pub fn order() -> impl TypedValueParser<Value = Order> {
+    let help = [
+        "A first look",
+        "Exploring large numbers of analyses",
+        "Statistics of many analyses",
+        "More accurate than most steps need",
+    ];
+    named(Order::ALL, Order::name, help)
+}
+
+/// How a lognormal distribution is fitted.
+pub fn fit_method() -> impl TypedValueParser<Value = FitMethod> {
+    let help = [
+        "Maximum likelihood (divisor n); values `>LIMIT` enter by their \
+         limits",
+        "Mean and standard deviation of the logarithms (divisor n - 1)",
+        "The same of the values up to the 95 % quantile",
+        "Median and half the logarithm of the ratio of the 84 and 16 % \
+         quantiles",
+        "Maximum likelihood, values above the 95 % quantile and infinite ones \
+         right-censored at the largest value left, values `>LIMIT` at theirs",
+    ];
+    let all = FitMethod::all(QuantileType::default());
+    named(all, FitMethod::name, help)
+}
+
+/// Arms of the study.
+pub fn arm() -> impl TypedValueParser<Value = Arm> {
+    named([Arm::A, Arm::B, Arm::C], Arm::letter, [""; 3])
 }

@@ -357,8 +357,8 @@ impl Setting<'_> {
                 "alpha_rad": block.slenderness_rad(),
                 "p_rad_s": block.frequency_rad_s(),
                 "eta": self.scene.restitution.velocity_ratio(),
-                "model": self.args.model.model_name(),
-                "overturn": self.args.model.overturning_name(),
+                "model": self.args.model.model(),
+                "overturn": self.args.model.overturning(),
                 "gravity_m_s2": self.gravity_m_s2,
                 "processing": self.done,
                 "remarks": self.remarks.map(Remarks::json),
@@ -453,8 +453,8 @@ impl Setting<'_> {
             "model",
             format!(
                 "{}, overturned at {}, g = {} m/s2",
-                self.args.model.model_name(),
-                self.args.model.overturning_name(),
+                self.args.model.model(),
+                self.args.model.overturning(),
                 self.gravity_m_s2
             ),
         );

@@ -7,15 +7,14 @@ use std::path::{Path, PathBuf};
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::fragility::risk::{AnnualFrequency, HazardCurve, HazardError};
 use rocking::integrator::Model;
+use rocking::procedures::{FitOptions, Shift, fit_sample};
 use rocking::statistics::Lognormal;
-use rocking::statistics::lognormal::FitMethod;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::unit_intensity;
 use serde_json::{Value, json};
 
-use super::fragility::limits::Limited;
-use super::names::{INTENSITIES, named};
-use super::samples::{Opened, SampleFile, Shift};
+use super::names;
+use super::samples::{Opened, SampleFile};
 use super::scene::BlockArgs;
 use super::{Failure, print, print_json};
 use crate::paper::Intensity;
@@ -59,7 +58,7 @@ pub struct Args {
     #[arg(long, value_name = "X|min", allow_hyphen_values = true)]
     shift: Option<Shift>,
     /// Intensity measure of a sample that does not say it.
-    #[arg(long, value_parser = named(INTENSITIES), requires = "sample")]
+    #[arg(long, value_parser = names::intensity(), requires = "sample")]
     im: Option<Intensity>,
     #[command(flatten)]
     block: BlockArgs,
@@ -196,7 +195,7 @@ fn given(
     let shift = match args.shift {
         None => 0.0,
         Some(Shift::Given(shift)) => shift,
-        Some(Shift::Min | Shift::Free) => {
+        Some(Shift::Smallest | Shift::Free) => {
             return Err(Failure::input(
                 "--shift min or free: expected a number with --median",
             ));
@@ -246,31 +245,18 @@ fn of_sample(
             per_unit * unit_intensity(measure, &block, model, gravity)
         }
     };
-    let fitted = |values: &Limited, shift: f64| {
-        let found = values.fit(shift, FitMethod::MaximumLikelihood);
+    let sample = file.censored()?;
+    let fitted = |shift: Shift| {
+        let options = FitOptions { shift, ..FitOptions::default() };
+        let found = fit_sample(&sample, &options);
         let found = found.map_err(|e| at(e.to_string()))?;
-        Ok::<_, Failure>(found.distribution.scaled(factor)?)
+        Ok::<_, Failure>(found.fitted.scaled(factor)?)
     };
-    let limited = Limited::new(file.values(), file.limits());
-    let unshifted = ("not shifted", fitted(&limited, 0.0)?);
-    let shift = args.shift.unwrap_or(Shift::Given(0.0));
-    if shift != Shift::Given(0.0) && limited.count() > 0 {
-        let Shift::Given(shift) = shift else {
-            return Err(at(format!(
-                "{} values censored at limits of their own with --shift min \
-                 or free: expected a shift that is known, as --shift 1",
-                limited.count()
-            )));
-        };
-        return Ok(vec![("shifted", fitted(&limited, shift)?), unshifted]);
-    }
-    let (shift, above) =
-        shift.split(file.values()).map_err(|e| at(e.to_string()))?;
-    if shift == 0.0 {
-        return Ok(vec![unshifted]);
-    }
-    let above = Limited::new(&above, &vec![None; above.len()]);
-    Ok(vec![("shifted", fitted(&above, shift)?), unshifted])
+    let unshifted = ("not shifted", fitted(Shift::Given(0.0))?);
+    Ok(match args.shift {
+        None | Some(Shift::Given(0.0)) => vec![unshifted],
+        Some(shift) => vec![("shifted", fitted(shift)?), unshifted],
+    })
 }
 
 fn to_json(

@@ -6,15 +6,14 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read, Stdin};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use rocking::block::Block;
 use rocking::integrator::Model;
-use rocking::statistics::lognormal::{FitError, profile_shift};
-use rocking::statistics::{ExtendedSample, Sample, SampleError};
+use rocking::statistics::{
+    CensoredSample, ExtendedSample, Sample, SampleError,
+};
 use thiserror::Error;
 
-use super::names::{INTENSITIES, MODELS};
 use crate::paper::Intensity;
 
 /// Why a sample file was refused.
@@ -127,12 +126,11 @@ impl SampleSetting {
         let p = words.next()?.strip_prefix("p ")?.strip_suffix(" rad/s");
         let eta = words.next()?.strip_prefix("eta ");
         let model = words.next()?;
-        let model = MODELS.iter().find(|named| named.0 == model);
         Some(Self {
             alpha_rad: alpha.and_then(number),
             p_rad_s: p.and_then(number),
             eta: eta.and_then(number),
-            model: model.map(|named| named.1),
+            model: model.parse().ok(),
         })
     }
 }
@@ -325,8 +323,9 @@ impl SampleFile {
     #[must_use]
     pub fn intensity(&self) -> Option<Intensity> {
         let measure = self.of()?.split(" at EDP ").next()?;
-        let all = INTENSITIES.iter().map(|named| named.1);
-        all.into_iter().find(|intensity| intensity.words() == measure)
+        Intensity::ALL
+            .into_iter()
+            .find(|intensity| intensity.words() == measure)
     }
 
     /// The intensity measure, that of the file or the one given.
@@ -397,6 +396,15 @@ impl SampleFile {
         ExtendedSample::try_new(&self.values).map_err(|e| self.refuse(e))
     }
 
+    /// The values with the limits of the censored ones.
+    ///
+    /// # Errors
+    /// [`SampleFileError::Sample`] if one is minus infinity or there is none.
+    pub fn censored(&self) -> Result<CensoredSample, SampleFileError> {
+        CensoredSample::try_new(&self.values, &self.limits)
+            .map_err(|e| self.refuse(e))
+    }
+
     /// The values in the order of the lines, none negative.
     ///
     /// # Errors
@@ -440,58 +448,4 @@ fn number(text: &str) -> Option<f64> {
     let value = text.parse::<f64>().ok().filter(|x| !x.is_nan())?;
     let says_so = text.to_ascii_lowercase().contains("inf");
     (value.is_finite() || says_so).then_some(value)
-}
-
-/// A shift: a number, or one that the sample tells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shift {
-    /// This number, not negative.
-    Given(f64),
-    /// The smallest value of the sample.
-    Min,
-    /// The shift of the highest profile likelihood.
-    Free,
-}
-
-impl FromStr for Shift {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if text == "min" {
-            return Ok(Self::Min);
-        }
-        if text == "free" {
-            return Ok(Self::Free);
-        }
-        let number = text.parse().ok().filter(|x: &f64| x.is_finite());
-        let shift = number.filter(|x| *x >= 0.0);
-        shift.map(Self::Given).ok_or_else(|| {
-            "expected a number, not negative, or `min` or `free`".into()
-        })
-    }
-}
-
-impl Shift {
-    /// The shift, and the values that enter above it: those above the
-    /// smallest for that one, else all of them.
-    ///
-    /// # Errors
-    /// [`FitError`] where the likelihood tells no shift.
-    pub fn split(self, values: &[f64]) -> Result<(f64, Vec<f64>), FitError> {
-        Ok(match self {
-            Self::Given(shift) => (shift, values.to_vec()),
-            Self::Free => {
-                let sample = ExtendedSample::try_new(values)
-                    .map_err(|_| FitError::TooFew(0))?;
-                let best = profile_shift(&sample)?.fit.distribution;
-                (best.shift(), values.to_vec())
-            }
-            Self::Min => {
-                let least =
-                    values.iter().copied().fold(f64::INFINITY, f64::min);
-                let above = values.iter().copied().filter(|&x| x > least);
-                (least, above.collect())
-            }
-        })
-    }
 }

@@ -6,7 +6,7 @@ use rocking::integrator::{Model, Overturning};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::Failure;
-use super::names::{MODELS, OVERTURNING, name_of, named};
+use super::names;
 
 /// The block, by its parameters or by its size.
 #[derive(clap::Args, Clone, Debug)]
@@ -76,10 +76,18 @@ pub struct ModelArgs {
     #[arg(long, value_name = "E|housner", default_value = "0.92")]
     eta: Eta,
     /// Equation of motion: Eq. 1 or Eq. 2.
-    #[arg(long, value_parser = named(MODELS), default_value = "nonlinear")]
+    #[arg(
+        long,
+        value_parser = names::model(),
+        default_value_t = Model::Nonlinear
+    )]
     model: Model,
     /// When the block counts as overturned.
-    #[arg(long, value_parser = named(OVERTURNING), default_value = "alpha")]
+    #[arg(
+        long,
+        value_parser = names::overturning(),
+        default_value_t = Overturning::Alpha
+    )]
     overturn: Overturning,
     /// Gravity in m/s2, where sizes or SI records meet it.
     #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
@@ -155,17 +163,5 @@ impl ModelArgs {
     #[must_use]
     pub fn overturning(&self) -> Overturning {
         self.overturn
-    }
-
-    /// The criterion's name on the command line.
-    #[must_use]
-    pub fn overturning_name(&self) -> &'static str {
-        name_of(OVERTURNING, &self.overturn)
-    }
-
-    /// The model's name on the command line.
-    #[must_use]
-    pub fn model_name(&self) -> &'static str {
-        name_of(MODELS, &self.model)
     }
 }

@@ -9,7 +9,7 @@ use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::names::{ARMS, OVERTURNING, named};
+use super::names;
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
@@ -52,7 +52,11 @@ pub struct Args {
     #[arg(long, default_value_t = RESTITUTION)]
     eta: f64,
     /// When a block counts as overturned.
-    #[arg(long, value_parser = named(OVERTURNING), default_value = "alpha")]
+    #[arg(
+        long,
+        value_parser = names::overturning(),
+        default_value_t = Overturning::Alpha
+    )]
     overturn: Overturning,
     /// Width in dimensionless intensity to which arms B and C bisect the
     /// first overturning.
@@ -62,7 +66,7 @@ pub struct Args {
     /// same dimensionless steps for every block.
     #[arg(
         long,
-        value_parser = named(ARMS),
+        value_parser = names::arm(),
         value_delimiter = ',',
         default_value = "A,B,C"
     )]

@@ -4,25 +4,25 @@ use clap::ValueEnum;
 use rocking::number::dispatch::Isa;
 
 use super::Failure;
-use super::names::{Named, named};
+use super::names::named;
 use crate::curves::Execution;
 
 /// How curves are made; results are the same bits.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub struct WayArgs {
     /// Instruction set of the lanes.
-    #[arg(long, value_parser = named(LEVELS), hide = true)]
+    #[arg(
+        long,
+        value_parser = named(LEVELS, |level| level, [""; 3]),
+        hide = true
+    )]
     isa: Option<&'static str>,
     /// Chains in lanes, or one analysis at a time.
     #[arg(long, value_enum, hide = true)]
     engine: Option<EngineName>,
 }
 
-const LEVELS: &[Named<&str>] = &[
-    ("avx512", "avx512", ""),
-    ("avx2", "avx2", ""),
-    ("baseline", "baseline", ""),
-];
+const LEVELS: [&str; 3] = ["avx512", "avx2", "baseline"];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum EngineName {

@@ -145,7 +145,7 @@ fn settings(out: &mut Vec<Item>, findings: &Findings) {
     let arms: Vec<&str> = settings.arms.iter().map(|a| a.letter()).collect();
     own.setting("arms", arms.join(", "));
     own.setting("eta", settings.eta.to_string());
-    own.setting("overturning", settings.overturning.clone());
+    own.setting("overturning", settings.overturning.to_string());
     own.setting("refinement im", settings.refinement_im.to_string());
 }
 

@@ -31,6 +31,7 @@ pub(crate) use references::attainable_float64;
 use std::collections::BTreeMap;
 
 use rocking::integrator::{HistoryPoint, Observe};
+use rocking::names::UnknownName;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
 
@@ -85,6 +86,9 @@ pub enum MethodError {
     /// The input is not what the method reads.
     #[error("input: {0}")]
     Input(String),
+    /// A name in the input that is none.
+    #[error("input: {0}")]
+    Name(#[from] UnknownName),
     /// A reference lacks what was asked for.
     #[error("{file}: {what}")]
     Reference {

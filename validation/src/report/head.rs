@@ -1,8 +1,6 @@
 //! The head of the page: what was asked, which program ran on what, and who
 //! signs for it.
 
-use rocking::integrator::Overturning;
-
 use crate::study::figures::Results;
 use crate::suites::inputs::sha256_hex;
 
@@ -97,18 +95,15 @@ fn command(results: &Results, proved: bool) -> String {
         true => "",
         false => " --ordinary ORDINARY --pulse PULSE",
     };
-    let overturn = match setup.overturning {
-        Overturning::Alpha => "alpha",
-        Overturning::HalfPi => "half-pi",
-    };
     let proof = match proved {
         true => " --proof FOLDER/data, after rocking validate --out FOLDER",
         false => "",
     };
     format!(
-        "rocking study{suites} --eta {} --overturn {overturn} --refine {} \
+        "rocking study{suites} --eta {} --overturn {} --refine {} \
          --arms {}{proof}",
         setup.restitution.velocity_ratio(),
+        setup.overturning,
         setup.tolerance,
         arms.join(",")
     )

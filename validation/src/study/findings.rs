@@ -1,6 +1,5 @@
 //! Everything that a study found, as [`Findings`].
 
-use rocking::integrator::Overturning;
 use rocking::record::{AsideCount, SetAside};
 use rocking::statistics::Proportion;
 
@@ -49,11 +48,7 @@ fn settings(plan: &Plan) -> Settings {
     Settings {
         arms: plan.arms.clone(),
         eta: plan.setup.restitution.velocity_ratio(),
-        overturning: match plan.setup.overturning {
-            Overturning::Alpha => "alpha",
-            Overturning::HalfPi => "half-pi",
-        }
-        .into(),
+        overturning: plan.setup.overturning,
         refinement_im: plan.setup.tolerance,
     }
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
 use serde::{Deserialize, Serialize};
 
@@ -55,7 +56,7 @@ struct Merged {
     alpha_rad: f64,
     p_rad_s: f64,
     eta: f64,
-    im: String,
+    im: Intensity,
     demand: f64,
     shift: f64,
     median: f64,
@@ -105,7 +106,7 @@ pub fn read_merged(
         .map_err(|e| flaw(name.clone(), e.to_string()))?;
     let mut out = Vec::new();
     for (line, row) in rows::<Merged>(&name, &text, expected)? {
-        if row.im != "pga" || row.demand != 1.0 {
+        if row.im != Intensity::Pga || row.demand != 1.0 {
             continue;
         }
         let at = format!("{name}:{line}");

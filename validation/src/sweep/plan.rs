@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
-use rocking::integrator::{Model, uplift_threshold};
+use rocking::integrator::{Model, Overturning, uplift_threshold};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::{Deserialize, Serialize};
@@ -204,8 +204,8 @@ impl Plan {
             "levels": self.levels,
             "refinement_im": REFINEMENT,
             "highest_im": HIGHEST_IM,
-            "equation": "nonlinear",
-            "overturn": "alpha",
+            "equation": Model::Nonlinear,
+            "overturn": Overturning::Alpha,
             "gravity_m_s2": STANDARD_GRAVITY_M_S2,
             "demands": self.demands,
             "replicates": self.replicates,

@@ -6,6 +6,7 @@ use std::fs;
 use rocking::capacity::InversionRule;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Batch, IdaCurve, Overturned, curves};
+use rocking::intensity::Intensity;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
@@ -204,9 +205,10 @@ fn fill(
             let factors: Vec<f64> =
                 curves.iter().map(|c| c.velocity_factor(block[1])).collect();
             let open: usize = curves.iter().map(unresolved).sum();
-            for (im, factors) in
-                [("pga", vec![1.0; curves.len()]), ("pgv", factors)]
-            {
+            for (im, factors) in [
+                (Intensity::Pga, vec![1.0; curves.len()]),
+                (Intensity::Pgv, factors),
+            ] {
                 for (k, demand) in plan.demands.iter().enumerate() {
                     let sample: Vec<f64> = by_record
                         .iter()
@@ -217,7 +219,7 @@ fn fill(
                     let cells = name
                         .iter()
                         .cloned()
-                        .chain([im.to_owned(), demand.to_string()])
+                        .chain([im.to_string(), demand.to_string()])
                         .chain([sample.len().to_string()])
                         .chain(numbers)
                         .chain([open.to_string()]);

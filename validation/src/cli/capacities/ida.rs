@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use rocking::capacity::{CapacityError, ResponseCurve};
+use rocking::ida::Adjust;
 use rocking::record::result_name;
 use thiserror::Error;
 
@@ -120,6 +121,12 @@ pub struct Suite {
 }
 
 impl Suite {
+    /// The curves, in the order of the table.
+    #[must_use]
+    pub fn into_curves(self) -> Vec<ResponseCurve> {
+        self.curves.into_iter().map(|(_, curve)| curve).collect()
+    }
+
     /// The curves against a measure whose values at intensity 1 are these:
     /// proportional to the intensity, or to its square.
     ///
@@ -226,7 +233,7 @@ impl Common {
     fn of(fields: &csv::StringRecord) -> Self {
         let cell = |column: usize| fields[column].to_owned();
         let setting = Setting::of(cell);
-        let scaled = setting.by == "record-scaling";
+        let scaled = setting.by.parse() == Ok(Adjust::RecordScaling);
         let alpha_rad = scaled.then(|| cell(1));
         Self { alpha_rad, p_rad_s: cell(2), setting }
     }

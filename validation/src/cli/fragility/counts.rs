@@ -1,53 +1,47 @@
-//! Fits of counts: how many records exceeded a level at each stripe.
+//! `rocking fragility counts`: fits of how many records exceeded a level at
+//! each intensity.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use rocking::statistics::lognormal::{Stripe, fit_counts};
-use serde_json::{Map, Value, json};
+use clap::Args as ClapArgs;
+use rocking::procedures::fit_stripes;
+use rocking::statistics::lognormal::Stripe;
 
-use super::{Args, show};
 use crate::cli::Failure;
-use crate::cli::samples::{Opened, Shift};
+use crate::cli::samples::Opened;
+use crate::cli::show::show;
 
 /// The columns of a table of counts.
 pub(in crate::cli) const COLUMNS: [&str; 3] = ["im", "exceeded", "n"];
 
-pub(super) fn run(args: &Args, path: &Path) -> Result<(), Failure> {
-    let shift = match args.shift {
-        None => 0.0,
-        Some(Shift::Given(shift)) => shift,
-        Some(Shift::Min | Shift::Free) => {
-            return Err(Failure::input(
-                "--shift with --counts: counts do not tell the shift; \
-                 expected a number, as --shift 1",
-            ));
-        }
-    };
-    let found = fit_counts(&read(path)?, shift).map_err(|error| {
+/// Fits a lognormal fragility to counts: how many of n records exceeded a
+/// level, or overturned, at each intensity.
+///
+/// Maximum likelihood of binomial counts, with likelihood intervals (95 %)
+/// that take the stripes as independent.
+#[derive(ClapArgs)]
+pub(super) struct Args {
+    /// Table of counts, columns im,exceeded,n; `-` is standard input.
+    #[arg(long, value_name = "FILE.csv")]
+    counts: PathBuf,
+    /// Shift IM_R, not negative.
+    #[arg(long, value_name = "X", default_value_t = 0.0)]
+    shift: f64,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a table that is refused.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let path = &args.counts;
+    let found = fit_stripes(&read(path)?, args.shift).map_err(|error| {
         Failure::input(format!("{}: {error}", path.display()))
     })?;
-    let fitted = found.fit.distribution;
-    let mut out = Map::new();
-    let mut put = |key: &str, value: Value| {
-        out.insert(key.to_owned(), value);
-    };
-    put("im_unit", "that of the counts".into());
-    put("n", found.fit.n.into());
-    put("method", "binomial counts, probit".into());
-    put("shift", json!(fitted.shift()));
-    put("mu", json!(fitted.log_mean()));
-    put("beta", json!(fitted.dispersion()));
-    put("beta_low", json!(found.dispersion.0));
-    put("beta_high", json!(found.dispersion.1));
-    put("median", json!(fitted.median()));
-    put("median_low", json!(found.median.0));
-    put("median_high", json!(found.median.1));
-    put("interval_level", json!(0.95));
-    put("intervals_take", "the stripes as independent".into());
-    put("log_likelihood", json!(found.fit.log_likelihood));
-    put("chi_squared", json!(found.chi_squared));
-    put("degrees_of_freedom", found.degrees_of_freedom.into());
-    show(args, out)
+    show(args.json, &found)
 }
 
 /// Reads a table of counts.

@@ -6,101 +6,73 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::Block;
 use rocking::integrator::Model;
+use rocking::procedures::fit_sample;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
     BlockFragility, Format, Id, unit, unit_intensity, unstated_origin,
 };
 use serde_json::json;
 
-use super::limits::Limited;
-use super::sample::Plan;
-use super::{Args, blocks};
-use crate::cli::names::{Named, named};
+use super::blocks;
+use super::fit::FitArgs;
+use crate::cli::names::{self, named};
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
 use crate::files::Outputs;
 use crate::paper::Intensity;
 
-/// Formats of other programs.
-const FORMATS: &[Named<Format>] = &[
-    ("nrml", Format::Nrml, "OpenQuake's NRML 0.5: PGA in g, PGV in cm/s"),
-    ("pelicun", Format::Pelicun, "CSV, and JSON beside it: g, m/s"),
-    ("pact", Format::Pact, "Median and dispersion, not shifted: g, m/s"),
-    ("csv", Format::Csv, "All parameters: g, m/s"),
+/// What the help says of the formats.
+const FORMATS: [&str; 4] = [
+    "OpenQuake's NRML 0.5: PGA in g, PGV in cm/s",
+    "CSV, and JSON beside it: g, m/s",
+    "Median and dispersion, not shifted: g, m/s",
+    "All parameters: g, m/s",
 ];
 
-/// Flags that make a file of a block's fragility.
+/// Writes fragilities of blocks of given size for another program.
 #[derive(clap::Args)]
-pub(super) struct ExportArgs {
-    /// Write the fragility of a block of given size for another program.
+pub(super) struct Args {
+    /// Format of the file.
     #[arg(
         long,
         value_name = "FORMAT",
-        value_parser = named(FORMATS),
-        requires = "out",
-        conflicts_with_all = ["ida", "transform", "bootstrap"]
+        value_parser = named(Format::ALL, Format::name, FORMATS)
     )]
-    export: Option<Format>,
-    /// File of --export; `-` is standard output, and nothing else is printed
-    /// then.
-    #[arg(long, value_name = "FILE", requires = "export")]
-    out: Option<PathBuf>,
+    format: Format,
+    /// The file; `-` is standard output, and nothing else is printed then.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Sample of dimensionless capacities.
+    #[arg(long, value_name = "FILE")]
+    sample: Option<PathBuf>,
+    /// Intensity measure of a sample that does not say it.
+    #[arg(long, value_parser = names::intensity())]
+    im: Option<Intensity>,
+    #[command(flatten)]
+    fit: FitArgs,
     /// Table of blocks: alpha,p or width_m,height_m, and where wanted id,
     /// eta and sample (a file beside the table, in place of --sample).
     #[arg(
         long,
         value_name = "BLOCKS.csv",
-        requires = "export",
         conflicts_with_all = ["alpha", "p", "width_m", "height_m", "id"]
     )]
     blocks: Option<PathBuf>,
     #[command(flatten)]
     block: BlockArgs,
     /// Name of the block in the file [default: from alpha and p].
-    #[arg(long, value_name = "NAME", requires = "export")]
+    #[arg(long, value_name = "NAME")]
     id: Option<Id>,
     /// Name of the damage in the file.
-    #[arg(
-        long,
-        value_name = "NAME",
-        requires = "export",
-        default_value = "exceeded"
-    )]
+    #[arg(long, value_name = "NAME", default_value = "exceeded")]
     limit_state: Id,
-    /// Gravity in m/s2 [default: 9.80665].
-    #[arg(long, value_name = "G", requires = "export")]
-    gravity: Option<f64>,
-}
-
-impl ExportArgs {
-    /// A block that is given without a format.
-    ///
-    /// # Errors
-    /// [`Failure`] for parameters that are no block's.
-    pub(super) fn alone(&self) -> Result<Option<Block>, Failure> {
-        if self.export.is_some() || self.block.given().is_none() {
-            return Ok(None);
-        }
-        self.block.block(STANDARD_GRAVITY_M_S2).map(Some)
-    }
-
-    /// The format asked for.
-    ///
-    /// # Errors
-    /// [`Failure`] for a block without a format.
-    pub(super) fn format(&self) -> Result<Option<Format>, Failure> {
-        // Beside a flag that conflicts with --export, the parser lets --out
-        // pass, which requires it.
-        let out = self.out.as_ref().map(|_| "--out");
-        let given = self.block.given().or(out);
-        match (self.export, given) {
-            (None, Some(flag)) => Err(Failure::input(format!(
-                "{flag} is not used without --export"
-            ))),
-            (format, _) => Ok(format),
-        }
-    }
+    /// Gravity in m/s2.
+    #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
+    gravity: f64,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
 }
 
 /// A block to export, and where it was found.
@@ -112,16 +84,16 @@ struct Wanted {
     sample: PathBuf,
 }
 
-pub(super) fn run(args: &Args, format: Format) -> Result<(), Failure> {
-    let export = &args.export;
-    let gravity_m_s2 = export.gravity.unwrap_or(STANDARD_GRAVITY_M_S2);
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let (export, format) = (args, args.format);
+    let gravity_m_s2 = export.gravity;
     if !(gravity_m_s2 > 0.0 && gravity_m_s2.is_finite()) {
         return Err(Failure::input(format!(
             "--gravity {gravity_m_s2}: expected a positive number"
         )));
     }
     let wanted = wanted(args, gravity_m_s2)?;
-    let out = export.out.as_deref().unwrap_or(Path::new("-"));
+    let out = export.out.as_path();
     let mut inputs: Vec<PathBuf> = export.blocks.iter().cloned().collect();
     inputs.extend(wanted.iter().map(|one| one.sample.clone()));
     let beside = beside(format, out)?;
@@ -170,7 +142,7 @@ fn beside(format: Format, out: &Path) -> Result<Option<PathBuf>, Failure> {
 }
 
 fn wanted(args: &Args, gravity_m_s2: f64) -> Result<Vec<Wanted>, Failure> {
-    let export = &args.export;
+    let export = args;
     let none = || {
         Failure::input(
             "expected a sample: --sample FILE, or a column `sample`",
@@ -225,9 +197,9 @@ fn made(
             "capacities at eta {own}, the block has {eta}: expected the same"
         )));
     }
-    let plan = Plan::new(args)?;
-    let values = Limited::new(file.values(), file.limits());
-    let fits = plan.fits(&values).map_err(|e| at(e.to_string()))?;
+    let sample = file.censored()?;
+    let found = fit_sample(&sample, &args.fit.options()?);
+    let fitted = found.map_err(|e| at(e.to_string()))?.fitted;
     let model = setting.model.unwrap_or(Model::Nonlinear);
     let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
     let id = match &wanted.id {
@@ -239,7 +211,7 @@ fn made(
         block,
         eta: wanted.eta.or(setting.eta),
         intensity,
-        fragility: fits.fit.distribution.scaled(factor)?,
+        fragility: fitted.scaled(factor)?,
         origin: origin(file, intensity),
     })
 }

@@ -7,7 +7,6 @@ use serde_json::{Value, json};
 
 use super::Job;
 use super::forces::Audit;
-use crate::cli::names::{ORDERS, name_of};
 use crate::suites::aside;
 
 /// Median first overturning intensity, counting the curves that stand as
@@ -60,7 +59,7 @@ impl Job<'_> {
             "highest_im": HIGHEST_IM,
             "records": table.len(),
             "study_components": suite.study_rule().to_string(),
-            "order": args.order.map(|order| name_of(ORDERS, &order)),
+            "order": args.order,
             "analyses": counts.analyses,
             "overturned_curves": counts.overturned,
             "median_overturning_im": median_overturning(table),
@@ -105,10 +104,7 @@ impl Job<'_> {
         }
         row("study components", suite.study_rule().to_string());
         if let Some(order) = args.order {
-            row(
-                "order",
-                format!("{}, whatever it leaves", name_of(ORDERS, &order)),
-            );
+            row("order", format!("{order}, whatever it leaves"));
         }
         row("analyses", counts.analyses.to_string());
         let overturned = format!("{} of {}", counts.overturned, table.len());

@@ -1,5 +1,8 @@
 //! Grids of blocks and pulses against the oracles.
 
+use std::convert::Infallible;
+
+use rocking::excitation::{PulseName, PulseParameter};
 use serde::Deserialize;
 
 use super::{Answer, Context, MethodError};
@@ -11,18 +14,10 @@ use crate::proof::scene::{
     Engine, Forcing, Model, Overturning, PulseKind, Scene, Trace, rescaled,
 };
 
-pub(super) fn model(name: &str) -> Result<Model, MethodError> {
-    match name {
-        "nonlinear" => Ok(Model::Nonlinear),
-        "linearized" => Ok(Model::Linearized),
-        other => Err(MethodError::Input(format!("equation `{other}`"))),
-    }
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FreeInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: Vec<f64>,
     frequency_rad_s: Vec<f64>,
     restitution: Vec<f64>,
@@ -34,7 +29,7 @@ struct FreeInput {
 /// Free rocking of every combination of block, loss and release.
 pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
     let input: FreeInput = context.input()?;
-    let equation = model(&input.equation)?;
+    let equation = input.equation;
     let mut answer = Answer::default();
     for &alpha in &input.slenderness_rad {
         for &p in &input.frequency_rad_s {
@@ -90,7 +85,7 @@ fn put_free(
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PulseInput {
-    pulse: String,
+    pulse: PulseName,
     amplitudes: Vec<f64>,
     /// Frequencies over p, or durations or periods times p.
     scales: Vec<f64>,
@@ -106,7 +101,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for &a in &input.amplitudes {
         for &scale in &input.scales {
-            let pulse = pulse(&input.pulse, a, scale)?;
+            let pulse = pulse(input.pulse, a, scale);
             for &eta in &input.restitution {
                 let form = linear::respond(pulse, eta, input.impacts);
                 for block in &input.blocks {
@@ -148,33 +143,18 @@ fn put_pulse(
 
 /// The pulse of this name, for a block with p = 1 rad/s and
 /// g alpha = 1 m/s2.
-fn pulse(
-    name: &str,
-    amplitude: f64,
-    scale: f64,
-) -> Result<PulseKind, MethodError> {
-    let (omega_rad_s, duration_s, period_s) = (scale, scale, scale);
-    let cycles = 4.0;
-    Ok(match name {
-        "half-sine" => PulseKind::HalfSine { amplitude, omega_rad_s },
-        "one-sine" => PulseKind::OneSine { amplitude, omega_rad_s },
-        "one-cosine" => PulseKind::OneCosine { amplitude, omega_rad_s },
-        "rectangle" => PulseKind::Rectangle { amplitude, duration_s },
-        "triangle" => PulseKind::Triangle { amplitude, duration_s },
-        "ricker-symmetric" => {
-            PulseKind::RickerSymmetric { amplitude, period_s, cycles }
-        }
-        "ricker-antisymmetric" => {
-            PulseKind::RickerAntisymmetric { amplitude, period_s, cycles }
-        }
-        "mavroeidis-papageorgiou" => PulseKind::MavroeidisPapageorgiou {
-            velocity: amplitude,
-            frequency_hz: scale,
-            gamma: 1.5,
-            phase_rad: 0.25,
-        },
-        other => return Err(MethodError::Input(format!("pulse `{other}`"))),
-    })
+fn pulse(name: PulseName, amplitude: f64, scale: f64) -> PulseKind {
+    use PulseParameter as P;
+    let Ok(kind) = name.kind(|parameter| {
+        Ok::<_, Infallible>(match parameter {
+            P::Amplitude | P::Velocity => amplitude,
+            P::Omega | P::Duration | P::Period | P::Frequency => scale,
+            P::Cycles => 4.0,
+            P::Gamma => 1.5,
+            P::Phase => 0.25,
+        })
+    });
+    kind
 }
 
 /// A block (alpha, p, g) in Eq. 2 under the pulse that acts on one with
@@ -197,7 +177,7 @@ pub(super) fn linear_scene(
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct CriticalInput {
-    pulse: String,
+    pulse: PulseName,
     scales: Vec<f64>,
     /// Block: alpha (rad), p (rad/s), g (m/s2).
     block: [f64; 3],
@@ -208,18 +188,18 @@ pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
     let input: CriticalInput = context.input()?;
     let mut answer = Answer::default();
     for &scale in &input.scales {
-        let condition = match input.pulse.as_str() {
-            "half-sine" => overturning::sine_without_impact(1, scale),
-            "one-sine" => overturning::sine_without_impact(2, scale),
-            "one-cosine" => overturning::one_cosine(scale),
-            "rectangle" => overturning::rectangle(scale),
-            "triangle" => overturning::triangle(scale),
+        let condition = match input.pulse {
+            PulseName::HalfSine => overturning::sine_without_impact(1, scale),
+            PulseName::OneSine => overturning::sine_without_impact(2, scale),
+            PulseName::OneCosine => overturning::one_cosine(scale),
+            PulseName::Rectangle => overturning::rectangle(scale),
+            PulseName::Triangle => overturning::triangle(scale),
             other => {
                 return Err(MethodError::Input(format!("pulse `{other}`")));
             }
         };
         let found = flip(condition, |a| {
-            let pulse = pulse(&input.pulse, a, scale)?;
+            let pulse = pulse(input.pulse, a, scale);
             let until = Some(200.0);
             let mut scene = linear_scene(pulse, 0.92, input.block, until);
             scene.overturning = Overturning::HalfPi;

@@ -30,17 +30,10 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
     let order = match (input.order, context.wrong) {
         // A series that stops two terms early.
-        (6, Some(WrongModel::OrderTooLow)) => Order::Four,
-        (8, Some(WrongModel::OrderTooLow)) => Order::Six,
-        (10, Some(WrongModel::OrderTooLow)) => Order::Eight,
-        (4, _) => Order::Four,
-        (6, _) => Order::Six,
-        (8, _) => Order::Eight,
-        (10, _) => Order::Ten,
-        (other, _) => {
-            return Err(MethodError::Input(format!("order {other}")));
-        }
+        (6.., Some(WrongModel::OrderTooLow)) => input.order - 2,
+        _ => input.order,
     };
+    let order: Order = order.to_string().parse()?;
     let crude =
         input.order == 4 && context.wrong == Some(WrongModel::OrderTooLow);
     let run = |division: usize, order: Order| {

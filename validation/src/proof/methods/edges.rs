@@ -4,7 +4,6 @@
 use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::{Answer, Context, MethodError};
 use crate::proof::edge::{self, around};
 use crate::proof::oracles::overturning;
@@ -140,7 +139,7 @@ pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct GrazingInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: Vec<f64>,
     omega_over_p: f64,
     /// Amplitude over the threshold, less 1.
@@ -158,7 +157,7 @@ pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
     for &alpha in &input.slenderness_rad {
         for &excess in &input.excess {
             let mut scene = Scene {
-                model: model(&input.equation)?,
+                model: input.equation,
                 ..Scene::new([alpha, p, 9.81], 0.92, Forcing::NONE)
             };
             let omega = input.omega_over_p;

@@ -2,7 +2,6 @@
 
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::references;
 use super::wrong::scale;
 use super::{Answer, Context, MethodError, input_of};
@@ -15,7 +14,7 @@ use crate::proof::scene::{
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SceneInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: f64,
     frequency_rad_s: f64,
     restitution: f64,
@@ -74,7 +73,7 @@ pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
         }
     };
     Ok(Scene {
-        model: model(&input.equation)?,
+        model: input.equation,
         until_s: input.until_s,
         ..Scene::new(
             [input.slenderness_rad, input.frequency_rad_s, 9.81],

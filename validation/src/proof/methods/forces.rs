@@ -4,7 +4,6 @@
 use rocking::integrator::{Forces, Observe};
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
 use crate::proof::engine;
@@ -24,7 +23,7 @@ fn forces(context: &Context, scene: &Scene) -> Result<Forces, MethodError> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct UpliftInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: Vec<f64>,
     frequency_rad_s: f64,
     /// Peak of the record over the threshold.
@@ -38,7 +37,7 @@ pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
     for &alpha in &input.slenderness_rad {
         let block = [alpha, input.frequency_rad_s, 9.81];
         let mut scene = Scene {
-            model: model(&input.equation)?,
+            model: input.equation,
             ..Scene::new(block, 0.92, Forcing::NONE)
         };
         let peak = input.intensity * scene.threshold_m_s2();
@@ -61,7 +60,7 @@ pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FreeInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: Vec<f64>,
     initial_ratio: Vec<f64>,
 }
@@ -78,7 +77,7 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
         for &initial_ratio in &input.initial_ratio {
             let p = 3.0;
             let scene = Scene {
-                model: model(&input.equation)?,
+                model: input.equation,
                 until_s: Some(20.0 / p),
                 ..Scene::new(
                     [alpha, p, 9.81],
@@ -119,7 +118,7 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MomentumInput {
-    equation: String,
+    equation: Model,
     blocks: Vec<[f64; 2]>,
     restitution: f64,
     /// Peak over the threshold, and phase of a sample in rad.
@@ -138,7 +137,7 @@ pub(super) fn momentum(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for &[alpha, p] in &input.blocks {
         let mut scene = Scene {
-            model: model(&input.equation)?,
+            model: input.equation,
             ..Scene::new([alpha, p, 9.81], input.restitution, Forcing::NONE)
         };
         let peak = input.intensity * scene.threshold_m_s2();

@@ -4,7 +4,6 @@
 use rocking::number::Real as _;
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::fates::Samples;
 use super::references;
 use super::wrong::scale;
@@ -69,7 +68,7 @@ pub(super) fn saddle(context: &Context) -> Result<Answer, MethodError> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ChatterInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: f64,
     frequency_rad_s: f64,
     restitution: f64,
@@ -83,7 +82,7 @@ struct ChatterInput {
 /// every time, speed and the end of the series are known in closed form.
 pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
     let input: ChatterInput = context.input()?;
-    let equation = model(&input.equation)?;
+    let equation = input.equation;
     let (p, alpha) = (input.frequency_rad_s, input.slenderness_rad);
     let mut scene = Scene {
         model: equation,
@@ -132,7 +131,7 @@ pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct TwinInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: f64,
     frequency_rad_s: f64,
     restitution: f64,
@@ -194,7 +193,7 @@ pub(super) fn scene_of(case: &Case) -> Result<Scene, MethodError> {
 
 fn twins(input: &TwinInput) -> Result<Vec<Scene>, MethodError> {
     let mut scene = Scene {
-        model: model(&input.equation)?,
+        model: input.equation,
         ..Scene::new(
             [input.slenderness_rad, input.frequency_rad_s, 9.81],
             input.restitution,

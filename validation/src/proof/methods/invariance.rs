@@ -4,7 +4,6 @@
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::references;
 use super::wrong::scale;
 use super::{Answer, Context, MethodError};
@@ -15,7 +14,7 @@ use crate::proof::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
 #[serde(deny_unknown_fields)]
 struct Input {
     change: Change,
-    equation: String,
+    equation: Model,
     record: String,
     /// PGA over the uplift threshold.
     intensity: f64,
@@ -56,7 +55,7 @@ pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for [alpha, p, eta] in input.blocks.iter().copied() {
         let mut scene = Scene {
-            model: model(&input.equation)?,
+            model: input.equation,
             ..Scene::new(
                 [alpha, p, 9.81],
                 eta,

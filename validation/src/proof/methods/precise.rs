@@ -8,7 +8,6 @@ use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::closed_forms::model;
 use super::references;
 use super::references::{
     LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE, TRAJECTORIES,
@@ -17,7 +16,7 @@ use super::{Answer, Context, MethodError};
 use crate::proof::arithmetic::decimal;
 use crate::proof::cases::WrongModel;
 use crate::proof::engine::{Arithmetic, WideTrace};
-use crate::proof::scene::{Forcing, Overturning, Scene};
+use crate::proof::scene::{Forcing, Model, Overturning, Scene};
 
 /// Largest error of each quantity; infinite where something is missing.
 #[derive(Default)]
@@ -220,7 +219,7 @@ const FREE: &str = include_str!("../../../../fixtures/oracles/free.csv");
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct FreeInput {
-    equation: String,
+    equation: Model,
     frequency_rad_s: f64,
 }
 
@@ -247,7 +246,7 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
         else {
             return Err(lacks(line));
         };
-        if equation != input.equation {
+        if equation != input.equation.name() {
             continue;
         }
         let value = decimal(value).ok_or_else(|| lacks(line))?;
@@ -263,7 +262,7 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     for ([alpha, eta, ratio], row) in &rows {
         let alpha: f64 = number(alpha)?;
         let scene = Scene {
-            model: model(&input.equation)?,
+            model: input.equation,
             ..Scene::new(
                 [alpha, p, 9.81],
                 number(eta)?,

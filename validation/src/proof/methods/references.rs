@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use rocking::excitation::{PulseName, PulseParameter};
 use rocking::number::double::DoubleDouble;
 use serde::Deserialize;
 use serde_json::Value;
@@ -196,49 +197,34 @@ fn pulse(
     value: &Value,
     fields: &Fields,
 ) -> Result<Option<PulseKind>, MethodError> {
-    let get = |key| file.f64(value, key);
-    let amplitude = match value.get(fields.amplitude) {
-        None | Some(Value::Null) => 0.0,
-        Some(_) => get(fields.amplitude)?,
-    };
-    let cycles = || fields.cycles.map_or(Ok(4.0), get);
-    Ok(Some(match file.get(value, fields.kind)?.as_str() {
-        Some("one_sine") => {
-            let omega_rad_s = get(fields.omega)?;
-            PulseKind::OneSine { amplitude, omega_rad_s }
-        }
-        Some("half_sine") => {
-            let omega_rad_s = get(fields.omega)?;
-            PulseKind::HalfSine { amplitude, omega_rad_s }
-        }
-        Some("one_cosine") => {
-            let omega_rad_s = get(fields.omega)?;
-            PulseKind::OneCosine { amplitude, omega_rad_s }
-        }
-        Some("rectangular") => {
-            let duration_s = get(fields.duration)?;
-            PulseKind::Rectangle { amplitude, duration_s }
-        }
-        Some("triangular") => {
-            let duration_s = get(fields.duration)?;
-            PulseKind::Triangle { amplitude, duration_s }
-        }
-        Some("ricker_sym") => {
-            let (period_s, cycles) = (get(fields.period)?, cycles()?);
-            PulseKind::RickerSymmetric { amplitude, period_s, cycles }
-        }
-        Some("ricker_anti") => {
-            let (period_s, cycles) = (get(fields.period)?, cycles()?);
-            PulseKind::RickerAntisymmetric { amplitude, period_s, cycles }
-        }
-        Some("mavroeidis") => PulseKind::MavroeidisPapageorgiou {
-            velocity: get("A_v")?,
-            frequency_hz: get("f_p")?,
-            gamma: get("gamma")?,
-            phase_rad: get("nu")?,
-        },
+    use PulseParameter as P;
+    let name = match file.get(value, fields.kind)?.as_str() {
+        Some("one_sine") => PulseName::OneSine,
+        Some("half_sine") => PulseName::HalfSine,
+        Some("one_cosine") => PulseName::OneCosine,
+        Some("rectangular") => PulseName::Rectangle,
+        Some("triangular") => PulseName::Triangle,
+        Some("ricker_sym") => PulseName::RickerSymmetric,
+        Some("ricker_anti") => PulseName::RickerAntisymmetric,
+        Some("mavroeidis") => PulseName::MavroeidisPapageorgiou,
         _ => return Ok(None),
-    }))
+    };
+    let kind = name.kind(|parameter| {
+        let key = match (parameter, fields.cycles) {
+            (P::Cycles, None) => return Ok(4.0),
+            (P::Cycles, Some(cycles)) => cycles,
+            (P::Amplitude, _) => fields.amplitude,
+            (P::Omega, _) => fields.omega,
+            (P::Duration, _) => fields.duration,
+            (P::Period, _) => fields.period,
+            (P::Velocity, _) => "A_v",
+            (P::Frequency, _) => "f_p",
+            (P::Gamma, _) => "gamma",
+            (P::Phase, _) => "nu",
+        };
+        file.f64(value, key)
+    });
+    kind.map(Some)
 }
 
 /// The block and pulse of an entry of `rect_pulse.json`.

@@ -156,7 +156,7 @@ pub(super) fn linear_pulse(context: &Context) -> Result<Answer, MethodError> {
 #[serde(deny_unknown_fields)]
 struct FreeInput {
     entry: usize,
-    equation: String,
+    equation: Model,
 }
 
 /// Free rocking: impacts and settling time.
@@ -164,18 +164,16 @@ pub(super) fn free_rocking(context: &Context) -> Result<Answer, MethodError> {
     let input: FreeInput = context.input()?;
     let file = &FREE_ROCKING;
     let case = &references::entry(file, input.entry)?;
-    let (equation, key) = match input.equation.as_str() {
-        "nonlinear" => (Model::Nonlinear, "nonlinear"),
-        "linearized" => (Model::Linearized, "linear"),
-        other => {
-            return Err(MethodError::Input(format!("equation `{other}`")));
-        }
+    // The file's own names.
+    let key = match input.equation {
+        Model::Nonlinear => "nonlinear",
+        Model::Linearized => "linear",
     };
     let expected = file.get(case, key)?;
     let p = file.f64(case, "p")?;
     let rotation_rad = file.f64(case, "theta0")?;
     let scene = Scene {
-        model: equation,
+        model: input.equation,
         ..Scene::new(
             [file.f64(case, "alpha")?, p, 9.81],
             file.f64(case, "eta")?,

@@ -4,7 +4,6 @@
 use rocking::integrator::Observe;
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::references;
 use super::{Answer, Context, MethodError};
 use crate::proof::cases::WrongModel;
@@ -14,7 +13,7 @@ use crate::proof::scene::{Forcing, Model, Overturning, Scene, other};
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct EnergyInput {
-    equation: String,
+    equation: Model,
     slenderness_rad: Vec<f64>,
     frequency_rad_s: Vec<f64>,
     restitution: f64,
@@ -30,16 +29,14 @@ struct EnergyInput {
 pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
     let input: EnergyInput = context.input()?;
     let law = match context.wrong {
-        Some(WrongModel::EnergyOfTheOtherEquation) => {
-            other(model(&input.equation)?)
-        }
-        _ => model(&input.equation)?,
+        Some(WrongModel::EnergyOfTheOtherEquation) => other(input.equation),
+        _ => input.equation,
     };
     let mut worst = Vec::new();
     for &alpha in &input.slenderness_rad {
         for &p in &input.frequency_rad_s {
             let mut scene = Scene {
-                model: model(&input.equation)?,
+                model: input.equation,
                 until_s: Some((input.duration_p + 12.0) / p),
                 ..Scene::new(
                     [alpha, p, 9.81],

@@ -1,10 +1,13 @@
 //! Random scenes.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
+
+use rocking::excitation::{PulseName, PulseParameter as P};
 
 use super::draw::Draw;
 use super::records::Kind;
-use crate::proof::scene::{Forcing, Model, Overturning, PulseKind, Scene};
+use crate::proof::scene::{Forcing, Model, Overturning, Scene};
 
 /// Samples of a record, at most, but for the few long ones.
 const COMMON: usize = 2000;
@@ -152,7 +155,7 @@ fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> &'static str {
 }
 
 /// Kinds of pulse, the release among them, which is the last.
-pub(super) const PULSES: usize = 9;
+pub(super) const PULSES: usize = PulseName::ALL.len() + 1;
 
 /// A block under a pulse of a kind.
 pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> Named {
@@ -188,54 +191,40 @@ fn shaped(
     let amplitude = intensity * scene.threshold_m_s2() * draw.sign();
     let in_p = draw.log(ranges.period[0], ranges.period[1]);
     let period_s = in_p / scene.frequency_rad_s;
-    let (omega_rad_s, duration_s) = (TAU / period_s, period_s);
+    let omega_rad_s = TAU / period_s;
     let most = (LONGEST_PULSE / in_p).max(1.0);
-    let (name, kind) = match which {
-        0 => ("one-sine", PulseKind::OneSine { amplitude, omega_rad_s }),
-        1 => ("half-sine", PulseKind::HalfSine { amplitude, omega_rad_s }),
-        2 => ("one-cosine", PulseKind::OneCosine { amplitude, omega_rad_s }),
-        3 => ("rectangle", PulseKind::Rectangle { amplitude, duration_s }),
-        4 => ("triangle", PulseKind::Triangle { amplitude, duration_s }),
-        5 | 6 => {
-            let cycles = draw.log(ranges.cycles[0], ranges.cycles[1]);
-            let cycles = cycles.min(most);
-            if which == 5 {
-                let kind =
-                    PulseKind::RickerSymmetric { amplitude, period_s, cycles };
-                ("symmetric Ricker", kind)
-            } else {
-                let kind = PulseKind::RickerAntisymmetric {
-                    amplitude,
-                    period_s,
-                    cycles,
-                };
-                ("antisymmetric Ricker", kind)
-            }
-        }
-        7 => {
-            let gamma = draw.log(ranges.gamma[0], ranges.gamma[1]).min(most);
-            let kind = PulseKind::MavroeidisPapageorgiou {
-                velocity: amplitude / omega_rad_s,
-                frequency_hz: 1.0 / period_s,
-                gamma,
-                phase_rad: draw.uniform(0.0, TAU),
-            };
-            ("Mavroeidis", kind)
-        }
-        _ => {
-            let near = draw.log(1e-12, 1.0);
-            let ratio = match draw.below(3) {
-                0 => 1.0 - near,
-                1 => near,
-                _ => draw.uniform(0.0, 1.0),
-            };
-            // Below 1 after any rounding.
-            let ratio = ratio.min(1.0 - 1e-14);
-            let rotation_rad = scene.slenderness_rad * ratio;
-            scene.forcing = Forcing::Free { rotation_rad };
-            return "free";
-        }
+    let Some(pulse) = PulseName::ALL.get(which) else {
+        let near = draw.log(1e-12, 1.0);
+        let ratio = match draw.below(3) {
+            0 => 1.0 - near,
+            1 => near,
+            _ => draw.uniform(0.0, 1.0),
+        };
+        // Below 1 after any rounding.
+        let ratio = ratio.min(1.0 - 1e-14);
+        let rotation_rad = scene.slenderness_rad * ratio;
+        scene.forcing = Forcing::Free { rotation_rad };
+        return "free";
     };
+    let Ok(kind) = pulse.kind(|parameter| {
+        Ok::<_, Infallible>(match parameter {
+            P::Amplitude => amplitude,
+            P::Velocity => amplitude / omega_rad_s,
+            P::Omega => omega_rad_s,
+            P::Duration | P::Period => period_s,
+            P::Frequency => 1.0 / period_s,
+            P::Cycles => {
+                draw.log(ranges.cycles[0], ranges.cycles[1]).min(most)
+            }
+            P::Gamma => draw.log(ranges.gamma[0], ranges.gamma[1]).min(most),
+            P::Phase => draw.uniform(0.0, TAU),
+        })
+    });
     scene.forcing = Forcing::Pulse(kind);
-    name
+    match pulse {
+        PulseName::RickerSymmetric => "symmetric Ricker",
+        PulseName::RickerAntisymmetric => "antisymmetric Ricker",
+        PulseName::MavroeidisPapageorgiou => "Mavroeidis",
+        other => other.name(),
+    }
 }

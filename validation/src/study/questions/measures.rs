@@ -2,6 +2,7 @@
 //! records' overturning intensities in each measure, over that in PGA.
 
 use libm::log;
+use rocking::intensity::IntensityMeasure;
 use rocking::statistics::lognormal::fit_intervals;
 
 use super::{Answer, Cell, Rows, both};
@@ -9,7 +10,6 @@ use crate::draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use crate::findings::{Measured, Region, Tested};
-use crate::measure::Measure;
 use crate::paper::{
     BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, Verdict, position,
 };
@@ -31,18 +31,18 @@ const SHOWN: usize = 2;
 
 /// The measures that are compared for a frequency parameter, PGA first and
 /// [`SPECTRAL`] last.
-fn measures(p_rad_s: f64) -> Vec<Measure> {
+fn measures(p_rad_s: f64) -> Vec<IntensityMeasure> {
     let periods_s = OWN_PERIODS.map(|t| t / p_rad_s);
     let mut all = vec![
-        Measure::Pga,
-        Measure::Pgv,
-        Measure::Pgd,
-        Measure::Arias,
-        Measure::Cav,
-        Measure::PgvDuration,
-        Measure::AverageSa(periods_s[AVERAGED].to_vec()),
+        IntensityMeasure::Pga,
+        IntensityMeasure::Pgv,
+        IntensityMeasure::Pgd,
+        IntensityMeasure::Arias,
+        IntensityMeasure::Cav,
+        IntensityMeasure::PgvDuration,
+        IntensityMeasure::AverageSa(periods_s[AVERAGED].to_vec()),
     ];
-    all.extend(periods_s.map(Measure::Sa));
+    all.extend(periods_s.map(IntensityMeasure::Sa));
     all
 }
 
@@ -84,13 +84,11 @@ fn name(place: usize) -> String {
 /// Values over the PGA of each of [`measures`] for a record.
 fn over_pga(facts: &Facts, frequency: usize) -> Vec<f64> {
     let p_rad_s = FREQUENCIES_RAD_S[frequency];
-    let sa_g = |period_s: f64| {
-        let is = |t: &f64| t / p_rad_s == period_s;
-        let place = OWN_PERIODS.iter().position(is);
-        place.map_or(f64::NAN, |k| facts.own_spectra_g[frequency][k])
-    };
-    let of = |measure: Measure| {
-        let value = measure.value(&facts.measures, &sa_g).unwrap_or(f64::NAN);
+    let mut measured = facts.measures.clone();
+    measured.spectral_acceleration_g = facts.own_spectra_g[frequency].clone();
+    let periods_s = OWN_PERIODS.map(|t| t / p_rad_s);
+    let of = |measure: IntensityMeasure| {
+        let value = measure.value(&measured, &periods_s).unwrap_or(f64::NAN);
         let root = if measure.is_squared() { value.sqrt() } else { value };
         root / facts.pga_g
     };

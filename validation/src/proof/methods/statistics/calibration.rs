@@ -269,7 +269,7 @@ struct BiasInput {
     dispersion: f64,
     n: usize,
     trials: u64,
-    estimator: String,
+    estimator: FitMethod,
     /// Mean of the estimated dispersion over the true one; none where a
     /// closed form gives it.
     dispersion_ratio: Option<f64>,
@@ -283,21 +283,16 @@ struct BiasInput {
 /// Means of a fit's parameters over lognormal samples.
 pub(crate) fn bias(context: &Context) -> Result<Answer, MethodError> {
     let input: BiasInput = context.input()?;
-    let quantile_type = QuantileType::default();
-    let named = match (context.wrong, input.estimator.as_str()) {
-        (Some(WrongModel::OtherDivisor), "mle") => "moment",
-        (Some(WrongModel::OtherDivisor), "moment") => "mle",
-        (Some(WrongModel::OtherDivisor), "censored") => "trimmed",
-        (Some(WrongModel::OtherDivisor), _) => "moment",
+    let method = match (context.wrong, input.estimator) {
+        (Some(WrongModel::OtherDivisor), FitMethod::Moment) => {
+            FitMethod::MaximumLikelihood
+        }
+        (
+            Some(WrongModel::OtherDivisor),
+            FitMethod::Censored(quantile_type),
+        ) => FitMethod::Trimmed(quantile_type),
+        (Some(WrongModel::OtherDivisor), _) => FitMethod::Moment,
         (_, own) => own,
-    };
-    let method = match named {
-        "mle" => FitMethod::MaximumLikelihood,
-        "moment" => FitMethod::Moment,
-        "quantile" => FitMethod::Quantile(quantile_type),
-        "trimmed" => FitMethod::Trimmed(quantile_type),
-        "censored" => FitMethod::Censored(quantile_type),
-        other => return Err(MethodError::Input(format!("fit {other}"))),
     };
     let dispersion = input.dispersion;
     let truth = Truth::Lognormal { dispersion };
@@ -337,8 +332,8 @@ fn mean_of_deviation(input: &BiasInput) -> f64 {
     let n = input.n as f64;
     let c4 = (2.0 / (n - 1.0)).sqrt()
         * exp(lgamma(0.5 * n) - lgamma(0.5 * (n - 1.0)));
-    match input.estimator.as_str() {
-        "mle" => c4 * ((n - 1.0) / n).sqrt(),
+    match input.estimator {
+        FitMethod::MaximumLikelihood => c4 * ((n - 1.0) / n).sqrt(),
         _ => c4,
     }
 }

@@ -49,22 +49,16 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
         _ => QuantileType::try_new(5),
     }
     .map_err(refused)?;
-    let families = [
-        ("Weibull", Family::Weibull),
-        ("Frechet", Family::Frechet),
-        ("gamma", Family::Gamma),
-    ];
     let mut answer = Answer::default();
-    let family = families.iter().find(|(name, _)| *name == input.method);
-    if let Some((name, family)) = family {
-        for row in rows(RIVALS_CSV, RIVALS, name)? {
+    if let Ok(family) = input.method.parse::<Family>() {
+        for row in rows(RIVALS_CSV, RIVALS, &input.method)? {
             let shift = match context.wrong {
                 Some(WrongModel::HalfTheShift) => {
                     0.5 * number(RIVALS, row[1])?
                 }
                 _ => number(RIVALS, row[1])?,
             };
-            let fit = rivals::fit(&sample, shift, *family).map_err(refused)?;
+            let fit = rivals::fit(&sample, shift, family).map_err(refused)?;
             for (name, own, text) in [
                 ("shape", fit.shape, row[2]),
                 ("scale", fit.scale, row[3]),
@@ -75,26 +69,26 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
         }
         return Ok(answer);
     }
-    let method = |name: &str| match name {
-        "mle" => Ok(FitMethod::MaximumLikelihood),
-        "moment" => Ok(FitMethod::Moment),
-        "quantile" => Ok(FitMethod::Quantile(quantile_type)),
-        "trimmed" => Ok(FitMethod::Trimmed(quantile_type)),
-        "censored" => Ok(FitMethod::Censored(quantile_type)),
-        other => Err(MethodError::Input(format!("method {other}"))),
-    };
-    let swapped = match (context.wrong, input.method.as_str()) {
-        (Some(WrongModel::OtherDivisor), "mle") => "moment",
-        (Some(WrongModel::OtherDivisor), "moment") => "mle",
-        (Some(WrongModel::OtherDivisor), "censored") => "trimmed",
+    let method: FitMethod = input.method.parse()?;
+    let swapped = match (context.wrong, method) {
+        (Some(WrongModel::OtherDivisor), FitMethod::MaximumLikelihood) => {
+            FitMethod::Moment
+        }
+        (Some(WrongModel::OtherDivisor), FitMethod::Moment) => {
+            FitMethod::MaximumLikelihood
+        }
+        (Some(WrongModel::OtherDivisor), FitMethod::Censored(t)) => {
+            FitMethod::Trimmed(t)
+        }
         (_, own) => own,
     };
+    let swapped = swapped.with_quantile_type(quantile_type);
     for row in rows(LOGNORMAL_CSV, LOGNORMAL, &input.method)? {
         let shift = match context.wrong {
             Some(WrongModel::HalfTheShift) => 0.5 * number(LOGNORMAL, row[1])?,
             _ => number(LOGNORMAL, row[1])?,
         };
-        let fit = fit(&sample, shift, method(swapped)?).map_err(refused)?;
+        let fit = fit(&sample, shift, swapped).map_err(refused)?;
         let own = fit.distribution;
         let area = own.area_distance(&sample).unwrap_or(f64::NAN);
         let likelihood = fit.log_likelihood.unwrap_or(f64::NAN);

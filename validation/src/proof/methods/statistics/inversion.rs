@@ -41,19 +41,14 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
         };
         let crossings = curve.crossings(level).map_err(refused)?;
         put("crossings", crossings.all().len() as f64);
-        for (name, rule) in [
-            ("median", InversionRule::Median),
-            ("first", InversionRule::First),
-            ("last", InversionRule::Last),
-            ("monotone", InversionRule::Monotone),
-        ] {
-            let rule = match (context.wrong, rule) {
+        for named in InversionRule::ALL {
+            let rule = match (context.wrong, named) {
                 (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
                     InversionRule::First
                 }
-                _ => rule,
+                _ => named,
             };
-            put(name, crossings.capacity(rule).im());
+            put(named.name(), crossings.capacity(rule).im());
         }
     }
     Ok(answer)

@@ -1,35 +1,32 @@
 //! A block's overturning fragility without an analysis.
 
-use rocking::block::Block;
 use rocking::integrator::{Model, uplift_threshold};
+use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde_json::{Map, Value, json};
 
-use super::{Args, show};
 use crate::cli::Failure;
+use crate::cli::scene::BlockArgs;
+use crate::cli::show::show;
 use crate::paper::Intensity;
 use crate::surrogate::{RESTITUTION, Recorded, Surrogate};
 
-/// Flags of fits to a sample, none of which a surrogate has.
-fn unused(args: &Args) -> Option<&'static str> {
-    [
-        ("--shift", args.shift.is_some()),
-        ("--method", args.method.is_some()),
-        ("--quantile-type", args.quantile_type.is_some()),
-        ("--c", args.c.is_some()),
-        ("--im", args.im.is_some()),
-        ("--bootstrap", args.bootstrap.is_some()),
-    ]
-    .into_iter()
-    .find_map(|(flag, given)| given.then_some(flag))
+/// Overturning fragility of a block under the embedded suites, by a fitted
+/// surface and without an analysis, with its errors.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    #[command(flatten)]
+    block: BlockArgs,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
 }
 
-pub(super) fn run(args: &Args, block: &Block) -> Result<(), Failure> {
-    if let Some(flag) = unused(args) {
-        return Err(Failure::input(format!(
-            "{flag} is not used with a block alone: expected --sample, --ida \
-             or --counts, too"
-        )));
-    }
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a block that is none, or lies outside the surface.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let block = &args.block.block(STANDARD_GRAVITY_M_S2)?;
     let (alpha, p) = (block.slenderness_rad(), block.frequency_rad_s());
     let onset_g = uplift_threshold(block, Model::Nonlinear);
     let surrogate = Surrogate::embedded()?;
@@ -103,5 +100,5 @@ pub(super) fn run(args: &Args, block: &Block) -> Result<(), Failure> {
     for (name, table) in names.into_iter().zip(tables) {
         put(name, Value::Object(table));
     }
-    show(args, out)
+    show(args.json, &Value::Object(out))
 }

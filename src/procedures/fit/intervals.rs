@@ -1,0 +1,203 @@
+//! What few records leave open: intervals of a fit, and bands over
+//! intensity.
+
+use super::{Draws, FitOptions, Fitted};
+use crate::fragility::FragilityError;
+use crate::statistics::bootstrap::{
+    Bootstrap, Estimate, accelerated, estimate,
+};
+use crate::statistics::lognormal::FitMethod;
+use crate::statistics::{CensoredSample, Lognormal};
+
+/// Level of all intervals.
+const LEVEL: f64 = 0.95;
+
+/// Bootstrap intervals (95 %) of one number.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Intervals {
+    /// Percentile interval; none where fewer than two replicates have one.
+    pub percentile: Option<Estimate>,
+    /// Bias-corrected and accelerated interval.
+    pub bca: Option<Estimate>,
+}
+
+/// Bootstrap intervals of the numbers of a fit, records drawn with
+/// replacement.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FitIntervals {
+    /// The draws.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub draws: Draws,
+    /// Level of the intervals.
+    pub level: f64,
+    /// Logarithmic mean above the shift.
+    pub log_mean: Intervals,
+    /// Dispersion above the shift.
+    pub dispersion: Intervals,
+    /// Median.
+    pub median: Intervals,
+    /// Eq. 5.
+    pub eq5: Intervals,
+    /// Eq. 6.
+    pub eq6: Intervals,
+    /// Eq. 7.
+    pub eq7: Intervals,
+}
+
+/// The numbers of a fit that get an interval.
+type Numbers = [f64; 6];
+
+/// A replicate: its numbers, and its distribution where it has a fit.
+pub(super) type Replicate = (Numbers, Option<Lognormal>);
+
+fn numbers(found: &Fitted) -> Numbers {
+    let fitted = found.fit.distribution;
+    let own = &found.transformed;
+    let or_nan = |x: &Option<Result<f64, FragilityError>>| {
+        x.as_ref().and_then(|x| x.as_ref().ok()).copied().unwrap_or(f64::NAN)
+    };
+    [
+        fitted.log_mean(),
+        fitted.dispersion(),
+        fitted.median(),
+        or_nan(&own.eq5),
+        or_nan(&own.eq6),
+        or_nan(&own.eq7),
+    ]
+}
+
+fn refitted(
+    sample: &CensoredSample,
+    options: &FitOptions,
+    places: &[usize],
+) -> Replicate {
+    let found = options.once(&sample.at(places));
+    found.map_or(([f64::NAN; 6], None), |found| {
+        (numbers(&found), Some(found.fit.distribution))
+    })
+}
+
+/// The replicates asked for, in the order of their draws.
+pub(super) fn replicates(
+    sample: &CensoredSample,
+    options: &FitOptions,
+) -> Vec<Replicate> {
+    let Some(draws) = options.draws else { return Vec::new() };
+    let n = sample.len();
+    let all = Bootstrap::new("fragility", draws.seed, n, draws.replicates);
+    all.map(|places| refitted(sample, options, places))
+}
+
+impl FitIntervals {
+    pub(super) fn of(
+        sample: &CensoredSample,
+        options: &FitOptions,
+        draws: Draws,
+        found: &Fitted,
+        replicates: &[Replicate],
+    ) -> Self {
+        let n = sample.len();
+        let without: Vec<Replicate> = (0..n)
+            .map(|k| {
+                let others: Vec<_> = (0..n).filter(|i| *i != k).collect();
+                refitted(sample, options, &others)
+            })
+            .collect();
+        let points = numbers(found);
+        let of = |i: usize| {
+            let column = |rows: &[Replicate]| -> Vec<f64> {
+                rows.iter().map(|row| row.0[i]).collect()
+            };
+            let (drawn, left_out) = (column(replicates), column(&without));
+            Intervals {
+                percentile: estimate(points[i], &drawn, LEVEL),
+                bca: accelerated(points[i], &drawn, &left_out, LEVEL),
+            }
+        };
+        Self {
+            draws,
+            level: LEVEL,
+            log_mean: of(0),
+            dispersion: of(1),
+            median: of(2),
+            eq5: of(3),
+            eq6: of(4),
+            eq7: of(5),
+        }
+    }
+}
+
+/// Probabilities of a fragility with bands of one intensity at a time.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Band {
+    /// The draws of the bootstrap.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub draws: Draws,
+    /// Level of the bands.
+    pub level: f64,
+    /// One point an intensity.
+    pub points: Vec<BandPoint>,
+}
+
+/// The probability at one intensity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct BandPoint {
+    /// The intensity, in the unit of the sample.
+    pub intensity: f64,
+    /// Probability of the fit.
+    pub probability: f64,
+    /// Lower end by the bootstrap.
+    pub low: Option<f64>,
+    /// Upper end by the bootstrap.
+    pub high: Option<f64>,
+    /// Lower end by the delta method: of complete samples, fitted by maximum
+    /// likelihood or moments above a known shift.
+    pub delta_low: Option<f64>,
+    /// Upper end by the delta method.
+    pub delta_high: Option<f64>,
+}
+
+impl Band {
+    pub(super) fn of(
+        sample: &CensoredSample,
+        options: &FitOptions,
+        draws: Draws,
+        fitted: &Lognormal,
+        replicates: &[Replicate],
+    ) -> Self {
+        let complete = sample.censored() == 0;
+        let known = matches!(
+            options.method,
+            FitMethod::MaximumLikelihood | FitMethod::Moment
+        );
+        let point = |&intensity: &f64| {
+            let at = |(_, fit): &Replicate| {
+                fit.map_or(f64::NAN, |fit| fit.cdf(intensity))
+            };
+            let column: Vec<f64> = replicates.iter().map(at).collect();
+            let probability = fitted.cdf(intensity);
+            let found = estimate(probability, &column, LEVEL);
+            let delta = (complete && known).then(|| {
+                fitted.interval_of_cdf(sample.len(), intensity, LEVEL)
+            });
+            BandPoint {
+                intensity,
+                probability,
+                low: found.as_ref().map(|e| e.low),
+                high: found.as_ref().map(|e| e.high),
+                delta_low: delta.map(|d| d.0),
+                delta_high: delta.map(|d| d.1),
+            }
+        };
+        let points = options.band.iter().map(point).collect();
+        Self { draws, level: LEVEL, points }
+    }
+}

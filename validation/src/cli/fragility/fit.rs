@@ -1,0 +1,232 @@
+//! `rocking fragility fit`: fits of a sample, or of the capacities of an IDA.
+
+use std::path::{Path, PathBuf};
+
+use clap::{ArgGroup, Args as ClapArgs};
+use rocking::capacity::InversionRule;
+use rocking::procedures::fit::Band;
+use rocking::procedures::{
+    Draws, FitOptions, FragilityFit, LevelFit, Shift, fit_levels, fit_sample,
+};
+use rocking::statistics::QuantileType;
+use rocking::statistics::lognormal::FitMethod;
+use serde::Serialize;
+
+use crate::cli::capacities::{Levels, ida};
+use crate::cli::names;
+use crate::cli::samples::SampleFile;
+use crate::cli::show::show;
+use crate::cli::{Failure, with_threads};
+use crate::files::Outputs;
+use crate::paper::Intensity;
+use crate::table::{Table, number, optional};
+
+/// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
+/// an IDA.
+///
+/// With a shift IM_R the fit is to the capacities above it. Eqs. 5 to 7 stand
+/// beside the fit: what the unshifted statistics give instead.
+#[derive(ClapArgs)]
+#[command(group = ArgGroup::new("source").required(true)
+    .args(["sample", "ida"]))]
+pub(super) struct Args {
+    /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
+    /// for one censored at an unknown limit; `-` is standard input.
+    #[arg(long, value_name = "FILE")]
+    sample: Option<PathBuf>,
+    /// Table of `rocking ida`; `-` is standard input.
+    #[arg(long, value_name = "FILE", requires = "at")]
+    ida: Option<PathBuf>,
+    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        requires = "ida",
+        allow_hyphen_values = true
+    )]
+    at: Option<Levels>,
+    /// Which capacity is made of several crossings [default: median].
+    #[arg(long, value_parser = names::crossing(), requires = "ida")]
+    point: Option<InversionRule>,
+    /// Intensity measure of --ida [default: pga], or of a sample that does
+    /// not say it.
+    #[arg(long, value_parser = names::intensity())]
+    im: Option<Intensity>,
+    #[command(flatten)]
+    fit: FitArgs,
+    /// Bootstrap samples for intervals.
+    #[arg(long, value_name = "N")]
+    bootstrap: Option<usize>,
+    /// Repetition of the bootstrap.
+    #[arg(
+        long,
+        value_name = "S",
+        requires = "bootstrap",
+        default_value_t = 0
+    )]
+    seed: u64,
+    /// Intensities at which the probability gets its 95 % band.
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        requires = "bootstrap",
+        allow_hyphen_values = true
+    )]
+    band: Option<Levels>,
+    /// The band as a table.
+    #[arg(long, value_name = "FILE.csv", requires_all = ["band", "sample"])]
+    band_csv: Option<PathBuf>,
+    /// Threads; the result doesn't depend on them.
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// How a fragility is fitted.
+#[derive(ClapArgs)]
+pub(super) struct FitArgs {
+    /// Shift IM_R: a number, `min` (smallest value; overstates the
+    /// dispersion, no intervals) or `free` (maximum likelihood).
+    #[arg(
+        long,
+        value_name = "X|min|free",
+        default_value = "0",
+        allow_hyphen_values = true
+    )]
+    shift: Shift,
+    /// How the lognormal distribution is fitted.
+    #[arg(long, value_parser = names::fit_method(), default_value = "mle")]
+    method: FitMethod,
+    /// Type of the quantiles, 1 to 9.
+    #[arg(long, value_name = "TYPE", default_value_t = 5)]
+    quantile_type: u8,
+    /// Constant c of Eq. 7.
+    #[arg(long, default_value_t = 1.0)]
+    c: f64,
+}
+
+impl FitArgs {
+    /// The options of a fit without intervals.
+    ///
+    /// # Errors
+    /// [`Failure`] for a type of quantile that there is none of.
+    pub(super) fn options(&self) -> Result<FitOptions, Failure> {
+        let quantile_type = QuantileType::try_new(self.quantile_type)?;
+        let method = self.method.with_quantile_type(quantile_type);
+        let (shift, c) = (self.shift, self.c);
+        let default = FitOptions::default();
+        Ok(FitOptions { method, shift, quantile_type, c, ..default })
+    }
+}
+
+#[derive(Serialize)]
+struct OfSample {
+    /// What the file says that its values are.
+    sample_of: Option<String>,
+    unit: String,
+    #[serde(flatten)]
+    fit: FragilityFit,
+}
+
+#[derive(Serialize)]
+struct OfLevels {
+    unit: String,
+    point: String,
+    levels: Vec<LevelFit>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for input that is refused.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let mut options = args.fit.options()?;
+    let seed = args.seed;
+    options.draws =
+        args.bootstrap.map(|replicates| Draws { replicates, seed });
+    options.band = args.band.as_ref().map_or(Vec::new(), |b| b.0.clone());
+    match (&args.sample, &args.ida) {
+        (Some(path), _) => of_sample(args, path, &options),
+        (None, Some(path)) => of_levels(args, path, &options),
+        (None, None) => Err(Failure::input("expected --sample or --ida")),
+    }
+}
+
+fn of_sample(
+    args: &Args,
+    path: &Path,
+    options: &FitOptions,
+) -> Result<(), Failure> {
+    let mut outputs = Outputs::of(vec![path.to_owned()]);
+    let table = outputs.open_some(args.band_csv.as_ref())?;
+    let file = SampleFile::read(path)?;
+    let unit = unit(&file, args.im)?;
+    let sample = file.censored()?;
+    let found = with_threads(args.threads, || fit_sample(&sample, options))?;
+    let fit = found
+        .map_err(|e| Failure::input(format!("{}: {e}", path.display())))?;
+    if let (Some(table), Some(band)) = (table, &fit.band) {
+        let is_standard = table.is_standard();
+        table.write(csv(band))?;
+        if is_standard {
+            return Ok(());
+        }
+    }
+    let sample_of = file.of().map(str::to_owned);
+    show(args.json, &OfSample { sample_of, unit, fit })
+}
+
+fn of_levels(
+    args: &Args,
+    path: &Path,
+    options: &FitOptions,
+) -> Result<(), Failure> {
+    let measure = args.im.unwrap_or(Intensity::Pga);
+    let curves = ida::read(path, measure)?.into_curves();
+    let rule = args.point.unwrap_or(InversionRule::Median);
+    let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
+    let found =
+        with_threads(args.threads, || fit_levels(&curves, at, rule, options))?;
+    let levels = found
+        .map_err(|e| Failure::input(format!("{}: {e}", path.display())))?;
+    let unit = measure.words().to_owned();
+    show(args.json, &OfLevels { unit, point: rule.to_string(), levels })
+}
+
+/// The unit of a sample's values in words.
+fn unit(
+    file: &SampleFile,
+    given: Option<Intensity>,
+) -> Result<String, Failure> {
+    let of = file.of().and_then(|of| of.split(" at EDP ").next());
+    Ok(match (file.measure(given)?, of) {
+        (Some(measure), _) => measure.words().to_owned(),
+        (None, Some(of)) => of.to_owned(),
+        (None, None) => "that of the sample".to_owned(),
+    })
+}
+
+/// The band as a table.
+fn csv(band: &Band) -> String {
+    let mut table = Table::new(&[
+        "im",
+        "probability",
+        "low",
+        "high",
+        "delta_low",
+        "delta_high",
+    ]);
+    for point in &band.points {
+        table.row([
+            number(point.intensity),
+            number(point.probability),
+            optional(point.low),
+            optional(point.high),
+            optional(point.delta_low),
+            optional(point.delta_high),
+        ]);
+    }
+    table.finish()
+}

@@ -1,0 +1,49 @@
+//! `rocking fragility transform`: Eqs. 5 to 7 of given numbers.
+
+use clap::Args as ClapArgs;
+use rocking::procedures::fit::Transformed;
+
+use crate::cli::Failure;
+use crate::cli::show::show;
+
+/// Eqs. 5 to 7: a shifted fragility from unshifted numbers.
+///
+/// Eq. 5 and Eq. 7 need --im50 and --beta, Eq. 6 needs --im16 and --im84.
+#[derive(ClapArgs)]
+pub(super) struct Args {
+    /// Shift IM_R, not negative.
+    #[arg(long, value_name = "X")]
+    shift: f64,
+    /// Unshifted median IM50.
+    #[arg(long, value_name = "X", required_unless_present = "im16")]
+    im50: Option<f64>,
+    /// Unshifted dispersion beta_o.
+    #[arg(long, value_name = "B", requires = "im50")]
+    beta: Option<f64>,
+    /// Unshifted 16 % quantile IM16.
+    #[arg(long, value_name = "X", requires = "im84")]
+    im16: Option<f64>,
+    /// Unshifted 84 % quantile IM84.
+    #[arg(long, value_name = "X", requires = "im16")]
+    im84: Option<f64>,
+    /// Constant c of Eq. 7.
+    #[arg(long, default_value_t = 1.0)]
+    c: f64,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] where the result cannot be printed.
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let found = Transformed::of(
+        (args.im50, args.beta),
+        (args.im16, args.im84),
+        args.shift,
+        args.c,
+    );
+    show(args.json, &found)
+}

@@ -1,0 +1,46 @@
+//! `rocking sample`: quantiles and boxplot of a sample.
+
+use std::path::PathBuf;
+
+use clap::Args as ClapArgs;
+use rocking::procedures::summarise;
+use rocking::statistics::QuantileType;
+
+use super::Failure;
+use super::samples::SampleFile;
+use super::show::show;
+
+/// Quantiles of a sample by named type (Hyndman and Fan 1996), its quartiles,
+/// whiskers, outliers and McGill's notch, and the exact order-statistic
+/// interval of its median.
+#[derive(ClapArgs)]
+pub struct Args {
+    /// Sample file: one value a line, `inf` for a censored one, `#` comments;
+    /// `-` is standard input.
+    #[arg(long, value_name = "FILE")]
+    sample: PathBuf,
+    /// Probabilities in [0, 1], separated by commas.
+    #[arg(
+        long,
+        value_name = "P,..",
+        value_delimiter = ',',
+        default_value = "0.16,0.5,0.84"
+    )]
+    at: Vec<f64>,
+    /// Type of the quantiles, 1 to 9: 5 is MATLAB's, 7 that of R and NumPy.
+    #[arg(long, value_name = "TYPE", default_value_t = 5)]
+    quantile_type: u8,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for a sample, a type or a probability that is refused.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let quantile_type = QuantileType::try_new(args.quantile_type)?;
+    let sample = SampleFile::read(&args.sample)?.extended()?;
+    show(args.json, &summarise(&sample, &args.at, quantile_type)?)
+}

@@ -1,0 +1,299 @@
+//! How a result is printed: as JSON by `serde`, or as text made of the same
+//! fields by one rule.
+
+use std::fmt;
+
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::{Failure, print};
+
+/// Number of the shape of all JSON and CSV that the commands write. It rises
+/// when a field or a column changes its name, its unit or its meaning.
+pub const SCHEMA: u32 = 1;
+
+/// What every JSON of a command carries.
+#[derive(Serialize)]
+struct Envelope<'a, T> {
+    schema: u32,
+    version: &'static str,
+    #[serde(flatten)]
+    result: &'a T,
+}
+
+/// Prints a result: JSON if asked for, text otherwise.
+///
+/// # Errors
+/// As [`print()`].
+pub fn show<T: Serialize>(json: bool, result: &T) -> Result<(), Failure> {
+    if json {
+        let version = env!("CARGO_PKG_VERSION");
+        let all = Envelope { schema: SCHEMA, version, result };
+        return print(&(serde_json::to_string_pretty(&all)? + "\n"));
+    }
+    print(&text(result)?)
+}
+
+/// A result as text: a row for each field, a table for each list of structs.
+///
+/// # Errors
+/// [`Failure`] where the result cannot be serialized.
+pub fn text<T: Serialize>(result: &T) -> Result<String, Failure> {
+    let node: Node = serde_json::from_str(&serde_json::to_string(result)?)?;
+    let mut text = String::new();
+    match node {
+        Node::Struct(fields) => rows(&mut text, &fields, 0),
+        other => text = cell(&other) + "\n",
+    }
+    Ok(text)
+}
+
+/// A serialized result whose fields keep their order.
+enum Node {
+    None,
+    Text(String),
+    Number(f64),
+    List(Vec<Self>),
+    Struct(Vec<(String, Self)>),
+}
+
+impl<'de> Deserialize<'de> for Node {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        from.deserialize_any(NodeVisitor)
+    }
+}
+
+struct NodeVisitor;
+
+impl<'de> Visitor<'de> for NodeVisitor {
+    type Value = Node;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value of JSON")
+    }
+
+    fn visit_unit<E>(self) -> Result<Node, E> {
+        Ok(Node::None)
+    }
+
+    fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
+        Ok(Node::Text(if value { "yes" } else { "no" }.into()))
+    }
+
+    fn visit_str<E>(self, value: &str) -> Result<Node, E> {
+        Ok(Node::Text(value.into()))
+    }
+
+    fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
+        Ok(Node::Text(value.to_string()))
+    }
+
+    fn visit_i64<E>(self, value: i64) -> Result<Node, E> {
+        Ok(Node::Text(value.to_string()))
+    }
+
+    fn visit_f64<E>(self, value: f64) -> Result<Node, E> {
+        Ok(Node::Number(value))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(
+        self,
+        mut all: A,
+    ) -> Result<Node, A::Error> {
+        let mut list = Vec::new();
+        while let Some(one) = all.next_element()? {
+            list.push(one);
+        }
+        Ok(Node::List(list))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(
+        self,
+        mut all: A,
+    ) -> Result<Node, A::Error> {
+        let mut fields = Vec::new();
+        while let Some(field) = all.next_entry()? {
+            fields.push(field);
+        }
+        Ok(Node::Struct(fields))
+    }
+}
+
+/// Units that end the name of a field, the longer ones first.
+const UNITS: [(&str, &str); 13] = [
+    ("_rad_s", "rad/s"),
+    ("_cm_s", "cm/s"),
+    ("_m_s2", "m/s2"),
+    ("_m_s", "m/s"),
+    ("_per_year", "1/year"),
+    ("_years", "years"),
+    ("_percent", "%"),
+    ("_rad", "rad"),
+    ("_hz", "Hz"),
+    ("_s", "s"),
+    ("_m", "m"),
+    ("_n", "N"),
+    ("_g", "g"),
+];
+
+/// The name of a field in words, and its unit.
+fn heading(name: &str) -> String {
+    let unit = UNITS.iter().find(|(end, _)| name.ends_with(end));
+    match unit {
+        Some((end, unit)) => {
+            let words = name[..name.len() - end.len()].replace('_', " ");
+            format!("{words} ({unit})")
+        }
+        None => name.replace('_', " "),
+    }
+}
+
+/// One row a field; a struct is a block of rows, a list of structs a table.
+fn rows(text: &mut String, fields: &[(String, Node)], depth: usize) {
+    let indent = 2 * depth;
+    for (name, value) in fields {
+        let name = heading(name);
+        match value {
+            Node::Struct(inner) if interval(inner).is_none() => {
+                *text += &format!("{:indent$}{name}\n", "");
+                rows(text, inner, depth + 1);
+            }
+            Node::List(all)
+                if matches!(all.first(), Some(Node::Struct(_))) =>
+            {
+                *text += &format!("{:indent$}{name}\n", "");
+                table(text, all, indent + 2);
+            }
+            _ => {
+                let width = 32_usize.saturating_sub(indent);
+                *text +=
+                    &format!("{:indent$}{name:<width$}{}\n", "", cell(value));
+            }
+        }
+    }
+}
+
+/// A head of the field names, and one line a struct.
+fn table(text: &mut String, all: &[Node], indent: usize) {
+    let mut lines = Vec::new();
+    for one in all {
+        let Node::Struct(fields) = one else { continue };
+        let mut row = Vec::new();
+        flatten("", fields, &mut row);
+        if lines.is_empty() {
+            lines.push(row.iter().map(|(name, _)| name.clone()).collect());
+        }
+        lines.push(row.into_iter().map(|(_, cell)| cell).collect());
+    }
+    let width = |column: usize| {
+        let cells = lines.iter().filter_map(|line: &Vec<String>| {
+            line.get(column).map(|cell| cell.chars().count())
+        });
+        cells.max().unwrap_or(0)
+    };
+    let columns = lines.first().map_or(0, Vec::len);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    for line in &lines {
+        let cells = line.iter().zip(&widths).enumerate();
+        let cells = cells.map(|(k, (cell, width))| match k {
+            0 => format!("{cell:<width$}"),
+            _ => format!("  {cell:>width$}"),
+        });
+        let line: String = cells.collect();
+        *text += &format!("{:indent$}{}\n", "", line.trim_end());
+    }
+}
+
+/// The cells of a row, the fields of inner structs behind their own name.
+fn flatten(
+    before: &str,
+    fields: &[(String, Node)],
+    into: &mut Vec<(String, String)>,
+) {
+    for (name, value) in fields {
+        let name = format!("{before}{}", heading(name));
+        match value {
+            Node::Struct(inner) if interval(inner).is_none() => {
+                flatten(&format!("{name} "), inner, into);
+            }
+            // Each struct of a list behind its first field, which names it.
+            Node::List(all)
+                if matches!(all.first(), Some(Node::Struct(_))) =>
+            {
+                for one in all {
+                    let Node::Struct(inner) = one else { continue };
+                    let Some(((_, first), rest)) = inner.split_first() else {
+                        continue;
+                    };
+                    flatten(&format!("{} ", cell(first)), rest, into);
+                }
+            }
+            _ => into.push((name, cell(value))),
+        }
+    }
+}
+
+/// A value with the ends of its interval: a struct with `point` or `value`,
+/// `low` and `high`.
+fn interval(fields: &[(String, Node)]) -> Option<String> {
+    let at = |wanted: &str| {
+        let found = fields.iter().find(|(name, _)| name == wanted);
+        found.map(|(_, value)| cell(value))
+    };
+    let point = at("point").or_else(|| at("value"))?;
+    let (low, high) = (at("low")?, at("high")?);
+    Some(format!("{point} [{low}, {high}]"))
+}
+
+fn cell(value: &Node) -> String {
+    match value {
+        Node::None => "none".into(),
+        Node::Text(text) => text.clone(),
+        Node::Number(x) => number(*x),
+        Node::List(all) => all.iter().map(cell).collect::<Vec<_>>().join(" "),
+        Node::Struct(fields) => interval(fields).unwrap_or_default(),
+    }
+}
+
+/// Six significant digits.
+fn number(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || (1e-4..1e6).contains(&size) {
+        let before = if x == 0.0 { 0.0 } else { size.log10().floor() };
+        let places = (5.0 - before).clamp(0.0, 9.0) as usize;
+        let text = format!("{x:.places$}");
+        if places == 0 {
+            return text;
+        }
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    format!("{x:.5e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::text;
+    use serde_json::json;
+
+    #[test]
+    fn fields_are_rows_with_units_and_lists_are_tables() {
+        let result = json!({
+            "a_rad": 0.15,
+            "beta": { "point": 0.4, "low": 0.3, "high": 0.5 },
+            "none": null,
+            "rows": [
+                { "im": "pga", "median_g": 0.123_456_78 },
+                { "im": "sa:1", "median_g": 12_345_678.0 },
+            ],
+            "sub": { "used": 3, "of": [{ "on": "M", "slope": 0.5 }] },
+        });
+        let expected = "\
+            a (rad)                         0.15\n\
+            beta                            0.4 [0.3, 0.5]\n\
+            none                            none\n\
+            rows\n  im     median (g)\n  pga      0.123457\n  \
+            sa:1  1.23457e7\n\
+            sub\n  used                          3\n";
+        assert_eq!(text(&result).unwrap(), expected);
+    }
+}

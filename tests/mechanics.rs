@@ -8,6 +8,8 @@ mod closed;
 mod drawn;
 #[path = "mechanics/endless.rs"]
 mod endless;
+#[path = "mechanics/ends.rs"]
+mod ends;
 #[path = "mechanics/engines.rs"]
 mod engines;
 #[path = "pins/hold.rs"]

@@ -290,6 +290,7 @@ fn json_is_json_and_missing_values_have_reasons() {
         format!("{BLOCK} {sine} 1.5"),
         format!("{BLOCK} {sine} 1.5 --until 0.3"),
         format!("{BLOCK} {sine} 1.5 --certify"),
+        format!("{BLOCK} {sine} 1.5 --until 0.3 --certify"),
         format!("{BLOCK} {sine} 9"),
         format!("{BLOCK} {sine} 9 --overturn half-pi --model linearized"),
         format!("{BLOCK} --free --initial-ratio 0.9 --eta 1 --until 9"),
@@ -321,6 +322,66 @@ fn json_is_json_and_missing_values_have_reasons() {
         let people = answer(&place, arguments);
         assert!(!people.contains("NaN"), "{arguments}: {people}");
     }
+}
+
+/// Observation that ends at the time of overturning which the program printed
+/// itself, or next to it.
+#[test]
+fn an_end_at_the_overturning_is_unresolved_and_certified() {
+    let place = folder("until", &[]);
+    let scene = format!(
+        "respond {BLOCK} --pulse one-sine --omega-rad-s 12 \
+         --amplitude-m-s2 9 --json"
+    );
+    let whole = json(&place, &scene);
+    assert_eq!(whole["outcome"], "overturned");
+    let time_s = whole["overturning_time_s"].as_f64().unwrap();
+    let mut fates = Vec::new();
+    for (until_s, is_clear) in [
+        (time_s * (1.0 - 1e-10), true),
+        (time_s.next_down(), false),
+        (time_s, false),
+        (time_s.next_up(), false),
+        (time_s * (1.0 + 1e-10), true),
+    ] {
+        let cut = format!("{scene} --until {until_s} --certify");
+        let found = json(&place, &cut);
+        let clear = &found["certificate"]["clear"];
+        assert_eq!(clear.as_bool(), Some(is_clear), "{cut}");
+        let fate = found["certified"]["outcome"].as_str().unwrap();
+        fates.push(fate.to_owned());
+        if !is_clear {
+            assert_eq!(found["outcome"], "unresolved");
+            assert_eq!(found["certificate"]["least"]["decision"], "end");
+        }
+    }
+    assert_eq!(
+        (fates[0].as_str(), fates[4].as_str()),
+        ("rocked", "overturned")
+    );
+    // Overturned once and for all.
+    assert!(fates.is_sorted_by_key(|fate| fate == "overturned"), "{fates:?}");
+}
+
+/// The amplitude of a third reading: its quotient by gravity is above the
+/// threshold by less than rounding.
+#[test]
+fn a_rectangle_at_the_threshold_is_not_certain_for_all_inputs() {
+    let place = folder("threshold", &[]);
+    let found = json(
+        &place,
+        "respond --alpha 0.13976339630884432 --p 3.4118364507333836 \
+         --eta 0.8 --model linearized --overturn half-pi --pulse rectangle \
+         --amplitude-m-s2 -1.3706107104121281 --duration-s 3.7 --certify \
+         --json",
+    );
+    assert_eq!(found["outcome"], "unresolved");
+    let fate = &found["certified"];
+    assert_eq!(fate["outcome"], "rocked");
+    // 1.982740079599552418... by mpmath: fixtures/oracles/ends.csv.
+    let peak = fate["peak_ratio"].as_f64().unwrap();
+    assert!((peak / 1.982_740_079_599_552_4e-12 - 1.0).abs() < 1e-14);
+    assert_eq!(fate["for_all_inputs_that_round_to_these"], false);
 }
 
 #[test]

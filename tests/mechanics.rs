@@ -10,6 +10,8 @@ mod compare;
 mod drawn;
 #[path = "mechanics/endless.rs"]
 mod endless;
+#[path = "mechanics/ends.rs"]
+mod ends;
 #[path = "mechanics/engines.rs"]
 mod engines;
 #[path = "mechanics/names.rs"]

@@ -67,7 +67,10 @@ pub struct Observe {
     pub history_interval_s: Option<f64>,
     /// Forces at the pivot; every impact is followed for them.
     pub forces: bool,
-    /// Stop at this time (s) instead of when nothing more can happen.
+    /// Stop at this time (s) instead of when nothing more can happen. What
+    /// happens before it is a decision, [`Decision::End`].
+    ///
+    /// [`Decision::End`]: crate::integrator::Decision::End
     pub until_s: Option<f64>,
     /// Work beyond which the run is refused.
     pub work_limit: WorkLimit,
@@ -192,13 +195,15 @@ pub struct Work {
 pub struct Response<N = f64> {
     /// What became of the block, by this run.
     pub outcome: Outcome<N>,
-    /// Largest |theta|/alpha reached before overturning or at all.
+    /// Largest |theta|/alpha reached before overturning, before the end of
+    /// observation, or at all.
     pub peak_ratio: N,
     /// When the peak was reached, s.
     pub peak_time_s: Option<N>,
     /// First uplift, s.
     pub uplift_time_s: Option<N>,
-    /// Final coming to rest, s; recorded with events.
+    /// Final coming to rest before the end of observation, s; recorded with
+    /// events.
     pub rest_time_s: Option<N>,
     /// Impacts in order; recorded with events.
     pub impacts: Vec<Impact<N>>,

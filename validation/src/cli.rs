@@ -307,3 +307,24 @@ pub fn run() -> ExitCode {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Duration, mpsc, saying};
+
+    #[test]
+    fn long_work_says_so_until_it_is_done() {
+        let (says, hears) = mpsc::channel();
+        let say = || says.send(()).unwrap();
+        let short = Duration::from_millis(1);
+        let result = saying([short, short], &say, || {
+            // It goes on until it has been spoken of twice.
+            hears.recv().unwrap();
+            hears.recv().unwrap();
+            7
+        });
+        assert_eq!(result, 7);
+        let long = Duration::from_secs(3600);
+        saying([long, long], &|| panic!("nothing was long"), || ());
+    }
+}

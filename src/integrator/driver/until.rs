@@ -97,7 +97,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         let between = between.abs().to_f64();
         let rate = self.forcing.series(found.place)[1].abs();
         let late = if found.crossing {
-            (self.dynamics.threshold / rate).to_f64()
+            (self.dynamics.threshold / rate).to_f64() + self.forcing.span()
         } else {
             0.0
         };

@@ -306,6 +306,7 @@ pub const FAMILIES: &[(&str, &str)] = families![
     "calibration",
     "certificate",
     "double-double",
+    "ends-and-touches",
     "estimators",
     "fates",
     "fragility-transforms",

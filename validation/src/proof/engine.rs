@@ -7,7 +7,8 @@ pub use wide::{Arithmetic, WideTrace};
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, Pulse, ScaledRecord};
 use rocking::integrator::{
-    self, Observe, Order, Outcome, Response, SceneError, Solver,
+    self, Certified, Certify, Observe, Order, Outcome, Response, SceneError,
+    Solver,
 };
 use rocking::number::Real;
 
@@ -103,6 +104,19 @@ pub fn respond_in<N: Real>(
 ) -> Result<Response<N>, EngineError> {
     with_core_scene(scene, quotient, |scene| {
         integrator::respond_precise(scene, observe)
+    })
+}
+
+/// The certified fate of a scene, to its end of observation; the quotients by
+/// gravity are taken in the precision that the fate needs.
+///
+/// # Errors
+/// [`EngineError::Refused`] or [`EngineError::Work`] with the core's own
+/// words.
+pub fn certify(scene: &Scene) -> Result<Certified, EngineError> {
+    let ask = Certify { until_s: scene.until_s, ..Certify::default() };
+    with_core_scene(scene, Quotient::Kept, |scene| {
+        integrator::certify(scene, &ask)
     })
 }
 

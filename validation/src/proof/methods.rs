@@ -5,6 +5,7 @@ mod closed_forms;
 mod convergence;
 mod digits;
 mod edges;
+mod ends;
 mod estimate;
 mod fates;
 mod forces;
@@ -196,6 +197,8 @@ pub const METHODS: &[(&str, Run)] = &[
     ("restitution", edges::restitution),
     ("error-estimate", estimate::estimate),
     ("certificate-trials", trials::certificate),
+    ("ends-of-observation", ends::ends),
+    ("touches-of-the-threshold", ends::touches),
     ("forces-at-uplift", forces::uplift),
     ("forces-in-free-motion", forces::free),
     ("forces-by-momentum", forces::momentum),

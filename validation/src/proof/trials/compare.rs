@@ -28,7 +28,9 @@ pub struct Seen {
 }
 
 impl Seen {
-    fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
+    /// What a response says, its peak as a double.
+    #[must_use]
+    pub fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
         let estimate = response.error_estimate.unwrap_or(f64::INFINITY);
         Self {
             overturned: response.outcome.is_overturned(),

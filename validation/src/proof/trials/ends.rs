@@ -48,7 +48,10 @@ pub(super) fn ending(
             (0, Outcome::Overturned { time_s, .. }) => {
                 Some(("end at overturning", time_s))
             }
-            (1, _) => response.uplift_time_s.map(|t| ("end at uplift", t)),
+            (1, _) => {
+                let later = response.uplift_time_s.filter(|t| *t > 0.0);
+                later.map(|time_s| ("end at uplift", time_s))
+            }
             _ => None,
         };
         let (name, until_s) = match event {

@@ -59,7 +59,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             let inverse = self.forcing.inverse(step.place.piece);
             let time = self.time(step.place);
             let there = screen.fly(time, inverse, self.dynamics.alpha);
-            let doubt = there.decide(left).doubt;
+            let doubt = there.end(left, self.dynamics.alpha).doubt;
             self.screen = Some(Screen { doubt, ..screen });
         }
     }

@@ -3,6 +3,7 @@
 
 mod closed_forms;
 mod convergence;
+mod curves;
 mod digits;
 mod edges;
 mod ends;
@@ -199,6 +200,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("certificate-trials", trials::certificate),
     ("ends-of-observation", ends::ends),
     ("touches-of-the-threshold", ends::touches),
+    ("curves-of-first-hops", curves::first_hops),
     ("forces-at-uplift", forces::uplift),
     ("forces-in-free-motion", forces::free),
     ("forces-by-momentum", forces::momentum),

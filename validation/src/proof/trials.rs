@@ -8,6 +8,7 @@
 mod compare;
 mod draw;
 mod ends;
+mod first_hop;
 mod grazing;
 mod random;
 mod records;
@@ -38,6 +39,8 @@ named! {
         /// Scenes whose ground acceleration has its peak at the threshold of
         /// uplift.
         Touching = "touching",
+        /// Scenes whose first hop after rest grazes the base.
+        FirstHop = "first-hop",
     }
 }
 
@@ -60,7 +63,7 @@ pub struct Trial {
 
 /// The scene of an address.
 ///
-/// None where a grazing scene was asked for and none of the scenes drawn
+/// None where a scene that grazes was asked for and none of the scenes drawn
 /// could be brought to graze.
 ///
 /// # Errors
@@ -85,6 +88,7 @@ pub fn trial(
         Stratum::Grazing => grazing::grazing(&mut draw, index)?,
         Stratum::Ending => ends::ending(&mut draw, index)?,
         Stratum::Touching => ends::touching(&mut draw, index),
+        Stratum::FirstHop => first_hop::first_hop(&mut draw)?,
     };
     Ok(found.map(|(kind, scene)| Trial {
         name: format!("{}:{index} {kind}", stratum.name()),

@@ -6,7 +6,6 @@ use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 
-use super::closed_forms::model;
 use super::{Answer, Context, MethodError};
 use crate::proof::arithmetic::decimal;
 use crate::proof::engine::{certify, respond};
@@ -66,15 +65,11 @@ fn row(line: &str) -> Option<Result<Row, MethodError>> {
         }
         _ => return None,
     };
-    let overturning = match criterion {
-        "alpha" => Overturning::Alpha,
-        "half-pi" => Overturning::HalfPi,
-        _ => return None,
-    };
+    let overturning = criterion.parse().ok()?;
     let block = [number(alpha)?, number(p)?, number(g)?];
     let scene = Scene::new(block, number(eta)?, forcing);
     let values = values.split(';').map(decimal).collect::<Option<Vec<_>>>()?;
-    Some(model(law).map(|model| Row {
+    Some(law.parse().map_err(MethodError::Name).map(|model| Row {
         scene: Scene { model, overturning, ..scene },
         values,
     }))

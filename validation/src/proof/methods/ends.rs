@@ -20,8 +20,8 @@ struct Row {
     values: Vec<DoubleDouble>,
 }
 
-/// Error of a peak that is told to all digits of a double.
-const PRINTED: f64 = f64::EPSILON;
+/// Relative error of a peak that is told to all digits of a double.
+const PRINTED: f64 = 0.5 * f64::EPSILON;
 
 fn missing(what: &str) -> MethodError {
     let what = what.to_owned();
@@ -85,7 +85,8 @@ enum Due {
 }
 
 impl Due {
-    /// True where an outcome is that, and its peak within a bound.
+    /// True where an outcome is that, and its peak within a bound but for the
+    /// rounding to a double.
     fn is(self, outcome: &Outcome, error: f64) -> bool {
         match (self, outcome) {
             (Self::Overturned, Outcome::Overturned { .. })
@@ -93,6 +94,7 @@ impl Due {
             | (Self::Rocked(None), Outcome::Rocked { .. }) => true,
             (Self::Rocked(Some(due)), Outcome::Rocked { peak_ratio }) => {
                 let found = DoubleDouble::from_f64(*peak_ratio);
+                let error = error + PRINTED * due.to_f64();
                 (found - due).abs().to_f64() <= error
             }
             _ => false,
@@ -140,7 +142,7 @@ impl Counts {
         self.wrong_and_clear += usize::from(clear && !right);
         self.wrong_and_unresolved += usize::from(!clear && !right);
         let fate: Certified = certify(scene)?;
-        let error = fate.error.unwrap_or(f64::INFINITY) + PRINTED;
+        let error = fate.error.unwrap_or(f64::INFINITY);
         self.certified_open += usize::from(!fate.decided);
         self.certified_wrong +=
             usize::from(fate.decided && !due.is(&fate.outcome, error));

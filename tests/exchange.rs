@@ -125,9 +125,12 @@ fn every_output_of_fragility_says_what_its_intensity_is() {
     let place = folder("unit");
     let one = "fragility fit --sample capacities.txt";
     let text = answer(&place, one);
-    assert!(text.contains("unit                            PGA/(g tan alpha)\n"));
+    assert!(
+        text.contains("unit                            PGA/(g tan alpha)\n")
+    );
     fs::write(place.join("bare.txt"), "1.4\n1.8\n2.5\n").unwrap();
-    let bare = answer(&place, "fragility fit --sample bare.txt --im pgv --json");
+    let bare =
+        answer(&place, "fragility fit --sample bare.txt --im pgv --json");
     let bare: Value = serde_json::from_str(&bare).unwrap();
     assert_eq!(bare["unit"], "p PGV/(g tan alpha)");
     let other = SAMPLE.replace("PGA/(g tan alpha)", "SA(1 s), g");
@@ -244,8 +247,7 @@ fn the_tour_of_the_readme_runs() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{error}");
     let said = String::from_utf8_lossy(&output.stdout);
-    for words in ["need friction > 0.5", "delta low", "at least", "SA(1 s)"]
-    {
+    for words in ["need friction > 0.5", "delta low", "at least", "SA(1 s)"] {
         assert!(said.contains(words), "no `{words}` in {said}");
     }
     for (name, lines) in [("cabinet-band.csv", 26), ("fragility.csv", 4)] {

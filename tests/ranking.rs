@@ -293,7 +293,10 @@ fn censored_values_enter_by_their_own_limits() {
         json(&place, "fragility fit --sample inf.txt --method censored");
     let beta = common["fitted"]["dispersion"].as_f64().unwrap();
     assert!(beta > 0.5, "{common}");
-    assert_eq!((&common["n_censored"], &common["n_limited"]), (&6.into(), &0.into()));
+    assert_eq!(
+        (&common["n_censored"], &common["n_limited"]),
+        (&6.into(), &0.into())
+    );
     let said = refused(&place, "fragility fit --sample inf.txt");
     assert!(said.contains("infinite"), "{said}");
     write("wrong.txt", "1\n>x\n".into());

@@ -52,7 +52,8 @@ pub fn fit_stripes(
 ) -> Result<CountsFragility, ProcedureError> {
     let found = fit_counts(stripes, shift)?;
     let fitted = found.fit.distribution;
-    let interval = |point, (low, high)| LikelihoodInterval { point, low, high };
+    let interval =
+        |point, (low, high)| LikelihoodInterval { point, low, high };
     Ok(CountsFragility {
         n: found.fit.n,
         fitted,

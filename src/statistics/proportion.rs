@@ -97,7 +97,7 @@ impl Proportion {
     /// let one = Proportion::try_new(19, 86)?;
     /// let band = Proportion::band(&[one; 240], 0.95)?;
     /// let (low, high) = band[0];
-    /// assert!((low - 0.087).abs() < 1e-3 && (high - 0.412).abs() < 1e-3);
+    /// assert!((low - 0.0857).abs() < 1e-4 && (high - 0.4172).abs() < 1e-4);
     /// # Ok::<(), rocking::statistics::proportion::ProportionError>(())
     /// ```
     ///

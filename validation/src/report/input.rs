@@ -370,7 +370,7 @@ fn shown(figure: &Figure) -> ShownFigure {
     }
 }
 
-fn provenance(results: &Results) -> Vec<(String, String)> {
+pub(super) fn provenance(results: &Results) -> Vec<(String, String)> {
     let setup = &results.plan.setup;
     let mut out = vec![
         ("Revisions".into(), head::revisions()),

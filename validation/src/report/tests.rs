@@ -12,13 +12,14 @@ use super::ledger::requirements;
 use super::output::{self, FINDINGS, Files};
 use super::{answers, credibility, findings, input};
 use crate::curves::Execution;
-use crate::findings::{Aside, Findings, Kind, Topic};
+use crate::findings::{Findings, Kind, Suite, Topic};
 use crate::paper::{Arm, SuiteKind};
 use crate::proof::cases::load_all;
 use crate::study::Study;
 use crate::study::analyses::{Plan, SuiteResults, Work};
 use crate::study::certainty::Certainty;
 use crate::study::figures::Results;
+use crate::study::findings;
 use crate::study::runs::Setup;
 use crate::suites::inputs::read_suite;
 use crate::suites::{Source, StudySuite};
@@ -75,10 +76,38 @@ fn set_aside() -> SetAside {
     suite.set_aside().clone()
 }
 
+#[test]
+fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
+    let mut results = empty(&Source::Embedded { streams: "x" });
+    assert!(
+        input::provenance(&results).iter().all(|r| !r.0.contains("aside"))
+    );
+    results.pulse.set_aside = set_aside();
+    let told: Vec<_> = input::provenance(&results)
+        .into_iter()
+        .filter(|row| row.0.contains("aside"))
+        .collect();
+    let words = "1 in no known format (first: <notes>.txt)";
+    assert_eq!(
+        told,
+        [("Set aside, pulse-type suite".to_owned(), words.to_owned())]
+    );
+    let found = findings::suite(&results.pulse);
+    let text = serde_json::to_value(&found).expect("JSON");
+    let expected = serde_json::json!([
+        {"code": "format", "files": 1, "first": "<notes>.txt"}
+    ]);
+    assert_eq!(text["set_aside"], expected);
+    assert_eq!(serde_json::from_value::<Suite>(text).expect("read"), found);
+    // A suite without such files has the bytes of before.
+    let found = findings::suite(&results.ordinary);
+    let text = serde_json::to_value(&found).expect("JSON");
+    assert_eq!(text.get("set_aside"), None);
+}
+
 fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     ordinary.motions.truncate(10);
-    ordinary.set_aside = set_aside();
     pulse.motions.truncate(4);
     let plan = plan(way);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -173,18 +202,6 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         assert!(*content == two[name], "{name} differs");
     }
     let [page, without] = pages;
-    assert!(page.contains(
-        "Set aside, ordinary suite</dt><dd>1 in no known format (first: \
-         &lt;notes&gt;.txt)"
-    ));
-    let findings = String::from_utf8_lossy(&one[FINDINGS]);
-    let findings = Findings::parse(&findings).expect("findings");
-    let [Aside { code, files: 1, first }] = &findings.suites[0].set_aside[..]
-    else {
-        panic!("{:?}", findings.suites[0].set_aside);
-    };
-    assert_eq!((code.as_str(), first.as_str()), ("format", "<notes>.txt"));
-    assert!(findings.suites[1].set_aside.is_empty());
     // The first case is named by an identity of the paper.
     let cases = load_all().expect("cases");
     let (id, table) = (&cases[cases.len() - 1].id, "table-precision");

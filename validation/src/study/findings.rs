@@ -53,7 +53,9 @@ fn settings(plan: &Plan) -> Settings {
     }
 }
 
-fn suite(suite: &SuiteResults) -> Suite {
+/// A suite of a study, and the work on it.
+#[must_use]
+pub fn suite(suite: &SuiteResults) -> Suite {
     let certainty = &suite.work.certainty;
     let name = |record: &usize| suite.records[*record].name.clone();
     Suite {

@@ -227,6 +227,7 @@ fn is_no_record(error: &RecordError) -> bool {
         error.fault(),
         Fault::UnknownFormat { .. }
             | Fault::NotText { .. }
+            | Fault::Utf16(_)
             | Fault::Quantity(_)
     )
 }

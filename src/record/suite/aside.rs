@@ -35,7 +35,9 @@ impl AsideReason {
         Some(match fault {
             Fault::Vertical(_) => Self::Vertical,
             Fault::Borehole(_) => Self::Borehole,
-            Fault::UnknownFormat { .. } | Fault::NotText { .. } => {
+            Fault::UnknownFormat { .. }
+            | Fault::NotText { .. }
+            | Fault::Utf16(_) => {
                 Self::Format
             }
             Fault::Quantity(_) => Self::Quantity,

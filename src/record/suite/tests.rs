@@ -168,6 +168,18 @@ fn an_index_may_have_semicolons_capitals_and_names() {
         found.members().iter().map(|m| m.accelerogram.name()).collect();
     assert_eq!(names, ["one", "two"]);
     assert_eq!(found.members()[0].attributes["Event"], "X, Y");
+    // In UTF-16 too, as spreadsheets save it.
+    let wide: Vec<u8> =
+        index.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    assert!(!is_index(&wide));
+    let wide = [&[0xff, 0xfe], &wide[..]].concat();
+    assert!(is_index(&wide));
+    let unit = Some(AccelerationUnit::Gravity);
+    let read = ReadOptions { unit, ..ReadOptions::default() };
+    let options = SuiteOptions { read, sha256_hex: None };
+    let bytes = |_: &str| Ok(MOTION.as_bytes().to_vec());
+    let same = Suite::from_index("i.csv", &wide, &options, bytes).unwrap();
+    assert_eq!(same, found);
 }
 
 /// SMC files name event, station and component: names of files say nothing.

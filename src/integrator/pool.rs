@@ -304,8 +304,9 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
             if solved.impact & bit != 0 {
                 group.extra[lane] += 1;
                 group.impacts[lane] += 1;
-                let [began, uu, uw, ww, doubt] = &solved.screen;
+                let [began, top_speed, uu, uw, ww, doubt] = &solved.screen;
                 group.began[lane] = began[i];
+                group.top_speed[lane] = top_speed[i];
                 group.uu[lane] = uu[i];
                 group.uw[lane] = uw[i];
                 group.ww[lane] = ww[i];
@@ -326,6 +327,7 @@ impl<'s, 'a, S: Source<'a>, const LEN: usize, const HARD: usize>
                 }
                 group.side[lane] = group.side[lane].flipped();
             } else {
+                group.top_speed[lane] = solved.top_speed[i];
                 group.next[lane] += 1;
             }
             group.resume(lane);

@@ -9,7 +9,7 @@
 //! decisions, so that it is no less than the largest of them. Two runs of the
 //! same scene have the same bits of it, in lanes or alone.
 
-use crate::number::Number;
+use crate::number::{Number, Real};
 
 /// Largest rough estimate of error over margin at which an analysis is
 /// taken for clear in double precision.
@@ -22,13 +22,13 @@ use crate::number::Number;
 /// from below this value. `tests/trials.rs` looks at whole suites.
 pub(crate) const DOUBTFUL: f64 = 1e-4;
 
-/// Rotation over the slenderness angle below which a lowest rotation above
-/// the base is a decision that the estimate takes in.
-pub(crate) const LOW: f64 = 1e-6;
-
 /// Share of the slenderness angle that the error is held against: above it
 /// the linear propagation is not trusted.
-const PROPAGATION: f64 = 0.01;
+///
+/// So it is also the rotation, over the slenderness angle, below which a
+/// lowest rotation above the base is a decision that the estimate takes in.
+/// One above it has a larger margin than the error itself is allowed.
+pub(crate) const PROPAGATION: f64 = 0.01;
 
 /// Squarings in which the exponential of a flight's length is made.
 const SQUARINGS: u32 = 5;
@@ -38,6 +38,8 @@ const SQUARINGS: u32 = 5;
 pub(crate) struct Screen<N> {
     /// When the flight under way began.
     pub began: N,
+    /// Largest speed in it so far, at the ends of its steps.
+    pub top_speed: N,
     /// Covariance of the error of (u, w) there.
     pub uu: N,
     pub uw: N,
@@ -64,7 +66,14 @@ impl<N: Number> Screen<N> {
     /// Of a block at rest.
     pub fn at_rest() -> Self {
         let zero = N::zero();
-        Self { began: zero, uu: zero, uw: zero, ww: zero, doubt: zero }
+        Self {
+            began: zero,
+            top_speed: zero,
+            uu: zero,
+            uw: zero,
+            ww: zero,
+            doubt: zero,
+        }
     }
 
     /// Lifts at a time.
@@ -74,23 +83,31 @@ impl<N: Number> Screen<N> {
         Self { began: time, doubt: self.doubt, ..rest }
     }
 
-    /// Flies to a time, in steps of a length at about a speed.
+    /// Flies to a time, in steps of a length.
+    ///
+    /// A step rounds the velocity as its largest speed goes, not as that of
+    /// the landing: a block that has moved fast may graze its base. And the
+    /// whole flight rounds the acceleration, which is a difference of terms
+    /// as large as alpha, however slow the block is.
     #[inline(always)]
-    pub fn fly(self, time: N, inverse: N, speed: N) -> Self {
-        let Self { began, uu, uw, ww, doubt } = self;
+    pub fn fly(self, time: N, inverse: N, alpha: N) -> Self {
+        let Self { began, top_speed, uu, uw, ww, doubt } = self;
         let tau = time - began;
         let growth = growth(tau);
         let decay = N::one() / growth;
         let half = N::ratio(1, 2);
         let (c, s) = (half * (growth + decay), half * (growth - decay));
-        // Rounding of every step at that speed.
-        let rounded = N::from_f64(0.5 * f64::EPSILON) * speed;
-        let ww = (rounded * rounded).mul_add(tau * inverse, ww);
+        let roundoff = N::from_f64(0.5 * f64::EPSILON);
+        let (each, whole) = (roundoff * top_speed, roundoff * alpha * tau);
+        let steps = tau.mul_add(inverse, N::one());
+        let rounded = (each * each).mul_add(steps, whole * whole);
+        let ww = ww + rounded;
         // In parts that are as small as the flight is short.
         let (cu, su) = (c.mul_add(uu, s * uw), s.mul_add(uu, c * uw));
         let (cw, sw) = (c.mul_add(uw, s * ww), s.mul_add(uw, c * ww));
         Self {
             began: time,
+            top_speed,
             uu: c.mul_add(cu, s * cw),
             uw: c.mul_add(cw, s * cu),
             ww: s.mul_add(su, c * sw),
@@ -103,16 +120,17 @@ impl<N: Number> Screen<N> {
     #[inline(always)]
     pub fn land(self, at: &Landing<N>) -> Self {
         let Landing { time, inverse, speed, before, after, eta, alpha } = *at;
-        let there = self.fly(time, inverse, speed);
+        let there = self.fly(time, inverse, alpha);
         let Self { uu, uw, ww, doubt, .. } = there;
-        // One division for both.
-        let both = N::one() / (speed * alpha);
-        let (slow, slender) = (both * alpha, both * speed);
+        // One division for all three.
+        let all = N::one() / (speed * alpha * eta);
+        let (slow, slender) = (all * (alpha * eta), all * (speed * eta));
+        let lost = all * (speed * alpha);
         // The speed changes by w + u before/speed, the time by u/speed; the
         // hop takes 2 eta speed/after.
         let by_u = before * slow;
         let met = by_u.mul_add(by_u.mul_add(uu, uw + uw), ww);
-        let hop = after * (slow * slow) * N::ratio(1, 2);
+        let hop = after * (slow * slow) * (lost * N::ratio(1, 2));
         let room = slender * N::from_f64(1.0 / PROPAGATION);
         let doubt = (slow * slow).mul_add(met, doubt);
         let doubt = (room * room).mul_add(uu + ww, doubt);
@@ -123,6 +141,7 @@ impl<N: Number> Screen<N> {
         let after_ww = mixed.mul_add(uw + uw, kept * ww);
         Self {
             began: time,
+            top_speed: eta * speed,
             uu: kept * uu,
             uw: mixed.mul_add(uu, kept * uw),
             ww: (shear * shear).mul_add(uu, after_ww),
@@ -130,13 +149,33 @@ impl<N: Number> Screen<N> {
         }
     }
 
-    /// A decision of some margin, about a quantity that changes as u and w
-    /// do.
+    /// A lowest rotation above the base.
     #[inline(always)]
-    pub fn decide(self, margin: N) -> Self {
-        let square = self.uu + self.ww;
-        let doubt = self.doubt + square / (margin * margin);
+    pub fn miss(self, lowest: N) -> Self {
+        let doubt = self.doubt + self.uu / (lowest * lowest);
         Self { doubt, ..self }
+    }
+
+    /// The last decision, of some margin about a quantity that changes as u
+    /// and w do, and whether errors are small there.
+    #[inline(always)]
+    pub fn end(self, margin: N, alpha: N) -> Self {
+        let square = self.uu + self.ww;
+        let room = N::from_f64(1.0 / PROPAGATION) / alpha;
+        let doubt = self.doubt + square / (margin * margin);
+        let doubt = (room * room).mul_add(square, doubt);
+        Self { doubt, ..self }
+    }
+}
+
+impl<N: Real> Screen<N> {
+    /// Takes in the velocity at the end of a step.
+    #[inline(always)]
+    pub fn pass(&mut self, w: N) {
+        let speed = w.abs();
+        if speed > self.top_speed {
+            self.top_speed = speed;
+        }
     }
 }
 
@@ -156,7 +195,7 @@ fn growth<N: Number>(x: N) -> N {
 
 #[cfg(test)]
 mod tests {
-    use super::{Landing, Screen, growth};
+    use super::{DOUBTFUL, Landing, Screen, growth};
 
     #[test]
     fn the_growth_is_about_the_exponential() {
@@ -173,7 +212,7 @@ mod tests {
     #[test]
     fn an_impact_carries_the_covariance_by_the_matrices() {
         let (uu, uw, ww) = (2e-20, -1e-20, 3e-20);
-        let start = Screen { began: 0.0, uu, uw, ww, doubt: 0.0 };
+        let start = Screen { uu, uw, ww, ..Screen::at_rest() };
         let (speed, before, after, eta) = (0.1, -0.3, -0.2, 0.9);
         let at = Landing {
             time: 0.7,
@@ -204,10 +243,43 @@ mod tests {
             [before / speed * c + s, before / speed * s + c],
             [before / speed * c + s, before / speed * s + c],
         );
-        let hop = after / (2.0 * speed * speed);
+        let hop = after / (2.0 * eta * speed * speed);
         let doubt = met / (speed * speed)
             + (uu + ww) / (0.002 * 0.002)
             + uu * hop * hop;
         assert!(close(found.doubt, doubt), "{:e} {doubt:e}", found.doubt);
+    }
+    /// Rough estimate of a first hop of 100 steps that reaches a speed and
+    /// ends at another, both over alpha.
+    fn first_hop(fastest: f64, landing: f64) -> f64 {
+        let (alpha, eta) = (0.2, 0.9);
+        let at = Landing {
+            time: 2.0,
+            inverse: 50.0,
+            speed: landing * alpha,
+            before: 0.3,
+            after: -0.7,
+            eta,
+            alpha,
+        };
+        let mut flight = Screen::<f64>::at_rest().start(0.0);
+        flight.pass(-fastest * alpha);
+        flight.pass(at.speed);
+        flight.land(&at).doubt.sqrt()
+    }
+
+    /// At rest there is no error. So all of that of a first hop is what the
+    /// hop itself has rounded.
+    #[test]
+    fn a_flight_that_ends_slowly_is_rounded_at_its_largest_speed() {
+        // The error of the time of the impact is that of the hop after it.
+        let graze = first_hop(0.5, 1e-8);
+        assert!(graze > 0.1, "{graze}");
+        assert!(first_hop(0.5, 1e-6) > DOUBTFUL);
+        assert!(first_hop(0.5, 1e-4) < DOUBTFUL);
+        assert!(first_hop(0.5, 0.5) < 1e-12);
+        // A block that is driven hard flies faster than alpha.
+        let [fast, slow] = [20.0, 0.2].map(|speed| first_hop(speed, 1e-8));
+        assert!((fast / slow / 70.0 - 1.0).abs() < 0.1, "{fast} {slow}");
     }
 }

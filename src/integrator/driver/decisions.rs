@@ -9,7 +9,7 @@ use crate::integrator::driver::impact::Chatter;
 use crate::integrator::driver::{Driver, Motion, Tracked};
 use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::{Forcing, LONGEST_STEP, Place};
-use crate::integrator::screen::{LOW, Screen};
+use crate::integrator::screen::{PROPAGATION, Screen};
 use crate::integrator::taylor::{Series, value};
 use crate::number::Real;
 
@@ -124,8 +124,30 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         }
     }
 
-    /// Takes the lowest rotation of a step that sinks and rises, and ends at
-    /// a place, into the rough certificate.
+    /// Whether a step that sinks may turn near its base.
+    #[inline(always)]
+    pub(super) fn may_miss<const LEN: usize>(
+        &self,
+        series: &Series<N, LEN>,
+    ) -> bool {
+        let Series { c, v } = series;
+        let mut rest = N::zero();
+        for k in (2..LEN).rev() {
+            rest = rest + c[k].abs();
+        }
+        let low = self.dynamics.alpha * N::from_f64(PROPAGATION);
+        if !(v[0] < N::zero()) || c[0] + c[1] > low + rest {
+            return false;
+        }
+        let mut variation = N::zero();
+        for k in (1..LEN).rev() {
+            variation = variation + v[k].abs();
+        }
+        !(v[0].abs() > variation)
+    }
+
+    /// Takes the first lowest rotation of a step, which ends at a place, into
+    /// the rough certificate.
     #[inline(never)]
     pub(super) fn screen_turning<const LEN: usize>(
         &mut self,
@@ -134,16 +156,15 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     ) {
         let mut v = series.v;
         let next = next_turning(&mut v, N::one(), self.isa);
-        let Some(screen) = self.screen else { return };
-        let low = self.dynamics.alpha * N::from_f64(LOW);
-        let lowest = next.map_or(series.c[0], |(x, _)| value(&series.c, x));
-        if lowest > low {
+        let (Some(screen), Some((x, _))) = (self.screen, next) else { return };
+        let alpha = self.dynamics.alpha;
+        let lowest = value(&series.c, x);
+        if lowest > alpha * N::from_f64(PROPAGATION) {
             return;
         }
         let inverse = self.forcing.inverse(end.piece);
-        let speed = self.dynamics.alpha;
-        let there = screen.fly(self.time(end), inverse, speed);
-        let doubt = there.decide(lowest).doubt;
+        let there = screen.fly(self.time(end), inverse, alpha);
+        let doubt = there.miss(lowest).doubt;
         self.screen = Some(Screen { doubt, ..screen });
     }
 
@@ -161,11 +182,12 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if let Some(time) = end {
             let inverse = self.forcing.inverse(0);
             screen = screen.fly(time, inverse, alpha);
-            screen = screen.decide(alpha * N::from_f64(margin));
+            screen = screen.end(alpha * N::from_f64(margin), alpha);
         }
+        // Of it, at least so much is the error over all of alpha.
+        let near = PROPAGATION / own;
         let doubt = screen.doubt.to_f64();
-        let near = if own < 1.0 { own * own } else { 1.0 };
-        Some((doubt / near).sqrt())
+        Some((doubt * near.mul_add(near, 1.0)).sqrt())
     }
 
     /// A step as the errors see it.
@@ -368,3 +390,6 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if ratio > best { ratio } else { best }
     }
 }
+
+#[cfg(test)]
+mod tests;

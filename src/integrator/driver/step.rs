@@ -113,6 +113,9 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             self.assess(&series, x, &stepped, &drive, step.place);
         }
         self.turning_points(&series, x, (step.place, length));
+        if let Some(screen) = &mut self.screen {
+            screen.pass(end_w);
+        }
         if self.watched {
             self.sample_step(&series, (tau, length), step.place, side);
             self.see_forces(&series, &oriented, (x, length), step.place);
@@ -121,8 +124,7 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         step.place.offset = step.place.offset + tau;
         match event {
             Event::None => {
-                let turned = w < N::zero() && end_w > N::zero();
-                if turned && self.screen.is_some() {
+                if self.screen.is_some() && self.may_miss(&series) {
                     self.screen_turning(&series, step.place);
                 }
                 step.motion = Motion { side, u: end_u, w: end_w };

@@ -12,7 +12,7 @@ use crate::integrator::pool::roots::{descent, refine};
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::waiting::{Lane, Queue};
 use crate::integrator::pool::{GROUPS, SAFETY, SMALL};
-use crate::integrator::screen::{LOW, Landing, Screen};
+use crate::integrator::screen::{Landing, PROPAGATION, Screen};
 use crate::integrator::taylor::{Series, expand, total, value};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
@@ -43,6 +43,7 @@ pub(super) struct Batch {
     /// Start of the sample, in 1/p, and the rough certificates.
     sample: Lanes,
     began: Lanes,
+    top_speed: Lanes,
     uu: Lanes,
     uw: Lanes,
     ww: Lanes,
@@ -78,7 +79,10 @@ pub(super) struct Solved {
     /// Speed before the impact, and the forcing on the side before it.
     speed: Lanes,
     f: Lanes,
-    pub screen: [Lanes; 5],
+    /// Largest speed of the flight, to the end of the step.
+    pub top_speed: Lanes,
+    /// The rough certificates after the impacts.
+    pub screen: [Lanes; 6],
 }
 
 impl Solved {
@@ -104,7 +108,8 @@ impl Solved {
             amplitude: zero,
             speed: zero,
             f: zero,
-            screen: [zero; 5],
+            top_speed: zero,
+            screen: [zero; 6],
         }
     }
 }
@@ -116,6 +121,8 @@ struct Turning<V: Simd> {
     x: V,
     /// It takes more to tell.
     unsure: V::Mask,
+    /// The velocity surely keeps its sign.
+    goes_on: V::Mask,
 }
 
 /// The first impact of a step.
@@ -153,6 +160,7 @@ impl Batch {
             fastest: zero,
             sample: zero,
             began: zero,
+            top_speed: zero,
             uu: zero,
             uw: zero,
             ww: zero,
@@ -189,6 +197,7 @@ impl Batch {
             out.alpha[i] = group.alpha[lane];
             out.sample[i] = group.piece(lane) as f64;
             out.began[i] = group.began[lane];
+            out.top_speed[i] = group.top_speed[lane];
             out.uu[i] = group.uu[lane];
             out.uw[i] = group.uw[lane];
             out.ww[i] = group.ww[lane];
@@ -268,12 +277,15 @@ impl Batch {
         hard = hard.but_not(large);
         out.hard = hard.bits();
         let amplitude = V::load(&self.amplitude);
+        let top_speed = V::load(&self.top_speed);
         if FREE {
             out.left = left.but_not(hard).bits();
             (out.impact, out.turned) = (0, 0);
             (out.rested, out.settled) = (0, 0);
+            let end_w = total(&v);
+            top_speed.max(end_w.abs()).store(&mut out.top_speed);
             total(&c).store(&mut out.u);
-            total(&v).store(&mut out.w);
+            end_w.store(&mut out.w);
             ahead.store(&mut out.here);
             amplitude.store(&mut out.amplitude);
             zero.store(&mut out.offset);
@@ -287,11 +299,12 @@ impl Batch {
         let turning = self.turning(&c, &v, x);
         left = left.or(turning.unsure);
         let end_w = impact.select(value(&v, x), total(&v));
-        // One that sinks and rises is looked at where that may be near the
+        top_speed.max(end_w.abs()).store(&mut out.top_speed);
+        // One that sinks and may turn is looked at where that may be near the
         // base.
-        let lowest = first.lowest.lt(V::from_f64(LOW * SAFETY) * alpha);
-        let rises = w.lt(zero).and(zero.lt(end_w)).but_not(impact);
-        left = left.or(rises.and(lowest));
+        let low = V::from_f64(PROPAGATION * SAFETY) * alpha;
+        let dips = w.lt(zero).but_not(impact).but_not(turning.goes_on);
+        left = left.or(dips.and(first.lowest.lt(low)));
 
         // The impact, and whether the motion comes to rest after it.
         let fall = zero.lt(-end_w);
@@ -356,13 +369,16 @@ impl Batch {
         };
         let screen = Screen {
             began: V::load(&self.began),
+            top_speed: V::load(&out.top_speed),
             uu: V::load(&self.uu),
             uw: V::load(&self.uw),
             ww: V::load(&self.ww),
             doubt: V::load(&self.doubt),
         };
-        let Screen { began, uu, uw, ww, doubt } = screen.land(&landing);
-        for (k, value) in [began, uu, uw, ww, doubt].into_iter().enumerate() {
+        let landed = screen.land(&landing);
+        let Screen { began, top_speed, uu, uw, ww, doubt } = landed;
+        let values = [began, top_speed, uu, uw, ww, doubt];
+        for (k, value) in values.into_iter().enumerate() {
             value.store(&mut out.screen[k]);
         }
     }
@@ -422,11 +438,10 @@ impl Batch {
         }
         let rise = zero.lt(c[1]).select(c[1] * x, zero);
         let high = c[0] + rise + rest * x * x;
-        let may = V::load(&self.peak)
-            .lt(high)
-            .but_not((variation * x).lt(v[0].abs()));
+        let goes_on = (variation * x).lt(v[0].abs());
+        let may = V::load(&self.peak).lt(high).but_not(goes_on);
         if !may.any() {
-            return Turning { found: may, x: zero, unsure: may };
+            return Turning { found: may, x: zero, unsure: may, goes_on };
         }
         // Only a velocity that falls all the way turns just once.
         let sinking = v[0].lt(zero);
@@ -440,6 +455,6 @@ impl Batch {
         let found = found.and(turn.lt(x));
         // One that sinks may turn upwards, and if so does not turn back.
         let none = descent.none.or(found).or(sinking.and(descent.falls));
-        Turning { found, x: turn, unsure: may.but_not(none) }
+        Turning { found, x: turn, unsure: may.but_not(none), goes_on }
     }
 }

@@ -6,7 +6,7 @@ use crate::integrator::dynamics::{Drive, Model};
 use crate::integrator::forcing::Forcing as _;
 use crate::integrator::pool::slot::Slot;
 use crate::integrator::pool::{SAFETY, SMALL};
-use crate::integrator::screen::{LOW, Screen};
+use crate::integrator::screen::{PROPAGATION, Screen};
 use crate::integrator::taylor::{Series, expand};
 use crate::number::lanes::{Lanes, Mask, Simd, WIDTH};
 
@@ -45,11 +45,12 @@ pub(super) struct Group<'a> {
     pub alpha: Lanes,
     /// The rough certificates.
     pub began: Lanes,
+    pub top_speed: Lanes,
     pub uu: Lanes,
     pub uw: Lanes,
     pub ww: Lanes,
     pub doubt: Lanes,
-    /// Rotation above which a lowest one decides nothing.
+    /// Rotation above which a lowest rotation decides nothing.
     low: Lanes,
     pub side: [Side; WIDTH],
     pub samples: [&'a [f64]; WIDTH],
@@ -99,6 +100,7 @@ impl<'a> Group<'a> {
             eta: zero,
             alpha: zero,
             began: zero,
+            top_speed: zero,
             uu: zero,
             uw: zero,
             ww: zero,
@@ -163,6 +165,7 @@ impl<'a> Group<'a> {
         slot.driver.count_impacts(self.impacts[lane]);
         *slot.driver.screen() = Screen {
             began: self.began[lane],
+            top_speed: self.top_speed[lane],
             uu: self.uu[lane],
             uw: self.uw[lane],
             ww: self.ww[lane],
@@ -215,9 +218,10 @@ impl<'a> Group<'a> {
         self.limit[lane] = dynamics.limit;
         self.eta[lane] = dynamics.eta;
         self.alpha[lane] = dynamics.alpha;
-        self.low[lane] = dynamics.alpha * LOW * SAFETY;
-        let Screen { began, uu, uw, ww, doubt } = screen;
+        self.low[lane] = dynamics.alpha * PROPAGATION * SAFETY;
+        let Screen { began, top_speed, uu, uw, ww, doubt } = screen;
         (self.began[lane], self.doubt[lane]) = (began, doubt);
+        self.top_speed[lane] = top_speed;
         (self.uu[lane], self.uw[lane], self.ww[lane]) = (uu, uw, ww);
         self.active |= 1 << lane;
     }
@@ -253,6 +257,9 @@ impl<'a> Group<'a> {
         let clear = active.and(free).and(enough);
         clear.select(end.0, u).store(&mut self.u);
         clear.select(end.1, w).store(&mut self.w);
+        let before = V::load(&self.top_speed);
+        let top_speed = before.max(end.1.abs());
+        clear.select(top_speed, before).store(&mut self.top_speed);
         clear.select(ahead, here).store(&mut self.here);
         clear.select(V::zero(), offset).store(&mut self.offset);
         clear.count(&mut self.next);
@@ -295,8 +302,10 @@ impl<'a> Group<'a> {
         let goes_on = bow.lt(speed.min(end.1.abs())).but_not(turns);
         // By more than the root finder's rounding.
         let stays = (u * V::from_f64(STAYS)).lt(end.0);
-        // Nor low enough for its lowest rotation to decide anything.
-        let low = sag + V::load(&self.low);
+        // One that sinks and may turn: nor low enough for its lowest rotation
+        // to decide anything.
+        let dips = w.lt(V::zero()).but_not(goes_on);
+        let low = dips.select(sag + V::load(&self.low), sag);
         let above_base = low.lt(u.min(end.0)).or(goes_on.and(stays));
         let top = u.max(end.0) + sag;
         let below_limit = top.lt(V::load(&self.ceiling));

@@ -3,6 +3,7 @@
 
 mod closed_forms;
 mod convergence;
+mod curves;
 mod digits;
 mod edges;
 mod estimate;
@@ -192,6 +193,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("restitution", edges::restitution),
     ("error-estimate", estimate::estimate),
     ("certificate-trials", trials::certificate),
+    ("curves-of-first-hops", curves::first_hops),
     ("forces-at-uplift", forces::uplift),
     ("forces-in-free-motion", forces::free),
     ("forces-by-momentum", forces::momentum),

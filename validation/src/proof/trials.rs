@@ -7,6 +7,7 @@
 
 mod compare;
 mod draw;
+mod first_hop;
 mod grazing;
 mod random;
 mod records;
@@ -32,6 +33,8 @@ named! {
         Extreme = "extreme",
         /// Scenes in which a discrete decision is taken within rounding.
         Grazing = "grazing",
+        /// Scenes whose first hop after rest grazes the base.
+        FirstHop = "first-hop",
     }
 }
 
@@ -54,7 +57,7 @@ pub struct Trial {
 
 /// The scene of an address.
 ///
-/// None where a grazing scene was asked for and none of the scenes drawn
+/// None where a scene that grazes was asked for and none of the scenes drawn
 /// could be brought to graze.
 ///
 /// # Errors
@@ -77,6 +80,7 @@ pub fn trial(
         Stratum::Ordinary => Some(random::ordinary(&mut draw)),
         Stratum::Extreme => Some(random::extreme(&mut draw)),
         Stratum::Grazing => grazing::grazing(&mut draw, index)?,
+        Stratum::FirstHop => first_hop::first_hop(&mut draw)?,
     };
     Ok(found.map(|(kind, scene)| Trial {
         name: format!("{}:{index} {kind}", stratum.name()),

@@ -77,6 +77,8 @@ named! {
         TenthOfTheError = "tenth-of-the-error",
         /// Every error a hundredth of what it is.
         HundredthOfTheError = "hundredth-of-the-error",
+        /// A flight rounded as its landing's speed goes, not its largest.
+        RoundingAtTheLanding = "rounding-at-the-landing",
         /// Coefficients and pi of a wider engine rounded to double precision.
         F64Constants = "f64-constants",
         /// A/g of a wider engine rounded to double precision.

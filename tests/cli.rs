@@ -9,6 +9,8 @@ use serde_json::Value;
 
 #[path = "cli/diff.rs"]
 mod diff;
+#[path = "cli/grazing.rs"]
+mod grazing;
 #[path = "cli/limits.rs"]
 mod limits;
 #[path = "cli/means.rs"]

@@ -195,7 +195,7 @@ fn growth<N: Number>(x: N) -> N {
 
 #[cfg(test)]
 mod tests {
-    use super::{Landing, Screen, growth};
+    use super::{DOUBTFUL, Landing, Screen, growth};
 
     #[test]
     fn the_growth_is_about_the_exponential() {
@@ -212,8 +212,7 @@ mod tests {
     #[test]
     fn an_impact_carries_the_covariance_by_the_matrices() {
         let (uu, uw, ww) = (2e-20, -1e-20, 3e-20);
-        let start =
-            Screen { began: 0.0, top_speed: 0.0, uu, uw, ww, doubt: 0.0 };
+        let start = Screen { uu, uw, ww, ..Screen::at_rest() };
         let (speed, before, after, eta) = (0.1, -0.3, -0.2, 0.9);
         let at = Landing {
             time: 0.7,
@@ -244,10 +243,43 @@ mod tests {
             [before / speed * c + s, before / speed * s + c],
             [before / speed * c + s, before / speed * s + c],
         );
-        let hop = after / (2.0 * speed * speed);
+        let hop = after / (2.0 * eta * speed * speed);
         let doubt = met / (speed * speed)
             + (uu + ww) / (0.002 * 0.002)
             + uu * hop * hop;
         assert!(close(found.doubt, doubt), "{:e} {doubt:e}", found.doubt);
+    }
+    /// Rough estimate of a first hop of 100 steps that reaches a speed and
+    /// ends at another, both over alpha.
+    fn first_hop(fastest: f64, landing: f64) -> f64 {
+        let (alpha, eta) = (0.2, 0.9);
+        let at = Landing {
+            time: 2.0,
+            inverse: 50.0,
+            speed: landing * alpha,
+            before: 0.3,
+            after: -0.7,
+            eta,
+            alpha,
+        };
+        let mut flight = Screen::<f64>::at_rest().start(0.0);
+        flight.pass(-fastest * alpha);
+        flight.pass(at.speed);
+        flight.land(&at).doubt.sqrt()
+    }
+
+    /// At rest there is no error. So all of that of a first hop is what the
+    /// hop itself has rounded.
+    #[test]
+    fn a_flight_that_ends_slowly_is_rounded_at_its_largest_speed() {
+        // The error of the time of the impact is that of the hop after it.
+        let graze = first_hop(0.5, 1e-8);
+        assert!(graze > 0.1, "{graze}");
+        assert!(first_hop(0.5, 1e-6) > DOUBTFUL);
+        assert!(first_hop(0.5, 1e-4) < DOUBTFUL);
+        assert!(first_hop(0.5, 0.5) < 1e-12);
+        // A block that is driven hard flies faster than alpha.
+        let [fast, slow] = [20.0, 0.2].map(|speed| first_hop(speed, 1e-8));
+        assert!((fast / slow / 70.0 - 1.0).abs() < 0.1, "{fast} {slow}");
     }
 }

@@ -390,3 +390,6 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
         if ratio > best { ratio } else { best }
     }
 }
+
+#[cfg(test)]
+mod tests;

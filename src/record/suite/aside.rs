@@ -37,9 +37,7 @@ impl AsideReason {
             Fault::Borehole(_) => Self::Borehole,
             Fault::UnknownFormat { .. }
             | Fault::NotText { .. }
-            | Fault::Utf16(_) => {
-                Self::Format
-            }
+            | Fault::Utf16(_) => Self::Format,
             Fault::Quantity(_) => Self::Quantity,
             Fault::Unlisted => Self::Unlisted,
             Fault::Doubled => Self::Doubled,

@@ -9,8 +9,8 @@ use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{Analysis, Batch, Grid, IdaPoint, curve, curves};
 use rocking::integrator::{
-    self, Assessment, Impact, Observe, Outcome, Scene, Solver, WorkLimit,
-    certify, respond_precise, uplift_threshold,
+    self, Assessment, Certify, Impact, Observe, Outcome, Scene, Solver,
+    WorkLimit, certify, respond_precise, uplift_threshold,
 };
 use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
@@ -173,7 +173,8 @@ fn level(index: u64) -> Result<Option<Level>, MethodError> {
         None => truth::<Octuple>(&scene)?,
         told => told,
     };
-    let error = certify(&scene, WORK).map_err(refused)?.error;
+    let options = Certify { work_limit: WORK, ..Certify::default() };
+    let error = certify(&scene, &options).map_err(refused)?.error;
     // A level that is not assessed is as good as one that is not flagged.
     let error = error.unwrap_or(0.0).max(ANOTHER);
     let at_landing = at_landing(&scene, of.restitution, &record)?;

@@ -19,7 +19,6 @@ use crate::study::Study;
 use crate::study::analyses::{Plan, SuiteResults, Work};
 use crate::study::certainty::Certainty;
 use crate::study::figures::Results;
-use crate::study::findings;
 use crate::study::runs::Setup;
 use crate::suites::inputs::read_suite;
 use crate::suites::{Source, StudySuite};
@@ -92,7 +91,7 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
         told,
         [("Set aside, pulse-type suite".to_owned(), words.to_owned())]
     );
-    let found = findings::suite(&results.pulse);
+    let found = crate::study::findings::suite(&results.pulse);
     let text = serde_json::to_value(&found).expect("JSON");
     let expected = serde_json::json!([
         {"code": "format", "files": 1, "first": "<notes>.txt"}
@@ -100,7 +99,7 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
     assert_eq!(text["set_aside"], expected);
     assert_eq!(serde_json::from_value::<Suite>(text).expect("read"), found);
     // A suite without such files has the bytes of before.
-    let found = findings::suite(&results.ordinary);
+    let found = crate::study::findings::suite(&results.ordinary);
     let text = serde_json::to_value(&found).expect("JSON");
     assert_eq!(text.get("set_aside"), None);
 }

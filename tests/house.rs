@@ -12,6 +12,8 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 use serde::Deserialize;
 
+#[path = "house/edges.rs"]
+mod edges;
 #[path = "house/fixtures.rs"]
 mod fixtures;
 #[path = "house/results.rs"]
@@ -19,126 +21,8 @@ mod results;
 #[path = "house/source.rs"]
 mod source;
 
+use edges::{Edges, TREES};
 use source::{holds, named_modules, tokens};
-
-/// Which top-level module may name which: the data flow. Tests inside a module
-/// count as the module.
-type Edges = &'static [(&'static str, &'static [&'static str])];
-
-/// The modules of the core.
-const CORE: Edges = &[
-    ("block", &[]),
-    ("capacity", &["names", "statistics"]),
-    ("excitation", &["names", "number", "record"]),
-    ("fragility", &["statistics"]),
-    (
-        "ida",
-        &[
-            "block",
-            "capacity",
-            "excitation",
-            "integrator",
-            "names",
-            "number",
-            "record",
-        ],
-    ),
-    (
-        "integrator",
-        &["block", "excitation", "names", "number", "record", "stop"],
-    ),
-    ("intensity", &["names", "record", "stop", "units"]),
-    ("names", &[]),
-    ("number", &[]),
-    ("record", &["stop", "units"]),
-    ("statistics", &["names", "number", "stop", "streams"]),
-    ("stop", &[]),
-    ("streams", &[]),
-    ("units", &[]),
-];
-
-/// The modules of the texts that other programs read.
-const EXCHANGE: Edges =
-    &[("format", &["fragility", "table"]), ("fragility", &[]), ("table", &[])];
-
-/// The modules of the embedded suites.
-const SYNTHESIS: Edges = &[
-    ("near_fault", &["draws", "noise", "pair", "special"]),
-    ("ordinary", &["draws", "noise", "pair", "special"]),
-    ("pair", &["noise"]),
-    ("noise", &["draws"]),
-    ("draws", &[]),
-    ("special", &[]),
-    ("tests", &["near_fault", "ordinary", "pair"]),
-];
-
-/// The stages of the harness, the last one first.
-const HARNESS: Edges = &[
-    (
-        "cli",
-        &[
-            "curves",
-            "diff",
-            "draw",
-            "files",
-            "findings",
-            "json",
-            "paper",
-            "proof",
-            "report",
-            "speed",
-            "study",
-            "suites",
-            "surrogate",
-            "sweep",
-            "table",
-            "words",
-        ],
-    ),
-    (
-        "report",
-        &[
-            "curves", "diff", "draw", "findings", "paper", "proof", "speed",
-            "study", "suites", "table", "words",
-        ],
-    ),
-    ("diff", &["files", "findings", "proof", "words"]),
-    ("speed", &["curves", "files", "paper", "suites", "words"]),
-    (
-        "study",
-        &[
-            "curves",
-            "draw",
-            "findings",
-            "paper",
-            "suites",
-            "surrogate",
-            "sweep",
-            "table",
-            "words",
-        ],
-    ),
-    ("draw", &["paper", "table", "words"]),
-    ("proof", &["json", "table", "words"]),
-    ("surrogate", &["paper", "table"]),
-    ("sweep", &["files", "suites", "table"]),
-    ("findings", &["json", "paper"]),
-    ("suites", &["paper", "table"]),
-    ("paper", &["words"]),
-    ("curves", &[]),
-    ("table", &[]),
-    ("files", &[]),
-    ("json", &["words"]),
-    ("words", &[]),
-];
-
-/// Each source folder with its table.
-const TREES: [(&str, Edges); 4] = [
-    ("src", CORE),
-    ("exchange/src", EXCHANGE),
-    ("synthesis/src", SYNTHESIS),
-    ("validation/src", HARNESS),
-];
 
 /// Libraries beside the core: manifest and sources.
 const LIBRARIES: [(&str, &[&str]); 3] = [

@@ -25,7 +25,10 @@ use rocking::stop::{Stop, StopError};
 use super::compare::same;
 
 /// Work by name, of a size; the text of what it gives has all its bits.
-const WORK: [(&str, fn(u64) -> String); 17] = [
+/// A kind of work by its name.
+type Work = (&'static str, fn(u64) -> String);
+
+const WORK: [Work; 17] = [
     ("IDA curves", |_| {
         text(curves(&[normalised()], &[analysis()], &Batch::default()))
     }),

@@ -14,6 +14,8 @@ pub struct Comparison {
     /// The pairs by what they allow.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub pairs: Pairs,
+    /// Pairs with a ratio.
+    pub usable: usize,
     /// Share of pairs with a ratio.
     pub share: f64,
     /// Boxplot of the ratios (quantiles of type 5); none for no ratio.
@@ -64,6 +66,7 @@ pub fn compare(
     let boxplot = sample
         .and_then(|s| Boxplot::try_new(&s, QuantileType::default()).ok());
     Ok(Comparison {
+        usable: ratios.len(),
         share: pairs.share(),
         boxplot,
         sign_test: SignTest::of(ratios, 1.0),

@@ -17,7 +17,7 @@ const PGA_G: f64 = 0.218_496_395_002_941_5;
 
 /// Peak |theta|/alpha by an integrator of its own in 113-bit arithmetic,
 /// which shares no line with this one; double precision finds 0.646810.
-const PEAK: f64 = 0.633_592_238_904_015_29;
+const PEAK: f64 = 0.633_592_238_904_015_3;
 
 /// A lobe that lifts the block, one that pulls it back, one that catches it,
 /// then levels from a linear congruence, each held for four samples. The peak

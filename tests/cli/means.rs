@@ -48,7 +48,7 @@ fn no_command_takes_threads_that_it_does_not_ask_for() {
         "records suite --intensity",
         "capacities --ida ida.csv --suite suite --im cav",
         "rank --ida ida.csv --suite suite --at 1 --bootstrap 50",
-        "fragility --sample c.txt --shift 1 --bootstrap 50",
+        "fragility fit --sample c.txt --shift 1 --bootstrap 50",
         "lilliefors --sample c.txt --log",
         "ida --alpha 0.1 --p 3 --suite suite --friction 0.3 --out o.csv",
     ] {
@@ -82,7 +82,7 @@ fn memory_that_runs_out_is_a_refusal() {
     let line = |values: u32| {
         format!(
             "ulimit -v 200000; \
-             rocking quantile --sample <(seq 1 {values}) --at 0.5 >/dev/null"
+             rocking sample --sample <(seq 1 {values}) --at 0.5 >/dev/null"
         )
     };
     assert_eq!(shell(&place, &line(100)), (0, String::new()));
@@ -99,7 +99,7 @@ fn a_result_for_a_closed_standard_output_is_refused() {
         "capacities --ida ida.csv --levels 1",
         "capacities --ida ida.csv --levels 1 --json",
         "capacities --ida ida.csv --levels 1 --at 1 --out -",
-        "fragility --sample c.txt --shift 1",
+        "fragility fit --sample c.txt --shift 1",
         "records suite",
         "ida --alpha 0.1 --p 3 --suite suite --out -",
     ] {

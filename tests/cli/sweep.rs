@@ -235,11 +235,13 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     for (arguments, names) in [
         ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),
         ("--alpha 0.2 --p 8", ["p 8", "1 to 6 rad/s"]),
-        ("--alpha 0.2 --p 3 --shift 1", ["--shift", "unexpected"]),
         ("--width-m 4 --height-m 40", ["p 0.", "range of the surrogate"]),
     ] {
         refused_for(&place, &format!("fragility surface {arguments}"), &names);
     }
+    let shifted = "fragility surface --alpha 0.2 --p 3 --shift 1";
+    let said = super::support::refused(&place, shifted);
+    assert!(said.contains("--shift"), "{said}");
 }
 
 /// The script names the folder of the plan, whatever it is called, and may be

@@ -225,8 +225,10 @@ fn tables_and_samples_know_what_they_are() {
     let compare = "compare --a one.txt --b two.txt";
     let (status, out, _) = rocking(&folder, compare, "");
     assert_eq!(status, 0);
-    assert!(out.starts_with("paired by               record\n"), "{out}");
-    assert!(out.contains("0 above 1, 0 below"), "{out}");
+    assert!(out.starts_with("paired by name                  yes\n"), "{out}");
+    let equal = "sign test\n  above                         0\n  \
+                 below                         0\n";
+    assert!(out.contains(equal), "{out}");
     write("two.txt", &sample.replace("# a\n", "# z\n"));
     let (status, _, error) = rocking(&folder, compare, "");
     assert_eq!(status, 2);

@@ -259,7 +259,7 @@ fn cell(value: &Node) -> String {
 fn number(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || (1e-4..1e6).contains(&size) {
-        let before = if x == 0.0 { 0.0 } else { size.log10().floor() };
+        let before = if x == 0.0 { 0.0 } else { libm::log10(size).floor() };
         let places = (5.0 - before).clamp(0.0, 9.0) as usize;
         let text = format!("{x:.places$}");
         if places == 0 {
@@ -285,15 +285,16 @@ mod tests {
                 { "im": "pga", "median_g": 0.123_456_78 },
                 { "im": "sa:1", "median_g": 12_345_678.0 },
             ],
-            "sub": { "used": 3, "of": [{ "on": "M", "slope": 0.5 }] },
+            "sub": { "of": [{ "on": "M", "slope": 0.5 }], "used": 3 },
         });
         let expected = "\
             a (rad)                         0.15\n\
             beta                            0.4 [0.3, 0.5]\n\
             none                            none\n\
-            rows\n  im     median (g)\n  pga      0.123457\n  \
-            sa:1  1.23457e7\n\
-            sub\n  used                          3\n";
+            rows\n  im    median (g)\n  pga     0.123457\n  \
+            sa:1   1.23457e7\n\
+            sub\n  of\n    on  slope\n    M     0.5\n  \
+            used                          3\n";
         assert_eq!(text(&result).unwrap(), expected);
     }
 }

@@ -54,8 +54,7 @@ fn settings(plan: &Plan) -> Settings {
 }
 
 /// A suite of a study, and the work on it.
-#[must_use]
-pub fn suite(suite: &SuiteResults) -> Suite {
+fn suite(suite: &SuiteResults) -> Suite {
     let certainty = &suite.work.certainty;
     let name = |record: &usize| suite.records[*record].name.clone();
     Suite {
@@ -82,7 +81,9 @@ pub fn suite(suite: &SuiteResults) -> Suite {
     }
 }
 
-fn set_aside(found: &SetAside) -> Vec<Aside> {
+/// What a suite set aside, by reason.
+#[must_use]
+pub fn set_aside(found: &SetAside) -> Vec<Aside> {
     let reason = |count: AsideCount<'_>| Aside {
         code: count.reason.code().into(),
         files: count.files,

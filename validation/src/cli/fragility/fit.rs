@@ -97,7 +97,11 @@ pub(super) struct FitArgs {
     )]
     shift: Shift,
     /// How the lognormal distribution is fitted.
-    #[arg(long, value_parser = names::fit_method(), default_value = "mle")]
+    #[arg(
+        long,
+        value_parser = names::fit_method(),
+        default_value = FitMethod::MaximumLikelihood.name()
+    )]
     method: FitMethod,
     /// Type of the quantiles, 1 to 9.
     #[arg(long, value_name = "TYPE", default_value_t = 5)]

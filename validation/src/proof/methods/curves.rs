@@ -252,7 +252,8 @@ fn at_landing(
         let by_u = before / speed;
         doubt += (by_u * by_u * uu + 2.0 * by_u * uw + ww) / (speed * speed);
         doubt += (uu + ww) / (0.01 * alpha * 0.01 * alpha);
-        doubt += uu * (0.5 * after / (speed * speed)).powi(2);
+        let hop = 0.5 * after / (speed * speed);
+        doubt += uu * hop * hop;
         let shear = (eta * before + after) / speed;
         (uu, uw, ww) = (
             eta * eta * uu,

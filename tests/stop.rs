@@ -24,10 +24,10 @@ use rocking::stop::{Stop, StopError};
 
 use super::compare::same;
 
-/// Work by name, of a size; the text of what it gives has all its bits.
-/// A kind of work by its name.
+/// The name of some work, and the work of a size.
 type Work = (&'static str, fn(u64) -> String);
 
+/// The text of what the work gives has all its bits.
 const WORK: [Work; 17] = [
     ("IDA curves", |_| {
         text(curves(&[normalised()], &[analysis()], &Batch::default()))

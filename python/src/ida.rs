@@ -7,9 +7,7 @@ use pyo3::types::PyDict;
 use rayon::prelude::*;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{
-    Analysis, Batch, Grid, IdaCurve, IdaPoint, curves,
-};
+use rocking::ida::{Analysis, Batch, Grid, IdaCurve, IdaPoint, curves};
 use rocking::integrator::Outcome;
 use rocking::stop;
 

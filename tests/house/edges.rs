@@ -62,7 +62,6 @@ const HARNESS: Edges = &[
             "draw",
             "files",
             "findings",
-            "json",
             "paper",
             "proof",
             "report",

@@ -3,7 +3,7 @@
 import csv
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -71,7 +71,9 @@ def test_capacities_and_a_fragility_have_the_bits_of_the_command_line(
     assert fit.beta == said["fitted"]["dispersion"]
     for key in ("log_likelihood", "ks_distance"):
         assert getattr(fit, key) == said[key], key
-    for method, key in (("BCa", "bca"), ("percentile", "percentile")):
+    kinds: list[tuple[Literal["BCa", "percentile"], str]]
+    kinds = [("BCa", "bca"), ("percentile", "percentile")]
+    for method, key in kinds:
         interval = said["bootstrap"]["median"][key]
         found = fit.confidence_interval(method=method)
         assert found == (interval["low"], interval["high"])

@@ -364,11 +364,10 @@ pub(super) fn trust(
         None => by_chance(findings),
     };
     format!(
-        "Chance. An interval of 95 % misses on the deciding side in 2.5 % of \
-         the cases, so that chance alone may have given some verdicts \
-         ({counts}). Results share records, so such misses come together. \
-         The arms A and C, and claims with the same quotation, are not \
-         independent evidence."
+        "Chance. A 95 % interval misses on the deciding side in 2.5 % of \
+         cases: chance alone may have given some verdicts ({counts}). \
+         Results share records, so misses come together; arms A and C, and \
+         claims of one quotation, are not independent."
     )
 }
 

@@ -28,7 +28,7 @@ const METHOD: [&str; 6] = [
      where the whole interval lies outside, and inconclusive otherwise.",
 ];
 
-const GLOSSARY: [(&str, &str); 18] = [
+const GLOSSARY: [(&str, &str); 17] = [
     ("alpha", "slenderness angle of a block, atan(width/height), in rad"),
     (
         "p",
@@ -64,11 +64,6 @@ const GLOSSARY: [(&str, &str); 18] = [
         "intensity at which a record brings a block to a demand: the median \
          of those at which its curve crosses the demand; at overturning the \
          least",
-    ),
-    (
-        "arm A, arm C",
-        "the paper's grid of intensity; the same dimensionless grid for all \
-         blocks",
     ),
     ("SSFL", "lognormal fitted to the shifted sample"),
     ("USFL", "lognormal fitted to the unshifted sample"),

@@ -143,8 +143,8 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
             let own = of_group(rows, Group::Capacity, kind, intensity.name());
             let (low, high) = range(own.iter().map(|r| r.ratio.value));
             out.push(format!(
-                "Capacities in {}: medians {low:.2} to {high:.2} times the \
-                 recorded ones, {}; dispersions, {}.",
+                "Capacities in {}: medians {low:.2} to {high:.2} times \
+                 recorded, {}; dispersions, {}.",
                 intensity.name().to_uppercase(),
                 counted(own.iter().map(|r| r.medians(LIMIT))),
                 counted(own.iter().map(|r| r.dispersions(LIMIT))),
@@ -154,19 +154,33 @@ fn words(rows: &[Row], kinds: [&str; 2]) -> String {
     out.join(" ")
 }
 
-/// In how many comparisons what is shown: `of 45 5 differ, 0 agree within
-/// 10 %, 40 are open`.
+/// In how many comparisons what is shown, without what is shown in none: `all
+/// 45 open`, or `of 45 5 shown to differ, 40 open`.
 fn counted(all: impl Iterator<Item = Shown>) -> String {
     let all: Vec<Shown> = all.collect();
-    let count = |shown| all.iter().filter(|s| **s == shown).count();
-    format!(
-        "{} of {} shown to differ, {} to agree within {:.0} %, {} open",
-        count(Shown::Apart),
-        all.len(),
-        count(Shown::Alike),
-        100.0 * LIMIT,
-        count(Shown::Open),
-    )
+    let agree = format!("agree within {:.0} %", 100.0 * LIMIT);
+    let said = [
+        (Shown::Apart, "shown to differ"),
+        (Shown::Alike, agree.as_str()),
+        (Shown::Open, "open"),
+    ];
+    let found: Vec<(usize, &str)> = said
+        .into_iter()
+        .map(|(shown, words)| {
+            (all.iter().filter(|s| **s == shown).count(), words)
+        })
+        .filter(|(count, _)| *count > 0)
+        .collect();
+    match found.as_slice() {
+        [(count, words)] => format!("all {count} {words}"),
+        some => {
+            let parts: Vec<String> = some
+                .iter()
+                .map(|(count, words)| format!("{count} {words}"))
+                .collect();
+            format!("of {} {}", all.len(), parts.join(", "))
+        }
+    }
 }
 
 fn header(names: &[&str]) -> Vec<String> {
@@ -385,8 +399,8 @@ mod tests {
             capacity(nan, nan),
         ];
         let said = words(&rows, ["ordinary", "pulse-type"]);
-        let medians = "1 of 6 shown to differ, 2 to agree within 10 %, 3 open";
-        assert!(said.contains(&format!("recorded ones, {medians};")));
+        let medians = "of 6 1 shown to differ, 2 agree within 10 %, 3 open";
+        assert!(said.contains(&format!("times recorded, {medians};")));
         assert!(said.contains(&format!("dispersions, {medians}.")), "{said}");
         let motion = Row {
             group: Group::Motion,
@@ -394,7 +408,7 @@ mod tests {
             ..capacity((0.6, 1.6), (-0.4, 0.4))
         };
         let said = words(&[motion], ["ordinary", "pulse-type"]);
-        assert!(said.contains("0 of 1 shown to differ, 0 to agree"), "{said}");
+        assert!(said.contains("medians of measures: all 1 open."), "{said}");
     }
 
     #[test]

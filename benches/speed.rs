@@ -15,11 +15,11 @@ use rocking::integrator::{Model, Observe, Order, Solver, respond_precise};
 use rocking::number::double::DoubleDouble;
 use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
-use rocking_validation::curves::Execution;
-use rocking_validation::paper::BLOCKS;
-use rocking_validation::speed::cases::{self, Case};
-use rocking_validation::speed::throughput::{analyses, samples_of};
-use rocking_validation::suites::StudySuite;
+use rocking_common::curves::Execution;
+use rocking_common::paper::BLOCKS;
+use rocking_common::suites::StudySuite;
+use rocking_report::speed::cases::{self, Case};
+use rocking_report::speed::throughput::{analyses, samples_of};
 
 static RECORDS: LazyLock<Vec<NormalisedRecord>> = LazyLock::new(|| {
     let suites = StudySuite::embedded().expect("suites");

@@ -9,8 +9,8 @@ use rocking::record::{
     SuiteOptions,
 };
 use rocking::units::AccelerationUnit;
-use rocking_validation::proof::cases;
-use rocking_validation::suites::inputs;
+use rocking_common::suites::inputs;
+use rocking_proof::cases;
 
 /// Accepts the bytes, or says why not.
 pub type Target = fn(&[u8]) -> Result<(), String>;

@@ -6,11 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use rocking_validation::proof::cases::{
-    Case, Cost, FAMILIES, WrongModel, load_all,
-};
-use rocking_validation::proof::methods::{METHODS, digits, digits_csv};
-use rocking_validation::proof::verdict::{run_all, run_case, snapshot};
+use rocking_proof::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
+use rocking_proof::methods::{METHODS, digits, digits_csv};
+use rocking_proof::verdict::{run_all, run_case, snapshot};
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
@@ -98,7 +96,8 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
     });
     add("every-fixture-is-used", {
         let mut texts: Vec<String> = Vec::new();
-        for folder in ["src", "synthesis/src", "validation/src", "tests"] {
+        for folder in ["src", "surrogate", "synthesis", "validation", "tests"]
+        {
             gather(&root.join(folder), &mut |path| {
                 if path.extension().is_some_and(|e| e == "rs") {
                     texts.extend(std::fs::read_to_string(path).ok());

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 
 use browser::Browser;
 use print::Printed;
-use rocking_validation::findings::Findings;
-use rocking_validation::proof::cases::{Cost, load_all};
+use rocking_common::findings::Findings;
+use rocking_proof::cases::{Cost, load_all};
 use serde_json::Value;
 
 const CHECKS: &str = include_str!("page/checks.js");

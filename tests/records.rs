@@ -7,7 +7,7 @@ use std::process::Command;
 
 use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
-use rocking_validation::suites::inputs;
+use rocking_common::suites::inputs;
 
 #[path = "records/aside.rs"]
 mod aside;

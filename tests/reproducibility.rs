@@ -14,7 +14,7 @@ use rocking::integrator::{
 use rocking::number::dispatch::Isa;
 use rocking::record::Accelerogram;
 use rocking::streams::Streams;
-use rocking_validation::suites::inputs::sha256_hex;
+use rocking_common::suites::inputs::sha256_hex;
 
 use super::compare::hold;
 

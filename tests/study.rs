@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-use rocking_validation::report::evidence::{Proof, charts};
-use rocking_validation::report::{input, output};
-use rocking_validation::suites::StudySuite;
+use rocking_common::suites::StudySuite;
+use rocking_report::evidence::{Proof, charts};
+use rocking_report::{input, output};
 use serde_json::Value;
 
 fn study(folder: &PathBuf, args: &[&str]) -> Output {

@@ -10,12 +10,10 @@ use std::path::Path;
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::record::{Processing, ReadOptions};
-use rocking_validation::paper::BLOCKS;
-use rocking_validation::paper::SuiteKind;
-use rocking_validation::proof::trials::{
-    Judgement, Reading, Stratum, findings, trial,
-};
-use rocking_validation::suites::StudySuite;
+use rocking_common::paper::BLOCKS;
+use rocking_common::paper::SuiteKind;
+use rocking_common::suites::StudySuite;
+use rocking_proof::trials::{Judgement, Reading, Stratum, findings, trial};
 
 #[path = "trials/suites.rs"]
 mod suites;

@@ -1,7 +1,7 @@
 //! Rows of text cells as a Parquet file with typed columns.
 //!
 //! The crate is apart from the harness because `parquet` takes longer to
-//! compile than all that the harness uses; `rocking-validation` uses it with
+//! compile than all that the harness uses; `rocking-cli` uses it with
 //! the feature `parquet` alone.
 //!
 //! A file holds groups of a fixed number of rows, so that memory does not

@@ -1,8 +1,8 @@
 //! The results in the README are those of the committed report.
 
-use rocking_validation::findings::Findings;
-use rocking_validation::report::evidence::Proof;
-use rocking_validation::report::readme::renewed;
+use rocking_common::findings::Findings;
+use rocking_report::evidence::Proof;
+use rocking_report::readme::renewed;
 
 use super::{read, root};
 

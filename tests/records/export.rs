@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use rocking::record::{Accelerogram, ReadOptions};
-use rocking_validation::suites::inputs;
+use rocking_common::suites::inputs;
 
 use super::folder;
 

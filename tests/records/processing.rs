@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use rocking::record::{Accelerogram, Format, Processing, ReadOptions};
-use rocking_validation::suites::inputs;
+use rocking_common::suites::inputs;
 use sha2::{Digest as _, Sha256};
 
 use super::{folder, records};

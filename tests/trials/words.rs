@@ -4,9 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use rocking::number::Real as _;
-use rocking_validation::proof::trials::{
-    Finding, Reading, SHARES, Summary, Truth,
-};
+use rocking_proof::trials::{Finding, Reading, SHARES, Summary, Truth};
 
 /// Findings counted, in words.
 pub fn summary(findings: &[Finding]) -> String {

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    rocking_validation::cli::run()
+    rocking_cli::cli::run()
 }

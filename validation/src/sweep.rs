@@ -10,7 +10,6 @@
 mod blocks;
 mod content;
 mod cost;
-mod kept;
 mod merge;
 mod plan;
 mod tile;
@@ -26,14 +25,13 @@ use thiserror::Error;
 pub use blocks::read_blocks;
 pub use content::{Content, Kind};
 pub use cost::Tile;
-pub use kept::Kept;
 pub use merge::merge;
 use plan::MOST_ANALYSES;
 pub use plan::{Levels, Plan, Planned, Wanted};
 pub use tile::{State, left, run, state};
 
-use crate::files::WriteError;
-use crate::suites::export::ExportError;
+use rocking_common::files::WriteError;
+use rocking_common::suites::export::ExportError;
 
 /// Why a sweep cannot be planned, run or merged.
 #[derive(Debug, Error)]
@@ -116,14 +114,6 @@ pub enum SweepError {
         /// The file asked for.
         path: PathBuf,
     },
-    /// A sweep whose curves cannot be taken.
-    #[error("{}: {flaw}", path.display())]
-    Kept {
-        /// The folder.
-        path: PathBuf,
-        /// What is wrong with it.
-        flaw: Flaw,
-    },
     /// A suite that was refused.
     #[error(transparent)]
     Suite(#[from] SuiteError),
@@ -139,23 +129,6 @@ pub enum SweepError {
     /// A statistic that cannot be computed.
     #[error("{0}")]
     Statistics(String),
-}
-
-/// Why the curves of a sweep cannot be taken.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum Flaw {
-    /// It keeps no curves.
-    #[error("this sweep keeps no rows; expected a plan of `--rows`")]
-    NoRows,
-    /// Another program may find another number.
-    #[error("a sweep of {found}; expected one of {expected}, as this is")]
-    Software {
-        /// Program of the plan.
-        found: String,
-        /// This program.
-        expected: String,
-    },
 }
 
 #[cfg(test)]

@@ -9,17 +9,17 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::{Failure, note, say, study, validate};
-use crate::diff::{self, Results};
-use crate::files::{Folder, is_interrupted};
-use crate::findings::Findings;
-use crate::proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
-use crate::proof::cases::{Cost, load_all};
-use crate::proof::methods::{self, digits, digits_csv};
-use crate::proof::verdict::{Outcome, run_all, snapshot};
-use crate::report::evidence::Proof;
-use crate::report::output::{FINDINGS, Files};
-use crate::report::readme;
-use crate::report::stale::{StaleError, stale};
+use rocking_common::files::{Folder, is_interrupted};
+use rocking_common::findings::Findings;
+use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
+use rocking_proof::cases::{Cost, load_all};
+use rocking_proof::methods::{self, digits, digits_csv};
+use rocking_proof::verdict::{Outcome, run_all, snapshot};
+use rocking_report::diff::{self, Results};
+use rocking_report::evidence::Proof;
+use rocking_report::output::{FINDINGS, Files};
+use rocking_report::readme;
+use rocking_report::stale::{StaleError, stale};
 
 /// Renews every committed file that holds results of this program: the pins
 /// in tests/pins, reports/, and the table of results in README.md.

@@ -20,8 +20,8 @@ use super::names;
 use super::samples::SAMPLE_OF;
 use super::show::show;
 use super::with_threads;
-use crate::files::Outputs;
-use crate::paper::Intensity;
+use rocking_common::files::Outputs;
+use rocking_common::paper::Intensity;
 
 /// Intensities at which EDP levels are reached, from one curve or from all
 /// records of an IDA file.

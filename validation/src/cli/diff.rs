@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::study::REPORT;
 use super::{Failure, print, print_json, say};
-use crate::diff::{Results, compare};
+use rocking_report::diff::{Results, compare};
 
 /// What changed between two results, and whether it matters.
 ///

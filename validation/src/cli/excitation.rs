@@ -11,8 +11,8 @@ use super::Failure;
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use crate::paper::Intensity;
-use crate::suites::remarks::Remarks;
+use rocking_common::paper::Intensity;
+use rocking_common::suites::remarks::Remarks;
 
 /// The excitation: a record, a pulse, or none.
 #[derive(clap::Args, Clone, Debug)]

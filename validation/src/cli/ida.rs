@@ -27,11 +27,11 @@ use super::way::WayArgs;
 use super::{
     Failure, SOFTWARE, logged, print_json, progress, say, with_threads,
 };
-use crate::files::Outputs;
-use crate::suites::inputs::{files, read_suite};
-use crate::suites::remarks::Remarks;
-use crate::table::Table;
-use crate::words::printable;
+use rocking_common::files::Outputs;
+use rocking_common::suites::inputs::{files, read_suite};
+use rocking_common::suites::remarks::Remarks;
+use rocking_common::table::Table;
+use rocking_common::words::printable;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]

@@ -13,8 +13,8 @@ use serde::Serialize;
 use super::samples::SampleFile;
 use super::show::show;
 use super::{Failure, progress, with_threads};
-use crate::files::Outputs;
-use crate::table::Table as Csv;
+use rocking_common::files::Outputs;
+use rocking_common::table::Table as Csv;
 
 /// Values of a simulated sample, at most: each thread holds one.
 const MOST_VALUES: i64 = 10_000_000;

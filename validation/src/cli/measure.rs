@@ -14,8 +14,8 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
 use super::{Failure, SOFTWARE, note};
-use crate::suites::inputs::read_suite;
-use crate::suites::remarks::Remarks;
+use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::remarks::Remarks;
 
 /// Where the records are that the table was made of.
 #[derive(clap::Args, Clone, Debug)]

@@ -7,7 +7,7 @@ use rocking::integrator::{Model, Order, Overturning};
 use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
-use crate::paper::{Arm, Intensity};
+use rocking_common::paper::{Arm, Intensity};
 
 /// What each of some values is called, and what the help says of it, if
 /// anything.

@@ -15,11 +15,11 @@ use super::measure::{Ground, GroundArgs};
 use super::names;
 use super::show::show;
 use super::{Failure, with_threads};
-use crate::draw::figures::{
+use rocking_common::files::Outputs;
+use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
-use crate::draw::markup;
-use crate::files::Outputs;
+use rocking_draw::markup;
 
 /// Efficiency and sufficiency of intensity measures for a block.
 ///

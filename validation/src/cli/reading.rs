@@ -5,7 +5,7 @@ use rocking::record::{ReadOptions, SetAside};
 use rocking::units::AccelerationUnit;
 
 use super::Failure;
-use crate::suites::remarks::Remarks;
+use rocking_common::suites::remarks::Remarks;
 
 /// What record files do not state.
 #[derive(clap::Args, Clone, Copy, Debug)]

@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, print, print_json};
-use crate::files::Outputs;
-use crate::suites::inputs;
-use crate::suites::remarks::Remarks;
 use measures::{Found, MeasureArgs};
+use rocking_common::files::Outputs;
+use rocking_common::suites::inputs;
+use rocking_common::suites::remarks::Remarks;
 
 mod measures;
 mod plot;

@@ -16,12 +16,12 @@ use super::excitation::{ExcitationArgs, Ground};
 use super::limit::{LimitArgs, refused};
 use super::scene::{BlockArgs, ModelArgs};
 use super::{Failure, patiently, print, print_json};
-use crate::draw::figures::{Heading, Histories, History, HistoryPanel};
-use crate::files::{Output, Outputs};
-use crate::paper::Intensity;
-use crate::suites::remarks::Remarks;
-use crate::table::Table;
-use crate::words::printable;
+use rocking_common::files::{Output, Outputs};
+use rocking_common::paper::Intensity;
+use rocking_common::suites::remarks::Remarks;
+use rocking_common::table::Table;
+use rocking_common::words::printable;
+use rocking_draw::figures::{Heading, Histories, History, HistoryPanel};
 
 /// Integrate one block under one excitation.
 #[derive(clap::Args)]

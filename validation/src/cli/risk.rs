@@ -17,7 +17,7 @@ use super::names;
 use super::samples::{Opened, SampleFile};
 use super::scene::BlockArgs;
 use super::{Failure, print, print_json};
-use crate::paper::Intensity;
+use rocking_common::paper::Intensity;
 
 /// Mean annual frequency of overturning, or of exceeding a demand, from a
 /// hazard curve and a fragility.

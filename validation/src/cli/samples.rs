@@ -14,7 +14,7 @@ use rocking::statistics::{
 };
 use thiserror::Error;
 
-use crate::paper::Intensity;
+use rocking_common::paper::Intensity;
 
 /// Why a sample file was refused.
 #[derive(Debug, Error)]

@@ -10,19 +10,21 @@ use rocking::record::{Accelerogram, ReadOptions};
 use serde_json::{Value, json};
 
 use super::{Failure, note, print, print_json, progress};
-use crate::curves::Execution;
-use crate::files::Outputs;
-use crate::paper::BLOCKS;
-use crate::speed::answers::Answer;
-use crate::speed::cases::{self, Case};
-use crate::speed::clock::peak_memory_mib;
-use crate::speed::measured::{Total, read_answers, text, totals};
-use crate::speed::scale::{self, Axis, growth};
-use crate::speed::singles::{self, BASE, ORDERS};
-use crate::speed::throughput::{self, Job, Throughput, analyses, on_threads};
-use crate::speed::{export, many};
-use crate::suites::StudySuite;
-use crate::suites::inputs::read_suite;
+use rocking_common::curves::Execution;
+use rocking_common::files::Outputs;
+use rocking_common::paper::BLOCKS;
+use rocking_common::suites::StudySuite;
+use rocking_common::suites::inputs::read_suite;
+use rocking_report::speed::answers::Answer;
+use rocking_report::speed::cases::{self, Case};
+use rocking_report::speed::clock::peak_memory_mib;
+use rocking_report::speed::measured::{Total, read_answers, text, totals};
+use rocking_report::speed::scale::{self, Axis, growth};
+use rocking_report::speed::singles::{self, BASE, ORDERS};
+use rocking_report::speed::throughput::{
+    self, Job, Throughput, analyses, on_threads,
+};
+use rocking_report::speed::{export, many};
 
 /// Measures speed and error on this machine: thirty single analyses against
 /// double-double, and the paper's whole analysis of a suite, in lanes and

@@ -11,9 +11,9 @@ use super::capacities::{Levels, ida};
 use super::fragility::COUNTS;
 use super::names;
 use super::show::show;
-use crate::files::Outputs;
-use crate::paper::Intensity;
-use crate::table::Table;
+use rocking_common::files::Outputs;
+use rocking_common::paper::Intensity;
+use rocking_common::table::Table;
 
 /// Responses at given intensities, of all records of an IDA table.
 ///

@@ -1,7 +1,6 @@
 //! `rocking study`: the whole paper, from records to findings.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,18 +12,17 @@ use super::names;
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
 use super::way::WayArgs;
-use super::{Failure, SOFTWARE, logged, note, print, say, with_threads};
-use crate::files::{Folder, is_interrupted};
-use crate::paper::{Arm, RESTITUTION, SuiteKind};
-use crate::report::evidence::{NOT_RUN, Proof};
-use crate::report::head::Signatures;
-use crate::report::output::{self, Files};
-use crate::report::stale;
-use crate::study::Study;
-use crate::study::analyses::Plan;
-use crate::study::runs::Setup;
-use crate::suites::StudySuite;
-use crate::sweep::Kept;
+use super::{Failure, logged, note, print, say, with_threads};
+use rocking_common::files::{Folder, is_interrupted};
+use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
+use rocking_common::suites::StudySuite;
+use rocking_report::evidence::{NOT_RUN, Proof};
+use rocking_report::head::Signatures;
+use rocking_report::output::{self, Files};
+use rocking_report::stale;
+use rocking_study::Study;
+use rocking_study::analyses::Plan;
+use rocking_study::runs::Setup;
 
 /// Folder that a study writes to unless told otherwise.
 pub const REPORT: &str = "rocking-report";
@@ -80,11 +78,6 @@ pub struct Args {
     threads: Option<usize>,
     #[command(flatten)]
     way: WayArgs,
-    /// Folder of a finished `rocking sweep` with `--rows`, of which curves
-    /// with the same settings and records are taken instead of made; may be
-    /// given again. The report is the same, byte for byte.
-    #[arg(long, value_name = "DIR")]
-    sweep: Vec<PathBuf>,
     /// Folder into which `rocking validate --out` wrote validation.json and
     /// precision.csv, the results of the declared cases, which the page
     /// then shows; the folder data of the report if it holds them.
@@ -167,13 +160,6 @@ fn computed(
     let study =
         logged(&progress, || Study::run(plan, suites, args.full, &progress))?;
     progress.finish_and_clear();
-    if !args.sweep.is_empty() {
-        let (taken, made) = study.results.plan.setup.kept.counts();
-        note(&format!(
-            "{taken} of {} analyses of curves are from sweeps",
-            taken + made
-        ));
-    }
     Ok(study)
 }
 
@@ -288,7 +274,6 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
         overturning: args.overturn,
         tolerance: args.refine,
         way: args.way.way()?,
-        kept: Arc::new(Kept::read(&args.sweep, SOFTWARE)?),
     };
     Ok(Plan { setup, arms })
 }

@@ -7,10 +7,10 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::{Failure, say, with_threads};
-use crate::files::Folder;
-use crate::suites::export;
-use crate::suites::inputs::read_suite;
-use crate::suites::remarks::Remarks;
+use rocking_common::files::Folder;
+use rocking_common::suites::export;
+use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::remarks::Remarks;
 
 /// Suites of records as files.
 #[derive(clap::Args)]

@@ -14,11 +14,11 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::reading::ReadArgs;
 use super::{Failure, SOFTWARE, note, print, print_json, say, until};
-use crate::suites::inputs::read_suite;
-use crate::suites::remarks::Remarks;
 use crate::sweep::{
     self, Content, Levels, Planned, State, Wanted, read_blocks,
 };
+use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::remarks::Remarks;
 
 /// Runs many blocks over one suite in tiles: plan once, run on any number of
 /// tasks, merge.

@@ -4,8 +4,8 @@
 use std::io::{self, Write as _};
 
 use super::Failure;
-use crate::files::standard_output;
-use crate::words::printable;
+use rocking_common::files::standard_output;
+use rocking_common::words::printable;
 
 /// Name and version of the program, for results.
 pub const SOFTWARE: &str = concat!("rocking ", env!("CARGO_PKG_VERSION"));

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::{Failure, print_json, say};
-use crate::diff::{self, Results};
-use crate::files::Outputs;
-use crate::proof::cases::{Case, Cost, FAMILIES, load_all};
-use crate::proof::methods::{digits, digits_csv};
-use crate::proof::verdict::{Outcome, Verdict, run_all, snapshot};
+use rocking_common::files::Outputs;
+use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
+use rocking_proof::methods::{digits, digits_csv};
+use rocking_proof::verdict::{Outcome, Verdict, run_all, snapshot};
+use rocking_report::diff::{self, Results};
 
 /// Runs the declared cases. With `--out` it writes the results to
 /// OUT/data/validation.json, and to OUT/data/precision.csv what single,

@@ -5,7 +5,7 @@ use rocking::number::dispatch::Isa;
 
 use super::Failure;
 use super::names::named;
-use crate::curves::Execution;
+use rocking_common::curves::Execution;
 
 /// How curves are made; results are the same bits.
 #[derive(Clone, Copy, Debug, clap::Args)]

@@ -8,7 +8,7 @@ use super::SweepError;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
-use crate::files::Outputs;
+use rocking_common::files::Outputs;
 
 /// Puts the tiles together in the plan's order, one after the other: as
 /// Parquet where the name of `out` ends so, else as CSV. The bytes are the

@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 use super::SweepError;
 use super::blocks::Given;
 use super::cost::{self, Cost, Tile};
-use crate::files::write_atomically;
-use crate::suites::export;
-use crate::suites::inputs::{read_suite, sha256_hex};
+use rocking_common::files::write_atomically;
+use rocking_common::suites::export;
+use rocking_common::suites::inputs::{read_suite, sha256_hex};
 
 /// Version of the plan's shape.
 const SCHEMA: u32 = 3;

@@ -7,7 +7,7 @@ use rocking::stop::{Stop, StopError};
 
 use super::blocks::Given;
 use super::*;
-use crate::suites::inputs::{read_suite, sha256_hex};
+use rocking_common::suites::inputs::{read_suite, sha256_hex};
 
 /// A suite of three half sines in a folder.
 fn suite(folder: &Path) -> rocking::record::Suite {
@@ -169,41 +169,4 @@ fn tables_of_blocks_are_refused_with_their_line() {
         let error = read(text).unwrap_err().to_string();
         assert!(error.contains(words), "{error}");
     }
-}
-
-#[test]
-fn curves_are_taken_from_whole_sweeps_alone() {
-    let place = tempfile::tempdir().unwrap();
-    let planned = plan(place.path(), 1e-9);
-    let read = || Kept::read(&[&planned.folder], "test");
-    let refused = |words: &str| {
-        let error = read().err().unwrap().to_string();
-        assert!(error.contains(words), "{error}");
-    };
-    refused("rows-00000.csv: missing");
-    run_all(&planned, 1);
-    assert!(read().is_ok());
-    let error = Kept::read(&[&planned.folder], "another").err();
-    let error = error.unwrap().to_string();
-    assert!(error.contains("of test; expected"), "{error}");
-    for content in [Content::Rows, Content::Capacities] {
-        let path = planned.tile_path(content, 4);
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        let right = fs::read_to_string(&path).unwrap();
-        fs::write(&path, right.replacen("0.2,", "0.3,", 1)).unwrap();
-        refused(&format!("{name}: damaged"));
-        let foreign = right.replace(&planned.hash, &"0".repeat(64));
-        fs::write(&path, foreign).unwrap();
-        refused(&format!("{name}: of another plan"));
-        fs::write(&path, right).unwrap();
-    }
-    // Whole in itself, but the tile of other blocks.
-    let [a, b] = [1, 2].map(|tile| planned.tile_path(Content::Rows, tile));
-    let text = fs::read_to_string(&a).unwrap();
-    fs::copy(&b, &a).unwrap();
-    refused("rows-00001.csv: damaged");
-    fs::write(&a, text).unwrap();
-    let record = planned.folder.join("suite/b.at2");
-    fs::write(&record, fs::read_to_string(&record).unwrap() + "\n").unwrap();
-    refused("b.at2: found hash");
 }

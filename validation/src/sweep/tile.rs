@@ -14,9 +14,9 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 use super::SweepError;
 use super::content::Content;
 use super::plan::{Plan, Planned};
-use crate::files::write_atomically;
-use crate::suites::inputs::sha256_hex;
-use crate::table::Table;
+use rocking_common::files::write_atomically;
+use rocking_common::suites::inputs::sha256_hex;
+use rocking_common::table::Table;
 
 /// How a tile stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -273,7 +273,7 @@ fn fragility(
     let all = [numbers[0][0], numbers[0][1], numbers[1][0]];
     let ends = [interval(0), interval(1)].concat();
     for x in all.into_iter().chain(ends) {
-        out.push(crate::table::number(x));
+        out.push(rocking_common::table::number(x));
     }
     out
 }

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use crate::cli::samples::Opened;
 use crate::cli::table::{COLUMNS, SETTING, Setting};
-use crate::paper::Intensity;
+use rocking_common::paper::Intensity;
 
 /// Why an IDA file was refused.
 #[derive(Debug, Error)]

@@ -19,8 +19,8 @@ use crate::cli::names::{self, named};
 use crate::cli::samples::SampleFile;
 use crate::cli::scene::BlockArgs;
 use crate::cli::{Failure, print, print_json};
-use crate::files::Outputs;
-use crate::paper::Intensity;
+use rocking_common::files::Outputs;
+use rocking_common::paper::Intensity;
 
 /// What the help says of the formats.
 const FORMATS: [&str; 4] = [

@@ -17,9 +17,9 @@ use crate::cli::names;
 use crate::cli::samples::SampleFile;
 use crate::cli::show::show;
 use crate::cli::{Failure, with_threads};
-use crate::files::Outputs;
-use crate::paper::Intensity;
-use crate::table::{Table, number, optional};
+use rocking_common::files::Outputs;
+use rocking_common::paper::Intensity;
+use rocking_common::table::{Table, number, optional};
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
 /// an IDA.

@@ -7,8 +7,8 @@ use serde_json::{Map, Value, json};
 use crate::cli::Failure;
 use crate::cli::scene::BlockArgs;
 use crate::cli::show::show;
-use crate::paper::Intensity;
-use crate::surrogate::{RESTITUTION, Recorded, Surrogate};
+use rocking_common::paper::Intensity;
+use rocking_surrogate::{RESTITUTION, Recorded, Surrogate};
 
 /// Overturning fragility of a block under the embedded suites, by a fitted
 /// surface and without an analysis, with its errors.
@@ -77,7 +77,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     put("alpha_rad", json!(alpha));
     put("p_rad_s", json!(p));
     put("eta", json!(RESTITUTION));
-    put("shift", json!(crate::surrogate::SHIFT));
+    put("shift", json!(rocking_surrogate::SHIFT));
     put(
         "errors",
         "median and beta relative, prob in probability; none holds another"

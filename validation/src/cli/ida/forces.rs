@@ -9,7 +9,7 @@ use rocking::ida::{Analysis, IdaCurve, IdaError, forces_at};
 use rocking::integrator::Forces;
 use serde_json::{Value, json};
 
-use crate::table::Table;
+use rocking_common::table::Table;
 
 /// Forces at the pivot of every analysis.
 #[derive(clap::Args)]

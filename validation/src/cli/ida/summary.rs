@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::Job;
 use super::forces::Audit;
-use crate::suites::aside;
+use rocking_common::suites::aside;
 
 /// Median first overturning intensity, counting the curves that stand as
 /// infinite.

@@ -5,10 +5,10 @@ use rocking::record::Accelerogram;
 
 use super::Listed;
 use crate::cli::Failure;
-use crate::draw::figures::{
+use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
 };
-use crate::draw::markup;
+use rocking_draw::markup;
 
 /// Periods of the spectrum: 40 a decade from 0.05 to 10 s.
 const PERIODS: i32 = 92;

@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 
 use crate::cli::{Failure, print};
-use crate::files::Outputs;
-use crate::paper::SuiteKind;
-use crate::surrogate::{self, Surrogate, SurrogateError};
+use rocking_common::files::Outputs;
+use rocking_common::paper::SuiteKind;
+use rocking_surrogate::{self as surrogate, Surrogate, SurrogateError};
 
 /// Writes a table of blocks that fill the surrogate's range of p and alpha:
 /// points of Halton's sequence in ln p and alpha.

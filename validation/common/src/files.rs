@@ -1,0 +1,371 @@
+//! Files and folders as outputs: opened before the work, so that a bad place
+//! is told at once, and written whole or not at all.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use tempfile::{Builder, NamedTempFile};
+use thiserror::Error;
+
+pub use folder::{Folder, is_interrupted};
+pub use standard::standard_output;
+
+mod folder;
+mod standard;
+
+/// How the names of unfinished files and folders begin and end.
+const PART: (&str, &str) = (".rocking-", ".part");
+
+/// Locks an unfinished folder for its owner.
+const LOCK: &str = "lock";
+
+/// Age from which something unfinished and not locked is somebody's left
+/// behind, not just about to be locked.
+const LEFT_BEHIND: Duration = Duration::from_secs(10);
+
+/// A file that could not be written.
+#[derive(Debug, Error)]
+#[error("cannot write {}: {source}", path.display())]
+pub struct WriteError {
+    /// The file asked for.
+    pub path: PathBuf,
+    /// What the system said, or why it was refused.
+    #[source]
+    pub source: io::Error,
+}
+
+impl WriteError {
+    fn at(path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_owned();
+        |source| Self { path, source }
+    }
+}
+
+/// A place to write to, opened and found writable.
+///
+/// A regular file is replaced at once and keeps its mode; through a link the
+/// linked file is. A device or a named pipe is written to. `-` is standard
+/// output. A file that is mounted by itself is overwritten in place.
+#[derive(Debug)]
+pub struct Output {
+    path: PathBuf,
+    sink: Sink,
+}
+
+#[derive(Debug)]
+enum Sink {
+    Standard,
+    /// A device or a named pipe.
+    Stream(PathBuf),
+    File {
+        target: PathBuf,
+        part: NamedTempFile,
+    },
+}
+
+/// The outputs of one command: none of them is a file that it reads, and no
+/// two of them go to one place.
+///
+/// ```
+/// use std::path::Path;
+/// use rocking_common::files::Outputs;
+/// let mut outputs = Outputs::default();
+/// assert!(outputs.open(Path::new("-"))?.is_standard());
+/// let twice = outputs.open(Path::new("-")).unwrap_err().to_string();
+/// assert!(twice.contains("another output goes there"));
+/// # Ok::<(), rocking_common::files::WriteError>(())
+/// ```
+#[derive(Debug, Default)]
+pub struct Outputs {
+    inputs: Vec<PathBuf>,
+    /// Where those opened so far go.
+    taken: Vec<Place>,
+}
+
+/// Where an output goes that nothing else may go to: a device or a pipe
+/// keeps nothing that could be lost.
+#[derive(Debug, PartialEq, Eq)]
+enum Place {
+    Standard,
+    File(PathBuf),
+}
+
+impl Place {
+    fn of(sink: &Sink) -> io::Result<Option<Self>> {
+        Ok(match sink {
+            Sink::Standard => Some(Self::Standard),
+            Sink::Stream(_) => None,
+            Sink::File { target, .. } => {
+                let folder = fs::canonicalize(folder_of(target))?;
+                let name = target.file_name().unwrap_or_default();
+                Some(Self::File(folder.join(name)))
+            }
+        })
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::File(a), Self::File(b)) => a == b || is_same_file(a, b),
+            _ => self == other,
+        }
+    }
+}
+
+impl Outputs {
+    /// Outputs of a command that reads the files `inputs`.
+    #[must_use]
+    pub fn of(inputs: Vec<PathBuf>) -> Self {
+        Self { inputs, taken: Vec::new() }
+    }
+
+    /// Opens `path`.
+    ///
+    /// # Errors
+    /// [`WriteError`] for a folder, a place that cannot be written to, a file
+    /// that is read, and the place of another output.
+    pub fn open(&mut self, path: &Path) -> Result<Output, WriteError> {
+        let sink = self.sink(path).map_err(WriteError::at(path))?;
+        Ok(Output { path: path.to_owned(), sink })
+    }
+
+    /// Opens `path`, where a place is given.
+    ///
+    /// # Errors
+    /// As [`Outputs::open`].
+    pub fn open_some(
+        &mut self,
+        path: Option<&PathBuf>,
+    ) -> Result<Option<Output>, WriteError> {
+        path.map(|path| self.open(path)).transpose()
+    }
+
+    fn sink(&mut self, path: &Path) -> io::Result<Sink> {
+        let sink = Sink::open(path, &self.inputs)?;
+        if let Some(place) = Place::of(&sink)? {
+            if self.taken.iter().any(|other| place.is(other)) {
+                return Err(io::Error::other(
+                    "another output goes there: expected a file of its own",
+                ));
+            }
+            self.taken.push(place);
+        }
+        Ok(sink)
+    }
+}
+
+impl Output {
+    /// Whether it is standard output.
+    #[must_use]
+    pub fn is_standard(&self) -> bool {
+        matches!(self.sink, Sink::Standard)
+    }
+
+    /// Writes all of it.
+    ///
+    /// # Errors
+    /// [`WriteError`]; a regular file is as it was before then.
+    pub fn write(self, content: impl AsRef<[u8]>) -> Result<(), WriteError> {
+        let content = content.as_ref();
+        self.write_with(&|out| out.write_all(content))
+    }
+
+    /// Writes what `content` gives, piece by piece; it may be asked twice.
+    ///
+    /// # Errors
+    /// As [`Output::write`], and what `content` says.
+    pub fn write_with(self, content: Content<'_>) -> Result<(), WriteError> {
+        self.sink.write(content).map_err(WriteError::at(&self.path))
+    }
+}
+
+/// Writes pieces of a file to where they go.
+type Content<'a> = &'a dyn Fn(&mut (dyn io::Write + Send)) -> io::Result<()>;
+
+impl Sink {
+    fn open(path: &Path, inputs: &[PathBuf]) -> io::Result<Self> {
+        if path == Path::new("-") {
+            standard_output()?;
+            return Ok(Self::Standard);
+        }
+        let target = match fs::metadata(path) {
+            Ok(found) if found.is_dir() => {
+                return Err(io::ErrorKind::IsADirectory.into());
+            }
+            Ok(found) if !found.is_file() => {
+                return Ok(Self::Stream(path.to_owned()));
+            }
+            Ok(_) => {
+                refuse_input(path, inputs)?;
+                // Refused before the work, not after it.
+                File::options().append(true).open(path)?;
+                fs::canonicalize(path)?
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                // A link to a file that is not there yet makes that file.
+                let linked = |to| folder_of(path).join(to);
+                fs::read_link(path).map_or(path.to_owned(), linked)
+            }
+            Err(error) => return Err(error),
+        };
+        let folder = folder_of(&target);
+        remove_left_behind(folder);
+        let part = builder()
+            .tempfile_in(folder)
+            .map_err(|error| said(error, folder))?;
+        // Other runs leave alone what is locked.
+        part.as_file().lock()?;
+        if let Ok(found) = fs::metadata(&target) {
+            part.as_file().set_permissions(found.permissions())?;
+        }
+        Ok(Self::File { target, part })
+    }
+
+    fn write(self, content: Content<'_>) -> io::Result<()> {
+        match self {
+            Self::Standard => {
+                let mut out = io::stdout();
+                match content(&mut out).and_then(|()| out.flush()) {
+                    Err(e) if e.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+                    done => done,
+                }
+            }
+            Self::Stream(path) => {
+                content(&mut File::options().write(true).open(path)?)
+            }
+            Self::File { target, mut part } => {
+                content(&mut part)?;
+                part.as_file().sync_all()?;
+                match part.persist(&target).map_err(|e| e.error) {
+                    Err(error)
+                        if error.kind() == io::ErrorKind::ResourceBusy =>
+                    {
+                        // The file is mounted by itself.
+                        let mut options = File::options();
+                        let file = options.write(true).truncate(true);
+                        let mut file = file.open(&target)?;
+                        content(&mut file)?;
+                        file.sync_all()
+                    }
+                    done => done.map(drop),
+                }
+            }
+        }
+    }
+}
+
+/// Refuses to overwrite what is read.
+fn refuse_input(path: &Path, inputs: &[PathBuf]) -> io::Result<()> {
+    let path = fs::canonicalize(path)?;
+    let is_read = |input: &&PathBuf| {
+        fs::canonicalize(input).is_ok_and(|input| path == input)
+            || is_same_file(&path, input)
+    };
+    match inputs.iter().find(is_read) {
+        None => Ok(()),
+        Some(input) => Err(io::Error::other(format!(
+            "{} is read: expected another file",
+            input.display()
+        ))),
+    }
+}
+
+/// Whether two names are links to one file.
+#[cfg(unix)]
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let id = |path| fs::metadata(path).map(|m| (m.dev(), m.ino()));
+    matches!((id(a), id(b)), (Ok(a), Ok(b)) if a == b)
+}
+
+#[cfg(not(unix))]
+fn is_same_file(_: &Path, _: &Path) -> bool {
+    false
+}
+
+/// The folder that holds `path`.
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Names and rights of what is unfinished.
+fn builder() -> Builder<'static, 'static> {
+    let mut builder = Builder::new();
+    builder.prefix(PART.0).suffix(PART.1);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // The user's mask takes its part of them.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder
+}
+
+/// An error of the library without the unfinished name.
+fn said(error: io::Error, folder: &Path) -> io::Error {
+    if error.kind() == io::ErrorKind::NotFound {
+        let reason = format!("there is no folder {}", folder.display());
+        return io::Error::new(error.kind(), reason);
+    }
+    match error.raw_os_error() {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error.kind().into(),
+    }
+}
+
+/// Removes what killed runs left in `folder`; what cannot be removed stays.
+fn remove_left_behind(folder: &Path) {
+    for path in unfinished(folder) {
+        let is_folder = path.is_dir();
+        let lock = if is_folder { path.join(LOCK) } else { path.clone() };
+        let old =
+            fs::metadata(&path).and_then(|found| found.modified()).is_ok_and(
+                |then| then.elapsed().is_ok_and(|age| age >= LEFT_BEHIND),
+            );
+        let free = match File::open(&lock).map(|lock| lock.try_lock()) {
+            Ok(Ok(())) => true,
+            Ok(Err(TryLockError::WouldBlock | TryLockError::Error(_))) => {
+                false
+            }
+            Err(_) => is_folder,
+        };
+        if old && free {
+            let _ = match is_folder {
+                true => fs::remove_dir_all(&path),
+                false => fs::remove_file(&path),
+            };
+        }
+    }
+}
+
+/// Unfinished files and folders in `folder`.
+fn unfinished(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let ours = |name: &std::ffi::OsStr| {
+        name.to_str().is_some_and(|name| {
+            name.starts_with(PART.0) && name.ends_with(PART.1)
+        })
+    };
+    entries
+        .filter(|entry| ours(&entry.file_name()))
+        .map(|entry| entry.path())
+        .collect()
+}
+
+/// Writes one file whole or not at all, of which nothing is read.
+///
+/// # Errors
+/// As [`Outputs::open`] and [`Output::write`].
+pub fn write_atomically(
+    path: &Path,
+    content: impl AsRef<[u8]>,
+) -> Result<(), WriteError> {
+    Outputs::default().open(path)?.write(content)
+}
+
+#[cfg(test)]
+mod tests;

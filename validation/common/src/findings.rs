@@ -1,0 +1,551 @@
+//! What a study found, in its types: what `findings.json` holds, and what the
+//! terminal and the comparison of two studies read.
+//!
+//! The file is one object of [`Findings`]. Numbers have nine significant
+//! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
+
+mod claims;
+
+use std::fmt;
+
+use rocking::block::Block;
+use rocking::integrator::Overturning;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+
+use crate::json::nine;
+use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
+
+pub use claims::{
+    CellCounts, Claim, ClaimResult, Detail, Interval, Kind, Quantifier,
+    Region, Tested, Theme,
+};
+
+/// Version of the file's shape. It rises with every change of a field or of
+/// its meaning.
+pub const SCHEMA: u32 = 4;
+
+/// Everything that a study found.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Findings {
+    /// [`SCHEMA`] of the program that wrote it.
+    pub schema: u32,
+    /// Version of that program.
+    pub version: String,
+    /// What the study was asked to do.
+    pub settings: Settings,
+    /// The suites, and the work on them.
+    pub suites: Vec<Suite>,
+    /// The paper's claims and what was found about them.
+    pub claims: Vec<Claim>,
+    /// The numbers that claims and figures rest on.
+    pub tables: Vec<Table>,
+    /// Questions beyond the paper.
+    pub questions: Vec<Question>,
+}
+
+/// What the study was asked to do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Settings {
+    /// Arms of the intensity grid.
+    pub arms: Vec<Arm>,
+    /// Coefficient of restitution.
+    #[serde(with = "nine")]
+    pub eta: f64,
+    /// Overturning criterion.
+    pub overturning: Overturning,
+    /// Width in IM to which first overturnings are bisected.
+    #[serde(with = "nine")]
+    pub refinement_im: f64,
+}
+
+/// A suite, and the work on it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Suite {
+    /// Which of the two.
+    pub kind: SuiteKind,
+    /// Where the records come from.
+    pub source: String,
+    /// Which component of a pair is used.
+    pub component_rule: String,
+    /// Number of records.
+    pub records: usize,
+    /// SHA-256 over the records.
+    pub sha256: String,
+    /// The records, each by its name and the hash of its samples.
+    pub list: Vec<RecordName>,
+    /// Records whose histories are shown.
+    pub shown_alone: Vec<String>,
+    /// Remarks on records, where there are some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remarks: Option<String>,
+    /// What was set aside when the suite was read, for each reason.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub set_aside: Vec<Aside>,
+    /// Analyses made.
+    pub analyses: u64,
+    /// Analyses whose peak or fate rounding may have changed.
+    pub not_told_by_double_precision: usize,
+    /// First overturnings among them.
+    pub first_overturnings_told_again: ToldAgain,
+    /// Largest shift of an overturning quantile if all open fates flipped.
+    #[serde(with = "nine")]
+    pub largest_shift_if_flipped: f64,
+}
+
+/// Files that were set aside for one reason.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Aside {
+    /// The reason.
+    pub code: String,
+    /// Number of files.
+    pub files: usize,
+    /// The first of them.
+    pub first: String,
+}
+
+/// A record of a suite: enough to find it again, and no sample of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordName {
+    /// Name of the record and of its component.
+    pub name: String,
+    /// SHA-256 over the component's interval and samples.
+    pub sha256: String,
+}
+
+/// First overturnings that were told again in wider precision.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToldAgain {
+    /// All of them.
+    pub all: usize,
+    /// Told by double precision, every decision being assessed.
+    pub by_double: usize,
+    /// Told by double-double precision.
+    pub by_double_double: usize,
+    /// Told by octuple precision.
+    pub by_octuple: usize,
+    /// Told by none.
+    pub left_open: usize,
+    /// Told wrongly at first.
+    pub told_wrongly_in_double: usize,
+}
+
+/// A number, and its 95 % interval where there is one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
+pub struct Measured {
+    /// The value; NaN where there are no data.
+    pub value: f64,
+    /// 95 % interval.
+    pub interval: Option<(f64, f64)>,
+}
+
+impl Measured {
+    /// A value that is not a sample's: counted or computed exactly.
+    #[must_use]
+    pub fn exact(value: f64) -> Self {
+        Self { value, interval: None }
+    }
+}
+
+/// [`Measured`] as it is written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    #[serde(with = "nine")]
+    value: f64,
+    #[serde(with = "nine", default = "none", skip_serializing_if = "is_none")]
+    low: f64,
+    #[serde(with = "nine", default = "none", skip_serializing_if = "is_none")]
+    high: f64,
+}
+
+/// What stands for an end that is not there.
+fn none() -> f64 {
+    f64::NAN
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands it so")]
+fn is_none(x: &f64) -> bool {
+    x.is_nan()
+}
+
+impl From<Measured> for Written {
+    fn from(Measured { value, interval }: Measured) -> Self {
+        let (low, high) = interval.unwrap_or((f64::NAN, f64::NAN));
+        Self { value, low, high }
+    }
+}
+
+impl TryFrom<Written> for Measured {
+    type Error = String;
+
+    fn try_from(
+        Written { value, low, high }: Written,
+    ) -> Result<Self, String> {
+        let interval = match (low.is_nan(), high.is_nan()) {
+            (true, true) => None,
+            _ if low <= high => Some((low, high)),
+            _ => {
+                return Err(format!(
+                    "low {low}, high {high}: expected rising numbers, or \
+                     neither"
+                ));
+            }
+        };
+        Ok(Self { value, interval })
+    }
+}
+
+/// What a table is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Topic {
+    /// Shares of demand levels that the Lilliefors test accepts.
+    AcceptedShares,
+    /// Figure 9: slenderness adjusted instead of scaling the record.
+    SlendernessAdjustment,
+    /// Median overturning intensities.
+    Overturning,
+    /// Blocks that stand at an intensity above their first overturning.
+    Resurrections,
+    /// Capacities by other choices.
+    Sensitivities,
+    /// Figures 2 to 5: records one by one.
+    SingleRecords,
+    /// Records that move a block without being scaled.
+    UpliftUnscaled,
+}
+
+impl Topic {
+    /// The topic in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::AcceptedShares => "lognormality along the demand",
+            Self::SlendernessAdjustment => {
+                "slenderness adjusted instead of scaling"
+            }
+            Self::Overturning => "overturning intensities",
+            Self::Resurrections => "resurrections",
+            Self::Sensitivities => "other choices",
+            Self::SingleRecords => "records one by one",
+            Self::UpliftUnscaled => "uplift without scaling",
+        }
+    }
+}
+
+/// Rows of the same quantities at different places.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, try_from = "Columns")]
+pub struct Table {
+    /// What it is about.
+    pub topic: Topic,
+    /// The quantities, one for each value of a row.
+    pub quantities: Vec<Quantity>,
+    /// The rows.
+    pub rows: Vec<Row>,
+}
+
+/// A [`Table`] as it is read.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Columns {
+    topic: Topic,
+    quantities: Vec<Quantity>,
+    rows: Vec<Row>,
+}
+
+impl TryFrom<Columns> for Table {
+    type Error = String;
+
+    fn try_from(columns: Columns) -> Result<Self, String> {
+        let Columns { topic, quantities, rows } = columns;
+        let expected = quantities.len();
+        for (k, row) in rows.iter().enumerate() {
+            let found = row.values.len();
+            if found != expected {
+                return Err(format!(
+                    "{}, row {}: {found} values, expected {expected}",
+                    topic.words(),
+                    k + 1
+                ));
+            }
+        }
+        Ok(Self { topic, quantities, rows })
+    }
+}
+
+/// What a number of a table is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity {
+    /// Short name.
+    pub name: String,
+    /// What it is, in words.
+    pub words: String,
+    /// Its unit.
+    pub unit: Unit,
+}
+
+/// Unit of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Unit {
+    /// A number without dimension.
+    #[serde(rename = "1")]
+    One,
+    /// A number of things.
+    #[serde(rename = "count")]
+    Count,
+    /// A part of a whole, from 0 to 1.
+    #[serde(rename = "share")]
+    Share,
+    /// A difference of two shares, from -1 to 1, in percentage points when
+    /// shown.
+    #[serde(rename = "points")]
+    Points,
+    /// A distance of curves or histories, or a difference of two.
+    #[serde(rename = "distance")]
+    Distance,
+    /// A probability, or a difference of two.
+    #[serde(rename = "probability")]
+    Probability,
+}
+
+/// One place, and what was measured there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// The place.
+    pub at: Place,
+    /// A value for each quantity of the table.
+    pub values: Vec<Measured>,
+}
+
+/// What tells a row of a table from the others.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Place {
+    /// Suite.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub suite: Option<SuiteKind>,
+    /// Arm of the intensity grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub arm: Option<Arm>,
+    /// Intensity measure.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intensity: Option<Intensity>,
+    /// A choice other than the study's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub choice: Option<String>,
+    /// Frequency parameter, in rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub p_rad_s: Option<f64>,
+    /// Slenderness angle, in rad.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alpha_rad: Option<f64>,
+    /// Intensity of the stripe, PGA/(g tan alpha).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub im_pga: Option<f64>,
+    /// Demand, |theta|/alpha.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub edp: Option<f64>,
+}
+
+impl Place {
+    /// The place of a block.
+    #[must_use]
+    pub fn of(block: &Block) -> Self {
+        Self {
+            p_rad_s: Some(block.frequency_rad_s()),
+            alpha_rad: Some(block.slenderness_rad()),
+            ..Self::default()
+        }
+    }
+}
+
+/// The place within its suite and intensity measure:
+/// `p = 3, alpha = 0.20, arm C`.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number =
+            |name: &str, x: Option<f64>| x.map(|x| format!("{name} {x}"));
+        let parts = [
+            self.choice.clone(),
+            number("p =", self.p_rad_s),
+            self.alpha_rad.map(|alpha| format!("alpha = {alpha:.2}")),
+            number("PGA/(g tan alpha) =", self.im_pga),
+            number("demand", self.edp),
+            self.arm.map(|arm| format!("arm {}", arm.letter())),
+        ];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        f.write_str(&parts.join(", "))
+    }
+}
+
+/// A question beyond the paper, and its answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Question {
+    /// Short name.
+    pub id: String,
+    /// What is asked.
+    pub question: String,
+    /// What came out.
+    pub answer: String,
+    /// File with the numbers.
+    pub data: String,
+}
+
+impl Findings {
+    /// The file's text: one value a line, a line break at the end.
+    #[must_use]
+    pub fn text(&self) -> String {
+        // These types print without an error.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+    }
+
+    /// Whether a file's text is the findings of a study, of whatever
+    /// [`SCHEMA`].
+    ///
+    /// ```
+    /// use rocking_common::findings::Findings;
+    /// let other = br#"{"version": "1", "suites": [], "claims": []}"#;
+    /// assert!(!Findings::is_any(other));
+    /// ```
+    #[must_use]
+    pub fn is_any(text: &[u8]) -> bool {
+        #[derive(Deserialize)]
+        #[expect(dead_code, reason = "the reader asks for them")]
+        struct Any {
+            version: String,
+            settings: IgnoredAny,
+            suites: Vec<IgnoredAny>,
+            claims: Vec<IgnoredAny>,
+        }
+        serde_json::from_slice::<Any>(text).is_ok()
+    }
+
+    /// Findings from a file's text.
+    ///
+    /// # Errors
+    /// What the reader found instead, with line and column; findings of
+    /// another [`SCHEMA`].
+    ///
+    /// ```
+    /// use rocking_common::findings::Findings;
+    /// let error = Findings::parse(r#"{"claims": []}"#).unwrap_err();
+    /// assert!(error.contains("schema 1"));
+    /// ```
+    pub fn parse(text: &str) -> Result<Self, String> {
+        #[derive(Deserialize)]
+        struct Version {
+            #[serde(default = "first")]
+            schema: u32,
+        }
+        // The first one had no number.
+        fn first() -> u32 {
+            1
+        }
+        let found: Version =
+            serde_json::from_str(text).map_err(|e| e.to_string())?;
+        if found.schema != SCHEMA {
+            return Err(format!(
+                "findings of schema {}, expected schema {SCHEMA}: findings \
+                 of different schemas cannot be compared; make both by one \
+                 version of the program",
+                found.schema
+            ));
+        }
+        let findings: Self =
+            serde_json::from_str(text).map_err(|e| e.to_string())?;
+        for claim in &findings.claims {
+            for ClaimResult { low, high, .. } in &claim.results {
+                if !(low <= high || low.is_nan() && high.is_nan()) {
+                    return Err(format!(
+                        "claim {}: low {low}, high {high}: expected rising \
+                         numbers, or neither",
+                        claim.id
+                    ));
+                }
+            }
+        }
+        Ok(findings)
+    }
+
+    /// Number of results with this verdict, of all findings, suites and
+    /// arms.
+    #[must_use]
+    pub fn count(&self, verdict: Verdict) -> usize {
+        let results = self.claims.iter().flat_map(|claim| &claim.results);
+        results.filter(|r| r.by_equivalence == Some(verdict)).count()
+    }
+
+    /// The table of a topic, if there is one.
+    #[must_use]
+    pub fn table(&self, topic: Topic) -> Option<&Table> {
+        self.tables.iter().find(|table| table.topic == topic)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(text: &str) -> Result<Measured, String> {
+        serde_json::from_str(text).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn measured_numbers_are_read_as_they_are_written() {
+        for (value, interval) in [
+            (1.5, Some((1.0, f64::INFINITY))),
+            (f64::INFINITY, None),
+            (0.1, Some((0.1, 0.1))),
+        ] {
+            let one = Measured { value, interval };
+            let text = serde_json::to_string(&one).unwrap();
+            assert_eq!(measured(&text).unwrap(), one, "{text}");
+        }
+        let none = Measured::exact(f64::NAN);
+        let text = serde_json::to_string(&none).unwrap();
+        assert_eq!(text, r#"{"value":null}"#);
+        assert!(measured(&text).unwrap().value.is_nan());
+    }
+
+    #[test]
+    fn an_interval_that_is_none_is_refused() {
+        for text in [
+            r#"{"value":1,"low":2,"high":1}"#,
+            r#"{"value":1,"low":null,"high":1}"#,
+            r#"{"value":1,"low":1,"high":null}"#,
+        ] {
+            assert!(measured(text).unwrap_err().contains("rising"), "{text}");
+        }
+        let text = r#"{"value":"one","low":null,"high":null}"#;
+        assert!(measured(text).unwrap_err().contains("\"inf\""));
+        assert!(measured(r#"{"low":1,"high":2}"#).is_err());
+    }
+
+    #[test]
+    fn a_row_has_a_value_for_each_quantity() {
+        let text = r#"{"topic":"overturning",
+            "quantities":[{"name":"a","words":"b","unit":"1"}],
+            "rows":[{"at":{"p_rad_s":1.0},"values":[]}]}"#;
+        let error = serde_json::from_str::<Table>(text).unwrap_err();
+        assert!(error.to_string().contains("row 1: 0 values, expected 1"));
+    }
+
+    #[test]
+    fn other_schemas_are_refused() {
+        let text = format!(r#"{{"schema": {}}}"#, SCHEMA + 1);
+        let error = Findings::parse(&text).unwrap_err();
+        assert!(error.contains("different schemas"), "{error}");
+    }
+}

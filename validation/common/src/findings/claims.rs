@@ -1,0 +1,410 @@
+//! The paper's claims in the findings: what was declared, and what came out
+//! by suite and arm.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Measured, Unit};
+use crate::json::nine;
+use crate::paper::{Arm, Section, SuiteKind, Verdict};
+
+/// One statement of the paper, and what was found about it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claim {
+    /// Unique name: `ratios-p1`.
+    pub id: String,
+    /// What sort of statement it is.
+    pub kind: Kind,
+    /// What it is about.
+    pub theme: Theme,
+    /// Section of the paper, with the table or the figures.
+    pub section: Section,
+    /// The paper's words, a whole sentence with its qualifiers.
+    pub quote: String,
+    /// The statement in plain words: what the verdicts speak of; empty
+    /// unless it is a finding.
+    pub plain: String,
+    /// What is measured, in words; empty for a description.
+    pub measure: String,
+    /// Blocks measured.
+    pub blocks: String,
+    /// How many of the cells the statement speaks of.
+    pub quantifier: Option<Quantifier>,
+    /// Where a value has to lie for the statement to hold in practice, and
+    /// why there.
+    pub region: Option<Region>,
+    /// The engineering reason of the region's ends.
+    pub reason: String,
+    /// The paper's own criterion, where it states one.
+    pub criterion: String,
+    /// Declared case that checks an identity; empty otherwise.
+    pub case: String,
+    /// What else a reader must know; may be empty.
+    pub note: String,
+    /// What came out, by suite and arm; none for a description.
+    pub results: Vec<ClaimResult>,
+}
+
+/// Sort of a statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// True by definition or by arithmetic: checked as a declared case, and
+    /// counted nowhere.
+    Identity,
+    /// It can come out either way.
+    Finding,
+    /// Without measurable content: quoted, not judged.
+    Description,
+}
+
+/// What a statement is about, in the order of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Theme {
+    /// Blocks, uplift, restitution, criterion, components, resurrections.
+    Choices,
+    /// Does the slenderness drop out under a single motion?
+    SingleRecords,
+    /// Does it drop out of the statistics of a suite?
+    Statistics,
+    /// Are capacities lognormal above a shift?
+    Lognormality,
+    /// Do Eqs. 5 to 7 give the fragility?
+    Fragilities,
+}
+
+impl Theme {
+    /// All of them, in order.
+    pub const ALL: [Self; 5] = [
+        Self::Choices,
+        Self::SingleRecords,
+        Self::Statistics,
+        Self::Lognormality,
+        Self::Fragilities,
+    ];
+
+    /// The question that the theme answers.
+    #[must_use]
+    pub fn question(self) -> &'static str {
+        match self {
+            Self::Choices => {
+                "Do the model and its choices do what the paper says?"
+            }
+            Self::SingleRecords => {
+                "Does the slenderness drop out under a single motion \
+                 (Figures 2 to 5)?"
+            }
+            Self::Statistics => {
+                "Does the slenderness drop out of the statistics of a \
+                 suite, and do scaled records and adjusted slenderness \
+                 agree (Figures 6 to 10)?"
+            }
+            Self::Lognormality => {
+                "Are capacities lognormal above a shift (Figures 11 to 14)?"
+            }
+            Self::Fragilities => {
+                "Do Eqs. 5 to 7 give the fragility of the block with p = 3, \
+                 alpha = 0.20 (Figures 15 to 18)?"
+            }
+        }
+    }
+}
+
+/// How many of its cells a statement speaks of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quantifier {
+    /// There is one value.
+    One,
+    /// Every cell.
+    All,
+    /// At least 90 % of the cells; "the exception, not the rule" says the
+    /// same of the others.
+    AlmostAll,
+    /// More than half of the cells.
+    Most,
+}
+
+impl Quantifier {
+    /// The rule in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::One => "the value",
+            Self::All => "every cell",
+            Self::AlmostAll => "at least 90 % of the cells",
+            Self::Most => "more than half of the cells",
+        }
+    }
+}
+
+/// Where a value has to lie.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Region {
+    /// Between these, ends included.
+    Within(f64, f64),
+    /// Below this.
+    Below(f64),
+    /// Above this.
+    Above(f64),
+}
+
+impl Region {
+    /// Whether an interval lies in the region, outside it, or on both sides;
+    /// a missing number is inconclusive.
+    ///
+    /// ```
+    /// use rocking_common::findings::Region;
+    /// use rocking_common::paper::Verdict;
+    /// let same = Region::Within(0.95, 1.05);
+    /// assert_eq!(same.verdict(0.97, 1.03), Verdict::Confirmed);
+    /// assert_eq!(same.verdict(0.93, 1.03), Verdict::Inconclusive);
+    /// assert_eq!(same.verdict(1.06, 1.09), Verdict::NotConfirmed);
+    /// ```
+    #[must_use]
+    pub fn verdict(self, low: f64, high: f64) -> Verdict {
+        let (inside, outside) = match self {
+            Self::Within(a, b) => (low >= a && high <= b, high < a || low > b),
+            Self::Below(limit) => (high < limit, low >= limit),
+            Self::Above(limit) => (low > limit, high <= limit),
+        };
+        match (inside, outside) {
+            (true, _) => Verdict::Confirmed,
+            (_, true) => Verdict::NotConfirmed,
+            _ => Verdict::Inconclusive,
+        }
+    }
+
+    /// Whether a value lies in the region; NaN does not.
+    #[must_use]
+    pub fn holds(self, value: f64) -> bool {
+        self.verdict(value, value) == Verdict::Confirmed
+    }
+
+    /// How far a value lies from the region's middle or, with one end, how
+    /// far it lies towards the wrong side.
+    #[must_use]
+    pub fn badness(self, value: f64) -> f64 {
+        match self {
+            Self::Within(a, b) => (value - 0.5 * (a + b)).abs(),
+            Self::Below(limit) => value - limit,
+            Self::Above(limit) => limit - value,
+        }
+    }
+
+    /// The region's end that is nearest to a value.
+    #[must_use]
+    pub fn nearest_end(self, value: f64) -> f64 {
+        match self {
+            Self::Within(a, b) if (value - a).abs() < (value - b).abs() => a,
+            Self::Within(_, b) => b,
+            Self::Below(limit) | Self::Above(limit) => limit,
+        }
+    }
+}
+
+/// The region in words: `0.95 to 1.05`, `below 0.1`, `above 0.9`.
+impl fmt::Display for Region {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Within(a, b) => write!(f, "{a} to {b}"),
+            Self::Below(limit) => write!(f, "below {limit}"),
+            Self::Above(limit) => write!(f, "above {limit}"),
+        }
+    }
+}
+
+/// On what a statement was tested.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tested {
+    /// No records are needed.
+    None,
+    /// The ordinary suite.
+    Ordinary,
+    /// The pulse-type suite.
+    PulseType,
+    /// A comparison of the two.
+    Both,
+}
+
+impl Tested {
+    /// The name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Ordinary => "ordinary",
+            Self::PulseType => "pulse-type",
+            Self::Both => "both",
+        }
+    }
+}
+
+impl From<SuiteKind> for Tested {
+    fn from(kind: SuiteKind) -> Self {
+        match kind {
+            SuiteKind::Ordinary => Self::Ordinary,
+            SuiteKind::PulseType => Self::PulseType,
+        }
+    }
+}
+
+/// What came out on one suite and arm.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClaimResult {
+    /// The suite.
+    pub suite: Tested,
+    /// Arm of the grid, where there is one.
+    pub arm: Option<Arm>,
+    /// The value that decides: of one value itself, of "all" the deciding
+    /// cell, of "most" and "almost all" the share of cells in the region.
+    #[serde(with = "nine")]
+    pub value: f64,
+    /// Lower end of its 95 % interval; missing for an identity.
+    #[serde(with = "nine")]
+    pub low: f64,
+    /// Upper end of it.
+    #[serde(with = "nine")]
+    pub high: f64,
+    /// Unit of the three.
+    pub unit: Unit,
+    /// Verdict by the paper's own criterion, where it states one.
+    pub by_criterion: Option<Verdict>,
+    /// Verdict by practical equivalence; none for an identity.
+    pub by_equivalence: Option<Verdict>,
+    /// Which cell decides, or where the one value is.
+    pub at: String,
+    /// How the interval was made.
+    pub interval: Option<Interval>,
+    /// Counts of the cells, where there are several.
+    pub cells: Option<CellCounts>,
+    /// Of "most" and "almost all", the cell that bears the verdict.
+    pub deciding_cell: Option<Detail>,
+    /// What else was measured, by name.
+    pub details: Vec<Detail>,
+    /// How many records would decide, where these do not, if the value
+    /// stayed.
+    pub records_needed: Option<u64>,
+}
+
+impl ClaimResult {
+    /// Suite and arm in words: `ordinary, arm C`.
+    #[must_use]
+    pub fn place(&self) -> String {
+        let arm = self.arm.map(|arm| format!(", arm {}", arm.letter()));
+        self.suite.name().to_owned() + &arm.unwrap_or_default()
+    }
+
+    /// The value with its interval.
+    #[must_use]
+    pub fn measured(&self) -> Measured {
+        let there = self.low <= self.high;
+        Measured {
+            value: self.value,
+            interval: there.then_some((self.low, self.high)),
+        }
+    }
+}
+
+/// How an interval was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Interval {
+    /// Bootstrap of records, bias-corrected and accelerated.
+    Accelerated,
+    /// Bootstrap of records, percentiles.
+    Percentile,
+    /// Bootstrap of records, simultaneous over all cells.
+    Simultaneous,
+    /// Subsamples of records without replacement.
+    Subsampling,
+    /// Exact binomial, of a count of records.
+    Exact,
+    /// Exact binomial, simultaneous over all cells.
+    ExactSimultaneous,
+}
+
+impl Interval {
+    /// The way in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Accelerated => "bootstrap of records, BCa",
+            Self::Percentile => "bootstrap of records, percentile",
+            Self::Simultaneous => {
+                "bootstrap of records, simultaneous over all cells"
+            }
+            Self::Subsampling => {
+                "subsamples of 90 % of the records, with the range of \
+                 leaving one out"
+            }
+            Self::Exact => "exact binomial (Clopper and Pearson)",
+            Self::ExactSimultaneous => {
+                "exact binomial (Clopper and Pearson), simultaneous over all \
+                 cells by Bonferroni"
+            }
+        }
+    }
+}
+
+/// Counts of the cells of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellCounts {
+    /// Cells with enough records to decide.
+    pub deciding: usize,
+    /// Of these, cells whose whole interval lies in the region.
+    pub inside: usize,
+    /// Cells whose whole interval lies outside.
+    pub outside: usize,
+    /// Cells with too few records: shown, not counted.
+    pub too_few: usize,
+}
+
+/// A further number of a result.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Detail {
+    /// What it is.
+    pub name: String,
+    /// The value, with its interval where it has one.
+    #[serde(flatten)]
+    pub measured: Measured,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verdicts_need_the_whole_interval() {
+        use Verdict::{Confirmed, Inconclusive, NotConfirmed};
+        let same = Region::Within(0.95, 1.05);
+        assert_eq!(same.verdict(0.95, 1.05), Confirmed);
+        assert_eq!(same.verdict(0.90, 1.03), Inconclusive);
+        assert_eq!(same.verdict(1.10, 1.30), NotConfirmed);
+        assert_eq!(Region::Above(0.0).verdict(0.1, 0.3), Confirmed);
+        assert_eq!(Region::Above(0.0).verdict(-0.1, 0.3), Inconclusive);
+        assert_eq!(Region::Above(0.0).verdict(-0.1, 0.0), NotConfirmed);
+        assert_eq!(Region::Below(0.1).verdict(0.1, 0.3), NotConfirmed);
+    }
+
+    #[test]
+    fn missing_data_never_confirm() {
+        let (nan, inf) = (f64::NAN, f64::INFINITY);
+        for region in
+            [Region::Within(0.0, 1.0), Region::Above(0.0), Region::Below(0.0)]
+        {
+            assert_eq!(region.verdict(nan, nan), Verdict::Inconclusive);
+            assert_eq!(region.verdict(-inf, inf), Verdict::Inconclusive);
+            assert!(!region.holds(nan));
+        }
+    }
+}

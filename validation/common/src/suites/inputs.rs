@@ -1,0 +1,237 @@
+//! Suites from files and zips, checksums included.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use rocking::record::{
+    ReadOptions, RecordError, Suite, SuiteError, SuiteOptions, Survey,
+};
+use sha2::{Digest, Sha256};
+use zip::ZipArchive;
+
+/// The index in an archive as PEER's site delivers it.
+const SEARCH_RESULTS: &str = "_SearchResults.csv";
+
+/// How many times its size an archive may unpack to. Real records compress
+/// by 3 to 4, zero-padded ones by up to 6.
+const LARGEST_RATIO: u64 = 6;
+
+/// What an archive of any size may unpack to, in bytes.
+const SMALLEST_LIMIT: u64 = 1 << 20;
+
+/// The part of that which is left to an index, whose cells take more memory
+/// than samples.
+const INDEX_PART: u64 = 12;
+
+/// SHA-256 of `bytes` in hexadecimal.
+///
+/// ```
+/// let sum = rocking_common::suites::inputs::sha256_hex(b"abc");
+/// assert!(sum.starts_with("ba7816bf8f01cfea414140de5dae2223"));
+/// ```
+#[must_use]
+pub fn sha256_hex(bytes: &[u8]) -> String {
+    hex(&Sha256::digest(bytes))
+}
+
+/// Bytes as hexadecimal digits.
+pub(super) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Options by which an index's checksums are checked.
+#[must_use]
+pub fn suite_options(read: ReadOptions) -> SuiteOptions {
+    SuiteOptions { read, sha256_hex: Some(sha256_hex) }
+}
+
+/// Reads the suite at `path`: a folder, an index, or a zip of either.
+///
+/// # Errors
+/// As [`Suite::read`].
+pub fn read_suite(
+    path: &Path,
+    read: ReadOptions,
+) -> Result<Suite, SuiteError> {
+    survey(path, read)?.into_suite()
+}
+
+/// The files that the suite read from `path` is made of.
+#[must_use]
+pub fn files(path: &Path, suite: &Suite) -> Vec<PathBuf> {
+    let base = match path.is_dir() {
+        true => path,
+        false => path.parent().unwrap_or(Path::new("")),
+    };
+    let members = suite.members().iter().map(|m| base.join(&m.file));
+    std::iter::once(path.to_owned()).chain(members).collect()
+}
+
+/// Reads every record of the folder, index or zip at `path`, checksums
+/// included.
+///
+/// # Errors
+/// As [`Survey::read`]; [`SuiteError::Unreadable`] for a damaged zip.
+pub fn survey(path: &Path, read: ReadOptions) -> Result<Survey, SuiteError> {
+    let options = suite_options(read);
+    if path.is_dir() || !is_zip(path) {
+        return Survey::read(path, &options);
+    }
+    let shown = path.display().to_string();
+    let file = File::open(path).map_err(|e| SuiteError::Unreadable {
+        path: shown.clone(),
+        reason: e.to_string(),
+    })?;
+    survey_zip(&shown, file, &options)
+}
+
+/// Reads every record of the zip `archive`, which `shown` names in messages.
+///
+/// All that is read from it may be six times its size and an index half of
+/// it (1 MiB and 85 KiB, if it is small), so that 1 MiB takes less than
+/// 64 MiB of memory, whoever packed it.
+///
+/// # Errors
+/// As [`survey`].
+pub fn survey_zip(
+    shown: &str,
+    mut archive: impl Read + Seek,
+    options: &SuiteOptions,
+) -> Result<Survey, SuiteError> {
+    let unreadable = |reason: String| SuiteError::Unreadable {
+        path: shown.to_owned(),
+        reason,
+    };
+    let size = archive.seek(SeekFrom::End(0));
+    let size = size.map_err(|e| unreadable(e.to_string()))?;
+    let mut left = SMALLEST_LIMIT.max(size.saturating_mul(LARGEST_RATIO));
+    let index_limit = left / INDEX_PART;
+    if !has_end(&mut archive, size).map_err(|e| unreadable(e.to_string()))? {
+        let cut =
+            "the archive is cut: expected a list of its files at its end";
+        return Err(unreadable(cut.to_owned()));
+    }
+    let refuse = |e: zip::result::ZipError| unreadable(e.to_string());
+    let opened = ZipArchive::new(&mut archive).map_err(refuse)?;
+    let start = opened.central_directory_start();
+    let doubled = opened.has_duplicate_names();
+    let doubled = match doubled.then(|| doubled_names(&mut archive, start)) {
+        Some(names) => names.map_err(|e| unreadable(e.to_string()))?,
+        None => Vec::new(),
+    };
+    let mut archive = ZipArchive::new(archive).map_err(refuse)?;
+    let mut names = Vec::new();
+    for name in archive.file_names() {
+        names.push(name.map_err(refuse)?.into_owned());
+    }
+    for name in doubled {
+        let found = archive.index_for_name_raw(&name);
+        let name = found.and_then(|index| archive.name_for_index(index));
+        names.extend(name.transpose().map_err(refuse)?.map(Into::into));
+    }
+    let (base, names) = contents(names);
+    Survey::of_files(shown, &names, options, |name| {
+        let limit = if name == SEARCH_RESULTS { index_limit } else { left };
+        let mut bytes = Vec::new();
+        let path = format!("{base}{name}");
+        let done = unpack(&mut archive, &path, limit, &mut bytes);
+        // What is refused was read, too: a thousand such take no longer.
+        left = left.saturating_sub(bytes.len() as u64);
+        done.map(|()| bytes).map_err(|reason| {
+            RecordError::unreadable(&format!("{shown}/{name}"), reason)
+        })
+    })
+}
+
+/// Names in the central directory of an archive, from its `start` on, that
+/// came before; of files of one name, the archive itself knows the last.
+fn doubled_names(
+    archive: &mut (impl Read + Seek),
+    start: u64,
+) -> io::Result<Vec<Vec<u8>>> {
+    let (mut known, mut doubled) = (BTreeSet::new(), Vec::new());
+    archive.seek(SeekFrom::Start(start))?;
+    loop {
+        let (mut signature, mut head) = ([0; 4], [0; 42]);
+        archive.read_exact(&mut signature)?;
+        // Behind the entries stands a record of another signature.
+        if signature != *b"PK\x01\x02" {
+            return Ok(doubled);
+        }
+        archive.read_exact(&mut head)?;
+        // Lengths of the name, of what is added to it, and of the comment.
+        let length = |at: usize| u16::from_le_bytes([head[at], head[at + 1]]);
+        let mut name = vec![0; usize::from(length(24))];
+        archive.read_exact(&mut name)?;
+        let rest = i64::from(length(26)) + i64::from(length(28));
+        archive.seek(SeekFrom::Current(rest))?;
+        if !known.insert(name.clone()) {
+            doubled.push(name);
+        }
+    }
+}
+
+/// Whether an archive of `size` bytes has the record that ends every zip: 22
+/// bytes and a comment of at most 65,535.
+fn has_end(archive: &mut (impl Read + Seek), size: u64) -> io::Result<bool> {
+    let mut end = Vec::new();
+    archive.seek(SeekFrom::Start(size.saturating_sub(22 + 65_535)))?;
+    archive.read_to_end(&mut end)?;
+    Ok(end.windows(4).any(|bytes| bytes == b"PK\x05\x06"))
+}
+
+/// The folder of an archive that PEER's search results lie in, if any, and
+/// the files in it, by name; hidden files and folders are left out.
+fn contents(names: Vec<String>) -> (String, Vec<String>) {
+    let base = names
+        .iter()
+        .find_map(|name| name.strip_suffix(SEARCH_RESULTS))
+        .unwrap_or("")
+        .to_owned();
+    let hidden = |name: &str| {
+        name.split('/').any(|part| part.starts_with('.') || part == "__MACOSX")
+    };
+    let mut inside: Vec<String> = names
+        .iter()
+        .filter_map(|name| name.strip_prefix(base.as_str()))
+        .filter(|name| !name.ends_with('/') && !hidden(name))
+        .map(str::to_owned)
+        .collect();
+    inside.sort();
+    (base, inside)
+}
+
+/// Whether the file at `path` begins as a zip does.
+#[must_use]
+pub fn is_zip(path: &Path) -> bool {
+    let mut start = [0; 4];
+    File::open(path)
+        .and_then(|mut file| file.read_exact(&mut start))
+        .is_ok_and(|()| start == *b"PK\x03\x04")
+}
+
+/// Reads one file of an archive, if it is no larger than `limit` bytes; what
+/// was read of another is left in `bytes`.
+fn unpack(
+    archive: &mut ZipArchive<impl Read + Seek>,
+    name: &str,
+    limit: u64,
+    bytes: &mut Vec<u8>,
+) -> Result<(), String> {
+    let file = archive.by_name(name).map_err(|e| e.to_string())?;
+    // What the archive says of the size is a hint, and may be false.
+    bytes.reserve(file.size().min(limit) as usize + 1);
+    let read = file.take(limit + 1).read_to_end(bytes);
+    read.map_err(|e| e.to_string())?;
+    if bytes.len() as u64 > limit {
+        return Err(format!(
+            "unpacks to more than the {limit} bytes left to it: expected at \
+             most {LARGEST_RATIO} times the archive's size for all files and \
+             half of its size for an index; what is larger is read from the \
+             unpacked folder",
+        ));
+    }
+    Ok(())
+}

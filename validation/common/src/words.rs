@@ -1,0 +1,108 @@
+//! Numbers and names as people read them.
+
+use std::borrow::Cow;
+
+/// An enumeration whose variants have names: the same in files, in reports
+/// and in `name()`. `ALL` lists the variants.
+#[macro_export]
+macro_rules! named {
+    ($(#[$doc:meta])+ $vis:vis enum $enum:ident {
+        $($(#[$about:meta])+ $variant:ident = $name:literal),+ $(,)?
+    }) => {
+        $(#[$doc])+
+        #[derive(
+            Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash,
+            serde::Serialize, serde::Deserialize,
+        )]
+        $vis enum $enum {
+            $($(#[$about])+ #[serde(rename = $name)] $variant),+
+        }
+
+        impl $enum {
+            /// All of them.
+            pub const ALL: [Self; [$($name),+].len()] =
+                [$(Self::$variant),+];
+
+            /// The name as it stands in files and reports.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name),+
+                }
+            }
+        }
+    };
+}
+
+pub use named;
+
+/// A text of lines as a terminal may show it: other control characters as
+/// `\u001b`, which JSON reads back.
+///
+/// ```
+/// use rocking_common::words::printable;
+/// assert_eq!(printable("a\n\u{1b}[31m"), "a\n\\u001b[31m");
+/// ```
+#[must_use]
+pub fn printable(text: &str) -> Cow<'_, str> {
+    let acts = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+    if !text.contains(acts) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |c: char| match acts(c) {
+        true => format!("\\u{:04x}", u32::from(c)),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(shown).collect())
+}
+
+/// A number for people: four decimals, "none" where there is none.
+#[must_use]
+pub fn rounded_text(x: f64) -> String {
+    if x.is_nan() { "none".into() } else { format!("{x:.4}") }
+}
+
+/// The letter of a panel: a, b, c and so on.
+#[must_use]
+pub fn letter(panel: usize) -> String {
+    let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i));
+    match letter {
+        Some(c) if c.is_ascii_lowercase() => char::from(c).to_string(),
+        _ => (panel + 1).to_string(),
+    }
+}
+
+/// A number rounded to `digits` significant digits.
+#[must_use]
+pub fn rounded(x: f64, digits: usize) -> f64 {
+    format!("{x:.0$e}", digits - 1).parse().unwrap_or(x)
+}
+
+/// A share in percent; a dash where there are no data.
+#[must_use]
+pub fn percent(share: f64, decimals: usize) -> String {
+    if share.is_nan() {
+        "–".into()
+    } else {
+        format!("{:.decimals$} %", 100.0 * share)
+    }
+}
+
+/// The least and the largest of the finite numbers.
+#[must_use]
+pub fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.filter(|x| x.is_finite()).fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(low, high), x| {
+            (if x < low { x } else { low }, if x > high { x } else { high })
+        },
+    )
+}
+
+/// A word with a capital first letter.
+#[must_use]
+pub fn capital(word: &str) -> String {
+    let mut letters = word.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}

@@ -1,0 +1,329 @@
+//! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
+
+use super::common::Slendernesses;
+use super::{Figure, Heading, common};
+use rocking::statistics::Boxplot;
+
+use crate::axis::Tick;
+use crate::{
+    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample,
+    Scene,
+};
+use rocking_common::paper::Intensity;
+use rocking_common::table::{Table, number, optional};
+use rocking_common::words::letter;
+
+/// Notched boxplots of paired ratios, stripe by stripe.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boxplots {
+    /// The words.
+    pub heading: Heading,
+    /// What is compared, in markup: `*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}`.
+    pub ratio_label: String,
+    /// What a stripe is a level of.
+    pub stripes: StripeKind,
+    /// Panels row by row.
+    pub panels: Vec<BoxPanel>,
+    /// Panels in a row.
+    pub columns: usize,
+}
+
+/// What a stripe is a level of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StripeKind {
+    /// A dimensionless intensity.
+    Intensity(Intensity),
+    /// The demand, peak |theta|/alpha.
+    Demand,
+}
+
+/// One pair of blocks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoxPanel {
+    /// Frequency parameter p.
+    pub p_rad_s: f64,
+    /// Slenderness of the compared block; the colour of the boxes goes by
+    /// it.
+    pub alpha_rad: f64,
+    /// The ratio that the small-rotation limit of Eq. 1 gives, where the
+    /// panel has one: a thin line.
+    pub closed_form: Option<f64>,
+    /// More words for the panel's title, or nothing.
+    pub note: String,
+    /// Stripes in rising level.
+    pub stripes: Vec<Stripe>,
+}
+
+/// One level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stripe {
+    /// The level.
+    pub level: f64,
+    /// Number of well-defined ratios.
+    pub usable: usize,
+    /// Number of records.
+    pub records: usize,
+    /// The box; none where too few ratios are usable.
+    pub summary: Option<Boxplot>,
+}
+
+impl Stripe {
+    /// Share of the records with a well-defined ratio, 0 to 1.
+    #[must_use]
+    pub fn usable_share(&self) -> f64 {
+        if self.records == 0 {
+            return 0.0;
+        }
+        self.usable as f64 / self.records as f64
+    }
+}
+
+impl Boxplots {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
+    }
+
+    /// One row a stripe, then one row an outlier:
+    /// `panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value`.
+    fn csv(&self) -> String {
+        let mut table = Table::headed(
+            "panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value",
+        );
+        let kind = match self.stripes {
+            StripeKind::Intensity(i) => i.name(),
+            StripeKind::Demand => "edp",
+        };
+        for (i, panel) in self.panels.iter().enumerate() {
+            for stripe in &panel.stripes {
+                let mut row = |quantity: &str, value: String| {
+                    table.row([
+                        letter(i),
+                        number(panel.p_rad_s),
+                        number(panel.alpha_rad),
+                        panel.note.clone(),
+                        kind.into(),
+                        number(stripe.level),
+                        quantity.into(),
+                        value,
+                    ]);
+                };
+                row("usable", stripe.usable.to_string());
+                row("records", stripe.records.to_string());
+                let Some(b) = &stripe.summary else { continue };
+                for (quantity, value) in [
+                    ("whisker_low", b.whisker_low),
+                    ("q1", b.q1),
+                    ("notch_low", b.notch_low),
+                    ("median", b.median),
+                    ("notch_high", b.notch_high),
+                    ("q3", b.q3),
+                    ("whisker_high", b.whisker_high),
+                ] {
+                    row(quantity, number(value));
+                }
+                let interval = b.median_interval;
+                row("median_low", optional(interval.map(|i| i.low)));
+                row("median_high", optional(interval.map(|i| i.high)));
+                for outlier in &b.outliers {
+                    row("outlier", number(*outlier));
+                }
+            }
+        }
+        table.finish()
+    }
+}
+
+/// Half height of a box in units of the distance between stripes.
+const HALF: f64 = 0.30;
+/// Fewest ratios of a box with a notch: of fewer the notch often reaches
+/// beyond the quartiles.
+const NOTCHED: usize = 20;
+/// Half height at the notch.
+const WAIST: f64 = 0.15;
+/// Where the interval of the median is drawn, below the box.
+const BELOW: f64 = -0.43;
+const INTERVAL: Pen = Pen::new(Ink::Text, 1.0);
+const ONE: Pen = Pen::new(Ink::Muted, 0.9);
+const CLOSED_FORM: Pen = Pen::new(Ink::Series(1), 1.1).dash(Dash::Short);
+/// The range of every figure, unless a whisker reaches farther; outliers
+/// beyond are left out, with an arrow head at the edge.
+const USUAL: (f64, f64) = (0.2, 5.0);
+/// The widest range.
+const WIDEST: (f64, f64) = (0.1, 10.0);
+/// Width about 1, in ln, within which the axis of every figure is linear.
+const STRETCH: f64 = 0.005;
+
+fn scene(figure: &Boxplots) -> Scene {
+    let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
+    let most = figure.panels.iter().map(|p| p.stripes.len()).max();
+    let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
+    let grid = Grid::new(figure.panels.len(), figure.columns);
+    let width = match grid.columns {
+        1 | 2 => 400.0,
+        3 => 262.0,
+        _ => 196.0,
+    };
+    let grid = Grid { right: 44.0, ..grid }.plot(width, height);
+    let grid = if figure.panels.iter().any(|p| !p.note.is_empty()) {
+        grid.with_subtitles()
+    } else {
+        grid
+    };
+    let (low, high) = ratio_range(figure);
+    let mut legend =
+        if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
+    let cross = Sample::Mark(Marker::Cross, Ink::Text);
+    legend.push(Entry::new(cross, "outlier"));
+    if summaries(figure).any(|b| b.median_interval.is_some()) {
+        let words = "exact 95 % interval of the median";
+        legend.push(Entry::new(Sample::Line(INTERVAL), words));
+    }
+    if figure.panels.iter().any(|panel| panel.closed_form.is_some()) {
+        legend.push(Entry::new(Sample::Line(ONE), "ratio 1"));
+        let words = "closed form (sin *α*/*α*)/(sin 0.1/0.1)";
+        legend.push(Entry::new(Sample::Line(CLOSED_FORM), words));
+    }
+    let beyond =
+        |b: &Boxplot| b.outliers.iter().any(|x| *x > high || *x < low);
+    if summaries(figure).any(beyond) {
+        let arrow = Sample::Mark(Marker::Beyond, Ink::Text);
+        legend.push(Entry::new(arrow, "more outliers beyond the axis"));
+    }
+    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
+    let level = match figure.stripes {
+        StripeKind::Intensity(kind) => common::intensity(kind),
+        StripeKind::Demand => common::DEMAND,
+    };
+    for (i, shown) in figure.panels.iter().enumerate() {
+        let ticks = shown
+            .stripes
+            .iter()
+            .enumerate()
+            .map(|(k, s)| Tick {
+                at: (k + 1) as f64,
+                label: common::short(s.level),
+            })
+            .collect();
+        let names = vec![String::new(); shown.stripes.len()];
+        let y = Axis::named(&names).with_ticks(ticks).label(level);
+        let x = Axis::about_one(low, high, STRETCH, 27.0 / width).label(
+            format!("{} (scale stretched about 1)", figure.ratio_label),
+        );
+        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
+            .empty_because("too few usable ratios");
+        panel.vertical(1.0, ONE);
+        let ink = Ink::Series(inks.series(shown.alpha_rad));
+        draw_stripes(&mut panel, shown, ink, (low, high));
+        // Over the boxes: it is what their medians are compared with.
+        if let Some(ratio) = shown.closed_form {
+            panel.vertical(ratio, CLOSED_FORM);
+        }
+        let title = format!(
+            "{}, {}",
+            common::frequency(shown.p_rad_s),
+            common::slenderness(shown.alpha_rad)
+        );
+        panel.finish(
+            &common::panel_title(i, &title),
+            &common::words(&shown.note),
+        );
+    }
+    scene
+}
+
+fn summaries(figure: &Boxplots) -> impl Iterator<Item = &Boxplot> {
+    let stripes = figure.panels.iter().flat_map(|p| &p.stripes);
+    stripes.filter_map(|s| s.summary.as_ref())
+}
+
+/// The usual range, or what boxes and whiskers need.
+fn ratio_range(figure: &Boxplots) -> (f64, f64) {
+    let ends = summaries(figure).flat_map(|b| {
+        [b.notch_low, b.notch_high, b.whisker_low, b.whisker_high]
+    });
+    let (low, high) = common::span(ends, false).unwrap_or((1.0, 1.0));
+    (
+        (0.9 * low).clamp(WIDEST.0, USUAL.0),
+        (1.12 * high).clamp(USUAL.1, WIDEST.1),
+    )
+}
+
+fn draw_stripes(
+    panel: &mut Panel<'_>,
+    shown: &BoxPanel,
+    ink: Ink,
+    range: (f64, f64),
+) {
+    for (k, stripe) in shown.stripes.iter().enumerate() {
+        let y = (k + 1) as f64;
+        let percent = (100.0 * stripe.usable_share()).round();
+        panel.right_of(y, format!("{percent} %"));
+        if let Some(summary) = &stripe.summary {
+            let notched = stripe.usable >= NOTCHED;
+            draw_box(panel, summary, (y, notched), ink, range);
+        }
+    }
+}
+
+fn draw_box(
+    panel: &mut Panel<'_>,
+    b: &Boxplot,
+    (y, notched): (f64, bool),
+    ink: Ink,
+    (low, high): (f64, f64),
+) {
+    let pen = Pen::new(ink, 0.9);
+    let waist = if notched { WAIST } else { HALF };
+    // Without a notch its ends are the median.
+    let notch = |end: f64| if notched { end } else { b.median };
+    let corners: Vec<Point> = [
+        (b.q1, HALF),
+        (notch(b.notch_low), HALF),
+        (b.median, waist),
+        (notch(b.notch_high), HALF),
+        (b.q3, HALF),
+        (b.q3, -HALF),
+        (notch(b.notch_high), -HALF),
+        (b.median, -waist),
+        (notch(b.notch_low), -HALF),
+        (b.q1, -HALF),
+    ]
+    .into_iter()
+    .map(|(x, up)| panel.to_px((x.clamp(low, high), y + up)))
+    .collect();
+    if corners.iter().any(|c| !c.0.is_finite()) {
+        return;
+    }
+    panel.mark_used();
+    for x in &b.outliers {
+        if *x >= low && *x <= high {
+            panel.marks([(*x, y)], Marker::Cross, 2.6, ink);
+        }
+    }
+    panel.line([(b.whisker_low, y), (b.q1, y)], pen);
+    panel.line([(b.q3, y), (b.whisker_high, y)], pen);
+    for end in [b.whisker_low, b.whisker_high] {
+        let cap = HALF / 2.0;
+        panel.line([(end, y - cap), (end, y + cap)], pen);
+    }
+    panel.scene().area(&corners, Fill::tint(ink, 24));
+    panel.scene().outline(&corners, pen);
+    let median = [(b.median, y - waist), (b.median, y + waist)];
+    panel.line(median, Pen::new(ink, 1.6));
+    if let Some(interval) = b.median_interval {
+        let (from, to) = (interval.low, interval.high);
+        panel.line([(from, y + BELOW), (to, y + BELOW)], INTERVAL);
+    }
+    let edges = [
+        (b.outliers.iter().any(|x| *x > high), high, Marker::Beyond, -8.0),
+        (b.outliers.iter().any(|x| *x < low), low, Marker::BeyondLeft, 8.0),
+    ];
+    for (wanted, edge, marker, inwards) in edges {
+        if wanted {
+            let (x, y) = panel.to_px((edge, y));
+            marker.draw(panel.scene(), (x + inwards, y), 3.0, ink);
+        }
+    }
+}

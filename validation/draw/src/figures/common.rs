@@ -1,0 +1,176 @@
+//! What the figures share: names, inks by slenderness, scenes.
+
+use super::Heading;
+use crate::geometry::kept;
+use crate::{
+    Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene, legend, markup,
+};
+use rocking_common::paper::{Arm, Intensity};
+use rocking_common::words::letter;
+
+/// A scene with the grid's size, the legend drawn and room made for it.
+pub fn scene(
+    heading: &Heading,
+    grid: Grid,
+    entries: &[Entry],
+) -> (Scene, Grid) {
+    let head = grid.head + legend::height(entries, grid.total_width());
+    let grid = Grid { head, ..grid };
+    let title = match heading.arm {
+        Some(arm) => format!("{} (arm {})", heading.title, arm.letter()),
+        None => heading.title.clone(),
+    };
+    let caption = Caption {
+        name: heading.name.clone(),
+        title,
+        description: heading.description.clone(),
+    };
+    let mut scene =
+        Scene::new(caption, grid.total_width(), grid.total_height());
+    legend::draw(&mut scene, entries);
+    (scene, grid)
+}
+
+/// `(a) words`.
+pub fn panel_title(panel: usize, words: &str) -> String {
+    format!("({}) {words}", letter(panel))
+}
+
+/// `p = 3 s^-1`.
+pub fn frequency(p_rad_s: f64) -> String {
+    format!("*p* = {p_rad_s} s^{{−1}}")
+}
+
+/// `alpha = 0.10 rad`.
+pub fn slenderness(alpha_rad: f64) -> String {
+    format!("*α* = {alpha_rad:.2} rad")
+}
+
+/// Peak rotation over slenderness, as an axis label.
+pub const DEMAND: &str = "*θ̃* = max |*θ*(*t*)| / *α*";
+
+/// An intensity measure, as an axis label.
+pub fn intensity(measure: Intensity) -> &'static str {
+    match measure {
+        Intensity::Pga => "PGA / (*g* tan *α*)",
+        Intensity::Pgv => "*p* PGV / (*g* tan *α*)",
+    }
+}
+
+/// Slendernesses and the series ink of each: the study's five (multiples of
+/// 0.05) have the same ink in every figure, others go by rank.
+pub struct Slendernesses(Vec<(f64, usize)>);
+
+impl Slendernesses {
+    /// Of all values that a figure shows.
+    pub fn new(values: impl IntoIterator<Item = f64>) -> Self {
+        let mut values: Vec<f64> = values.into_iter().collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        let study = |a: f64| {
+            let k = (20.0 * a).round();
+            let known =
+                (20.0 * a - k).abs() < 1e-9 && (1.0..=6.0).contains(&k);
+            known.then_some(k as usize - 1)
+        };
+        let all: Option<Vec<usize>> =
+            values.iter().map(|a| study(*a)).collect();
+        let inks = all.unwrap_or_else(|| (0..values.len()).collect());
+        Self(values.into_iter().zip(inks).collect())
+    }
+
+    /// Series of one of them.
+    pub fn series(&self, alpha_rad: f64) -> usize {
+        let same = |(a, _): &&(f64, usize)| *a == alpha_rad;
+        self.0.iter().find(same).map_or(0, |(_, series)| *series)
+    }
+
+    /// Legend of lines.
+    pub fn lines(&self) -> Vec<Entry> {
+        let entry = |(a, k): &(f64, usize)| {
+            Entry::new(Sample::Line(Pen::of_series(*k)), slenderness(*a))
+        };
+        self.0.iter().map(entry).collect()
+    }
+
+    /// Legend of boxes.
+    pub fn boxes(&self) -> Vec<Entry> {
+        let entry = |(a, k): &(f64, usize)| {
+            Entry::new(Sample::Box(Ink::Series(*k)), slenderness(*a))
+        };
+        self.0.iter().map(entry).collect()
+    }
+}
+
+/// Smallest and largest finite value; positive ones only where `positive`.
+pub fn span(
+    values: impl IntoIterator<Item = f64>,
+    positive: bool,
+) -> Option<(f64, f64)> {
+    let usable = |x: &f64| x.is_finite() && (!positive || *x > 0.0);
+    values.into_iter().filter(usable).fold(None, |span, x| {
+        let (low, high) = span.unwrap_or((x, x));
+        Some((low.min(x), high.max(x)))
+    })
+}
+
+/// Text that came with the data, safe inside marked-up text.
+pub fn words(text: &str) -> String {
+    markup::escape(text)
+}
+
+/// The name of a record under a panel's title, cut to the panel's width.
+pub fn record(name: &str, grid: &Grid) -> String {
+    words(&markup::fit(name, 10.0, grid.width + 20.0))
+}
+
+/// A number for titles: two decimals, no trailing zeros.
+pub fn short(x: f64) -> String {
+    if !x.is_finite() {
+        return String::from("unknown");
+    }
+    let text = format!("{x:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Legend words for an arm.
+pub fn arm_words(arm: Arm) -> &'static str {
+    match arm {
+        Arm::A => "arm A: 0.01 *g* steps",
+        Arm::B => "arm B: 0.01 *g* steps, bisected",
+        Arm::C => "arm C: equal dimensionless steps, bisected",
+    }
+}
+
+/// Legend of the mark at an overturning.
+pub fn overturned_entry() -> Entry {
+    Entry::new(Sample::Mark(Marker::Cross, Ink::Text), "overturned")
+}
+
+/// How far the curve left may be from the full one, in px.
+const TOLERANCE_PX: f64 = 0.1;
+
+/// Thins a curve drawn with this many px a unit of x and of y, from its
+/// first point to the last one that is finite; of those after it the first
+/// stays.
+pub fn thin(x: &mut Vec<f64>, y: &mut Vec<f64>, px: (f64, f64)) {
+    let points: Vec<_> = x
+        .iter()
+        .zip(y.iter())
+        .take_while(|(x, y)| x.is_finite() && y.is_finite())
+        .map(|(x, y)| (px.0 * x, px.1 * y))
+        .collect();
+    let mut keep = kept(&points, TOLERANCE_PX);
+    keep.push(true);
+    for values in [x, y] {
+        let mut keep = keep.iter();
+        values.retain(|_| keep.next() == Some(&true));
+    }
+}
+
+/// Largest finite magnitude, or 1.
+pub fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
+    let finite = values.map(|x| x.abs()).filter(|x| x.is_finite());
+    let most = finite.fold(0.0, f64::max);
+    if most > 0.0 { most } else { 1.0 }
+}

@@ -1,0 +1,181 @@
+//! Figure 1: the block and its symbols.
+
+use super::{Figure, Heading};
+use crate::{
+    Caption, Dash, Fill, Horizontal, Ink, Pen, Point, Scene, TextLine,
+};
+use rocking_common::table::{Table, number};
+
+/// The block with its symbols, rotated about its right-hand pivot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockSketch {
+    /// The words.
+    pub heading: Heading,
+    /// Slenderness of the drawn block (0.25 to 0.45 reads well).
+    pub alpha_rad: f64,
+    /// Drawn rotation, positive (0.1 to 0.25 reads well).
+    pub rotation_rad: f64,
+}
+
+impl BlockSketch {
+    /// The figure, with a sentence that says what one sees in it.
+    #[must_use]
+    pub fn figure(&self, reading: String) -> Figure {
+        Figure::new(&self.heading, scene(self), self.csv(), reading)
+    }
+
+    /// `quantity,value,unit`.
+    fn csv(&self) -> String {
+        let mut table = Table::new(&["quantity", "value", "unit"]);
+        let rows =
+            [("slenderness", self.alpha_rad), ("rotation", self.rotation_rad)];
+        for (name, value) in rows {
+            table.row([name.into(), number(value), "rad".into()]);
+        }
+        table.finish()
+    }
+}
+
+const WIDTH: f64 = 460.0;
+const HEIGHT: f64 = 430.0;
+/// Half diagonal R in px.
+const HALF_DIAGONAL: f64 = 158.0;
+/// The pivot O'.
+const PIVOT: Point = (268.0, 372.0);
+const SIZE: f64 = 14.0;
+const THIN: Pen = Pen::new(Ink::Text, 0.8);
+
+/// A vector of this length, `angle` rad from the upward vertical, positive
+/// to the right, from a point.
+fn from((x, y): Point, length: f64, angle: f64) -> Point {
+    (
+        length.mul_add(libm::sin(angle), x),
+        (-length).mul_add(libm::cos(angle), y),
+    )
+}
+
+fn scene(figure: &BlockSketch) -> Scene {
+    let caption = Caption {
+        name: figure.heading.name.clone(),
+        title: figure.heading.title.clone(),
+        description: figure.heading.description.clone(),
+    };
+    let mut scene = Scene::new(caption, WIDTH, HEIGHT);
+    let alpha = figure.alpha_rad.clamp(0.1, 0.6);
+    let theta = figure.rotation_rad.clamp(0.05, 0.35);
+    let base = 2.0 * HALF_DIAGONAL * libm::sin(alpha);
+    let height = 2.0 * HALF_DIAGONAL * libm::cos(alpha);
+    ground(&mut scene);
+    let at_rest = corners(base, height, 0.0);
+    scene.outline(&at_rest, Pen::new(Ink::Muted, 0.8).dash(Dash::Dashed));
+    let rotated = corners(base, height, theta);
+    scene.area(&rotated, Fill::tint(Ink::Series(0), 14));
+    scene.outline(&rotated, Pen::new(Ink::Series(0), 1.5));
+    dimensions(&mut scene, &rotated);
+    angles(&mut scene, alpha, theta);
+    let right = std::f64::consts::FRAC_PI_2;
+    let left_pivot = from(PIVOT, -base, right);
+    for (at, name, aside) in [(PIVOT, "O′", 11.0), (left_pivot, "O", -11.0)]
+    {
+        scene.dot(at, 2.4, Ink::Text);
+        let at = (at.0 + aside, at.1 + 17.0);
+        word(&mut scene, name, at);
+    }
+    excitation(&mut scene);
+    scene
+}
+
+/// Corners of the block turned about its right-hand pivot.
+fn corners(base: f64, height: f64, turn: f64) -> [Point; 4] {
+    let right = std::f64::consts::FRAC_PI_2;
+    let left = from(PIVOT, -base, right + turn);
+    [left, from(left, height, turn), from(PIVOT, height, turn), PIVOT]
+}
+
+fn word(scene: &mut Scene, markup: &str, at: Point) {
+    let line = TextLine::new(markup, at, Horizontal::Centre);
+    scene.text(line.size(SIZE));
+}
+
+fn ground(scene: &mut Scene) {
+    let (left, right, y) = (40.0, WIDTH - 40.0, PIVOT.1);
+    scene.line(&[(left, y), (right, y)], Pen::new(Ink::Text, 1.2));
+    let mut x = left + 4.0;
+    while x < right {
+        scene.line(&[(x, y), (x - 7.0, y + 7.0)], Pen::new(Ink::Muted, 0.6));
+        x += 9.0;
+    }
+}
+
+/// An arrow head at `tip`, coming along `angle` from the upward vertical.
+fn head(scene: &mut Scene, tip: Point, angle: f64, ink: Ink) {
+    let back = angle + std::f64::consts::PI;
+    let wings = [from(tip, 8.0, back - 0.33), from(tip, 8.0, back + 0.33)];
+    scene.area(&[tip, wings[0], wings[1]], Fill::solid(ink));
+}
+
+/// A line with an arrow head at each end.
+fn measure(scene: &mut Scene, a: Point, b: Point) {
+    let angle = libm::atan2(b.0 - a.0, a.1 - b.1);
+    scene.line(&[a, b], THIN);
+    head(scene, b, angle, Ink::Text);
+    head(scene, a, angle + std::f64::consts::PI, Ink::Text);
+}
+
+/// 2b along the top, 2h along the left side, both outside the block.
+fn dimensions(scene: &mut Scene, block: &[Point; 4]) {
+    let [low_left, top_left, top_right, _] = *block;
+    let turn = libm::atan2(top_left.0 - low_left.0, low_left.1 - top_left.1);
+    let away = |p| from(p, 16.0, turn);
+    let (a, b) = (away(top_left), away(top_right));
+    measure(scene, a, b);
+    let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
+    let at = from(middle, 10.0, turn);
+    word(scene, "2*b*", at);
+    let right = std::f64::consts::FRAC_PI_2;
+    let away = |p| from(p, -34.0, turn + right);
+    let (a, b) = (away(low_left), away(top_left));
+    measure(scene, a, b);
+    let middle = (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1));
+    let (x, y) = from(middle, -16.0, turn + right);
+    word(scene, "2*h*", (x, y + 5.0));
+}
+
+/// The half diagonal R to the centre of mass, alpha between it and the
+/// block's side, theta between the vertical and that side.
+fn angles(scene: &mut Scene, alpha: f64, theta: f64) {
+    let centre = from(PIVOT, HALF_DIAGONAL, theta - alpha);
+    scene.line(&[PIVOT, centre], Pen::new(Ink::Series(1), 1.3));
+    scene.dot(centre, 3.2, Ink::Series(1));
+    let half = from(PIVOT, 0.60 * HALF_DIAGONAL, theta - alpha);
+    word(scene, "*R*", (half.0 - 11.0, half.1 + 2.0));
+    word(scene, "c.m.", (centre.0 - 2.0, centre.1 - 9.0));
+    let up = from(PIVOT, 1.36 * HALF_DIAGONAL, 0.0);
+    let fine = Pen::new(Ink::Muted, 0.8).dash(Dash::DashDot);
+    scene.line(&[PIVOT, up], fine);
+    let arc = |radius: f64, a: f64, b: f64| -> Vec<Point> {
+        let step = (b - a) / 24.0;
+        let angle = |i| step.mul_add(f64::from(i), a);
+        (0..=24).map(|i| from(PIVOT, radius, angle(i))).collect()
+    };
+    let radius = 0.46 * HALF_DIAGONAL;
+    scene.line(&arc(radius, theta - alpha, theta), THIN);
+    let at = from(PIVOT, radius + 13.0, 0.5 * theta - 0.01);
+    word(scene, "*α*", (at.0, at.1 + 4.0));
+    let radius = 1.18 * HALF_DIAGONAL;
+    scene.line(&arc(radius, 0.0, theta), THIN);
+    let end = from(PIVOT, radius, theta);
+    let along = theta + std::f64::consts::FRAC_PI_2;
+    head(scene, end, along, Ink::Text);
+    let at = from(PIVOT, radius + 12.0, 0.5 * theta);
+    word(scene, "*θ*", at);
+}
+
+/// The ground's acceleration.
+fn excitation(scene: &mut Scene) {
+    let y = PIVOT.1 + 34.0;
+    let (a, b) = ((WIDTH / 2.0 - 34.0, y), (WIDTH / 2.0 + 34.0, y));
+    scene.line(&[a, b], Pen::new(Ink::Series(2), 1.5));
+    head(scene, b, std::f64::consts::FRAC_PI_2, Ink::Series(2));
+    word(scene, "*ü*_{g}(*t*)", (b.0 + 30.0, y + 5.0));
+}

@@ -1,0 +1,158 @@
+//! Every figure from made-up numbers: bytes, form, size, layout.
+
+mod made_up;
+mod spare;
+mod xml;
+
+use crate::geometry::Rect;
+use crate::scene::WANTED_BYTES;
+
+/// Writes each demonstration figure where `ROCKING_FIGURES` says, to be
+/// looked at.
+#[test]
+fn writes_them_to_be_looked_at() {
+    let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
+    for figure in made_up::all().iter().chain(&spare::all()) {
+        let name = &figure.heading.name;
+        let svg = figure.svg();
+        std::fs::write(format!("{folder}/{name}.svg"), svg).unwrap();
+    }
+}
+
+#[test]
+fn same_bytes_twice_below_the_limit() {
+    let (first, second) = (made_up::all(), made_up::all());
+    assert!(first.len() > 10);
+    for (a, b) in first.iter().zip(&second) {
+        let svg = a.svg();
+        assert_eq!(svg, b.svg());
+        assert!(svg.len() < WANTED_BYTES, "{}", a.heading.name);
+    }
+}
+
+#[test]
+fn svg_is_well_formed_and_has_no_number_that_is_none() {
+    for figure in made_up::all().iter().chain(&spare::all()) {
+        let svg = figure.svg();
+        let name = &figure.heading.name;
+        xml::check(&svg).unwrap_or_else(|e| panic!("{name}: {e}"));
+        for word in ["NaN", "inf\"", "inf ", "-inf"] {
+            assert!(!svg.contains(word), "{name} contains {word}");
+        }
+    }
+}
+
+#[test]
+fn says_so_in_words_where_there_is_nothing_to_draw() {
+    for figure in spare::all() {
+        let svg = figure.svg();
+        assert!(
+            svg.contains("no data in this range")
+                || svg.contains("too few usable ratios"),
+            "{}",
+            figure.heading.name
+        );
+    }
+}
+
+#[test]
+fn text_lies_inside_the_figure() {
+    for figure in made_up::all().iter().chain(&spare::all()) {
+        let scene = &figure.scene;
+        let all = scene.extent();
+        for text in scene.texts() {
+            let e = text.extent();
+            assert!(
+                all.contains((e.left, e.top), 0.0)
+                    && all.contains((e.right, e.bottom), 0.0),
+                "{}: {} at {e:?} in {all:?}",
+                figure.heading.name,
+                text.markup
+            );
+        }
+    }
+}
+
+#[test]
+fn text_does_not_lie_on_text() {
+    let apart = |a: Rect, b: Rect| {
+        a.right < b.left + 0.5
+            || b.right < a.left + 0.5
+            || a.bottom < b.top + 1.5
+            || b.bottom < a.top + 1.5
+    };
+    for figure in made_up::all().iter().chain(&spare::all()) {
+        let scene = &figure.scene;
+        let texts: Vec<_> = scene.texts().collect();
+        for (i, a) in texts.iter().enumerate() {
+            for b in &texts[i + 1..] {
+                assert!(
+                    apart(a.extent(), b.extent()),
+                    "{}: {} on {}",
+                    figure.heading.name,
+                    a.markup,
+                    b.markup
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn csv_has_a_header_and_rows_of_its_length() {
+    for figure in made_up::all() {
+        let csv = &figure.csv;
+        let mut reader = csv::Reader::from_reader(csv.as_bytes());
+        let width = reader.headers().unwrap().len();
+        let rows = reader.records().map(|r| r.unwrap().len());
+        let rows: Vec<usize> = rows.collect();
+        assert!(!rows.is_empty(), "{}", figure.heading.name);
+        assert!(rows.iter().all(|n| *n == width));
+        assert!(csv.ends_with('\n') && !csv.contains("NaN"));
+    }
+}
+
+#[test]
+fn histogram_counts_every_finite_datum_once() {
+    use super::Histogram;
+    let sample = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, f64::INFINITY];
+    let h = Histogram::freedman_diaconis(&sample, (1.75, 5.25), 3.5, 2.4);
+    // 2 * 3.5 / 8^(1/3) = 3.5; (7 - 0) / 3.5 = 2 bins.
+    assert_eq!(h.edges, [0.0, 3.5, 7.0]);
+    assert_eq!(h.counts, [4, 4]);
+    let same = Histogram::freedman_diaconis(&[2.0; 5], (2.0, 2.0), 2.0, 0.0);
+    assert_eq!((same.edges.len(), same.counts), (2, vec![5]));
+    let none = Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
+    assert!(none.edges.is_empty() && none.counts.is_empty());
+}
+
+#[test]
+fn thinned_histories_draw_the_same() {
+    let full = made_up::histories();
+    let thin = full.clone().thinned();
+    let points = |h: &super::Histories| -> usize {
+        let curves = h.panels.iter().flat_map(|p| &p.curves);
+        curves.map(|c| c.time_s.len()).sum()
+    };
+    assert!(4 * points(&thin) < points(&full));
+    for (a, b) in full.panels.iter().zip(&thin.panels) {
+        let ratios = a.curves.iter().flat_map(|c| &c.ratio);
+        let peak = ratios.fold(0.0_f64, |m, y| m.max(y.abs()));
+        for (full, thin) in a.curves.iter().zip(&b.curves) {
+            let mut at = 0;
+            for (t, y) in full.time_s.iter().zip(&full.ratio) {
+                while thin.time_s[at + 1] < *t {
+                    at += 1;
+                }
+                let (t0, t1) = (thin.time_s[at], thin.time_s[at + 1]);
+                let (y0, y1) = (thin.ratio[at], thin.ratio[at + 1]);
+                let rise = (y1 - y0) / (t1 - t0);
+                let off = (y0 + rise * (t - t0) - y).abs() * 111.0 / peak;
+                // In px, 288 of them for almost 30 s, 111 for the peak.
+                let slope = rise * (111.0 / peak) / (288.0 / 29.99);
+                let px = off / (1.0 + slope * slope).sqrt();
+                assert!(px < 0.1001, "{px}");
+            }
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Text with `*italic*`, `_{subscript}` and `^{superscript}`.
+//!
+//! A backslash takes the next character as it is; a `_` or `^` without a
+//! brace after it is an ordinary character.
+
+use std::fmt::Write as _;
+
+/// Size of sub- and superscripts relative to the text.
+const SCRIPT: f64 = 0.72;
+/// How far a subscript goes down, in units of the text size.
+const SUB_EM: f64 = 0.22;
+/// How far a tilde goes up, and its middle to the right of the letter's.
+const ACCENT_EM: f64 = -0.13;
+const ACCENT_SLANT_EM: f64 = 0.05;
+/// Width of the tilde.
+const TILDE_EM: f64 = 0.333;
+/// How far a superscript goes up.
+const SUPER_EM: f64 = -0.36;
+
+/// Where a run of text stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Level {
+    /// On the baseline.
+    Base,
+    /// Below.
+    Sub,
+    /// Above.
+    Super,
+    /// A tilde over the character before it.
+    Accent,
+}
+
+/// Characters of one style.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Run {
+    /// The characters.
+    pub text: String,
+    /// Whether they are italic.
+    pub italic: bool,
+    /// Where they stand.
+    pub level: Level,
+}
+
+/// Takes the marked-up text apart.
+///
+/// ```
+/// use rocking_draw::markup::{Level, runs};
+/// let parts = runs("*r*_{0.10} = 1");
+/// assert_eq!(parts.len(), 3);
+/// assert!(parts[0].italic);
+/// assert_eq!(parts[1].level, Level::Sub);
+/// ```
+#[must_use]
+pub fn runs(markup: &str) -> Vec<Run> {
+    let mut done: Vec<Run> = Vec::new();
+    let mut now =
+        Run { text: String::new(), italic: false, level: Level::Base };
+    let turn = |now: &mut Run, done: &mut Vec<Run>| {
+        if !now.text.is_empty() {
+            done.push(now.clone());
+            now.text.clear();
+        }
+    };
+    let mut characters = markup.chars().peekable();
+    while let Some(c) = characters.next() {
+        match c {
+            '\\' => now.text.extend(characters.next()),
+            '*' => {
+                turn(&mut now, &mut done);
+                now.italic = !now.italic;
+            }
+            // Fonts place the combining tilde badly over italics.
+            '\u{303}' => {
+                turn(&mut now, &mut done);
+                let text = String::from('˜');
+                done.push(Run { text, italic: false, level: Level::Accent });
+            }
+            '_' | '^' if characters.peek() == Some(&'{') => {
+                characters.next();
+                turn(&mut now, &mut done);
+                now.level = if c == '_' { Level::Sub } else { Level::Super };
+            }
+            '}' if now.level != Level::Base => {
+                turn(&mut now, &mut done);
+                now.level = Level::Base;
+            }
+            _ => now.text.push(c),
+        }
+    }
+    turn(&mut now, &mut done);
+    done
+}
+
+/// Text that is to be read as it is, such as a file name.
+#[must_use]
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        if matches!(c, '\\' | '*' | '_' | '^' | '}') {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
+/// Width in px of the marked-up text at a size in px, by Helvetica's widths.
+#[must_use]
+pub fn width(markup: &str, size_px: f64) -> f64 {
+    let mut thousandths = 0.0;
+    for run in runs(markup) {
+        let scale = match run.level {
+            Level::Base => 1.0,
+            Level::Sub | Level::Super => SCRIPT,
+            Level::Accent => 0.0,
+        };
+        for c in run.text.chars() {
+            thousandths += scale * f64::from(character_width(c));
+        }
+    }
+    thousandths * size_px / 1000.0
+}
+
+/// The text cut to a width, with an ellipsis where it was cut.
+#[must_use]
+pub fn fit(text: &str, size_px: f64, width_px: f64) -> String {
+    if width(&escape(text), size_px) <= width_px {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for c in text.chars() {
+        kept.push(c);
+        if width(&escape(&kept), size_px) + size_px > width_px {
+            kept.pop();
+            break;
+        }
+    }
+    format!("{}…", kept.trim_end())
+}
+
+/// Widths of the printable ASCII characters in Adobe's Helvetica, in
+/// thousandths of the size (Arial and Liberation Sans share them).
+const ASCII: [u16; 95] = [
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278,
+    278, 556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584,
+    584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667,
+    556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611,
+    278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222,
+    222, 500, 222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500,
+    500, 500, 334, 260, 334, 584,
+];
+
+fn character_width(c: char) -> u16 {
+    match c {
+        ' '..='~' => ASCII[c as usize - 32],
+        '\u{300}'..='\u{36f}' => 0,
+        'θ' => 556,
+        'α' => 578,
+        '·' | '’' | '‘' => 250,
+        '…' | '—' => 1000,
+        'ω' => 781,
+        '∞' => 713,
+        '–' => 556,
+        _ => 600,
+    }
+}
+
+/// Writes the content of a `<text>` element: tspans where the style changes.
+pub(super) fn write_tspans(out: &mut String, markup: &str, size_px: f64) {
+    let mut raised = 0.0;
+    // Width of the last letter, and how far the next run is to be moved.
+    let (mut letter, mut along) = (0.0, 0.0);
+    for run in runs(markup) {
+        let (shift, script) = match run.level {
+            Level::Base => (0.0, false),
+            Level::Sub => (SUB_EM * size_px, true),
+            Level::Super => (SUPER_EM * size_px, true),
+            Level::Accent => (ACCENT_EM * size_px, false),
+        };
+        if run.level == Level::Accent {
+            along = -f64::midpoint(letter, TILDE_EM) + ACCENT_SLANT_EM;
+        }
+        let step = shift - raised;
+        raised = shift;
+        if step == 0.0 && along == 0.0 && !script && !run.italic {
+            write_escaped(out, &run.text);
+        } else {
+            out.push_str("<tspan");
+            if along != 0.0 {
+                let _ = write!(out, " dx=\"{:.2}\"", along * size_px);
+            }
+            if step != 0.0 {
+                let _ = write!(out, " dy=\"{step:.2}\"");
+            }
+            if script {
+                let size = SCRIPT * size_px;
+                let _ = write!(out, " font-size=\"{size:.2}\"");
+            }
+            if run.italic {
+                out.push_str(" font-style=\"italic\"");
+            }
+            out.push('>');
+            write_escaped(out, &run.text);
+            out.push_str("</tspan>");
+        }
+        along = if run.level == Level::Accent {
+            0.5 * (letter - TILDE_EM) - ACCENT_SLANT_EM
+        } else {
+            0.0
+        };
+        let last = run.text.chars().last();
+        letter = last.map_or(0.0, |c| f64::from(character_width(c)) / 1000.0);
+    }
+}
+
+/// Writes characters so that XML reads them back; control characters, which
+/// XML cannot hold, are left out.
+pub(super) fn write_escaped(out: &mut String, text: &str) {
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() => {}
+            c => out.push(c),
+        }
+    }
+}
+
+/// Marked-up text without its marks.
+#[must_use]
+pub fn plain(markup: &str) -> String {
+    markup.replace(['*', '{', '}'], "").replace(['_', '^'], "")
+}

@@ -1,0 +1,78 @@
+use rocking::number::double::DoubleDouble;
+use rocking::number::{Number, Real};
+
+use super::{Wide, forward};
+
+/// Single precision: every input and every operation rounded to 24 bits.
+///
+/// ```
+/// use rocking::number::Number;
+/// use rocking_proof::arithmetic::{Single, Wide};
+/// let third = Single::ratio(1, 3).wide();
+/// assert_eq!(third.hi(), f64::from(1.0_f32 / 3.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub struct Single(f32);
+
+forward!(Single: Add add, Sub sub, Mul mul, Div div);
+
+impl Wide for Single {
+    fn wide(self) -> DoubleDouble {
+        DoubleDouble::from_f64(self.to_f64())
+    }
+}
+
+impl Number for Single {
+    fn from_f64(x: f64) -> Self {
+        Self(x as f32)
+    }
+
+    fn ratio(i: i32, j: i32) -> Self {
+        Self(i as f32 / j as f32)
+    }
+
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        Self(self.0.mul_add(b.0, c.0))
+    }
+
+    fn sin_cos_small(self) -> (Self, Self) {
+        self.sin_cos()
+    }
+}
+
+impl Real for Single {
+    const ROUNDOFF: f64 = 0.5 * f32::EPSILON as f64;
+    const NEWTON_STEP: f64 = 1e-4;
+
+    fn to_f64(self) -> f64 {
+        f64::from(self.0)
+    }
+
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        (Self(libm::sinf(self.0)), Self(libm::cosf(self.0)))
+    }
+
+    fn exp(self) -> Self {
+        Self(libm::expf(self.0))
+    }
+
+    fn ln_1p(self) -> Self {
+        Self(libm::log1pf(self.0))
+    }
+
+    fn asin(self) -> Self {
+        Self(libm::asinf(self.0))
+    }
+
+    fn right_angle() -> Self {
+        Self(std::f32::consts::FRAC_PI_2)
+    }
+}

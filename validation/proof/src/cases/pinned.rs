@@ -1,0 +1,89 @@
+//! Work counters: expected values that this program finds itself, so that
+//! they stand in a file of their own and not in the cases.
+
+use std::collections::BTreeMap;
+
+use super::{Case, Values};
+use rocking_common::table::{Table, cells, digits};
+
+/// The method whose cases expect them.
+pub const COUNTERS: &str = "work-counters";
+
+/// The counters as accepted. Like the case files, these are values to
+/// compare with: nothing that is printed or written comes from here.
+pub(super) const ACCEPTED: &str =
+    include_str!("../../../../tests/pins/work-counters.csv");
+
+/// Reference trajectories that a case names.
+fn entries(case: &Case) -> impl Iterator<Item = &str> {
+    let list = case.input.get("entries").and_then(toml::Value::as_array);
+    list.into_iter().flatten().filter_map(toml::Value::as_str)
+}
+
+/// Gives the cases of work counters their expected values from `csv`. A
+/// trajectory that has no row there has none, and its case fails.
+pub fn expect_counters(cases: &mut [Case], csv: &str) {
+    let mut lines = csv.lines().map(cells);
+    let header = lines.next().unwrap_or_default();
+    let rows: Vec<Vec<String>> = lines.filter(|row| !row.is_empty()).collect();
+    for case in cases.iter_mut().filter(|case| case.method == COUNTERS) {
+        let mut values = BTreeMap::new();
+        for (k, quantity) in header.iter().enumerate().skip(1) {
+            let of = |entry: &str| {
+                let row = rows.iter().find(|row| row[..1] == [entry])?;
+                row.get(k)?.parse().ok()
+            };
+            let found = entries(case).filter_map(of).collect();
+            values.insert(quantity.clone(), Values::Many(found));
+        }
+        case.expect.values = values;
+    }
+}
+
+/// What was counted in each case of work counters, as the CSV that
+/// [`expect_counters`] reads: one row for each trajectory.
+#[must_use]
+pub fn counters_csv(found: &[(&Case, BTreeMap<String, Vec<f64>>)]) -> String {
+    let names: Vec<&str> = found
+        .first()
+        .iter()
+        .flat_map(|(_, counts)| counts.keys().map(String::as_str))
+        .collect();
+    let mut table = Table::new(&[&["trajectory"], &names[..]].concat());
+    for (case, counts) in found {
+        for (k, entry) in entries(case).enumerate() {
+            let count = |name: &&str| {
+                let count = counts.get(*name).and_then(|list| list.get(k));
+                digits(count.copied().unwrap_or(f64::NAN), 17)
+            };
+            let counts = names.iter().map(count);
+            table.row([entry.to_owned()].into_iter().chain(counts));
+        }
+    }
+    table.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::load_all;
+    use crate::methods;
+
+    #[test]
+    fn what_is_counted_is_what_is_expected() {
+        let mut cases = load_all().unwrap();
+        cases.retain(|case| case.method == COUNTERS);
+        let run = |case: &Case| methods::run(case, None).unwrap().observed;
+        let found: Vec<_> = cases.iter().map(|c| (c, run(c))).collect();
+        let csv = counters_csv(&found);
+        assert!(csv.lines().count() > 30);
+        // An accepted number that is another is one that is expected.
+        let other = csv.replacen(",25,", ",26,", 1);
+        assert_ne!(other, csv);
+        let mut changed = cases.clone();
+        expect_counters(&mut changed, &other);
+        assert_ne!(changed, cases);
+        expect_counters(&mut changed, &csv);
+        assert_eq!(changed, cases);
+    }
+}

@@ -1,0 +1,95 @@
+use rocking::integrator::{Assessment, Observe, Outcome, Response};
+use rocking::number::double::DoubleDouble;
+
+use super::{Quotient, respond, respond_in};
+use crate::arithmetic::{RoundedConstants, Single, Wide};
+use crate::scene::{EngineError, Scene};
+
+/// What a run in any arithmetic saw, as double-doubles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WideTrace {
+    /// First uplift, s.
+    pub uplift_s: Option<DoubleDouble>,
+    /// Impacts: time in s and speed before in rad/s.
+    pub impacts: Vec<(DoubleDouble, DoubleDouble)>,
+    /// Largest |theta|/alpha reached.
+    pub peak_ratio: DoubleDouble,
+    /// When it overturned, s.
+    pub overturned_s: Option<DoubleDouble>,
+    /// When it came to rest, s.
+    pub rest_s: Option<DoubleDouble>,
+    /// Bound on the error of the peak ratio.
+    pub error_estimate: f64,
+    /// False where the run leaves its fate open.
+    pub resolved: bool,
+}
+
+/// Arithmetic of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// Every operation rounded to 24 bits.
+    Single,
+    /// Double precision, the engine that users get.
+    Double,
+    /// Double-double; the quotients by gravity too.
+    DoubleDouble,
+    /// Double-double from inputs over gravity rounded to double precision:
+    /// the very problem that double precision solves.
+    DoubleDoubleOfRounded,
+    /// Double-double with coefficients rounded to double precision: a
+    /// mistake.
+    RoundedConstants,
+}
+
+impl WideTrace {
+    fn of<N: Wide>(response: &Response<N>) -> Self {
+        Self {
+            uplift_s: response.uplift_time_s.map(Wide::wide),
+            impacts: response
+                .impacts
+                .iter()
+                .map(|i| (i.time_s.wide(), i.speed_before_rad_s.wide()))
+                .collect(),
+            peak_ratio: response.peak_ratio.wide(),
+            overturned_s: match response.outcome {
+                Outcome::Overturned { time_s, .. } => Some(time_s.wide()),
+                Outcome::Rocked { .. } | Outcome::NoUplift => None,
+            },
+            rest_s: response.rest_time_s.map(Wide::wide),
+            error_estimate: response.error_estimate.unwrap_or(f64::INFINITY),
+            resolved: response.assessment() == Assessment::Clear,
+        }
+    }
+
+    /// Runs a scene, with events and accuracy.
+    ///
+    /// # Errors
+    /// [`EngineError::Refused`] with the core's own words.
+    pub fn run(
+        scene: &Scene,
+        arithmetic: Arithmetic,
+    ) -> Result<Self, EngineError> {
+        let observe = Observe {
+            events: true,
+            accuracy: true,
+            until_s: scene.until_s,
+            ..Observe::default()
+        };
+        let (o, rounded, kept) = (&observe, Quotient::Rounded, Quotient::Kept);
+        Ok(match arithmetic {
+            Arithmetic::Single => {
+                Self::of(&respond_in::<Single>(scene, o, kept)?)
+            }
+            Arithmetic::Double => Self::of(&respond(scene, o)?),
+            Arithmetic::DoubleDouble => {
+                Self::of(&respond_in::<DoubleDouble>(scene, o, kept)?)
+            }
+            Arithmetic::DoubleDoubleOfRounded => {
+                Self::of(&respond_in::<DoubleDouble>(scene, o, rounded)?)
+            }
+            Arithmetic::RoundedConstants => {
+                Self::of(&respond_in::<RoundedConstants>(scene, o, kept)?)
+            }
+        })
+    }
+}

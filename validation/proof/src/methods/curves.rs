@@ -1,0 +1,278 @@
+//! Which analyses of a curve are flagged: scenes that graze, as levels of an
+//! incremental dynamic analysis.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rayon::prelude::*;
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
+use rocking::ida::{Analysis, Batch, Grid, IdaPoint, curve, curves};
+use rocking::integrator::{
+    self, Assessment, Certify, Impact, Observe, Outcome, Scene, Solver,
+    WorkLimit, certify, respond_precise, uplift_threshold,
+};
+use rocking::number::Real;
+use rocking::number::double::DoubleDouble;
+use rocking::number::octuple::Octuple;
+use rocking::record::Accelerogram;
+use serde::Deserialize;
+
+use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
+use crate::scene::{EngineError, Forcing};
+use crate::trials::{Stratum, trial};
+
+/// Difference of a peak ratio that counts as another peak.
+const ANOTHER: f64 = 1e-6;
+
+/// Rough estimate from which on an analysis is flagged.
+const FLAGGED: f64 = 1e-4;
+
+/// Work of a run in wider arithmetic.
+const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    /// Scenes whose first hop grazes: this many, from index 0 on.
+    first_hops: u64,
+}
+
+/// A level in every way in which it is analysed.
+#[derive(Clone)]
+struct Level {
+    alone: IdaPoint,
+    lanes: IdaPoint,
+    certified: IdaPoint,
+    /// Bound on the error of the certified peak.
+    error: f64,
+    /// Whether the block overturned, and its peak, by wider arithmetic.
+    truth: Option<(bool, f64)>,
+    /// The rough estimate with every flight rounded at its landing's speed.
+    at_landing: f64,
+}
+
+/// Levels by the number of scenes: a wrong model needs no run of its own.
+static FOUND: Mutex<BTreeMap<u64, Arc<Vec<Level>>>> =
+    Mutex::new(BTreeMap::new());
+
+/// Peaks and fates that a curve calls resolved and that are others in wider
+/// arithmetic; levels of which lanes say something else.
+pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
+    let Input { first_hops } = context.input()?;
+    let found = all(first_hops)?;
+    let at_landing = context.wrong == Some(WrongModel::RoundingAtTheLanding);
+    let resolved = |level: &Level, point: &IdaPoint| {
+        if at_landing {
+            level.at_landing < FLAGGED
+        } else {
+            point.told.resolved
+        }
+    };
+    let count = |is: &dyn Fn(&Level) -> bool| {
+        [found.iter().filter(|level| is(level)).count() as f64]
+    };
+    let silent = |level: &Level, point: &IdaPoint| {
+        resolved(level, point) && level.is_other(point, ANOTHER)
+    };
+    let mut answer = Answer::default();
+    let alone = count(&|level| silent(level, &level.alone));
+    answer.put("wrong-and-resolved", alone, [0.0]);
+    let lanes = count(&|level| silent(level, &level.lanes));
+    answer.put("wrong-and-resolved-in-lanes", lanes, [0.0]);
+    let certified = count(&|level| {
+        level.certified.told.resolved
+            && level.is_other(&level.certified, level.error)
+    });
+    answer.put("wrong-and-certified", certified, [0.0]);
+    let differ = count(&|level| level.alone != level.lanes);
+    answer.put("levels-that-lanes-change", differ, [0.0]);
+    answer.see("levels", [found.len() as f64]);
+    answer.see("wrong", count(&|level| level.is_other(&level.alone, ANOTHER)));
+    answer.see("unresolved", count(&|level| !level.alone.told.resolved));
+    let open = count(&|level| !level.certified.told.resolved);
+    answer.see("unresolved-when-certified", open);
+    Ok(answer)
+}
+
+impl Level {
+    /// Whether a point's fate is another in wider arithmetic, or its peak by
+    /// more than so much.
+    fn is_other(&self, point: &IdaPoint, error: f64) -> bool {
+        let own = point.outcome.is_overturned();
+        self.truth.is_some_and(|(overturned, peak)| {
+            let gap = (point.outcome.edp() - peak).abs();
+            overturned != own || (!own && !(gap <= error))
+        })
+    }
+}
+
+/// Levels, from memory where they were analysed before.
+fn all(count: u64) -> Result<Arc<Vec<Level>>, MethodError> {
+    let lock = || FOUND.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(found) = lock().get(&count) {
+        return Ok(Arc::clone(found));
+    }
+    let found: Vec<Option<Level>> = (0..count)
+        .into_par_iter()
+        .map(level)
+        .collect::<Result<_, MethodError>>()?;
+    let found: Arc<Vec<Level>> =
+        Arc::new(found.into_iter().flatten().collect());
+    lock().insert(count, Arc::clone(&found));
+    Ok(found)
+}
+
+/// The scene of an index as the one level of a curve.
+fn level(index: u64) -> Result<Option<Level>, MethodError> {
+    let Some(trial) = trial(Stratum::FirstHop, index)? else {
+        return Ok(None);
+    };
+    let of = trial.scene;
+    let Forcing::Samples { dt_s, acceleration_m_s2 } = of.forcing else {
+        return Ok(None);
+    };
+    let record = Accelerogram::try_new(trial.name, dt_s, acceleration_m_s2);
+    let record = NormalisedRecord::new(&record.map_err(refused)?);
+    let block = Block::try_new(of.slenderness_rad, of.frequency_rad_s);
+    let block = block.map_err(refused)?;
+    let restitution =
+        Restitution::constant(of.restitution).map_err(refused)?;
+    let pga_g = record.pga_g();
+    let analysis = Analysis {
+        model: of.model,
+        overturning: of.overturning,
+        grid: Grid::Pga { step_g: pga_g },
+        // One level.
+        highest_im: 1.5 * pga_g / uplift_threshold(&block, of.model),
+        ..Analysis::paper(block, restitution)
+    };
+    let point = |points: &[IdaPoint]| {
+        let point = points.iter().find(|point| point.pga_g == pga_g);
+        point.copied().ok_or_else(|| refused("the level is not analysed"))
+    };
+    let alone = point(&curve(&record, &analysis).map_err(refused)?.points)?;
+    let certifying = Analysis { certify: true, ..analysis };
+    let batch = Batch::default();
+    let records = std::slice::from_ref(&record);
+    let both = curves(records, &[analysis, certifying], &batch);
+    let both = both.map_err(refused)?;
+    let lanes = point(&both[0][0].points)?;
+    let certified = point(&both[1][0].points)?;
+    let scene = Scene {
+        model: of.model,
+        overturning: of.overturning,
+        ..Scene::new(
+            block,
+            restitution,
+            Excitation::Record(ScaledRecord::to_pga(&record, pga_g)),
+        )
+    };
+    let truth = match truth::<DoubleDouble>(&scene)? {
+        None => truth::<Octuple>(&scene)?,
+        told => told,
+    };
+    let options = Certify { work_limit: WORK, ..Certify::default() };
+    let error = certify(&scene, &options).map_err(refused)?.error;
+    // A level that is not assessed is as good as one that is not flagged.
+    let error = error.unwrap_or(0.0).max(ANOTHER);
+    let at_landing = at_landing(&scene, of.restitution, &record)?;
+    Ok(Some(Level { alone, lanes, certified, error, truth, at_landing }))
+}
+
+fn refused(error: impl std::fmt::Display) -> MethodError {
+    EngineError::Refused(error.to_string()).into()
+}
+
+/// Fate and peak in wider arithmetic; none where that does not decide.
+fn truth<N: Real>(scene: &Scene) -> Result<Option<(bool, f64)>, MethodError> {
+    let observe =
+        Observe { accuracy: true, work_limit: WORK, ..Observe::default() };
+    let response = respond_precise::<N>(scene, &observe).map_err(refused)?;
+    let clear = response.assessment() == Assessment::Clear;
+    let overturned = response.outcome.is_overturned();
+    Ok(clear.then(|| (overturned, response.peak_ratio.to_f64())))
+}
+
+/// The rough estimate of a run, its rounding in flight as small as the speed
+/// at which the flight ends.
+fn at_landing(
+    scene: &Scene,
+    eta: f64,
+    record: &NormalisedRecord,
+) -> Result<f64, MethodError> {
+    let observe = Observe { events: true, ..Observe::default() };
+    let run = integrator::respond(scene, &observe).map_err(refused)?;
+    let solver = Solver { peak_only: true, ..Solver::default() };
+    let quick = solver.respond(scene, &Observe::default()).map_err(refused)?;
+    let (alpha, p) =
+        (scene.block.slenderness_rad(), scene.block.frequency_rad_s());
+    let threshold = uplift_threshold(&scene.block, scene.model);
+    let (dt_s, samples) = (record.dt_s(), record.samples());
+    let pga_g = record.pga_g();
+    let end_s = dt_s * (samples.len() - 1) as f64;
+    let mut seen = 0;
+    let ground = |time_s: f64| {
+        let at = time_s / dt_s;
+        let [a, b] = [0, 1].map(|k| samples.get(at as usize + k).copied());
+        let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
+        pga_g * (a + (b - a) * at.fract())
+    };
+    let lifts = |from_s: f64| {
+        let first = (from_s / dt_s) as usize;
+        let lifted = |k: &usize| pga_g * samples[*k].abs() > threshold;
+        let next = (first..samples.len()).find(lifted);
+        next.map_or(from_s, |k| from_s.max((k as f64 - 1.0) * dt_s))
+    };
+    let mut began_s = run.uplift_time_s.unwrap_or(0.0);
+    let [mut uu, mut uw, mut ww, mut doubt] = [0.0; 4];
+    let mut positive = ground(began_s) < 0.0;
+    for Impact { time_s, speed_before_rad_s, .. } in &run.impacts {
+        if *time_s < began_s {
+            continue;
+        }
+        // What is left to free motion or cannot raise the peak is not seen.
+        if *time_s > end_s || seen == quick.work.impacts {
+            break;
+        }
+        seen += 1;
+        let speed = speed_before_rad_s / p;
+        let tau = p * (time_s - began_s);
+        let (c, s) = (libm::cosh(tau), libm::sinh(tau));
+        let rounded = 0.5 * f64::EPSILON * speed;
+        ww += rounded * rounded * tau / (p * dt_s);
+        (uu, uw, ww) = (
+            c * c * uu + 2.0 * c * s * uw + s * s * ww,
+            c * s * (uu + ww) + (c * c + s * s) * uw,
+            s * s * uu + 2.0 * c * s * uw + c * c * ww,
+        );
+        let f = if positive { ground(*time_s) } else { -ground(*time_s) };
+        let (before, after) = (-threshold - f, -threshold + f);
+        let by_u = before / speed;
+        doubt += (by_u * by_u * uu + 2.0 * by_u * uw + ww) / (speed * speed);
+        doubt += (uu + ww) / (0.01 * alpha * 0.01 * alpha);
+        let hop = 0.5 * after / (speed * speed);
+        doubt += uu * hop * hop;
+        let shear = (eta * before + after) / speed;
+        (uu, uw, ww) = (
+            eta * eta * uu,
+            eta * shear * uu + eta * eta * uw,
+            shear * shear * uu + 2.0 * eta * shear * uw + eta * eta * ww,
+        );
+        (began_s, positive) = (*time_s, !positive);
+        // Impacts that end within the sample end in a rest.
+        let back = threshold - ground(*time_s).abs();
+        let ends = 2.0 * eta * speed / (back * (1.0 - eta)) / p;
+        if back > 0.0 && ends < dt_s * (1.0 - (time_s / dt_s).fract()) {
+            began_s = lifts(time_s + ends);
+            positive = ground(began_s + dt_s) < 0.0;
+            (uu, uw, ww) = (0.0, 0.0, 0.0);
+        }
+    }
+    let own = match run.outcome {
+        Outcome::Overturned { .. } => 1.0,
+        _ => (1.0 - run.peak_ratio).min(1.0).abs(),
+    };
+    Ok(doubt.sqrt() / own)
+}

@@ -1,0 +1,184 @@
+//! The error estimate against the true error.
+
+use rand::RngExt as _;
+use rayon::prelude::*;
+use rocking::number::Real as _;
+use rocking::number::double::DoubleDouble;
+use rocking::streams::Streams;
+use serde::Deserialize;
+
+use super::references;
+use super::references::TRAJECTORIES;
+use super::{Answer, Context, MethodError};
+use crate::arithmetic::decimal;
+use crate::cases::WrongModel;
+use crate::engine::{Arithmetic, WideTrace};
+use crate::scene::{Forcing, Model, Overturning, Scene};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    /// Random scenes; none: the reference trajectories.
+    #[serde(default)]
+    scenes: u64,
+    /// `double` or `double-double`.
+    arithmetic: String,
+}
+
+/// One scene's verdict.
+enum Comparison {
+    /// Error of the peak ratio over its estimate.
+    Ratio(f64),
+    /// The fates differ, and the run says that it cannot tell.
+    Open,
+    /// The fates differ, and the run is sure of its own.
+    Wrong,
+    /// Both overturn.
+    NoPeak,
+}
+
+/// Shares of a distribution that are reported.
+const SHARES: [(&str, usize); 3] =
+    [("median-ratio", 50), ("upper-decile-ratio", 90), ("largest-ratio", 100)];
+
+/// Error of the peak over its estimate, over many scenes.
+pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
+    let input: Input = context.input()?;
+    let arithmetic = match input.arithmetic.as_str() {
+        "double" => Arithmetic::Double,
+        "double-double" => Arithmetic::DoubleDouble,
+        other => {
+            return Err(MethodError::Input(format!("arithmetic `{other}`")));
+        }
+    };
+    let factor = match context.wrong {
+        Some(WrongModel::EstimateHundredth) => 0.01,
+        _ => 1.0,
+    };
+    let all = if input.scenes == 0 {
+        against_references(arithmetic)?
+    } else {
+        let streams = Streams::new("error estimate", 0);
+        (0..input.scenes)
+            .into_par_iter()
+            .map(|k| {
+                let scene = drawn(&streams, k);
+                let run = WideTrace::run(&scene, arithmetic)?;
+                let truth = WideTrace::run(&scene, Arithmetic::DoubleDouble)?;
+                Ok(compare(&run, &truth, f64::EPSILON))
+            })
+            .collect::<Result<Vec<_>, MethodError>>()?
+    };
+    let mut ratios = Vec::new();
+    let (mut wrong, mut open) = (0.0, 0.0);
+    for one in all {
+        match one {
+            Comparison::Ratio(ratio) => ratios.push(ratio / factor),
+            Comparison::Open => open += 1.0,
+            Comparison::Wrong => wrong += 1.0,
+            Comparison::NoPeak => {}
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    let mut answer = Answer::default();
+    let exceeded = ratios.iter().filter(|r| !(**r <= 1.0)).count();
+    answer.put("estimates-exceeded", [exceeded as f64], [0.0]);
+    answer.put("sure-of-a-wrong-fate", [wrong], [0.0]);
+    let mut see = |name: &str, value: f64| {
+        answer.see(name, [value]);
+    };
+    see("peaks-compared", ratios.len() as f64);
+    see("fates-left-open", open);
+    for (name, percent) in SHARES {
+        let last = ratios.len().saturating_sub(1);
+        let ratio = ratios.get(last * percent / 100);
+        see(name, ratio.copied().unwrap_or(f64::NAN));
+    }
+    Ok(answer)
+}
+
+fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> Comparison {
+    match (run.overturned_s.is_some(), truth.overturned_s.is_some()) {
+        (false, false) => {
+            let error = (run.peak_ratio - truth.peak_ratio).abs().to_f64();
+            // A run that does not move claims no error at all: it is held to
+            // one unit in the last place.
+            let estimate = run.error_estimate.max(unit);
+            Comparison::Ratio(error / estimate)
+        }
+        (true, true) => Comparison::NoPeak,
+        _ if run.resolved => Comparison::Wrong,
+        _ => Comparison::Open,
+    }
+}
+
+fn against_references(
+    arithmetic: Arithmetic,
+) -> Result<Vec<Comparison>, MethodError> {
+    let file = &TRAJECTORIES;
+    let all = file.read()?;
+    let mut found = Vec::new();
+    let unit = match arithmetic {
+        Arithmetic::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
+        _ => f64::EPSILON,
+    };
+    for case in file.list(&all, "cases")? {
+        let expected = file.get(case, "expected")?;
+        for (criterion, key) in [
+            (Overturning::Alpha, "first_reaches_alpha"),
+            (Overturning::HalfPi, "overturned_pi_over_2"),
+        ] {
+            let scene = references::scene(case, criterion)?;
+            let run = WideTrace::run(&scene, arithmetic)?;
+            let over = expected[key] == true;
+            let peak = &expected["peak_abs_theta_over_alpha"];
+            let peak = peak.as_str().and_then(decimal);
+            let truth = WideTrace {
+                overturned_s: over.then_some(run.peak_ratio),
+                peak_ratio: peak.unwrap_or(run.peak_ratio),
+                ..run.clone()
+            };
+            found.push(compare(&run, &truth, unit));
+        }
+    }
+    Ok(found)
+}
+
+/// A random block under random filtered noise, uniform or uniform in the
+/// logarithm over the ranges of the study and beyond.
+fn drawn(streams: &Streams, index: u64) -> Scene {
+    let mut stream = streams.stream(index);
+    let mut uniform =
+        |low: f64, high: f64| low + (high - low) * stream.random::<f64>();
+    let alpha = uniform(0.02, 0.4);
+    let p = libm::exp(uniform(libm::log(0.5), libm::log(8.0)));
+    let eta = uniform(0.7, 1.0);
+    let linear = uniform(0.0, 1.0) < 0.3;
+    let dt_s = [0.005, 0.01, 0.02][uniform(0.0, 3.0) as usize];
+    let intensity = libm::exp(uniform(0.05, 1.5));
+    let count = uniform(100.0, 500.0) as usize;
+    let (mut fast, mut slow) = (0.0, 0.0);
+    let mut samples: Vec<f64> = (0..count)
+        .map(|k| {
+            let white = uniform(-1.0, 1.0);
+            fast += 0.3 * (white - 0.5 * fast);
+            slow += 0.2 * (fast - slow);
+            let share = k as f64 / count as f64;
+            slow * share * (1.0 - share)
+        })
+        .collect();
+    let mut scene = Scene {
+        model: if linear { Model::Linearized } else { Model::Nonlinear },
+        overturning: if uniform(0.0, 1.0) < 0.3 {
+            Overturning::HalfPi
+        } else {
+            Overturning::Alpha
+        },
+        ..Scene::new([alpha, p, 9.81], eta, Forcing::NONE)
+    };
+    let peak = samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+    let factor = intensity * scene.threshold_m_s2() / peak;
+    samples.iter_mut().for_each(|x| *x *= factor);
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
+    scene
+}

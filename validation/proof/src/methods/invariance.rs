@@ -1,0 +1,277 @@
+//! What must not change: mirror image, shift in time, resampling, padding,
+//! units; and how Eq. 1 departs from similarity.
+
+use rocking::record::Accelerogram;
+use serde::Deserialize;
+
+use super::references;
+use super::wrong::scale;
+use super::{Answer, Context, MethodError};
+use crate::engine::Core;
+use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    change: Change,
+    equation: Model,
+    record: String,
+    /// PGA over the uplift threshold.
+    intensity: f64,
+    /// Samples kept; the record then ends with a jump.
+    #[serde(default)]
+    samples: Option<usize>,
+    /// Blocks: alpha (rad), p (rad/s), eta.
+    blocks: Vec<[f64; 3]>,
+}
+
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Change {
+    /// The record times -1.
+    Mirror,
+    /// 64 exact zeros and a ramp's foot before the record.
+    Shift,
+    /// Twice as many samples on the same lines.
+    Resample,
+    /// Exact zeros after the record.
+    Pad,
+    /// Another unit of acceleration.
+    Unit,
+    /// Scaled record against adjusted slenderness.
+    Adjust,
+}
+
+/// Leading zeros of a shifted record.
+const SHIFT: usize = 64;
+
+/// A record and its changed twin on several blocks.
+pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
+    let input: Input = context.input()?;
+    let (dt_s, mut record) = references::record(&input.record)?;
+    if let Some(count) = input.samples {
+        record.truncate(count);
+    }
+    let mut answer = Answer::default();
+    for [alpha, p, eta] in input.blocks.iter().copied() {
+        let mut scene = Scene {
+            model: input.equation,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                eta,
+                Forcing::Samples { dt_s, acceleration_m_s2: record.clone() },
+            )
+        };
+        let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let factor = input.intensity * scene.threshold_m_s2() / peak;
+        scale(&mut scene.forcing, factor);
+        let expected = Core.respond(&scene)?;
+        let twin = twin(&scene, input.change, peak)?;
+        let observed = context.engine.respond(&twin)?;
+        let shift_s = match input.change {
+            Change::Shift => SHIFT as f64 * dt_s,
+            _ => 0.0,
+        };
+        let mirror = match input.change {
+            Change::Mirror => -1.0,
+            _ => 1.0,
+        };
+        let speed_ratio = alpha / twin.slenderness_rad;
+        compare(
+            &mut answer,
+            (&observed, &expected),
+            (p, shift_s, mirror, speed_ratio),
+        );
+    }
+    Ok(answer)
+}
+
+fn compare(
+    answer: &mut Answer,
+    (observed, expected): (&Trace, &Trace),
+    (p, shift_s, mirror, speed_ratio): (f64, f64, f64, f64),
+) {
+    let times = |trace: &Trace, back: f64| -> Vec<f64> {
+        trace.impacts.iter().map(|i| (i.time_s - back) * p).collect()
+    };
+    let speeds = |trace: &Trace, ratio: f64| -> Vec<f64> {
+        trace.impacts.iter().map(|i| i.speed_before_rad_s * ratio).collect()
+    };
+    answer.put(
+        "impact-times-p",
+        times(observed, shift_s),
+        times(expected, 0.0),
+    );
+    answer.put(
+        "impact-speeds",
+        speeds(observed, speed_ratio),
+        speeds(expected, 1.0),
+    );
+    answer.put("peak-ratio", [observed.peak_ratio], [expected.peak_ratio]);
+    answer.put(
+        "alpha-time-p",
+        observed.overturned_s.map(|t| (t - shift_s) * p),
+        expected.overturned_s.map(|t| t * p),
+    );
+    answer.put("side", [observed.first_side * mirror], [expected.first_side]);
+}
+
+fn twin(
+    scene: &Scene,
+    change: Change,
+    peak_m_s2: f64,
+) -> Result<Scene, MethodError> {
+    let mut twin = scene.clone();
+    let Forcing::Samples { dt_s, acceleration_m_s2 } = &mut twin.forcing
+    else {
+        return Err(MethodError::Input("no record".to_owned()));
+    };
+    let a = acceleration_m_s2;
+    match change {
+        Change::Mirror => a.iter_mut().for_each(|x| *x = -*x),
+        Change::Shift => {
+            a.splice(0..0, std::iter::repeat_n(0.0, SHIFT));
+        }
+        Change::Resample => {
+            let mut fine = Vec::with_capacity(2 * a.len());
+            for pair in a.windows(2) {
+                fine.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
+            }
+            fine.extend(a.last());
+            *a = fine;
+            *dt_s *= 0.5;
+        }
+        Change::Pad => a.extend(std::iter::repeat_n(0.0, 400)),
+        Change::Unit => {
+            a.iter_mut().for_each(|x| *x *= 100.0);
+            twin.gravity_m_s2 *= 100.0;
+        }
+        Change::Adjust => {
+            // The record as it was, on the block that it moves as much.
+            let factor =
+                peak_m_s2 / a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+            a.iter_mut().for_each(|x| *x *= factor);
+            twin.slenderness_rad *= factor;
+        }
+    }
+    Ok(twin)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DefectInput {
+    omega_over_p: f64,
+    amplitude: f64,
+    /// `g-tan-alpha` or `g-alpha`.
+    over: String,
+    slenderness_rad: Vec<f64>,
+    frequency_rad_s: f64,
+}
+
+/// Relative change of the first peak of Eq. 1 against Eq. 2 as alpha grows,
+/// and the order of that change between the two smallest alphas.
+pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
+    let input: DefectInput = context.input()?;
+    let p = input.frequency_rad_s;
+    let first_speed = |alpha: f64, equation| -> Result<f64, MethodError> {
+        let over = match (equation, input.over.as_str()) {
+            (Model::Linearized, _) | (_, "g-alpha") => alpha,
+            (_, "g-tan-alpha") => libm::tan(alpha),
+            (_, other) => {
+                return Err(MethodError::Input(format!("over `{other}`")));
+            }
+        };
+        let scene = Scene {
+            model: equation,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                0.92,
+                Forcing::Pulse(PulseKind::OneSine {
+                    amplitude: input.amplitude * 9.81 * over,
+                    omega_rad_s: input.omega_over_p * p,
+                }),
+            )
+        };
+        let trace = context.engine.respond(&scene)?;
+        let impact = trace.impacts.first();
+        Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
+    };
+    let mut changes = Vec::new();
+    for &alpha in &input.slenderness_rad {
+        let linear = first_speed(alpha, Model::Linearized)?;
+        let speed = first_speed(alpha, Model::Nonlinear)?;
+        changes.push(speed / linear - 1.0);
+    }
+    let [a, b, ..] = input.slenderness_rad.as_slice() else {
+        return Err(MethodError::Input("two slendernesses".to_owned()));
+    };
+    let order = libm::log((changes[1] / changes[0]).abs()) / libm::log(b / a);
+    let mut answer = Answer::default();
+    answer.see("order", [order]);
+    answer.see("change", changes);
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BiasInput {
+    slenderness_rad: Vec<f64>,
+    frequencies_rad_s: Vec<f64>,
+    intensity: f64,
+}
+
+/// Median over a suite's records of the peak over that of alpha = 0.10 at an
+/// intensity just above uplift: where rotations are small, Eq. 1 gives
+/// theta/alpha in proportion to sin(alpha)/alpha, for every motion and size.
+///
+/// With a = IM g tan(alpha) S(t), the terms of order 0 in theta are -p^2
+/// sin(alpha) (sgn(theta) + IM S), those of order 1 in theta are alpha's
+/// only by its square: theta/sin(alpha) follows one equation. What is left
+/// grows with (p t)^2, t the time of uplift.
+pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
+    let input: BiasInput = context.input()?;
+    let suite = rocking_synthesis::pulse()
+        .map_err(|e| MethodError::Oracle(e.to_string()))?;
+    let mut answer = Answer::default();
+    let mut left = Vec::new();
+    for &p in &input.frequencies_rad_s {
+        let peak = |alpha: f64, record: &Accelerogram| {
+            let factor =
+                input.intensity * 9.81 * libm::tan(alpha) / record.pga_g();
+            let scene = Scene::new(
+                [alpha, p, 9.81],
+                0.92,
+                Forcing::Samples {
+                    dt_s: record.dt_s(),
+                    acceleration_m_s2: record
+                        .samples_g()
+                        .iter()
+                        .map(|a| a * factor)
+                        .collect(),
+                },
+            );
+            Ok::<_, MethodError>(context.engine.respond(&scene)?.peak_ratio)
+        };
+        let mut worst: f64 = 0.0;
+        for &alpha in &input.slenderness_rad {
+            let mut ratios = Vec::new();
+            for pair in &suite {
+                let record = &pair.components[0];
+                ratios.push(peak(alpha, record)? / peak(0.1, record)?);
+            }
+            ratios.sort_by(f64::total_cmp);
+            let n = ratios.len();
+            let median = 0.5 * (ratios[(n - 1) / 2] + ratios[n / 2]);
+            if left.is_empty() {
+                answer.see("ratio", [median]);
+            }
+            let due = (libm::sin(alpha) / alpha) / (libm::sin(0.1) / 0.1);
+            worst = worst.max((median - due).abs());
+        }
+        left.push((p, worst));
+    }
+    if let [(p, a), .., (q, b)] = left[..] {
+        answer.see("order-in-p", [libm::log(b / a) / libm::log(q / p)]);
+    }
+    Ok(answer)
+}

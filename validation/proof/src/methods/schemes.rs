@@ -1,0 +1,90 @@
+//! Orders of naive schemes: what they miss at an impact shows in them, not
+//! the order of their steps.
+
+use serde::Deserialize;
+
+use super::references;
+use super::references::TRAJECTORIES;
+use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
+use crate::naive::{Events, Naive, Rules};
+use crate::scene::{Engine as _, Forcing, Overturning};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    /// Trajectories under records.
+    entries: Vec<String>,
+    /// Impacts whose times are compared.
+    impacts: usize,
+    /// Steps an interval, and how much finer the second set is.
+    divisions: Vec<u32>,
+    finer: u32,
+    /// The same where impacts are located, and errors soon are rounding.
+    located_divisions: Vec<u32>,
+    located_finer: u32,
+}
+
+/// Slope of the root mean square error of the impact times, over steps that
+/// set the impacts anywhere in a step.
+pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
+    let input: Input = context.input()?;
+    let late = context.wrong == Some(WrongModel::OrderTooLow);
+    let mut answer = Answer::default();
+    for (name, events) in [
+        ("step-ends-rotation-kept", Events::StepEndsRotationKept),
+        ("step-ends", Events::StepEnds),
+        ("interpolated", Events::Interpolated),
+        ("located", Events::Located),
+    ] {
+        let (divisions, finer) = match events {
+            Events::Located => (&input.located_divisions, input.located_finer),
+            _ => (&input.divisions, input.finer),
+        };
+        let events = match events {
+            Events::Located | Events::Interpolated if late => Events::StepEnds,
+            other => other,
+        };
+        let coarse = error(&input, events, divisions, 1)?;
+        let fine = error(&input, events, divisions, finer)?;
+        let slope = libm::log(coarse / fine) / libm::log(f64::from(finer));
+        answer.see(&format!("order-{name}"), [slope]);
+    }
+    Ok(answer)
+}
+
+fn error(
+    input: &Input,
+    events: Events,
+    divisions: &[u32],
+    finer: u32,
+) -> Result<f64, MethodError> {
+    let file = &TRAJECTORIES;
+    let (mut sum, mut count) = (0.0, 0.0);
+    for entry in &input.entries {
+        let case = references::trajectory(entry)?;
+        let scene = references::scene(case, Overturning::HalfPi)?;
+        let expected = file.get(case, "expected")?;
+        let due = file.column(file.list(expected, "impacts")?, "t")?;
+        let Forcing::Samples { dt_s, .. } = scene.forcing else {
+            return Err(MethodError::Input(format!("`{entry}`: no record")));
+        };
+        for &division in divisions {
+            let step_p =
+                dt_s * scene.frequency_rad_s / f64::from(division * finer);
+            let step_p = match events {
+                Events::Located => step_p,
+                _ => 0.1 * step_p,
+            };
+            let rules = Rules { events, step_p, ..Rules::default() };
+            let trace = Naive(rules).respond(&scene)?;
+            let pairs = trace.impacts.iter().zip(&due).take(input.impacts);
+            for (impact, time_s) in pairs {
+                let off = (impact.time_s - time_s) * scene.frequency_rad_s;
+                sum += off * off;
+                count += 1.0;
+            }
+        }
+    }
+    Ok((sum / count).sqrt())
+}

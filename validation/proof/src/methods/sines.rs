@@ -1,0 +1,123 @@
+//! Sines of N half periods in Eq. 2: Housner's approximation for one, and
+//! more than the two that the core knows as pulses.
+
+use std::f64::consts::PI;
+
+use serde::Deserialize;
+
+use super::closed_forms::{flip, linear_scene, overturns_at_once};
+use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
+use crate::edge::{around, edge};
+use crate::oracles::overturning::sine_without_impact;
+use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
+
+/// Least amplitude at which a sine that never ends overturns without impact:
+/// Housner's for the half sine, and the limit of many half cycles.
+fn semi_infinite(omega: f64) -> f64 {
+    (1.0 + omega * omega).sqrt()
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct HalfInput {
+    omega_over_p: Vec<f64>,
+    /// Block: alpha (rad), p (rad/s), g (m/s2).
+    block: [f64; 3],
+}
+
+/// Housner's sqrt(1 + Omega^2) over the least amplitude at which a half sine
+/// overturns.
+pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
+    let input: HalfInput = context.input()?;
+    let mut ratios = Vec::new();
+    for &omega in &input.omega_over_p {
+        let classic = semi_infinite(omega);
+        let condition = match context.wrong {
+            Some(WrongModel::SemiInfiniteSine) => classic,
+            _ => sine_without_impact(1, omega),
+        };
+        let found = flip(condition, |a| {
+            let pulse =
+                PulseKind::HalfSine { amplitude: a, omega_rad_s: omega };
+            let until = Some(200.0);
+            let mut scene = linear_scene(pulse, 0.92, input.block, until);
+            scene.overturning = Overturning::HalfPi;
+            overturns_at_once(context.engine, &scene)
+        })?;
+        ratios.push(classic / found);
+    }
+    let mut answer = Answer::default();
+    answer.see("classic-over-exact", ratios);
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ManyInput {
+    half_cycles: Vec<u32>,
+    omega_over_p: Vec<f64>,
+    block: [f64; 3],
+    /// Intervals that a half cycle is divided into, and then into twice as
+    /// many.
+    intervals: u32,
+}
+
+/// Least amplitudes at which sines of N half periods overturn without
+/// impact. The core reads such a sine as a record, whose broken line lies
+/// below the curve by the second order of the interval: extrapolated from
+/// two intervals to none.
+pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
+    let input: ManyInput = context.input()?;
+    let mut answer = Answer::default();
+    for &half_cycles in &input.half_cycles {
+        for &omega in &input.omega_over_p {
+            let exact = sine_without_impact(half_cycles, omega);
+            let due = match context.wrong {
+                Some(WrongModel::SemiInfiniteSine) => semi_infinite(omega),
+                _ => exact,
+            };
+            let critical = |intervals: u32| {
+                edge(around(exact, 1e-3), 1e-13, |a| {
+                    let [alpha, p, g] = input.block;
+                    let sine = (a * (g * alpha), omega * p, half_cycles);
+                    let scene = Scene {
+                        model: Model::Linearized,
+                        overturning: Overturning::HalfPi,
+                        until_s: Some(200.0 / p),
+                        ..Scene::new(
+                            input.block,
+                            0.92,
+                            broken(sine, intervals),
+                        )
+                    };
+                    overturns_at_once(context.engine, &scene)
+                })
+            };
+            let coarse = critical(input.intervals)?;
+            let fine = critical(2 * input.intervals)?;
+            let found = fine + (fine - coarse) / 3.0;
+            answer.put("critical-amplitude", [found], [due]);
+        }
+    }
+    Ok(answer)
+}
+
+/// A sine (amplitude in m/s2, rad/s, half periods) as a broken line with so
+/// many intervals a half period.
+fn broken(
+    (amplitude_m_s2, omega_rad_s, half_cycles): (f64, f64, u32),
+    intervals: u32,
+) -> Forcing {
+    let sample = |k: u32| {
+        // Exact zeros where a half period ends.
+        let (whole, part) = (k / intervals, k % intervals);
+        let sign = if whole.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let phase = PI * f64::from(part) / f64::from(intervals);
+        sign * amplitude_m_s2 * libm::sin(phase)
+    };
+    Forcing::Samples {
+        dt_s: PI / (omega_rad_s * f64::from(intervals)),
+        acceleration_m_s2: (0..=half_cycles * intervals).map(sample).collect(),
+    }
+}

@@ -1,0 +1,142 @@
+//! The numerical error itself: energy in flight; and the work that a run
+//! takes.
+
+use rocking::integrator::Observe;
+use serde::Deserialize;
+
+use super::references;
+use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
+use crate::engine;
+use crate::scene::{Forcing, Model, Overturning, Scene, other};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct EnergyInput {
+    equation: Model,
+    slenderness_rad: Vec<f64>,
+    frequency_rad_s: Vec<f64>,
+    restitution: f64,
+    /// Pulse that sets the block in motion: acceleration over the
+    /// threshold, and duration times p.
+    intensity: f64,
+    duration_p: f64,
+}
+
+/// Energy above the base over that of the saddle, along a history in free
+/// flight, divided by eta^2 for each impact met: it stays what it was when
+/// the pulse ended.
+pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
+    let input: EnergyInput = context.input()?;
+    let law = match context.wrong {
+        Some(WrongModel::EnergyOfTheOtherEquation) => other(input.equation),
+        _ => input.equation,
+    };
+    let mut worst = Vec::new();
+    for &alpha in &input.slenderness_rad {
+        for &p in &input.frequency_rad_s {
+            let mut scene = Scene {
+                model: input.equation,
+                until_s: Some((input.duration_p + 12.0) / p),
+                ..Scene::new(
+                    [alpha, p, 9.81],
+                    input.restitution,
+                    Forcing::NONE,
+                )
+            };
+            // A record of a rectangle and then of zeros: the block flies
+            // through intervals of silence, step by step.
+            let dt_s = 0.02 / p;
+            let on = (input.duration_p / 0.02).round() as usize;
+            let mut samples =
+                vec![input.intensity * scene.threshold_m_s2(); on];
+            samples.resize(on + 800, 0.0);
+            scene.forcing =
+                Forcing::Samples { dt_s, acceleration_m_s2: samples };
+            let observe = Observe {
+                events: true,
+                history_interval_s: Some(0.013 / p),
+                until_s: scene.until_s,
+                ..Observe::default()
+            };
+            let run = engine::respond(&scene, &observe)?;
+            let quiet_s = (on + 1) as f64 * dt_s;
+            let eta2 = input.restitution * input.restitution;
+            let eta2 = if context.wrong == Some(WrongModel::EtaOnceInEnergy) {
+                input.restitution
+            } else {
+                eta2
+            };
+            let mut start = None;
+            let mut deviation: f64 = 0.0;
+            for point in &run.history {
+                if point.time_s < quiet_s {
+                    continue;
+                }
+                let met = |t: f64| {
+                    let times = run.impacts.iter().map(|i| i.time_s);
+                    times.filter(|x| *x >= quiet_s && *x <= t).count()
+                };
+                let mut gain = 1.0;
+                for _ in 0..met(point.time_s) {
+                    gain *= eta2;
+                }
+                let u = point.rotation_rad.abs();
+                let w = point.velocity_rad_s / p;
+                let e = level(law, alpha, u, w) / gain;
+                let reference = *start.get_or_insert(e);
+                let saddle = level(law, alpha, alpha, 0.0);
+                deviation = deviation.max((e - reference).abs() / saddle);
+            }
+            if start.is_none() {
+                deviation = f64::NAN;
+            }
+            worst.push(deviation);
+        }
+    }
+    let mut answer = Answer::default();
+    let zeros = vec![0.0; worst.len()];
+    answer.put("energy-drift-over-saddle", worst, zeros);
+    Ok(answer)
+}
+
+/// Energy above the base: w^2/2 + 2 sin(u/2) sin(alpha - u/2), or
+/// w^2/2 + u (alpha - u/2).
+fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
+    let potential = match equation {
+        Model::Nonlinear => {
+            2.0 * libm::sin(0.5 * u) * libm::sin(alpha - 0.5 * u)
+        }
+        Model::Linearized => u * (alpha - 0.5 * u),
+    };
+    0.5 * w * w + potential
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WorkInput {
+    entries: Vec<String>,
+}
+
+/// What runs of reference trajectories cost, apart from what they give.
+pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
+    let input: WorkInput = context.input()?;
+    let mut answer = Answer::default();
+    for entry in &input.entries {
+        let case = references::trajectory(entry)?;
+        let scene = references::scene(case, Overturning::Alpha)?;
+        let scene = context.altered(&scene);
+        let work = engine::respond(&scene, &Observe::default())?.work;
+        for (name, count) in [
+            ("steps", work.steps),
+            ("impacts", work.impacts),
+            ("turning-points", work.turning_points),
+            ("uplifts", work.uplifts),
+            ("rest-scans", work.rest_scans),
+        ] {
+            answer.put(name, [count as f64], []);
+            answer.expected.remove(name);
+        }
+    }
+    Ok(answer)
+}

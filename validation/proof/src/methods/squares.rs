@@ -1,0 +1,169 @@
+//! Square waves in Eq. 1, chained exactly; the engine reads them as records
+//! whose jumps are ramps over two intervals.
+
+use serde::Deserialize;
+
+use super::{Answer, Context, MethodError};
+use crate::cases::WrongModel;
+use crate::oracles::square::{SquareWave, State};
+use crate::scene::{Forcing, Overturning, Scene};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    /// Block: alpha (rad), p (rad/s), eta.
+    block: [f64; 3],
+    /// Unit of the durations, times p.
+    unit_p: f64,
+    /// Intervals that a unit is divided into, and then into twice as many.
+    intervals: usize,
+    /// Square waves: acceleration over g tan(alpha) and whole units of each
+    /// stretch.
+    waves: Vec<Vec<(f64, usize)>>,
+}
+
+impl Input {
+    fn wave(&self, stretches: &[(f64, usize)]) -> SquareWave {
+        let [alpha_rad, _, eta] = self.block;
+        let scaled = |(level, units): &(f64, usize)| {
+            (level * libm::tan(alpha_rad), *units as f64 * self.unit_p)
+        };
+        let stretches = stretches.iter().map(scaled).collect();
+        SquareWave { alpha_rad, eta, stretches }
+    }
+
+    /// The wave as a record: a sample at a jump has the mean of both sides,
+    /// which keeps the first moment and leaves an error of the second order
+    /// in the interval.
+    fn scene(
+        &self,
+        stretches: &[(f64, usize)],
+        intervals: usize,
+        criterion: Overturning,
+    ) -> Scene {
+        let [alpha, p, eta] = self.block;
+        let unit = 9.81 * libm::tan(alpha);
+        let mut samples: Vec<f64> = Vec::new();
+        for &(level, units) in stretches {
+            if let Some(jump) = samples.last_mut() {
+                *jump = 0.5 * (*jump + level * unit);
+            } else {
+                samples.push(level * unit);
+            }
+            let more = samples.len() + units * intervals;
+            samples.resize(more, level * unit);
+        }
+        Scene {
+            overturning: criterion,
+            ..Scene::new(
+                [alpha, p, 9.81],
+                eta,
+                Forcing::Samples {
+                    dt_s: self.unit_p / (intervals as f64 * p),
+                    acceleration_m_s2: samples,
+                },
+            )
+        }
+    }
+
+    /// What `measure` sees, extrapolated from two intervals to none.
+    fn extrapolated(
+        &self,
+        measure: impl Fn(usize) -> Result<Vec<f64>, MethodError>,
+    ) -> Result<Vec<f64>, MethodError> {
+        let coarse = measure(self.intervals)?;
+        let fine = measure(2 * self.intervals)?;
+        if coarse.len() != fine.len() {
+            return Ok(Vec::new());
+        }
+        let pairs = fine.iter().zip(&coarse);
+        Ok(pairs.map(|(f, c)| f + (f - c) / 3.0).collect())
+    }
+}
+
+/// Impacts, peak and end of the motion during square waves.
+pub(super) fn chained(context: &Context) -> Result<Answer, MethodError> {
+    let input: Input = context.input()?;
+    let [alpha, p, _] = input.block;
+    let mut answer = Answer::default();
+    for wave in &input.waves {
+        let form = input.wave(wave);
+        let due = form.motion();
+        let end_p: f64 = form.stretches.iter().map(|s| s.1).sum();
+        let count = due.impacts.len();
+        let seen = |of: fn(f64, f64) -> f64| {
+            input.extrapolated(|intervals| {
+                let scene = input.scene(wave, intervals, Overturning::HalfPi);
+                let trace = context.engine.respond(&scene)?;
+                let impacts = trace.impacts.iter().take(count);
+                Ok(impacts
+                    .map(|i| of(i.time_s, i.speed_before_rad_s))
+                    .collect())
+            })
+        };
+        let times = seen(|t, _| t)?.iter().map(|t| t * p).collect::<Vec<_>>();
+        let speeds = seen(|_, v| v)?;
+        let speeds = speeds.iter().map(|v| v / (p * alpha));
+        let listed = due.impacts.iter();
+        let list = listed.clone().map(|i| i.0);
+        answer.put("impact-times-p", times, list);
+        let list = listed.map(|i| i.1 / alpha);
+        answer.put("impact-speeds", speeds, list);
+        let end = input.extrapolated(|intervals| {
+            let scene = input.scene(wave, intervals, Overturning::HalfPi);
+            let seen = context.state(&scene, end_p / p)?;
+            Ok(vec![
+                seen.rotation_rad / alpha,
+                seen.velocity_rad_s / (p * alpha),
+            ])
+        })?;
+        let State { side, y, w } = due.end;
+        let list = [side * y / alpha, side * w / alpha];
+        answer.put("state-at-end", end, list);
+    }
+    Ok(answer)
+}
+
+/// Fates after square waves, by where the block is, which way it moves and
+/// whether its energy passes the saddle.
+pub(super) fn exclusions(context: &Context) -> Result<Answer, MethodError> {
+    let input: Input = context.input()?;
+    let [alpha, p, _] = input.block;
+    let mut answer = Answer::default();
+    for wave in &input.waves {
+        let form = input.wave(wave);
+        let motion = form.motion();
+        let end = motion.end;
+        let due = form.ending(end);
+        let end_s = form.stretches.iter().map(|s| s.1).sum::<f64>() / p;
+        let scene = input.scene(wave, input.intervals, Overturning::HalfPi);
+        let trace = context.engine.respond(&scene)?;
+        let before = motion.impacts.len();
+        // Sides change at each impact.
+        let odd = (trace.impacts.len() % 2) as f64;
+        let side = trace.first_side * (1.0 - 2.0 * odd);
+        let over = trace.overturned_s.is_some();
+        let fate = match context.wrong {
+            Some(WrongModel::EnergyWhicheverWay) if due.passes => end.side,
+            Some(WrongModel::EnergyWhicheverWay) => 0.0,
+            Some(WrongModel::AngleAlone) if end.y > alpha => end.side,
+            Some(WrongModel::AngleAlone) => 0.0,
+            _ if over => side,
+            _ => 0.0,
+        };
+        answer.put("overturned-side", [fate], [due.overturned]);
+        let speed = input.extrapolated(|intervals| {
+            let scene = input.scene(wave, intervals, Overturning::HalfPi);
+            let trace = context.engine.respond(&scene)?;
+            let after = trace.impacts.get(before);
+            Ok(after
+                .filter(|impact| impact.time_s > end_s)
+                .map(|impact| impact.speed_before_rad_s / (p * alpha))
+                .into_iter()
+                .collect())
+        })?;
+        let due = due.impact.map(|v| v / alpha);
+        answer.put("impact-speed-after", speed, due);
+    }
+    Ok(answer)
+}

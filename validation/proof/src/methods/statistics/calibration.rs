@@ -1,0 +1,339 @@
+//! What tests, intervals and estimators do when the truth is known.
+//!
+//! Every deviation is in units of its own standard error, which follows from
+//! the numbers of trials, ours and the reference's; half a unit of the last
+//! digit printed is taken off first. A case's bound is then a false-alarm
+//! rate and nothing else.
+
+use libm::{exp, lgamma, log};
+use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
+use rocking::statistics::boxplot::median_interval;
+use rocking::statistics::lilliefors::{ShiftedNull, Statistic, Table};
+use rocking::statistics::lognormal::{FitMethod, fit};
+use rocking::statistics::normal;
+use rocking::statistics::normality::{
+    anderson_darling, cramer_von_mises, shapiro_wilk,
+};
+use rocking::statistics::paired::{
+    equivalence, hodges_lehmann, sign_equivalence,
+};
+use rocking::statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
+use serde::Deserialize;
+
+use super::refused;
+use super::truths::Truth;
+use crate::cases::WrongModel;
+use crate::methods::{Answer, Context, MethodError};
+
+/// Deviation in standard errors, half a printed unit taken off.
+fn gap(difference: f64, rounding: f64, error: f64) -> f64 {
+    let off = difference.abs() - rounding;
+    if off <= 0.0 { 0.0 } else { difference.signum() * off / error }
+}
+
+/// A rate against one known from other trials (0: exactly).
+fn rate_gap(
+    outcomes: &[bool],
+    rate: f64,
+    reference: u64,
+    rounding: f64,
+) -> (f64, f64) {
+    let trials = outcomes.len() as f64;
+    let ours = outcomes.iter().filter(|x| **x).count() as f64 / trials;
+    let theirs = if reference == 0 { 0.0 } else { 1.0 / reference as f64 };
+    let error = (rate * (1.0 - rate) * (1.0 / trials + theirs)).sqrt();
+    (ours, gap(ours - rate, rounding, error))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RejectionInput {
+    truth: Truth,
+    n: usize,
+    trials: u64,
+    level: f64,
+    /// Lilliefors, Anderson-Darling, Cramer-von Mises, Shapiro-Wilk; those
+    /// that are not given are not judged.
+    rates: Vec<f64>,
+    /// Trials behind each rate, 0 for an exact one.
+    reference: Vec<u64>,
+    rounding: f64,
+}
+
+/// Rejected shares of four tests.
+pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
+    let input: RejectionInput = context.input()?;
+    let (n, level) = (input.n, input.level);
+    let critical = match context.wrong {
+        // Of the fully specified distribution, asymptotically.
+        Some(WrongModel::PlainKolmogorov) => {
+            (-0.5 * log(0.5 * level) / n as f64).sqrt()
+        }
+        _ => Table::embedded().critical_value(n, level).map_err(refused)?.0,
+    };
+    let judged = input.rates.len();
+    let found =
+        input.truth.map(&context.case.id, n, input.trials, |values| {
+            let sample = Sample::try_new(values).map_err(refused)?;
+            let d = Statistic::try_new(&sample).map_err(refused)?.d;
+            let mut out = [d > critical, false, false, false];
+            let tests = [anderson_darling, cramer_von_mises, shapiro_wilk];
+            for (out, test) in out[1..].iter_mut().zip(tests).take(judged - 1)
+            {
+                *out = test(&sample).map_err(refused)?.p_value < level;
+            }
+            Ok(out)
+        })?;
+    let mut answer = Answer::default();
+    let references = input.rates.iter().zip(&input.reference);
+    for (k, (rate, reference)) in references.enumerate() {
+        let outcomes: Vec<bool> = found.iter().map(|f| f[k]).collect();
+        let (ours, gap) =
+            rate_gap(&outcomes, *rate, *reference, input.rounding);
+        answer.put("rate", [ours], [*rate]);
+        answer.put("standardised-gap", [gap], [0.0]);
+    }
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CoverageInput {
+    truth: Truth,
+    n: usize,
+    trials: u64,
+    procedure: String,
+    rate: f64,
+    reference: u64,
+    rounding: f64,
+}
+
+/// Share of the samples in which an interval covers the truth, or a test
+/// says what it says with a known probability.
+pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
+    let input: CoverageInput = context.input()?;
+    let procedure = match (context.wrong, input.procedure.as_str()) {
+        (Some(WrongModel::NotchForInterval), "exact-interval") => "notch",
+        (Some(WrongModel::OtherInterval), "bootstrap-beta") => "normal-beta",
+        (Some(WrongModel::OtherInterval), "accelerated-beta") => "normal-beta",
+        (Some(WrongModel::OtherInterval), "notch") => "exact-interval",
+        (Some(WrongModel::OtherInterval), _) => "notch",
+        (_, own) => own,
+    };
+    let outcomes = input.truth.map(
+        &context.case.id,
+        input.n,
+        input.trials,
+        |values| covers(procedure, input.truth, context.wrong, values),
+    )?;
+    let (ours, gap) =
+        rate_gap(&outcomes, input.rate, input.reference, input.rounding);
+    let mut answer = Answer::default();
+    answer.put("rate", [ours], [input.rate]);
+    answer.put("standardised-gap", [gap], [0.0]);
+    Ok(answer)
+}
+
+/// Resamples of a bootstrap.
+const RESAMPLES: usize = 499;
+
+fn covers(
+    procedure: &str,
+    truth: Truth,
+    wrong: Option<WrongModel>,
+    values: &[f64],
+) -> Result<bool, MethodError> {
+    let sample = || ExtendedSample::try_new(values).map_err(refused);
+    let inside = |low: f64, x: f64, high: f64| low <= x && x <= high;
+    Ok(match procedure {
+        "notch" => {
+            let boxplot =
+                Boxplot::try_new(&sample()?, QuantileType::default())
+                    .map_err(refused)?;
+            inside(boxplot.notch_low, 0.0, boxplot.notch_high)
+        }
+        "exact-interval" => {
+            let found = median_interval(&sample()?, 0.95);
+            found.is_some_and(|i| inside(i.low, 0.0, i.high))
+        }
+        "hodges-lehmann" => {
+            let ratios: Vec<f64> = values.iter().map(|y| exp(*y)).collect();
+            let found = hodges_lehmann(&ratios).map_err(refused)?;
+            inside(found.low, 1.0, found.high)
+        }
+        // On the edge of equivalence the test says "equivalent" at its
+        // level.
+        "mean-equivalence" | "median-equivalence" => {
+            let ratios: Vec<f64> =
+                values.iter().map(|y| 1.05 * exp(0.03 * y)).collect();
+            let p = match procedure {
+                "mean-equivalence" => {
+                    equivalence(&ratios, 0.05).map_err(refused)?.p_value
+                }
+                _ => sign_equivalence(&ratios, 0.05).map_err(refused)?.p_value,
+            };
+            p < 0.05
+        }
+        "bootstrap-beta" | "accelerated-beta" | "normal-beta" => {
+            let Truth::Lognormal { dispersion } = truth else {
+                return Err(MethodError::Input("a lognormal truth".into()));
+            };
+            let (low, high) = dispersion_interval(procedure, values)?;
+            inside(low, dispersion, high)
+        }
+        // The shift is the sample's smallest value, which is left out.
+        "smallest-value-as-shift" => {
+            rejects_above_the_smallest(wrong, values)?
+        }
+        other => {
+            return Err(MethodError::Input(format!("procedure {other}")));
+        }
+    })
+}
+
+/// 95 % interval of the dispersion (moment fit) by the bootstrap, or by its
+/// normal approximation with divisor 2n.
+fn dispersion_interval(
+    procedure: &str,
+    values: &[f64],
+) -> Result<(f64, f64), MethodError> {
+    let n = values.len();
+    let of = |values: &[f64]| -> f64 {
+        ExtendedSample::try_new(values)
+            .ok()
+            .and_then(|s| fit(&s, 0.0, FitMethod::Moment).ok())
+            .map_or(f64::NAN, |f| f.distribution.dispersion())
+    };
+    let point = of(values);
+    if procedure == "normal-beta" {
+        let half = point / (2.0 * n as f64).sqrt();
+        return Ok((point - half, point + half));
+    }
+    // One stream a sample: its values' bits name it.
+    let name = format!("{:x}", values[0].to_bits());
+    let replicates = Bootstrap::new(&name, 0, n, RESAMPLES).map(|draw| {
+        let drawn: Vec<f64> = draw.iter().map(|i| values[*i]).collect();
+        of(&drawn)
+    });
+    let found = if procedure == "accelerated-beta" {
+        let without: Vec<f64> = (0..n)
+            .map(|k| of(&[&values[..k], &values[k + 1..]].concat()))
+            .collect();
+        accelerated(point, &replicates, &without, 0.95)
+    } else {
+        estimate(point, &replicates, 0.95)
+    };
+    let found = found.ok_or_else(|| MethodError::Oracle("none".into()))?;
+    Ok((found.low, found.high))
+}
+
+/// Replicates of the null of one sample whose smallest value is its shift.
+const NULL_REPLICATES: u64 = 400;
+
+/// Whether the test with the smallest value as shift rejects at 5 %: by the
+/// null that the command simulates, or (wrong) by the table, or by the
+/// dispersion above the smallest value.
+fn rejects_above_the_smallest(
+    wrong: Option<WrongModel>,
+    values: &[f64],
+) -> Result<bool, MethodError> {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let above = values.iter().filter(|x| **x > least);
+    let logs: Vec<f64> = above.map(|x| log(x - least)).collect();
+    let sample = Sample::try_new(&logs).map_err(refused)?;
+    let d = Statistic::try_new(&sample).map_err(refused)?.d;
+    if wrong == Some(WrongModel::KnownShift) {
+        let table = Table::embedded().critical_value(logs.len(), 0.05);
+        return Ok(d > table.map_err(refused)?.0);
+    }
+    let simulate = |values: &[f64]| {
+        ShiftedNull::smallest_value(values, NULL_REPLICATES, 0)
+    };
+    let null = if wrong == Some(WrongModel::DispersionAboveTheSmallest) {
+        let beta =
+            (sample.sum_of_squares() / (logs.len() as f64 - 1.0)).sqrt();
+        // A sample of just that dispersion.
+        let n = values.len();
+        let share = |i: usize| (i as f64 - 0.5) / n as f64;
+        let values = (1..=n).map(|i| exp(beta * normal::quantile(share(i))));
+        simulate(&values.collect::<Vec<_>>())
+    } else {
+        simulate(values)
+    };
+    Ok(null.map_err(refused)?.null.p_value(d).value <= 0.05)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BiasInput {
+    dispersion: f64,
+    n: usize,
+    trials: u64,
+    estimator: FitMethod,
+    /// Mean of the estimated dispersion over the true one; none where a
+    /// closed form gives it.
+    dispersion_ratio: Option<f64>,
+    /// Mean of the estimated log-mean over the true dispersion.
+    log_mean: f64,
+    /// Trials behind the two, 0 for exact ones.
+    reference: u64,
+    rounding: f64,
+}
+
+/// Means of a fit's parameters over lognormal samples.
+pub(crate) fn bias(context: &Context) -> Result<Answer, MethodError> {
+    let input: BiasInput = context.input()?;
+    let method = match (context.wrong, input.estimator) {
+        (Some(WrongModel::OtherDivisor), FitMethod::Moment) => {
+            FitMethod::MaximumLikelihood
+        }
+        (
+            Some(WrongModel::OtherDivisor),
+            FitMethod::Censored(quantile_type),
+        ) => FitMethod::Trimmed(quantile_type),
+        (Some(WrongModel::OtherDivisor), _) => FitMethod::Moment,
+        (_, own) => own,
+    };
+    let dispersion = input.dispersion;
+    let truth = Truth::Lognormal { dispersion };
+    let fits =
+        truth.map(&context.case.id, input.n, input.trials, |values| {
+            let sample = ExtendedSample::try_new(values).map_err(refused)?;
+            let fit = fit(&sample, 0.0, method).map_err(refused)?;
+            let own = fit.distribution;
+            Ok((own.dispersion() / dispersion, own.log_mean() / dispersion))
+        })?;
+    let expected =
+        input.dispersion_ratio.unwrap_or_else(|| mean_of_deviation(&input));
+    let mut answer = Answer::default();
+    let ratios: Vec<f64> = fits.iter().map(|f| f.0).collect();
+    let means: Vec<f64> = fits.iter().map(|f| f.1).collect();
+    for (name, values, expected) in
+        [("dispersion", ratios, expected), ("log-mean", means, input.log_mean)]
+    {
+        let sample = Sample::try_new(&values).map_err(refused)?;
+        let trials = values.len() as f64;
+        let variance = sample.sum_of_squares() / (trials - 1.0);
+        let theirs = match input.reference {
+            0 => 0.0,
+            trials => 1.0 / trials as f64,
+        };
+        let error = (variance * (1.0 / trials + theirs)).sqrt();
+        let gap = gap(sample.mean() - expected, input.rounding, error);
+        answer.put(name, [sample.mean()], [expected]);
+        answer.put("standardised-gap", [gap], [0.0]);
+    }
+    Ok(answer)
+}
+
+/// E(s)/sigma of a normal sample: c4(n) = sqrt(2/(n - 1)) Gamma(n/2)/
+/// Gamma((n - 1)/2), times sqrt((n - 1)/n) for divisor n.
+fn mean_of_deviation(input: &BiasInput) -> f64 {
+    let n = input.n as f64;
+    let c4 = (2.0 / (n - 1.0)).sqrt()
+        * exp(lgamma(0.5 * n) - lgamma(0.5 * (n - 1.0)));
+    match input.estimator {
+        FitMethod::MaximumLikelihood => c4 * ((n - 1.0) / n).sqrt(),
+        _ => c4,
+    }
+}

@@ -1,0 +1,55 @@
+//! Inversion of response curves, on examples in exact rationals.
+
+use rocking::capacity::{InversionRule, ResponseCurve};
+use serde::Deserialize;
+
+use super::refused;
+use crate::cases::WrongModel;
+use crate::methods::{Answer, Context, MethodError};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Input {
+    /// (IM, EDP), the first with EDP 0.
+    curve: Vec<(f64, f64)>,
+    overturning: Option<f64>,
+    levels: Vec<f64>,
+}
+
+/// Capacities at the levels by every rule, and the number of crossings.
+pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
+    let input: Input = context.input()?;
+    let mut vertices = input.curve.clone();
+    let mut overturning = input.overturning;
+    if context.wrong == Some(WrongModel::OverturningAsAnAngle)
+        && let Some(im) = overturning.take()
+    {
+        // pi/2 at alpha = 0.05, interpolated to.
+        vertices.push((im, 31.415_926_535_897_93));
+    }
+    let curve =
+        ResponseCurve::try_new(&vertices, overturning).map_err(refused)?;
+    let mut answer = Answer::default();
+    let mut put = |name: &str, value: f64| {
+        answer.see(name, [value]);
+    };
+    for level in input.levels {
+        // Strictly above instead of at or above.
+        let level = match context.wrong {
+            Some(WrongModel::OpenCrossings) => level * (1.0 + f64::EPSILON),
+            _ => level,
+        };
+        let crossings = curve.crossings(level).map_err(refused)?;
+        put("crossings", crossings.all().len() as f64);
+        for named in InversionRule::ALL {
+            let rule = match (context.wrong, named) {
+                (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
+                    InversionRule::First
+                }
+                _ => named,
+            };
+            put(named.name(), crossings.capacity(rule).im());
+        }
+    }
+    Ok(answer)
+}

@@ -1,0 +1,286 @@
+//! Lilliefors' test: null distribution, table, published values, draws.
+
+use nalgebra::{DMatrix, DVector};
+use rand_distr::{Distribution as _, StandardNormal};
+use rayon::prelude::*;
+use rocking::statistics::lilliefors::{Statistic, Table};
+use rocking::statistics::{Sample, normal};
+use rocking::streams::{Streams, standard_normal};
+use serde::Deserialize;
+
+use super::{number, refused, rows};
+use crate::cases::WrongModel;
+use crate::methods::{Answer, Context, MethodError};
+
+const EXACT: &str = "fixtures/oracles/lilliefors_exact.csv";
+const EXACT_CSV: &str =
+    include_str!("../../../../../fixtures/oracles/lilliefors_exact.csv");
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NullInput {
+    n: usize,
+    replicates: u64,
+    /// Error of the exact values.
+    error: f64,
+}
+
+/// Simulated critical values against the exact ones, in units of both
+/// errors together; and the range of D.
+pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
+    let input: NullInput = context.input()?;
+    let n = input.n;
+    let streams = Streams::new("case, lilliefors null", 0);
+    let mut statistics: Vec<f64> = (0..input.replicates)
+        .into_par_iter()
+        .map(|index| {
+            let mut stream = streams.stream(index);
+            let z: Vec<f64> =
+                (0..n).map(|_| standard_normal(&mut stream)).collect();
+            let sample = Sample::try_new(&z).map_err(refused)?;
+            let s = Statistic::try_new(&sample).map_err(refused)?;
+            Ok(match context.wrong {
+                Some(WrongModel::UpperSideOnly) => s.d_plus,
+                // D of scores that are too long by sqrt(n/(n - 1)).
+                Some(WrongModel::OtherDivisor) => with_divisor_n(&sample),
+                _ => s.d,
+            })
+        })
+        .collect::<Result<_, MethodError>>()?;
+    statistics.sort_by(f64::total_cmp);
+    let count = statistics.len() as f64;
+    let at = |rank: f64| statistics[rank.clamp(1.0, count) as usize - 1];
+    let mut answer = Answer::default();
+    for row in rows(EXACT_CSV, EXACT, &n.to_string())? {
+        let (level, exact) = (number(EXACT, row[1])?, number(EXACT, row[2])?);
+        let rank = ((1.0 - level) * (count + 1.0)).ceil();
+        let span = (0.2 * level.min(1.0 - level) * count).ceil();
+        let spread = (level * (1.0 - level) * count).sqrt();
+        let slope = (at(rank + span) - at(rank - span)) / (2.0 * span);
+        let error = (spread * slope).max(input.error);
+        let gap = (at(rank) - exact) / (error + input.error);
+        answer.put("standardised-gap", [gap], [0.0]);
+    }
+    let largest = at(count) / Statistic::largest(n);
+    answer.see("largest-of-all", [largest]);
+    Ok(answer)
+}
+
+fn with_divisor_n(sample: &Sample) -> f64 {
+    let n = sample.len() as f64;
+    let deviation = (sample.sum_of_squares() / n).sqrt();
+    let mean = sample.mean();
+    sample.sorted().iter().enumerate().fold(0.0, |d: f64, (i, y)| {
+        let f = normal::cdf((y - mean) / deviation);
+        let i = i as f64;
+        d.max((i + 1.0) / n - f).max(f - i / n)
+    })
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LargestInput {
+    n: Vec<usize>,
+}
+
+/// The largest possible D, by its formula and by the sample that attains it.
+pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
+    let input: LargestInput = context.input()?;
+    let mut answer = Answer::default();
+    let mut formula = Vec::new();
+    for n in input.n {
+        formula.push(Statistic::largest(n));
+        // k values at one place, the others at another, for the best k.
+        let attained = (1..n).fold(0.0, |best: f64, k| {
+            let values: Vec<f64> =
+                (0..n).map(|i| f64::from(u8::from(i >= k))).collect();
+            let s = Sample::try_new(&values).ok();
+            let s = s.and_then(|s| Statistic::try_new(&s).ok());
+            let d = s.map_or(f64::NAN, |s| match context.wrong {
+                Some(WrongModel::UpperSideOnly) => s.d_minus.min(s.d_plus),
+                _ => s.d,
+            });
+            best.max(d)
+        });
+        let expected = Statistic::largest(n);
+        answer.put("attained", [attained], [expected]);
+    }
+    answer.see("largest", formula);
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TableInput {
+    n: Vec<usize>,
+    levels: Vec<f64>,
+    /// By size, then by level.
+    values: Vec<Vec<f64>>,
+    /// Half a unit of the last digit printed.
+    rounding: f64,
+    /// By size, then by level.
+    errors: Vec<Vec<f64>>,
+}
+
+/// The table against an independent simulation, in combined standard
+/// errors.
+pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
+    let input: TableInput = context.input()?;
+    let table = Table::embedded();
+    let mut answer = Answer::default();
+    for ((n, values), errors) in
+        input.n.iter().zip(&input.values).zip(&input.errors)
+    {
+        for ((level, value), error) in
+            input.levels.iter().zip(values).zip(errors)
+        {
+            let (mut ours, own) =
+                table.critical_value(*n, *level).map_err(refused)?;
+            if context.wrong == Some(WrongModel::PlainKolmogorov) {
+                // Asymptotic points of the fully specified distribution.
+                ours = (-0.5 * libm::log(0.5 * level) / *n as f64).sqrt();
+            } else if context.wrong == Some(WrongModel::InterpolatedInN) {
+                ours = linear_in_n(*n, *level)?;
+            }
+            let both = (own * own + error * error).sqrt() + input.rounding;
+            let gap = (ours - value) / both;
+            answer.put("standardised-gap", [gap], [0.0]);
+        }
+    }
+    for n in [44, 86] {
+        let (_, own) = table.critical_value(n, 0.05).map_err(refused)?;
+        let seen = answer.observed.entry("own-error".into()).or_default();
+        seen.push(own);
+    }
+    Ok(answer)
+}
+
+/// Critical value between the sizes 50 and 100, 100 and 200, .. linear in n.
+fn linear_in_n(n: usize, level: f64) -> Result<f64, MethodError> {
+    let sizes = [4, 5, 6, 7, 8, 9, 10, 15, 20, 30, 50, 100, 200, 400, 900];
+    let i = sizes.partition_point(|size| *size < n).clamp(1, sizes.len() - 1);
+    let (low, high) = (sizes[i - 1], sizes[i]);
+    let at = |n| Table::embedded().critical_value(n, level).map_err(refused);
+    let share = (n as f64 - low as f64) / (high as f64 - low as f64);
+    let (a, b) = (at(low)?.0, at(high)?.0);
+    Ok(f64::mul_add(share, b - a, a))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PublishedInput {
+    /// Name of the source, for people.
+    sources: Vec<String>,
+    n: Vec<usize>,
+    values: Vec<f64>,
+}
+
+/// True level of tests that use others' critical values.
+pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
+    let input: PublishedInput = context.input()?;
+    if input.sources.len() != input.values.len() {
+        return Err(MethodError::Input("sources and values".into()));
+    }
+    let mut levels = Vec::new();
+    let mut by_interpolation = Vec::new();
+    for (n, value) in input.n.iter().zip(&input.values) {
+        let p = Table::embedded().p_value(*n, *value).map_err(refused)?;
+        levels.push(match context.wrong {
+            Some(WrongModel::PlainKolmogorov) => {
+                2.0 * libm::exp(-2.0 * *n as f64 * value * value)
+            }
+            _ => p.value,
+        });
+    }
+    for level in [0.1, 0.05, 0.01, 0.001] {
+        by_interpolation.push(match context.wrong {
+            Some(WrongModel::PlainKolmogorov) => 0.0,
+            _ => linear_in_n(86, level)?,
+        });
+    }
+    let mut answer = Answer::default();
+    answer.see("true-level", levels);
+    answer.see("interpolated-in-n-at-86", by_interpolation);
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AsymptoticInput {
+    levels: Vec<f64>,
+    least_n: usize,
+}
+
+/// c0 of D = c0/sqrt(n) - c1/n - c2/n^1.5, fitted to the table by weighted
+/// least squares, and the largest residual in standard errors.
+pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
+    let input: AsymptoticInput = context.input()?;
+    let sizes: Vec<usize> = Table::sizes()
+        .into_iter()
+        .map(|(n, _)| n)
+        .filter(|n| *n >= input.least_n)
+        .collect();
+    let terms = match context.wrong {
+        Some(WrongModel::TwoTerms) => 2,
+        _ => 3,
+    };
+    let mut constants = Vec::new();
+    let mut misfits = Vec::new();
+    for level in input.levels {
+        let known: Vec<(f64, f64)> = sizes
+            .iter()
+            .map(|n| Table::embedded().critical_value(*n, level))
+            .collect::<Result<_, _>>()
+            .map_err(refused)?;
+        let row = |i: usize, k: usize| {
+            let root = (sizes[i] as f64).sqrt();
+            let term = match k {
+                0 => 1.0 / root,
+                1 => -1.0 / (root * root),
+                _ => -1.0 / (root * root * root),
+            };
+            term / known[i].1
+        };
+        let matrix = DMatrix::from_fn(sizes.len(), terms, row);
+        let right = DVector::from_iterator(
+            sizes.len(),
+            known.iter().map(|(value, error)| value / error),
+        );
+        let factors = matrix.clone().qr();
+        let coefficients = factors
+            .r()
+            .solve_upper_triangular(&(factors.q().transpose() * &right))
+            .ok_or_else(|| MethodError::Oracle("singular".into()))?;
+        let misfit = (matrix * &coefficients - right).norm_squared()
+            / (sizes.len() - terms) as f64;
+        constants.push(coefficients[0]);
+        misfits.push(misfit);
+    }
+    let mut answer = Answer::default();
+    answer.see("c0", constants);
+    answer.see("mean-square-misfit", misfits);
+    Ok(answer)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DrawInput {
+    draws: usize,
+}
+
+/// Our normal variates against `rand_distr`'s on the same stream.
+pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
+    let input: DrawInput = context.input()?;
+    let streams = Streams::new("two ziggurats", 0);
+    let other = u64::from(context.wrong == Some(WrongModel::NextStream));
+    let (mut ours, mut theirs) = (streams.stream(other), streams.stream(0));
+    let mut worst: f64 = 0.0;
+    for _ in 0..input.draws {
+        let a = standard_normal(&mut ours);
+        let b: f64 = StandardNormal.sample(&mut theirs);
+        worst = worst.max((a - b).abs());
+    }
+    let mut answer = Answer::default();
+    answer.put("largest-difference", [worst], [0.0]);
+    Ok(answer)
+}

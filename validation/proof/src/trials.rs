@@ -1,0 +1,121 @@
+//! Random scenes that put the certificate of a run to the proof: a run in
+//! double precision against wider arithmetic from the same doubles.
+//!
+//! Every scene has an address, its stratum and its index, and follows from
+//! them alone. Gravity is 1 in all of them, so that accelerations are
+//! multiples of it and no quotient rounds them again.
+
+mod compare;
+mod draw;
+mod ends;
+mod first_hop;
+mod grazing;
+mod random;
+mod records;
+mod search;
+mod summary;
+
+pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
+pub use summary::{Judgement, SHARES, Summary};
+
+use rayon::prelude::*;
+use rocking::streams::Streams;
+
+use super::scene::{EngineError, Scene};
+use draw::Draw;
+use rocking_common::words::named;
+
+named! {
+    /// A population of scenes.
+    pub enum Stratum {
+        /// Blocks and ground motions of the study and around it.
+        Ordinary = "ordinary",
+        /// Blocks, records and pulses at the ends of what is accepted.
+        Extreme = "extreme",
+        /// Scenes in which a discrete decision is taken within rounding.
+        Grazing = "grazing",
+        /// Scenes whose observation ends where that decides.
+        Ending = "ending",
+        /// Scenes whose ground acceleration has its peak at the threshold of
+        /// uplift.
+        Touching = "touching",
+        /// Scenes whose first hop after rest grazes the base.
+        FirstHop = "first-hop",
+    }
+}
+
+impl Stratum {
+    /// The stratum of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|stratum| stratum.name() == name)
+    }
+}
+
+/// A scene with its address.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Stratum, index and kind of the excitation.
+    pub name: String,
+    /// The scene.
+    pub scene: Scene,
+}
+
+/// The scene of an address.
+///
+/// None where a scene that grazes was asked for and none of the scenes drawn
+/// could be brought to graze.
+///
+/// # Errors
+/// [`EngineError`] where a run that is needed to find a grazing scene is
+/// refused.
+///
+/// ```
+/// use rocking_proof::trials::{Stratum, trial};
+/// let trial = trial(Stratum::Ordinary, 0)?.unwrap();
+/// assert!(trial.name.starts_with("ordinary:0 "));
+/// # Ok::<(), rocking_proof::scene::EngineError>(())
+/// ```
+pub fn trial(
+    stratum: Stratum,
+    index: u64,
+) -> Result<Option<Trial>, EngineError> {
+    let name = format!("trials {}", stratum.name());
+    let mut draw = Draw(Streams::new(&name, 0).stream(index));
+    let found = match stratum {
+        Stratum::Ordinary => Some(random::ordinary(&mut draw)),
+        Stratum::Extreme => Some(random::extreme(&mut draw)),
+        Stratum::Grazing => grazing::grazing(&mut draw, index)?,
+        Stratum::Ending => ends::ending(&mut draw, index)?,
+        Stratum::Touching => ends::touching(&mut draw, index),
+        Stratum::FirstHop => first_hop::first_hop(&mut draw)?,
+    };
+    Ok(found.map(|(kind, scene)| Trial {
+        name: format!("{}:{index} {kind}", stratum.name()),
+        scene,
+    }))
+}
+
+/// Findings on the scenes of these indices, in their order, without
+/// those that could not be brought to graze and those that take more work
+/// than is allowed in some arithmetic.
+///
+/// # Errors
+/// [`EngineError`] of the first scene refused for another reason.
+pub fn findings(
+    stratum: Stratum,
+    indices: &[u64],
+) -> Result<Vec<Finding>, EngineError> {
+    let found = indices
+        .par_iter()
+        .map(|index| {
+            let found = trial(stratum, *index)
+                .and_then(|trial| trial.as_ref().map(compare).transpose());
+            match found {
+                Err(EngineError::Work(_)) => Ok(None),
+                found => found,
+            }
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(found.into_iter().flatten().collect())
+}

@@ -1,0 +1,217 @@
+//! A run in double precision against the truth.
+
+use rocking::integrator::{
+    Assessment, CLEARANCE, Certificate, Decision, Observe, Response, WorkLimit,
+};
+use rocking::number::Real as _;
+use rocking::number::double::DoubleDouble;
+use rocking::number::octuple::Octuple;
+
+use super::Trial;
+use crate::arithmetic::Wide;
+use crate::cases::WrongModel;
+use crate::engine::{Quotient, respond, respond_in};
+use crate::scene::EngineError;
+
+/// What a run says of itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Whether the block overturned.
+    pub overturned: bool,
+    /// Largest |theta|/alpha.
+    pub peak_ratio: f64,
+    /// Bound on the error of the peak; never below one unit in the last
+    /// place of 1, to which a run without motion is held.
+    pub estimate: f64,
+    /// How clearly fate and peak were decided.
+    pub certificate: Certificate,
+}
+
+impl Seen {
+    /// What a response says, its peak as a double.
+    #[must_use]
+    pub fn of<N>(response: &Response<N>, peak_ratio: f64) -> Self {
+        let estimate = response.error_estimate.unwrap_or(f64::INFINITY);
+        Self {
+            overturned: response.outcome.is_overturned(),
+            peak_ratio,
+            estimate: estimate.max(f64::EPSILON),
+            certificate: response.certificate.unwrap_or_default(),
+        }
+    }
+}
+
+/// How a certificate is read: as it is, or in a wrong way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// As it is.
+    Whole,
+    /// Uplifts, contacts and rests left out.
+    WithoutBranches,
+    /// The end of observation left out.
+    WithoutEnd,
+    /// An overturned run is taken for infinitely far from the other fate.
+    MarginInfinity,
+    /// Every error a tenth of what it is.
+    TenthOfTheError,
+    /// Every error a hundredth of what it is.
+    HundredthOfTheError,
+}
+
+impl Reading {
+    /// The reading of a wrong model.
+    #[must_use]
+    pub fn of(wrong: Option<WrongModel>) -> Self {
+        match wrong {
+            Some(WrongModel::WithoutBranches) => Self::WithoutBranches,
+            Some(WrongModel::WithoutEnd) => Self::WithoutEnd,
+            Some(WrongModel::MarginInfinity) => Self::MarginInfinity,
+            Some(WrongModel::TenthOfTheError) => Self::TenthOfTheError,
+            Some(WrongModel::HundredthOfTheError) => Self::HundredthOfTheError,
+            _ => Self::Whole,
+        }
+    }
+
+    /// Factor on every error.
+    fn factor(self) -> f64 {
+        match self {
+            Self::TenthOfTheError => 0.1,
+            Self::HundredthOfTheError => 0.01,
+            Self::Whole
+            | Self::WithoutBranches
+            | Self::WithoutEnd
+            | Self::MarginInfinity => 1.0,
+        }
+    }
+
+    /// Whether the run may be relied on.
+    #[must_use]
+    pub fn is_clear(self, seen: &Seen) -> bool {
+        let certificate = seen.certificate;
+        Decision::ALL.into_iter().all(|decision| {
+            let left_out = match decision {
+                Decision::Uplift | Decision::Contact | Decision::Rest => {
+                    self == Self::WithoutBranches
+                }
+                Decision::Overturning => {
+                    self == Self::MarginInfinity && seen.overturned
+                }
+                Decision::End => self == Self::WithoutEnd,
+                Decision::Propagation => false,
+            };
+            let ratio = certificate.of(decision).ratio / self.factor();
+            left_out || ratio >= CLEARANCE
+        })
+    }
+
+    /// Bound on the error of the peak.
+    #[must_use]
+    pub fn estimate(self, seen: &Seen) -> f64 {
+        seen.estimate * self.factor()
+    }
+}
+
+/// What wider arithmetic says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Truth {
+    /// The block stands.
+    Stands {
+        /// Largest |theta|/alpha.
+        peak_ratio: DoubleDouble,
+        /// Bound on the error of the peak.
+        error: f64,
+    },
+    /// The block overturned.
+    Overturned,
+    /// No arithmetic at hand decides.
+    Undecided,
+}
+
+/// A trial with the run in double precision and the truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// Address and kind of the trial.
+    pub name: String,
+    /// The run in double precision.
+    pub seen: Seen,
+    /// The truth.
+    pub truth: Truth,
+}
+
+impl Finding {
+    /// Error of the peak beyond what the truth itself leaves open; none
+    /// where one of the two has no peak.
+    #[must_use]
+    pub fn error(&self) -> Option<f64> {
+        let Truth::Stands { peak_ratio, error } = self.truth else {
+            return None;
+        };
+        if self.seen.overturned {
+            return None;
+        }
+        let difference = (self.seen.peak_ratio.wide() - peak_ratio).abs();
+        let beyond = difference.to_f64() - error;
+        // Not a number stays one.
+        Some(if beyond < 0.0 { 0.0 } else { beyond })
+    }
+}
+
+/// Fate and peak of a trial by wider arithmetic, from the same doubles.
+///
+/// # Errors
+/// [`EngineError`] where the scene is refused.
+pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
+    match by::<DoubleDouble>(trial)? {
+        Truth::Undecided => by::<Octuple>(trial),
+        told => Ok(told),
+    }
+}
+
+/// Work of a run in wider arithmetic: a step there takes up to a millisecond.
+const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
+
+/// The truth as one arithmetic tells it.
+fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
+    let observe = Observe {
+        accuracy: true,
+        until_s: trial.scene.until_s,
+        work_limit: WORK,
+        ..Observe::default()
+    };
+    let rounded = Quotient::Rounded;
+    let response = respond_in::<N>(&trial.scene, &observe, rounded)?;
+    let error = response.error_estimate.unwrap_or(f64::INFINITY);
+    Ok(if response.assessment() != Assessment::Clear {
+        Truth::Undecided
+    } else if response.outcome.is_overturned() {
+        Truth::Overturned
+    } else {
+        let peak_ratio = response.peak_ratio.wide();
+        Truth::Stands { peak_ratio, error }
+    })
+}
+
+/// Runs a trial in double precision and finds out the truth.
+///
+/// # Errors
+/// [`EngineError`] where the scene is refused.
+///
+/// ```
+/// use rocking_proof::trials::{
+///     Judgement, Reading, Stratum, compare, trial,
+/// };
+/// let trial = trial(Stratum::Ordinary, 0)?.unwrap();
+/// let judgement = Judgement::of(&compare(&trial)?, Reading::Whole);
+/// assert!(matches!(judgement, Judgement::Right | Judgement::Within(_)));
+/// # Ok::<(), rocking_proof::scene::EngineError>(())
+/// ```
+pub fn compare(trial: &Trial) -> Result<Finding, EngineError> {
+    let until_s = trial.scene.until_s;
+    let observe = Observe { accuracy: true, until_s, ..Observe::default() };
+    let response = respond(&trial.scene, &observe)?;
+    Ok(Finding {
+        name: trial.name.clone(),
+        seen: Seen::of(&response, response.peak_ratio),
+        truth: truth(trial)?,
+    })
+}

@@ -1,0 +1,149 @@
+//! Scenes whose observation ends where it decides, and scenes whose ground
+//! acceleration has its peak at the uplift threshold.
+
+use rocking::excitation::Pulse;
+use rocking::integrator::{Observe, Outcome};
+
+use super::draw::Draw;
+use super::grazing::few;
+use super::random::{self, Named, ordinary_record, under_pulse};
+use super::search::moved;
+use crate::engine::respond;
+use crate::scene::{EngineError, Forcing};
+
+/// Scenes drawn, at most, to find one that has what is asked for.
+const ATTEMPTS: usize = 60;
+/// Units in the last place between an event and the end, at most.
+const NEAR_EVENT: usize = 10_000;
+/// Units in the last place between a peak and the threshold, at most.
+const NEAR_THRESHOLD: usize = 100;
+/// Samples of a record, at most.
+const LONGEST: usize = 400;
+/// Time (in 1/p) after the ground motion that is looked at, at most.
+const AFTER: f64 = 4.0;
+
+/// Pulses of which the amplitude is the peak, and two more.
+const PULSES: usize = 8;
+
+/// A scene whose observation ends about an overturning, about the first
+/// uplift, or anywhere; one kind after the other.
+pub(super) fn ending(
+    draw: &mut Draw,
+    index: u64,
+) -> Result<Option<Named>, EngineError> {
+    for _ in 0..ATTEMPTS {
+        let (_, mut scene) = match draw.below(3) {
+            0 => ordinary_record(draw, LONGEST),
+            1 => {
+                let which = draw.below(random::PULSES);
+                under_pulse(draw, which)
+            }
+            _ => random::extreme(draw),
+        };
+        let response = match respond(&scene, &Observe::default()) {
+            Err(EngineError::Work(_)) => continue,
+            response => response?,
+        };
+        let event = match (index % 3, response.outcome) {
+            (0, Outcome::Overturned { time_s, .. }) => {
+                Some(("end at overturning", time_s))
+            }
+            (1, _) => {
+                let later = response.uplift_time_s.filter(|t| *t > 0.0);
+                later.map(|time_s| ("end at uplift", time_s))
+            }
+            _ => None,
+        };
+        let (name, until_s) = match event {
+            Some((name, time_s)) => {
+                (name, moved(time_s, few(draw, NEAR_EVENT)))
+            }
+            None if index % 3 == 2 => {
+                let after_s = AFTER / scene.frequency_rad_s;
+                let end_s = scene.forcing.end_s();
+                let whole = draw.chance(0.3);
+                let from_s = if whole { 0.0 } else { end_s };
+                ("end anywhere", draw.uniform(from_s, end_s + after_s))
+            }
+            None => continue,
+        };
+        if until_s > 0.0 {
+            scene.until_s = Some(until_s);
+            return Ok(Some((name, scene)));
+        }
+    }
+    Ok(None)
+}
+
+/// A pulse, or the first sample of a record, that rises to the threshold of
+/// uplift but for some units in the last place.
+pub(super) fn touching(draw: &mut Draw, index: u64) -> Option<Named> {
+    let which = (index % (PULSES as u64 + 1)) as usize;
+    if which == PULSES {
+        let (_, mut scene) = ordinary_record(draw, LONGEST);
+        let threshold = scene.threshold_m_s2();
+        let peak = moved(threshold, few(draw, NEAR_THRESHOLD));
+        if let Forcing::Samples { acceleration_m_s2: samples, .. } =
+            &mut scene.forcing
+        {
+            let most = samples.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+            let below = draw.uniform(0.1, 0.95) * threshold / most;
+            samples.iter_mut().for_each(|x| *x *= below);
+            samples[0] = peak * draw.sign();
+        }
+        return Some(("touch of a first sample", scene));
+    }
+    let (kind, mut scene) = under_pulse(draw, which);
+    let name = TOUCHES
+        .into_iter()
+        .find(|name| name.ends_with(&format!(" {kind}")))?;
+    let threshold = scene.threshold_m_s2();
+    let Forcing::Pulse(kind) = &mut scene.forcing else { return None };
+    let pulse = Pulse::try_new(*kind).ok()?.with_pga(threshold).ok()?;
+    *kind = pulse.kind();
+    let amplitude = kind.amplitude_mut();
+    let size = moved(amplitude.abs(), few(draw, NEAR_THRESHOLD));
+    *amplitude = size.copysign(*amplitude);
+    Some((name, scene))
+}
+
+/// Names of the scenes under a pulse.
+const TOUCHES: [&str; PULSES] = [
+    "touch of a one-sine",
+    "touch of a half-sine",
+    "touch of a one-cosine",
+    "touch of a rectangle",
+    "touch of a triangle",
+    "touch of a symmetric Ricker",
+    "touch of an antisymmetric Ricker",
+    "touch of a Mavroeidis",
+];
+
+#[cfg(test)]
+mod tests {
+    use super::{Draw, ending, touching};
+    use crate::scene::Scene;
+    use rocking::streams::Streams;
+
+    fn drawn(of: impl Fn(&mut Draw, u64) -> Option<Scene>) -> usize {
+        let streams = Streams::new("ends of observation", 0);
+        let scene = |index| of(&mut Draw(streams.stream(index)), index);
+        (0..27).filter_map(scene).count()
+    }
+
+    #[test]
+    fn every_kind_of_end_and_of_touch_is_found() {
+        let ends = |draw: &mut Draw, index| {
+            let found = ending(draw, index).unwrap();
+            found.map(|(_, scene)| {
+                assert!(scene.until_s.is_some_and(|t| t > 0.0));
+                scene
+            })
+        };
+        assert_eq!(drawn(ends), 27);
+        let touches = |draw: &mut Draw, index| {
+            touching(draw, index).map(|(_, scene)| scene)
+        };
+        assert_eq!(drawn(touches), 27);
+    }
+}

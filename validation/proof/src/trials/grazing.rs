@@ -1,0 +1,285 @@
+//! Scenes in which a discrete decision is taken within rounding.
+//!
+//! Each is found by bisection on one number, in double precision, down to
+//! neighbouring doubles between which the decision changes, and then moved by
+//! some units in the last place. What follows makes the decision count.
+
+use rocking::integrator::{Observe, Response};
+
+use super::draw::Draw;
+use super::random::{Named, PULSES, ordinary_record, under_pulse};
+use super::records::{filtered, noise, normalised};
+use super::search::{Search, geometric, linear, moved, near};
+use crate::engine::respond;
+use crate::scene::{EngineError, Forcing, Scene};
+
+/// Scenes drawn, at most, to find one that grazes.
+const ATTEMPTS: usize = 40;
+/// Units in the last place by which a decision is missed, at most.
+const NEAR: usize = 1000;
+/// The same for fates.
+const NEAR_FATE: usize = 10_000;
+/// Kinds of decision.
+const KINDS: u64 = 5;
+/// Change of the peak over a contact that is worth looking at.
+const COUNTS: f64 = 1e-11;
+/// Samples of the part of a record that grazes, at most.
+const LONGEST: usize = 400;
+
+/// The scene of an index: one kind of decision after the other.
+pub(super) fn grazing(
+    draw: &mut Draw,
+    index: u64,
+) -> Result<Option<Named>, EngineError> {
+    for _ in 0..ATTEMPTS {
+        let found = match index % KINDS {
+            0 => contact(draw)?,
+            1 => fate(draw, (index / KINDS) as usize)?,
+            2 => Some(uplift(draw)?),
+            3 => rest(draw)?,
+            _ => late(draw)?,
+        };
+        if found.is_some() {
+            return Ok(found);
+        }
+    }
+    Ok(None)
+}
+
+/// A contact made or missed during the first part of a record.
+fn contact(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+    let (_, scene) = ordinary_record(draw, LONGEST);
+    let Forcing::Samples { dt_s, acceleration_m_s2: first } = &scene.forcing
+    else {
+        return Ok(None);
+    };
+    let late = draw.uniform(0.3, 1.0) * (first.len() - 1) as f64 * dt_s;
+    let then = shock(draw, &scene, first, *dt_s)?;
+    let at = |factor: f64| {
+        let samples = first.iter().map(|x| x * factor);
+        with_samples(&scene, samples.chain(then.iter().copied()).collect())
+    };
+    let impacts = |scene: &Scene| {
+        let response = run_until(scene, late)?;
+        let over = response.outcome.is_overturned();
+        Ok((!over).then_some(response.work.impacts))
+    };
+    // One impact more is one that the time looked at cuts off; two are a
+    // contact and the return from it.
+    let turns = |a: &Option<u64>, b: &Option<u64>| match (a, b) {
+        (Some(a), Some(b)) => a.abs_diff(*b) == 2,
+        _ => false,
+    };
+    let search = Search { at, see: impacts, turns, first: first.len() };
+    let Some([a, b]) = search.sides(draw, &linear(0.7, 1.7))? else {
+        return Ok(None);
+    };
+    let peak = |scene: &Scene| {
+        let response = respond(scene, &Observe::default())?;
+        Ok::<f64, EngineError>(response.peak_ratio)
+    };
+    if !((peak(&a.0)? - peak(&b.0)?).abs() > COUNTS) {
+        return Ok(None);
+    }
+    Ok(Some(("contact", near(draw, NEAR, a, b))))
+}
+
+/// An amplitude between two fates.
+fn fate(draw: &mut Draw, which: usize) -> Result<Option<Named>, EngineError> {
+    // A block that is released stands: a record takes that place.
+    let (kind, scene) = match which % PULSES {
+        k if k + 1 == PULSES => ordinary_record(draw, LONGEST),
+        k => under_pulse(draw, k),
+    };
+    let size = amplitude(&scene);
+    let at = |amplitude: f64| scaled(&scene, size, amplitude);
+    let search =
+        Search { at, see: overturns, turns: differ, first: usize::MAX };
+    let range = geometric(0.5 * size, 10.0 * size);
+    let Some([a, b]) = search.sides(draw, &range)? else {
+        return Ok(None);
+    };
+    let name = FATES
+        .into_iter()
+        .find(|name| name.strip_prefix("fate ") == Some(kind))
+        .unwrap_or("fate");
+    Ok(Some((name, near(draw, NEAR_FATE, a, b))))
+}
+
+/// Names of the scenes between two fates.
+const FATES: [&str; PULSES] = [
+    "fate one-sine",
+    "fate half-sine",
+    "fate one-cosine",
+    "fate rectangle",
+    "fate triangle",
+    "fate symmetric Ricker",
+    "fate antisymmetric Ricker",
+    "fate Mavroeidis",
+    "fate filtered noise",
+];
+
+/// A peak or a plateau at the threshold of uplift, then a shock.
+fn uplift(draw: &mut Draw) -> Result<Named, EngineError> {
+    let (_, mut scene) = ordinary_record(draw, LONGEST);
+    let in_p = draw.log(0.005, 0.1);
+    let dt_s = in_p / scene.frequency_rad_s;
+    let threshold = scene.threshold_m_s2();
+    let held = (draw.log(0.5, 40.0) / in_p) as usize;
+    let ulps = if draw.chance(0.5) { 0 } else { few(draw, NEAR) };
+    let peak = draw.sign() * moved(threshold, ulps);
+    let below = 0.9 * threshold;
+    let mut samples: Vec<f64> =
+        (0..draw.below(50)).map(|_| draw.uniform(-below, below)).collect();
+    samples.extend(vec![peak; held.clamp(1, 1000)]);
+    let then = shock(draw, &scene, &samples, dt_s)?;
+    // A shock that drives the block on at once leaves it no time to forget.
+    let strong = then.iter().position(|x| x.abs() > threshold).unwrap_or(0);
+    let sign = if then[strong] * peak > 0.0 { 1.0 } else { -1.0 };
+    let skipped = if draw.chance(0.7) { strong } else { 0 };
+    samples.extend(then.into_iter().skip(skipped).map(|x| sign * x));
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
+    Ok(("uplift", scene))
+}
+
+/// A rest that just comes before the next uplift, or just does not.
+fn rest(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+    let (_, mut scene) = ordinary_record(draw, LONGEST);
+    let in_p = draw.log(0.005, 0.05);
+    let dt_s = in_p / scene.frequency_rad_s;
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: Vec::new() };
+    let threshold = scene.threshold_m_s2();
+    let length = (draw.log(0.3, 2.0) / in_p) as usize + 4;
+    let first: Vec<f64> = if draw.chance(0.5) {
+        let half = std::f64::consts::PI / length as f64;
+        (0..=length).map(|k| libm::sin(half * k as f64)).collect()
+    } else {
+        normalised(filtered(draw, length, dt_s))
+    };
+    let size = draw.log(1.1, 3.0) * threshold;
+    let scaled_first =
+        |factor: f64| first.iter().map(move |x| x * (size * factor));
+    let events = Observe { events: true, ..Observe::default() };
+    let alone = with_samples(&scene, scaled_first(1.0).collect());
+    let alone = respond(&alone, &events)?;
+    let quiet = alone.rest_time_s.map_or(-1.0, |t| t / dt_s) as i64
+        - first.len() as i64;
+    if !(0..3000).contains(&quiet) {
+        return Ok(None);
+    }
+    let again = shock(draw, &scene, &[], dt_s)?;
+    let lifts = again.iter().position(|x| x.abs() > threshold).unwrap_or(0);
+    let quiet = usize::try_from(quiet).unwrap_or(0).saturating_sub(lifts);
+    let at = |factor: f64| {
+        let zeros = std::iter::repeat_n(0.0, quiet);
+        let samples = scaled_first(factor).chain(zeros);
+        with_samples(&scene, samples.chain(again.iter().copied()).collect())
+    };
+    let late = (first.len() + quiet + lifts) as f64 * dt_s;
+    let uplifts = |scene: &Scene| Ok(run_until(scene, late)?.work.uplifts);
+    let turns = |a: &u64, b: &u64| a != b;
+    let search = Search { at, see: uplifts, turns, first: first.len() };
+    let Some([a, b]) = search.sides(draw, &linear(0.8, 1.2))? else {
+        return Ok(None);
+    };
+    Ok(Some(("rest", near(draw, NEAR, a, b))))
+}
+
+/// A clear shock that makes the highest peak, then long shaking at the
+/// amplitude between two fates.
+fn late(draw: &mut Draw) -> Result<Option<Named>, EngineError> {
+    let (_, mut scene) = ordinary_record(draw, LONGEST);
+    let p = scene.frequency_rad_s;
+    let in_p = draw.log(0.02, 0.1);
+    let dt_s = in_p / p;
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: Vec::new() };
+    let threshold = scene.threshold_m_s2();
+    let length = (draw.log(0.5, 2.0) / in_p) as usize + 2;
+    let half = std::f64::consts::PI / length as f64;
+    let size = draw.log(1.2, 2.5) * threshold;
+    let first = (0..=length).map(|k| size * libm::sin(half * k as f64));
+    let quiet = std::iter::repeat_n(0.0, (5.0 / in_p) as usize);
+    let first: Vec<f64> = first.chain(quiet).collect();
+    let turns = draw.log(3.0, 15.0);
+    let n = (draw.uniform(50.0, 200.0) / in_p) as usize;
+    let shaking = normalised(noise(draw, n, turns * in_p));
+    let at = |amplitude: f64| {
+        let shaking = shaking.iter().map(|x| x * amplitude);
+        with_samples(&scene, first.iter().copied().chain(shaking).collect())
+    };
+    let search =
+        Search { at, see: overturns, turns: differ, first: usize::MAX };
+    let range = geometric(threshold, 20.0 * threshold);
+    let Some([a, b]) = search.sides(draw, &range)? else {
+        return Ok(None);
+    };
+    Ok(Some(("late chaos", near(draw, NEAR_FATE, a, b))))
+}
+
+/// A shock after what came before: strong, but in most cases not so strong
+/// that it overturns the block.
+fn shock(
+    draw: &mut Draw,
+    scene: &Scene,
+    before: &[f64],
+    dt_s: f64,
+) -> Result<Vec<f64>, EngineError> {
+    let n = draw.count(50, LONGEST);
+    let peak = draw.log(1.5, 5.0) * scene.threshold_m_s2();
+    let mut samples = normalised(filtered(draw, n, dt_s));
+    samples.iter_mut().for_each(|x| *x *= peak);
+    let tries = if draw.chance(0.8) { 8 } else { 0 };
+    let mut whole = scene.clone();
+    for _ in 0..tries {
+        let all = before.iter().chain(&samples).copied().collect();
+        whole.forcing = Forcing::Samples { dt_s, acceleration_m_s2: all };
+        let response = respond(&whole, &Observe::default())?;
+        if !response.outcome.is_overturned() {
+            break;
+        }
+        samples.iter_mut().for_each(|x| *x *= 0.8);
+    }
+    Ok(samples)
+}
+
+fn with_samples(scene: &Scene, samples: Vec<f64>) -> Scene {
+    let mut scene = scene.clone();
+    if let Forcing::Samples { acceleration_m_s2, .. } = &mut scene.forcing {
+        *acceleration_m_s2 = samples;
+    }
+    scene
+}
+
+fn run_until(scene: &Scene, until_s: f64) -> Result<Response, EngineError> {
+    let until_s = Some(until_s);
+    respond(scene, &Observe { until_s, ..Observe::default() })
+}
+
+fn overturns(scene: &Scene) -> Result<bool, EngineError> {
+    Ok(respond(scene, &Observe::default())?.outcome.is_overturned())
+}
+
+fn differ(a: &bool, b: &bool) -> bool {
+    a != b
+}
+
+/// So many units in the last place, at most, to either side.
+pub(super) fn few(draw: &mut Draw, most: usize) -> i64 {
+    let ulps = if draw.chance(0.1) { 0 } else { draw.count(1, most) };
+    if draw.chance(0.5) { ulps as i64 } else { -(ulps as i64) }
+}
+
+/// Amplitude of the ground motion; of samples the peak.
+fn amplitude(scene: &Scene) -> f64 {
+    let mut forcing = scene.forcing.clone();
+    forcing.amplitudes_mut().iter().fold(0.0, |a, x| a.max(x.abs()))
+}
+
+/// The scene with another amplitude than its own.
+fn scaled(scene: &Scene, own: f64, amplitude: f64) -> Scene {
+    let mut scene = scene.clone();
+    // A pulse's quotient is 1 or -1: its amplitude takes every double.
+    let change = |a: &mut f64| *a = *a / own * amplitude;
+    scene.forcing.amplitudes_mut().iter_mut().for_each(change);
+    scene
+}

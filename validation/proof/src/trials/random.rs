@@ -1,0 +1,230 @@
+//! Random scenes.
+
+use std::convert::Infallible;
+use std::f64::consts::TAU;
+
+use rocking::excitation::{PulseName, PulseParameter as P};
+
+use super::draw::Draw;
+use super::records::Kind;
+use crate::scene::{Forcing, Model, Overturning, Scene};
+
+/// Samples of a record, at most, but for the few long ones.
+const COMMON: usize = 2000;
+/// Samples of a long record, at most.
+const LONG: usize = 100_000;
+/// Share of long records.
+const SHARE_OF_LONG: f64 = 1.0 / 256.0;
+
+/// What a kind of excitation is called, and a scene.
+pub(super) type Named = (&'static str, Scene);
+
+/// Ranges of a stratum.
+struct Ranges {
+    alpha: [f64; 2],
+    p: [f64; 2],
+    /// Largest acceleration over the threshold of uplift.
+    intensity: [f64; 2],
+    /// Duration of a pulse's period, or of all of it, times p.
+    period: [f64; 2],
+    /// Periods of a Ricker pulse.
+    cycles: [f64; 2],
+    /// Oscillatory character of the Mavroeidis pulse.
+    gamma: [f64; 2],
+}
+
+const ORDINARY: Ranges = Ranges {
+    alpha: [0.05, 0.35],
+    p: [0.5, 6.0],
+    intensity: [1.0, 5.0],
+    period: [0.3, 6.0],
+    cycles: [2.0, 6.0],
+    gamma: [1.0, 5.0],
+};
+
+const EXTREME: Ranges = Ranges {
+    alpha: [0.01, 0.8],
+    p: [0.1, 20.0],
+    intensity: [0.5, 50.0],
+    period: [0.05, 20.0],
+    cycles: [1.0, 1000.0],
+    gamma: [1.0, 1000.0],
+};
+
+/// Periods of a pulse times their duration times p, at most.
+const LONGEST_PULSE: f64 = 500.0;
+
+/// A scene of the study's kind.
+pub(super) fn ordinary(draw: &mut Draw) -> Named {
+    let mut scene = block(draw, &ORDINARY);
+    scene.restitution = draw.uniform(0.8, 0.97);
+    if !draw.chance(0.6) {
+        let kind = pulse(draw, &mut scene, &ORDINARY);
+        return (kind, scene);
+    }
+    let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
+    let n = draw.count(200, 4000);
+    let two = draw.chance(0.15);
+    let kind = if two { Kind::TwoShocks } else { Kind::Filtered };
+    let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
+    record(draw, &mut scene, kind, n, dt_s, intensity);
+    (kind.name(), scene)
+}
+
+/// A scene at the ends of what is accepted.
+pub(super) fn extreme(draw: &mut Draw) -> Named {
+    let mut scene = block(draw, &EXTREME);
+    let eta = draw.uniform(0.0, 1.0);
+    scene.restitution = match eta {
+        0.0..0.02 => 1.0,
+        0.02..0.04 => 1.0 - 1e-6,
+        _ => draw.uniform(0.3, 1.0),
+    };
+    if draw.chance(0.4) {
+        let kind = pulse(draw, &mut scene, &EXTREME);
+        return (kind, scene);
+    }
+    let elastic = scene.restitution > 0.999;
+    let n = if elastic {
+        draw.count(2, 100)
+    } else if draw.chance(SHARE_OF_LONG) {
+        draw.count(COMMON, LONG)
+    } else {
+        draw.count(2, COMMON)
+    };
+    let dt_s = draw.log(1e-4, 0.5) / scene.frequency_rad_s;
+    let kind = draw.one_of(&Kind::ALL);
+    let intensity = draw.log(EXTREME.intensity[0], EXTREME.intensity[1]);
+    record(draw, &mut scene, kind, n, dt_s, intensity);
+    let threshold = scene.threshold_m_s2();
+    if let Forcing::Samples { acceleration_m_s2: a, .. } = &mut scene.forcing {
+        if draw.chance(0.1) {
+            let round = |x: f64| (x * 1e3).round() / 1e3;
+            a.iter_mut().for_each(|x| *x = round(*x));
+        }
+        if draw.chance(0.1) {
+            let at = draw.below(n);
+            a[at] = threshold * draw.sign();
+        }
+    }
+    (kind.name(), scene)
+}
+
+/// A block at rest, without ground motion; restitution 1.
+fn block(draw: &mut Draw, ranges: &Ranges) -> Scene {
+    let linear = draw.chance(0.3);
+    let half_pi = draw.chance(0.3);
+    Scene {
+        model: if linear { Model::Linearized } else { Model::Nonlinear },
+        overturning: if half_pi {
+            Overturning::HalfPi
+        } else {
+            Overturning::Alpha
+        },
+        ..Scene::new(
+            [
+                draw.uniform(ranges.alpha[0], ranges.alpha[1]),
+                draw.log(ranges.p[0], ranges.p[1]),
+                1.0,
+            ],
+            1.0,
+            Forcing::NONE,
+        )
+    }
+}
+
+/// Gives a scene a record of a kind with a peak over the threshold.
+fn record(
+    draw: &mut Draw,
+    scene: &mut Scene,
+    kind: Kind,
+    n: usize,
+    dt_s: f64,
+    intensity: f64,
+) {
+    let mut samples = kind.samples(draw, n, dt_s);
+    let peak = intensity * scene.threshold_m_s2();
+    samples.iter_mut().for_each(|x| *x *= peak);
+    scene.forcing = Forcing::Samples { dt_s, acceleration_m_s2: samples };
+}
+
+/// Gives a scene a pulse, or a rotation to be released from.
+fn pulse(draw: &mut Draw, scene: &mut Scene, ranges: &Ranges) -> &'static str {
+    let which = draw.below(PULSES);
+    shaped(draw, scene, ranges, which)
+}
+
+/// Kinds of pulse, the release among them, which is the last.
+pub(super) const PULSES: usize = PulseName::ALL.len() + 1;
+
+/// A block under a pulse of a kind.
+pub(super) fn under_pulse(draw: &mut Draw, which: usize) -> Named {
+    let (ranges, least, most) = if draw.chance(0.3) {
+        (EXTREME, 0.3, 1.0)
+    } else {
+        (ORDINARY, 0.8, 0.97)
+    };
+    let mut scene = block(draw, &ranges);
+    scene.restitution = draw.uniform(least, most);
+    let kind = shaped(draw, &mut scene, &ranges, which);
+    (kind, scene)
+}
+
+/// An ordinary block under a short ordinary record.
+pub(super) fn ordinary_record(draw: &mut Draw, longest: usize) -> Named {
+    let mut scene = block(draw, &ORDINARY);
+    scene.restitution = draw.uniform(0.8, 0.97);
+    let dt_s = draw.one_of(&[0.005, 0.01, 0.02]);
+    let n = draw.count(100, longest);
+    let intensity = draw.log(ORDINARY.intensity[0], ORDINARY.intensity[1]);
+    record(draw, &mut scene, Kind::Filtered, n, dt_s, intensity);
+    (Kind::Filtered.name(), scene)
+}
+
+fn shaped(
+    draw: &mut Draw,
+    scene: &mut Scene,
+    ranges: &Ranges,
+    which: usize,
+) -> &'static str {
+    let intensity = draw.log(ranges.intensity[0], ranges.intensity[1]);
+    let amplitude = intensity * scene.threshold_m_s2() * draw.sign();
+    let in_p = draw.log(ranges.period[0], ranges.period[1]);
+    let period_s = in_p / scene.frequency_rad_s;
+    let omega_rad_s = TAU / period_s;
+    let most = (LONGEST_PULSE / in_p).max(1.0);
+    let Some(pulse) = PulseName::ALL.get(which) else {
+        let near = draw.log(1e-12, 1.0);
+        let ratio = match draw.below(3) {
+            0 => 1.0 - near,
+            1 => near,
+            _ => draw.uniform(0.0, 1.0),
+        };
+        // Below 1 after any rounding.
+        let ratio = ratio.min(1.0 - 1e-14);
+        let rotation_rad = scene.slenderness_rad * ratio;
+        scene.forcing = Forcing::Free { rotation_rad };
+        return "free";
+    };
+    let Ok(kind) = pulse.kind(|parameter| {
+        Ok::<_, Infallible>(match parameter {
+            P::Amplitude => amplitude,
+            P::Velocity => amplitude / omega_rad_s,
+            P::Omega => omega_rad_s,
+            P::Duration | P::Period => period_s,
+            P::Frequency => 1.0 / period_s,
+            P::Cycles => {
+                draw.log(ranges.cycles[0], ranges.cycles[1]).min(most)
+            }
+            P::Gamma => draw.log(ranges.gamma[0], ranges.gamma[1]).min(most),
+            P::Phase => draw.uniform(0.0, TAU),
+        })
+    });
+    scene.forcing = Forcing::Pulse(kind);
+    match pulse {
+        PulseName::RickerSymmetric => "symmetric Ricker",
+        PulseName::RickerAntisymmetric => "antisymmetric Ricker",
+        PulseName::MavroeidisPapageorgiou => "Mavroeidis",
+        other => other.name(),
+    }
+}

@@ -1,0 +1,384 @@
+//! The one function that says whether a case holds, and its result.
+
+pub mod snapshot;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use thiserror::Error;
+
+use crate::cases::{Basis, Bound, Case, Kind, Status};
+use crate::methods::{self, Answer, MethodError, Quantities};
+use rocking_common::words::named;
+
+named! {
+    /// Result of a case.
+    pub enum Verdict {
+        /// Every bound holds and every wrong model is rejected.
+        Pass = "pass",
+        /// A bound is broken, or a wrong model is not rejected.
+        Fail = "fail",
+        /// The case could not be judged.
+        Error = "error",
+        /// Fails, as declared.
+        KnownFailure = "known-failure",
+        /// Passes although declared to fail.
+        UnexpectedPass = "unexpected-pass",
+    }
+}
+
+impl Verdict {
+    /// Whether the gate stays green.
+    #[must_use]
+    pub fn is_accepted(self) -> bool {
+        matches!(self, Self::Pass | Self::KnownFailure)
+    }
+}
+
+/// One quantity against its bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// Name of the quantity.
+    pub quantity: String,
+    /// Its bound.
+    pub bound: Bound,
+    /// What was observed.
+    pub observed: Vec<f64>,
+    /// What was expected; empty where the bound needs nothing.
+    pub expected: Vec<f64>,
+    /// Largest error in the bound's own measure; infinite where the values
+    /// cannot be compared.
+    pub error: f64,
+    /// Error over bound: at most 1 passes.
+    pub margin: f64,
+}
+
+impl Check {
+    /// Whether the bound holds; not a number fails.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.margin <= 1.0
+    }
+}
+
+/// How a wrong model fared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rejection {
+    /// Its name.
+    pub model: &'static str,
+    /// Largest error over bound: above 1 is rejected.
+    pub margin: f64,
+    /// The quantity that shows it best.
+    pub quantity: String,
+}
+
+/// A judged case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// The case's id.
+    pub id: String,
+    /// Its kind.
+    pub kind: Kind,
+    /// Where its bounds come from.
+    pub basis: Basis,
+    /// Each quantity.
+    pub checks: Vec<Check>,
+    /// Each wrong model.
+    pub rejections: Vec<Rejection>,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// What went wrong, if anything did.
+    pub messages: Vec<String>,
+}
+
+impl Outcome {
+    /// Largest margin over the quantities; none where all are exact.
+    #[must_use]
+    pub fn worst_margin(&self) -> f64 {
+        self.checks.iter().fold(0.0, |worst, c| largest(worst, c.margin))
+    }
+
+    /// Bounds that are far from what is reached or nearly broken. Bounds at
+    /// the floor and those taken from another code's errors cannot be
+    /// tightened; printed digits use up their bound.
+    #[must_use]
+    pub fn bounds_to_look_at(&self) -> Vec<&Check> {
+        let printed = self.basis == Basis::ReferenceRounding;
+        let given = self.basis == Basis::AttainableFloat64;
+        let odd = |c: &&Check| {
+            let (Bound::Absolute(bound) | Bound::Relative(bound)) = c.bound
+            else {
+                return false;
+            };
+            let loose = c.margin > 0.0 && c.margin < 1e-3 && bound > FLOOR;
+            (loose && !given) || (c.margin > 0.9 && !printed)
+        };
+        self.checks.iter().filter(odd).collect()
+    }
+}
+
+/// No bound in double precision is asked to be tighter.
+const FLOOR: f64 = 1.01e-13;
+
+/// Why quantities could not be compared.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum JudgeError {
+    /// A quantity has no bound.
+    #[error("quantity `{0}` has no bound")]
+    NoBound(String),
+    /// A bound has no quantity.
+    #[error("bound on `{0}`, which the method does not give")]
+    NoQuantity(String),
+    /// A quantity has nothing to be compared with.
+    #[error("quantity `{0}` has no expected value")]
+    NoExpected(String),
+    /// A value is expected twice.
+    #[error("quantity `{0}` is expected by the method and by the case")]
+    Twice(String),
+}
+
+fn largest(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::INFINITY
+    } else if a > b {
+        a
+    } else {
+        b
+    }
+}
+
+/// Compares quantities by name, never by position; `floor` widens absolute
+/// and relative bounds to what a naive method can do.
+///
+/// # Errors
+/// [`JudgeError`] for a quantity without bound or expectation, and for a
+/// bound without quantity.
+pub fn judge(
+    bounds: &BTreeMap<String, Bound>,
+    observed: &Quantities,
+    expected: &Quantities,
+    floor: Option<f64>,
+) -> Result<Vec<Check>, JudgeError> {
+    let names: BTreeSet<&String> =
+        observed.keys().chain(expected.keys()).collect();
+    if let Some(name) = bounds.keys().find(|name| !names.contains(name)) {
+        return Err(JudgeError::NoQuantity(name.clone()));
+    }
+    let mut checks = Vec::with_capacity(names.len());
+    for name in names {
+        let bound =
+            bounds.get(name).ok_or(JudgeError::NoBound(name.clone()))?;
+        let seen = observed.get(name).cloned().unwrap_or_default();
+        let needed = !matches!(bound, Bound::Interval(..));
+        let wanted = match expected.get(name) {
+            Some(values) => values.clone(),
+            None if needed => {
+                return Err(JudgeError::NoExpected(name.clone()));
+            }
+            None => Vec::new(),
+        };
+        let (error, margin) = measure(bound, &seen, &wanted, floor);
+        checks.push(Check {
+            quantity: name.clone(),
+            bound: bound.clone(),
+            observed: seen,
+            expected: wanted,
+            error,
+            margin,
+        });
+    }
+    Ok(checks)
+}
+
+fn measure(
+    bound: &Bound,
+    seen: &[f64],
+    wanted: &[f64],
+    floor: Option<f64>,
+) -> (f64, f64) {
+    if matches!(bound, Bound::Waived(_)) {
+        return (0.0, 0.0);
+    }
+    let never = (f64::INFINITY, f64::INFINITY);
+    if let Bound::Interval(low, high) = bound {
+        let inside = |x: &f64| *x >= *low && *x <= *high;
+        let held = !seen.is_empty() && seen.iter().all(inside);
+        return if held { (0.0, 0.0) } else { never };
+    }
+    if seen.len() != wanted.len() {
+        return never;
+    }
+    let pairs = || seen.iter().zip(wanted);
+    let widened = |x: f64| floor.map_or(x, |f| if f > x { f } else { x });
+    let over = |error: f64, limit: f64| {
+        let margin = if error == 0.0 { 0.0 } else { error / limit };
+        (error, margin)
+    };
+    let worst = |of: fn(f64, f64) -> f64| {
+        pairs().fold(0.0, |worst, (s, w)| {
+            let same = s == w;
+            largest(worst, if same { 0.0 } else { of(*s, *w) })
+        })
+    };
+    match bound {
+        Bound::Exact => {
+            let error = worst(|_, _| f64::INFINITY);
+            (error, error)
+        }
+        Bound::Absolute(limit) => {
+            over(worst(|s, w| (s - w).abs()), widened(*limit))
+        }
+        Bound::Relative(limit) => {
+            over(worst(|s, w| (s - w).abs() / w.abs()), widened(*limit))
+        }
+        Bound::Order(slack) => {
+            over(worst(|s, w| if s > w { 0.0 } else { w - s }), *slack)
+        }
+        Bound::Coverage(trials) => {
+            // One false alarm in a million, two-sided: 4.8917 sigma.
+            let n = f64::from(*trials);
+            pairs().fold((0.0, 0.0), |(e, m), (s, w)| {
+                let error = (s - w).abs();
+                let limit = 4.8917 * (w * (1.0 - w) / n).sqrt() + 0.5 / n;
+                (largest(e, error), largest(m, error / limit))
+            })
+        }
+        Bound::Interval(..) | Bound::Waived(_) => never,
+    }
+}
+
+/// Runs a case and its wrong models, and gives the verdict.
+#[must_use]
+pub fn run_case(case: &Case) -> Outcome {
+    let mut outcome = Outcome {
+        id: case.id.clone(),
+        kind: case.kind,
+        basis: case.tolerance.basis,
+        checks: Vec::new(),
+        rejections: Vec::new(),
+        verdict: Verdict::Error,
+        messages: Vec::new(),
+    };
+    match checks(case, methods::run(case, None), None) {
+        Err(error) => {
+            outcome.messages.push(error);
+            return outcome;
+        }
+        Ok(checks) => outcome.checks = checks,
+    }
+    for check in outcome.checks.iter().filter(|c| !c.holds()) {
+        outcome.messages.push(describe(check));
+    }
+    if case.tolerance.reject.is_empty() {
+        outcome.messages.push("rejects no wrong model".to_owned());
+    }
+    let mut naive_checked = false;
+    for wrong in case.tolerance.reject.iter().copied() {
+        let name = wrong.name();
+        if wrong.is_naive() && !naive_checked {
+            naive_checked = true;
+            if let Err(message) = naive_passes(case) {
+                outcome.messages.push(message);
+            }
+        }
+        let floor = case.tolerance.naive.filter(|_| wrong.is_naive());
+        match checks(case, methods::run(case, Some(wrong)), floor) {
+            Err(error) => {
+                outcome.messages.push(format!("{name}: {error}"));
+                return outcome;
+            }
+            Ok(checks) => {
+                let rejection = strongest(name, &checks);
+                if rejection.margin <= 1.0 {
+                    outcome
+                        .messages
+                        .push(format!("wrong model `{name}` passes"));
+                }
+                outcome.rejections.push(rejection);
+            }
+        }
+    }
+    let holds = outcome.messages.is_empty();
+    outcome.verdict = match (&case.status, holds) {
+        (Status::Pass, true) => Verdict::Pass,
+        (Status::Pass, false) => Verdict::Fail,
+        (Status::KnownFailure { .. }, false) => Verdict::KnownFailure,
+        (Status::KnownFailure { .. }, true) => Verdict::UnexpectedPass,
+    };
+    outcome
+}
+
+/// Runs cases side by side; outcomes in the order of the cases.
+#[must_use]
+pub fn run_all(cases: &[Case]) -> Vec<Outcome> {
+    use rayon::prelude::*;
+    cases.par_iter().map(run_case).collect()
+}
+
+/// A rejection by the naive integrator proves something only if that
+/// integrator passes with its rules right.
+fn naive_passes(case: &Case) -> Result<(), String> {
+    let Some(floor) = case.tolerance.naive else {
+        return Err("a wrong algorithm is rejected without `naive`, the \
+                    tolerance of the right one"
+            .to_owned());
+    };
+    let checks = checks(case, methods::run_naive(case), Some(floor))?;
+    let broken = checks.iter().find(|c| !c.holds());
+    broken.map_or(Ok(()), |c| {
+        Err(format!("naive integrator with right rules: {}", describe(c)))
+    })
+}
+
+fn checks(
+    case: &Case,
+    answer: Result<Answer, MethodError>,
+    floor: Option<f64>,
+) -> Result<Vec<Check>, String> {
+    let answer = answer.map_err(|error| error.to_string())?;
+    let mut expected = answer.expected;
+    for (name, values) in &case.expect.values {
+        if expected.insert(name.clone(), values.to_vec()).is_some() {
+            return Err(JudgeError::Twice(name.clone()).to_string());
+        }
+    }
+    judge(&case.tolerance.bounds, &answer.observed, &expected, floor)
+        .map_err(|e| e.to_string())
+}
+
+fn strongest(model: &'static str, checks: &[Check]) -> Rejection {
+    let mut rejection =
+        Rejection { model, margin: 0.0, quantity: String::new() };
+    for check in checks {
+        if check.margin > rejection.margin {
+            rejection.margin = check.margin;
+            rejection.quantity.clone_from(&check.quantity);
+        }
+    }
+    rejection
+}
+
+/// A broken bound with its values, as decimals and as bits.
+fn describe(check: &Check) -> String {
+    use std::fmt::Write as _;
+    let mut text = format!(
+        "{}: error {:e} against {:?} (margin {:.3})",
+        check.quantity, check.error, check.bound, check.margin
+    );
+    if check.observed.len() != check.expected.len() {
+        let (o, e) = (check.observed.len(), check.expected.len());
+        let _ = write!(text, "; {o} values for {e} expected");
+    }
+    let pairs = check.observed.iter().zip(&check.expected);
+    for (i, (o, e)) in pairs.enumerate().filter(|(_, (o, e))| o != e).take(4) {
+        let _ = write!(
+            text,
+            "\n  [{i}] observed {o:e} ({:016x}), expected {e:e} ({:016x})",
+            o.to_bits(),
+            e.to_bits()
+        );
+    }
+    text
+}

@@ -1,0 +1,534 @@
+//! The answers of the page, each made from verdicts and measured numbers by
+//! one rule, and what stands about every theme and every suite.
+
+use super::evidence::Proof;
+use super::page::AnswerRow;
+use super::quantity::{cell_text, rule_text, value_text};
+use super::timings::Timings;
+use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
+use rocking_common::paper::{Arm, Verdict};
+use rocking_common::words::rounded_text;
+use rocking_study::analyses::SuiteResults;
+use rocking_study::figures::Results;
+
+/// A part of a question: its short name, and the claims that answer it.
+type Part = (&'static str, &'static [&'static str]);
+
+/// A question that claims answer: words, parts, the claim whose number is
+/// shown, and the figures.
+struct Asked {
+    question: &'static str,
+    parts: &'static [Part],
+    /// What that number is.
+    name: &'static str,
+    effect: &'static str,
+    /// What the answer leaves out: words, and the claim with their number.
+    except: Option<(&'static str, &'static str)>,
+    figures: &'static [&'static str],
+}
+
+const ASKED: [Asked; 4] = [
+    Asked {
+        question: "Is the slenderness normalized out of the statistics, at \
+                   constant restitution?",
+        parts: &[
+            ("ratios on stripes", &["ratios-p1", "ratios-p3-p4"]),
+            ("ratios at demands", &["ratios-at-demand"]),
+            ("quantiles", &["quantiles-coincide"]),
+        ],
+        name: "Median ratio, p = 3 and 4",
+        effect: "ratios-p3-p4",
+        except: Some(("with Housner's restitution", "housner-breaks")),
+        figures: &["figure-06", "figure-07", "figure-08"],
+    },
+    Asked {
+        question: "Do scaled records and an adjusted slenderness give the \
+                   same statistics?",
+        parts: &[
+            ("ratios", &["adjustment-ratios"]),
+            ("quantiles", &["adjustment-quantiles"]),
+        ],
+        name: "Median ratio, adjusted over scaled",
+        effect: "adjustment-ratios",
+        except: None,
+        figures: &["figure-09", "figure-10"],
+    },
+    Asked {
+        question: "Does the shifted lognormal fit capacities, in PGA better \
+                   than the unshifted one?",
+        parts: &[
+            ("distance in PGA", &["shift-gains-pga"]),
+            ("tests in PGA", &["shift-better-pga"]),
+            ("tests in PGV", &["pgv-shifted"]),
+        ],
+        name: "Gain in distance to the sample in PGA",
+        effect: "shift-gains-pga",
+        except: None,
+        figures: &["figure-12", "figure-14", "figure-15"],
+    },
+    Asked {
+        question: "Do Eqs. 5 to 7 give the shifted fragility?",
+        parts: &[
+            ("untrimmed PGV", &["eq7-untrimmed-pgv"]),
+            ("trimmed PGA", &["eq7-trimmed-pga"]),
+            ("untrimmed PGA", &["eq7-untrimmed-fails-pga"]),
+        ],
+        name: "Trimmed PGA, distance to the shifted lognormal",
+        effect: "eq7-trimmed-pga",
+        except: None,
+        figures: &["figure-16", "figure-17", "figure-18"],
+    },
+];
+
+/// The claim that Eq. 7 fails: its verdict speaks against the question.
+const AGAINST: &str = "eq7-untrimmed-fails-pga";
+
+/// How many results of a part have which verdict.
+#[derive(Clone, Copy, Default)]
+struct Count {
+    yes: usize,
+    no: usize,
+    open: usize,
+}
+
+impl Count {
+    fn of(findings: &Findings, claims: &[&str]) -> Self {
+        let first = first_arm(findings);
+        let mut count = Self::default();
+        let own = |c: &&Claim| claims.contains(&c.id.as_str());
+        for claim in findings.claims.iter().filter(own) {
+            let against = claim.id == AGAINST;
+            for result in &claim.results {
+                if result.arm.is_some_and(|arm| arm != first) {
+                    continue;
+                }
+                match result.by_equivalence {
+                    Some(Verdict::Confirmed) if against => count.no += 1,
+                    Some(Verdict::NotConfirmed) if against => count.yes += 1,
+                    Some(Verdict::Confirmed) => count.yes += 1,
+                    Some(Verdict::NotConfirmed) => count.no += 1,
+                    Some(Verdict::Inconclusive) => count.open += 1,
+                    None => {}
+                }
+            }
+        }
+        count
+    }
+
+    fn all(self) -> usize {
+        self.yes + self.no + self.open
+    }
+
+    fn words(self) -> String {
+        let Self { yes, no, open } = self;
+        format!("{yes} for, {no} against, {open} open")
+    }
+}
+
+/// The arm that stands among the findings.
+pub(super) fn first_arm(findings: &Findings) -> Arm {
+    let arms = &findings.settings.arms;
+    if arms.contains(&Arm::C) { Arm::C } else { Arm::A }
+}
+
+/// An answer from the verdicts of its parts.
+///
+/// Yes: every result speaks for it. No: none does and some speak against.
+/// Nearly: none speaks against, and more than half for it. Only for: whole
+/// parts speak for it, others do not. Open: the rest.
+fn answered(parts: &[(&str, Count)]) -> String {
+    let sum = |of: fn(&Count) -> usize| -> usize {
+        parts.iter().map(|(_, count)| of(count)).sum()
+    };
+    let (yes, no) = (sum(|c| c.yes), sum(|c| c.no));
+    let all = sum(|c| c.all());
+    let names = |is: fn(&Count) -> bool| -> String {
+        let found = parts.iter().filter(|(_, count)| is(count));
+        let names: Vec<&str> = found.map(|(name, _)| *name).collect();
+        names.join(", ")
+    };
+    let whole = names(|c| c.all() > 0 && c.yes == c.all());
+    let open = names(|c| c.no == 0 && c.yes < c.all());
+    let against = names(|c| c.no > 0);
+    let rest = |words: &str, names: &str| match names {
+        "" => String::new(),
+        _ => format!("; {words} {names}"),
+    };
+    let rest = rest("open for", &open) + &rest("not for", &against);
+    if all == 0 {
+        "Open: there are no data.".into()
+    } else if yes == all {
+        format!("Yes: all {all} results confirm it.")
+    } else if yes == 0 && no > 0 {
+        format!("No: {no} of {all} results refute it, none confirms it.")
+    } else if whole.is_empty() {
+        format!("Open: {yes} of {all} results for it, {no} against.")
+    } else if no == 0 && 2 * yes > all {
+        format!("Nearly: for {whole}{rest}.")
+    } else {
+        format!("Only for {whole}{rest}.")
+    }
+}
+
+/// The rows of the first table. The first of `recorded` and `here` that
+/// there is leads.
+pub(super) fn rows(
+    embedded: bool,
+    here: &Findings,
+    recorded: Option<&Findings>,
+    timings: &Timings,
+    proof: Option<&Proof>,
+    figures: &[(String, String)],
+) -> Vec<AnswerRow> {
+    let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
+    let lead = recorded.unwrap_or(here);
+    let mut rows: Vec<AnswerRow> = ASKED
+        .iter()
+        .map(|asked| {
+            let counts = |findings: &Findings| -> Vec<(&str, Count)> {
+                let parts = asked.parts.iter();
+                parts.map(|(n, ids)| (*n, Count::of(findings, ids))).collect()
+            };
+            let column = |findings: &&Findings| {
+                let all = asked.parts.iter().flat_map(|(_, ids)| *ids);
+                let all: Vec<&str> = all.copied().collect();
+                let answer = answered(&counts(findings));
+                let word = answer.split([':', ';']).next().unwrap_or("");
+                let word = word.split(" for ").next().unwrap_or(word);
+                let counts = Count::of(findings, &all).words();
+                match sources.len() {
+                    1 => counts,
+                    _ => format!("{word}: {counts}"),
+                }
+            };
+            let stems = asked.figures.iter();
+            let shown = stems.filter_map(|stem| {
+                let own = |f: &&(String, String)| f.0.starts_with(stem);
+                let (name, number) = figures.iter().find(own)?;
+                let number = number.split(',').next().unwrap_or(number);
+                Some((name.clone(), number.to_owned()))
+            });
+            AnswerRow {
+                question: asked.question.into(),
+                answer: answered(&counts(lead)),
+                effect: effect(lead, asked),
+                columns: sources.iter().map(column).collect(),
+                shown: shown.collect(),
+            }
+        })
+        .collect();
+    let same = |words: &str| vec![words.to_owned(); sources.len()];
+    let to = |id: &str, words: &str| vec![(id.into(), words.into())];
+    rows.push(AnswerRow {
+        question: "Does the integrator pass every declared case?".into(),
+        answer: accuracy(proof),
+        effect: timings.error(),
+        columns: same(""),
+        shown: match proof {
+            Some(_) => to("evidence", "proof"),
+            None => Vec::new(),
+        },
+    });
+    let (answer, rate) = timings.speed();
+    rows.push(AnswerRow {
+        question: "Is it faster than other tools at no larger error?".into(),
+        answer,
+        effect: rate,
+        columns: same(""),
+        shown: to("speed", "speed"),
+    });
+    rows.push(AnswerRow {
+        question: "What was not checked?".into(),
+        answer: "Open: the model against experiments, and what it leaves out."
+            .into(),
+        effect: not_checked(embedded),
+        columns: same(""),
+        shown: to("limits", "limits"),
+    });
+    rows
+}
+
+/// The number of a claim on the suite and arm where it is worst.
+fn effect(findings: &Findings, asked: &Asked) -> String {
+    let own = |c: &&Claim| c.id == asked.effect;
+    let Some(claim) = findings.claims.iter().find(own) else {
+        return String::new();
+    };
+    let Some(region) = claim.region else { return String::new() };
+    let value = |r: &rocking_common::findings::ClaimResult| {
+        r.deciding_cell.as_ref().map_or(r.value, |c| c.measured.value)
+    };
+    let worst =
+        claim.results.iter().filter(|r| !value(r).is_nan()).max_by(|a, b| {
+            let bad = |r| region.badness(value(r));
+            bad(a).total_cmp(&bad(b))
+        });
+    let Some(worst) = worst else { return "no data".into() };
+    let text = match &worst.deciding_cell {
+        Some(cell) => cell_text(claim, cell.measured),
+        None => value_text(claim, worst),
+    };
+    format!(
+        "{}: worst judged {text}, {}; limit {}{}",
+        asked.name,
+        worst.suite.name(),
+        rule_text(claim),
+        exception(findings, asked)
+    )
+}
+
+/// The number of what an answer leaves out.
+fn exception(findings: &Findings, asked: &Asked) -> String {
+    let number = |(words, id): (&str, &str)| {
+        let claim = findings.claims.iter().find(|c| c.id == id)?;
+        let result = claim.results.first()?;
+        Some(format!("; {words} {}", value_text(claim, result)))
+    };
+    asked.except.and_then(number).unwrap_or_default()
+}
+
+fn accuracy(proof: Option<&Proof>) -> String {
+    let Some(proof) = proof else {
+        return "Open: the declared cases were not run here.".into();
+    };
+    let (passed, all) = (proof.passed(), proof.results().len());
+    if passed == all {
+        format!("Yes: all {all} pass.")
+    } else {
+        format!("No: {} of {all} fail.", all - passed)
+    }
+}
+
+/// What the work on a suite was, and what rounding may have changed.
+pub(super) fn work(suite: &SuiteResults) -> String {
+    let certainty = suite.work.certainty;
+    let work = format!(
+        "{} {} records, {} analyses",
+        suite.records.len(),
+        suite.kind,
+        suite.work.analyses
+    );
+    if certainty.unresolved == 0 {
+        return format!("{work}; double precision tells every one.");
+    }
+    let ends = certainty.ends;
+    format!(
+        "{work}. In {} of them the motion is chaotic, and rounding in double \
+         precision may have changed the peak or the fate. {} of these are \
+         first overturnings, on which capacities rest. Assessed double \
+         precision settles {}, double-double {}, octuple precision {}, none \
+         {}. {} had been wrong; the 16, 50 and 84 % overturning intensities \
+         would move by {} at most.",
+        certainty.unresolved,
+        ends.all,
+        ends.double,
+        ends.double_double,
+        ends.octuple,
+        ends.undecided,
+        ends.moved,
+        rounded_text(certainty.largest_shift)
+    )
+}
+
+/// How many analyses rounding may have changed, in a sentence.
+pub(super) fn rounding(results: &Results) -> String {
+    let suites = [&results.ordinary, &results.pulse];
+    let all: u64 = suites.iter().map(|s| s.work.analyses).sum();
+    let open = suites.iter().map(|s| s.work.certainty.unresolved);
+    format!(
+        "In {} of {all} analyses rounding may have changed the peak or the \
+         fate. First overturnings among them are told in wider arithmetic \
+         (annex).",
+        open.sum::<usize>()
+    )
+}
+
+/// How verdicts come about, and how many of them chance may have given.
+pub(super) fn trust(
+    findings: &Findings,
+    recorded: Option<&Findings>,
+) -> String {
+    let judged = |findings: &Findings| -> usize {
+        Verdict::ALL.map(|verdict| findings.count(verdict)).iter().sum()
+    };
+    let by_chance = |findings: &Findings| {
+        let n = judged(findings);
+        format!("about {:.0} of {n}", 0.025 * n as f64)
+    };
+    let counts = match recorded {
+        Some(recorded) => format!(
+            "{} recorded, {} embedded",
+            by_chance(recorded),
+            by_chance(findings)
+        ),
+        None => by_chance(findings),
+    };
+    format!(
+        "Chance. A 95 % interval misses on the deciding side in 2.5 % of \
+         cases: chance alone may have given some verdicts ({counts}). \
+         Results share records, so misses come together; arms A and C, and \
+         claims of one quotation, are not independent."
+    )
+}
+
+pub(super) fn not_checked(embedded: bool) -> String {
+    let records = if embedded {
+        "recorded motions anew (their results are kept), "
+    } else {
+        ""
+    };
+    format!(
+        "Shaking tables, {records}sliding, bouncing, vertical \
+         motion, flexible supports, other machines than x86-64 Linux"
+    )
+}
+
+/// What came out about a theme: the plain words of its findings by verdict,
+/// and where another suite says something else.
+pub(super) fn by_theme(
+    theme: Theme,
+    here: &Findings,
+    recorded: Option<&Findings>,
+) -> String {
+    let lead = recorded.unwrap_or(here);
+    let own = |findings: &Findings| -> Vec<(String, Verdict)> {
+        let first = first_arm(findings);
+        let claims = findings.claims.iter().filter(|c| c.theme == theme);
+        claims
+            .filter_map(|c| Some((c.plain.clone(), whole(c, first)?)))
+            .collect()
+    };
+    let found = own(lead);
+    let listed = |verdict: Verdict| -> String {
+        let names = found.iter().filter(|(_, v)| *v == verdict);
+        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
+        names.join("; ")
+    };
+    let confirmed = |v: &Verdict| *v == Verdict::Confirmed;
+    let count = found.iter().filter(|(_, v)| confirmed(v)).count();
+    let mut words = format!("{count} of {} claims hold", found.len());
+    let against = lead
+        .claims
+        .iter()
+        .filter(|c| c.theme == theme && by_criterion_fails(c))
+        .count();
+    if against > 0 {
+        words += &format!(
+            " by the limits here, {against} of them not by the paper's own \
+             criterion"
+        );
+    }
+    let refuted = listed(Verdict::NotConfirmed);
+    if !refuted.is_empty() {
+        words += &format!(". Not confirmed: {refuted}");
+    }
+    let open = found.iter().filter(|(_, v)| *v == Verdict::Inconclusive);
+    match open.count() {
+        0 => {}
+        1 => words += ". One is inconclusive",
+        n => words += &format!(". {n} are inconclusive"),
+    }
+    if recorded.is_none() {
+        return words + ".";
+    }
+    let others = own(here);
+    let turned = others.iter().filter(|(name, verdict)| {
+        found.iter().any(|(n, v)| n == name && v != verdict)
+    });
+    let other = match turned.count() {
+        0 => "All come out alike on the embedded suites".into(),
+        1 => "One comes out otherwise on the embedded suites".to_owned(),
+        n => format!("{n} come out otherwise on the embedded suites"),
+    };
+    format!("On the recorded suites {words}. {other}.")
+}
+
+/// Whether a claim holds by the limits here and nowhere by the paper's own
+/// criterion.
+fn by_criterion_fails(claim: &Claim) -> bool {
+    let fails = |r: &&ClaimResult| {
+        r.by_equivalence == Some(Verdict::Confirmed)
+            && r.by_criterion == Some(Verdict::NotConfirmed)
+    };
+    let all = claim.results.iter().filter(|r| r.by_equivalence.is_some());
+    let failing = claim.results.iter().filter(fails).count();
+    failing > 0 && failing == all.count()
+}
+
+/// The verdict on a claim over its suites: confirmed where each of them
+/// confirms it, not confirmed where one refutes it.
+fn whole(claim: &Claim, first: Arm) -> Option<Verdict> {
+    let shown = |arm: Option<Arm>| arm.is_none_or(|arm| arm == first);
+    let verdicts: Vec<Verdict> = claim
+        .results
+        .iter()
+        .filter(|r| shown(r.arm))
+        .filter_map(|r| r.by_equivalence)
+        .collect();
+    let all = |v: &Verdict| *v == Verdict::Confirmed;
+    if verdicts.is_empty() {
+        None
+    } else if verdicts.iter().all(all) {
+        Some(Verdict::Confirmed)
+    } else if verdicts.contains(&Verdict::NotConfirmed) {
+        Some(Verdict::NotConfirmed)
+    } else {
+        Some(Verdict::Inconclusive)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn count(yes: usize, no: usize, open: usize) -> Count {
+        Count { yes, no, open }
+    }
+
+    #[test]
+    fn answers_follow_from_the_verdicts_of_their_parts() {
+        let (good, bad) = (count(4, 0, 0), count(0, 4, 0));
+        let (open, mixed) = (count(1, 0, 3), count(3, 1, 0));
+        for (parts, answer) in [
+            (vec![("a", good), ("b", good)], "Yes: all 8 results"),
+            (vec![("a", bad), ("b", bad)], "No: 8 of 8 results refute it"),
+            (vec![("a", good), ("b", open)], "Nearly: for a; open for b."),
+            (
+                vec![("a", good), ("b", open), ("c", bad)],
+                "Only for a; open for b; not for c.",
+            ),
+            (vec![("a", mixed), ("b", open)], "Open: 4 of 8 results"),
+            (vec![("a", count(0, 0, 4))], "Open: 0 of 4 results"),
+            (vec![("a", count(0, 0, 0))], "Open: there are no data."),
+        ] {
+            let found = answered(&parts);
+            assert!(found.starts_with(answer), "{found:?}, {answer:?}");
+        }
+    }
+
+    #[test]
+    fn answers_have_at_most_fifteen_words_and_rest_on_claims() {
+        let recorded = super::super::findings::recorded().unwrap();
+        for asked in &ASKED {
+            let ids = asked.parts.iter().flat_map(|(_, ids)| *ids);
+            for id in ids.chain([&asked.effect]) {
+                let there = recorded.claims.iter().any(|c| c.id == *id);
+                assert!(there, "{id}");
+            }
+            for (first, other) in [
+                (count(1, 0, 0), count(0, 1, 0)),
+                (count(1, 0, 0), count(0, 0, 1)),
+                (count(0, 0, 1), count(0, 0, 1)),
+            ] {
+                let parts = asked.parts.iter().enumerate();
+                let parts: Vec<(&str, Count)> = parts
+                    .map(|(k, (n, _))| {
+                        (*n, if k == 0 { first } else { other })
+                    })
+                    .collect();
+                let found = answered(&parts);
+                assert!(found.split(' ').count() <= 15, "{found}");
+            }
+        }
+    }
+}

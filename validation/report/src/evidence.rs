@@ -1,0 +1,101 @@
+//! What the report shows of the proof: the declared cases with their
+//! results, the digits that each precision reaches, and figures of closed
+//! forms.
+
+mod defect;
+mod families;
+mod fates;
+mod proof;
+mod spectrum;
+mod tables;
+
+pub use families::families;
+pub use proof::{NOT_RUN, Proof, ProofError};
+
+use super::page::Family;
+use rocking_common::table::PlainTable;
+use rocking_draw::figures::Figure;
+use rocking_proof::cases::{CaseError, load_all};
+use rocking_proof::scene::EngineError;
+
+/// Why there is nothing to show.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvidenceError {
+    /// The cases cannot be read.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A scene of a figure cannot be run.
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}
+
+/// Declared cases with their results, family by family.
+///
+/// # Errors
+/// [`EvidenceError`] where the cases cannot be read.
+pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
+    Ok(families(&load_all()?, proof.results()))
+}
+
+/// The tables of the proof: pulses against closed forms, if results were
+/// handed in, and critical values beside published ones.
+///
+/// # Errors
+/// [`EvidenceError`] where the cases cannot be read.
+pub fn checks(
+    proof: Option<&Proof>,
+) -> Result<Vec<PlainTable>, EvidenceError> {
+    let pulses = proof.map(|proof| tables::similarity(proof.results()));
+    let mut all: Vec<PlainTable> = pulses.transpose()?.into_iter().collect();
+    all.push(tables::critical_values()?);
+    Ok(all)
+}
+
+/// The figures of the proof.
+///
+/// # Errors
+/// [`EvidenceError::Engine`] where a scene is refused.
+pub fn charts() -> Result<Vec<Figure>, EvidenceError> {
+    Ok(vec![defect::chart()?, spectrum::chart()?, fates::map()?])
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use rocking_proof::cases::Cost;
+
+    #[test]
+    fn charts_have_something_in_every_series() {
+        // The last is a map, with other columns.
+        for figure in charts().unwrap().into_iter().take(2) {
+            assert!(figure.svg().starts_with("<svg"));
+            assert!(!figure.reading.contains("NaN"), "{}", figure.reading);
+            let mut drawn: BTreeMap<[String; 2], usize> = BTreeMap::new();
+            let mut rows = csv::Reader::from_reader(figure.csv.as_bytes());
+            for row in rows.records() {
+                let row = row.unwrap();
+                let series = [row[0].to_owned(), row[1].to_owned()];
+                let y: Result<f64, _> = row[3].parse();
+                let finite = y.is_ok_and(f64::is_finite);
+                *drawn.entry(series).or_default() += usize::from(finite);
+            }
+            assert!(drawn.values().all(|n| *n >= 2), "{drawn:?}");
+        }
+    }
+
+    #[test]
+    fn every_quick_case_is_shown_with_its_result() {
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        let proof = Proof::read(data.as_ref()).unwrap();
+        let families = shown(&proof).unwrap();
+        let cases: usize = families.iter().map(|f| f.cases.len()).sum();
+        let all = load_all().unwrap();
+        let quick = all.iter().filter(|c| c.cost == Cost::Quick).count();
+        assert_eq!(cases, quick);
+        let shown = families.iter().flat_map(|f| &f.cases);
+        assert!(shown.into_iter().all(|c| c.worst != "no result"));
+    }
+}

@@ -1,0 +1,441 @@
+//! The results of the declared cases as `rocking validate` wrote them,
+//! handed in to be shown.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+use crate::diff::{self, DiffError};
+use rocking_common::table::{PlainTable, cells};
+use rocking_common::words::{percent, range};
+use rocking_proof::cases::{Case, CaseError, Cost, load_all};
+use rocking_proof::methods::DIGITS_HEADER;
+
+/// File of the results of the declared cases.
+const RESULTS: &str = "validation.json";
+/// File of the digits that each precision reaches.
+const DIGITS: &str = "precision.csv";
+
+/// Method of the cases that measure the coverage of the study's intervals.
+const COVERAGE: &str = "coverage-of-inference";
+
+/// How to get what is not there.
+pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
+    validate --out FOLDER` runs them and writes their results to \
+    FOLDER/data, and `rocking study --proof FOLDER/data` shows them.";
+
+/// Why results of the declared cases are refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ProofError {
+    /// A file that cannot be read.
+    #[error(
+        "cannot read {}: {source}; expected {RESULTS} and {DIGITS} as \
+         `rocking validate --out` writes them",
+        path.display()
+    )]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        #[source]
+        source: io::Error,
+    },
+    /// The declared cases cannot be read.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// Results of another form.
+    #[error(transparent)]
+    Form(#[from] DiffError),
+    /// Results of other cases than this program's.
+    #[error(
+        "{}: not the cases of this program; `rocking validate` runs those. \
+         Missing: {}. Unknown: {}",
+        path.display(),
+        list(missing),
+        list(unknown)
+    )]
+    Cases {
+        /// The file.
+        path: PathBuf,
+        /// Cases of this program without a result.
+        missing: Vec<String>,
+        /// Results of cases that this program does not have.
+        unknown: Vec<String>,
+    },
+    /// A table of digits of another form.
+    #[error("{}:{line}: {found:?}, expected {expected}", path.display())]
+    Digits {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+        /// What should.
+        expected: String,
+    },
+}
+
+fn list(ids: &[String]) -> String {
+    if ids.is_empty() { "none".into() } else { ids.join(", ") }
+}
+
+/// Results of the declared cases: one for each case of this program that is
+/// run without `--full`, and no other.
+#[derive(Clone, Debug)]
+pub struct Proof {
+    place: String,
+    results: Map<String, Value>,
+    digits: String,
+}
+
+/// Shares of simulated suites in which intervals of 95 % hold the truth.
+#[derive(Clone, Debug)]
+pub struct Coverage {
+    rows: Vec<(String, f64)>,
+}
+
+impl Coverage {
+    /// The shares, in a sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let (low, high) = range(self.rows.iter().map(|(_, share)| *share));
+        format!(
+            "Coverage. In 300 simulated suites, whose truth is known, \
+             intervals of 95 % hold it in {} to {}.",
+            percent(low, 1),
+            percent(high, 1)
+        )
+    }
+
+    /// The shares, one by one.
+    #[must_use]
+    pub fn table(&self) -> PlainTable {
+        let row = |(claim, share): &(String, f64)| {
+            vec![claim.clone(), "95.0 %".into(), percent(*share, 1)]
+        };
+        let header = ["interval", "nominal", "found"];
+        PlainTable {
+            name: "coverage".into(),
+            title: "Coverage of the intervals of the findings".into(),
+            reading: "Share of 300 simulated suites, whose truth is known, \
+                      in which the interval holds it. The standard error of \
+                      a share is 1.3 %. The interval of a share of cells \
+                      follows from the band over all cells and holds more \
+                      often than it says."
+                .into(),
+            header: header.map(String::from).into(),
+            rows: self.rows.iter().map(row).collect(),
+        }
+    }
+}
+
+impl Proof {
+    /// Reads the folder into which `rocking validate` wrote them.
+    ///
+    /// # Errors
+    /// [`ProofError`] for a file that is missing or damaged, and for results
+    /// of other cases than this program's.
+    pub fn read(folder: &Path) -> Result<Self, ProofError> {
+        let text = |name| read(&folder.join(name));
+        Self::from_texts(folder, &text(RESULTS)?, text(DIGITS)?)
+    }
+
+    /// Results from the texts of both files; `folder` is only told.
+    ///
+    /// # Errors
+    /// [`ProofError`] for damaged texts, and for results of other cases than
+    /// this program's.
+    pub fn from_texts(
+        folder: &Path,
+        results: &str,
+        digits: String,
+    ) -> Result<Self, ProofError> {
+        let path = folder.join(RESULTS);
+        // Refuses what has another form.
+        diff::Results::from_text(&path, results)?;
+        let results: Map<String, Value> =
+            serde_json::from_str(results).unwrap_or_default();
+        same_cases(&path, &load_all()?, &results)?;
+        whole_table(&folder.join(DIGITS), &digits)?;
+        // The same words wherever the folder lies.
+        let place = Path::new(folder.file_name().unwrap_or_default());
+        let place = place.join(RESULTS).display().to_string();
+        Ok(Self { place, results, digits })
+    }
+
+    /// What a folder holds; none where neither file is there.
+    ///
+    /// # Errors
+    /// As [`Proof::read`].
+    pub fn find(folder: &Path) -> Result<Option<Self>, ProofError> {
+        let there = |name| folder.join(name).exists();
+        (there(RESULTS) || there(DIGITS))
+            .then(|| Self::read(folder))
+            .transpose()
+    }
+
+    /// The results by id.
+    #[must_use]
+    pub fn results(&self) -> &Map<String, Value> {
+        &self.results
+    }
+
+    /// Number of cases that passed.
+    #[must_use]
+    pub fn passed(&self) -> usize {
+        self.results.values().filter(|case| case["verdict"] == "pass").count()
+    }
+
+    /// How often the intervals of the study hold the truth of simulated
+    /// suites, by the cases that simulate them: each claim with its share.
+    ///
+    /// # Errors
+    /// [`CaseError`] where the declared cases cannot be read.
+    pub fn coverage(&self) -> Result<Coverage, CaseError> {
+        let share = |id: &str| {
+            let found = &self.results[id]["quantities"]["rate"];
+            found["first"][0].as_f64().unwrap_or(f64::NAN)
+        };
+        let cases = load_all()?;
+        let own = cases.iter().filter(|case| case.method == COVERAGE);
+        let rows = own.map(|c| (c.claim.clone(), share(&c.id))).collect();
+        Ok(Coverage { rows })
+    }
+
+    /// Number of wrong models that the cases told from the right one.
+    #[must_use]
+    pub fn rejected(&self) -> usize {
+        let all = self.results.values();
+        all.filter_map(|case| Some(case["rejected"].as_object()?.len())).sum()
+    }
+
+    /// Errors of the numbers compared, over their tolerances, in order.
+    fn margins(&self) -> Vec<f64> {
+        let mut margins: Vec<f64> = self
+            .results
+            .values()
+            .filter_map(|case| case["quantities"].as_object())
+            .flat_map(Map::values)
+            .filter(|quantity| quantity["kind"] != "waived")
+            .filter_map(|quantity| quantity["margin"].as_f64())
+            .collect();
+        margins.sort_by(f64::total_cmp);
+        margins
+    }
+
+    /// Share of its tolerance that half of the numbers stay below.
+    #[must_use]
+    pub fn middle_margin(&self) -> f64 {
+        let margins = self.margins();
+        margins.get(margins.len() / 2).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Significant digits that each precision reaches on the hard cases and
+    /// the reference trajectories.
+    #[must_use]
+    pub fn digits_table(&self) -> PlainTable {
+        let mut table = PlainTable::from_csv(
+            "table-precision",
+            "Table 2. Significant digits reached by three precisions",
+            "End: the peak of |theta|/alpha, or the instant of overturning. \
+             Impacts: the worst of the instants and speeds of the first ten. \
+             Where there is no reference of 36 digits the truth is the \
+             double-double run. The same source runs in all three; a digit \
+             missing in double precision is missing for the sensitivity of \
+             the motion, which the error estimate states.",
+            &self.digits,
+        );
+        table.header = [
+            "case",
+            "equation",
+            "truth",
+            "end, single",
+            "end, double",
+            "end, double-double",
+            "impacts, single",
+            "impacts, double",
+            "impacts, double-double",
+        ]
+        .map(String::from)
+        .into();
+        table
+    }
+}
+
+/// Whose results these are, how many cases passed, and how far their numbers
+/// stay within the tolerances.
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "By the results handed in ({}): {} of {} declared cases pass \
+             against closed forms, trajectories with 36 digits and other \
+             oracles, found by `rocking validate`, not by this study; of the \
+             {} numbers compared half use less than {:.0e} of their \
+             tolerance.",
+            self.place,
+            self.passed(),
+            self.results.len(),
+            self.margins().len(),
+            self.middle_margin()
+        )
+    }
+}
+
+fn read(path: &Path) -> Result<String, ProofError> {
+    fs::read_to_string(path)
+        .map_err(|source| ProofError::Read { path: path.to_owned(), source })
+}
+
+fn same_cases(
+    path: &Path,
+    cases: &[Case],
+    results: &Map<String, Value>,
+) -> Result<(), ProofError> {
+    let declared: BTreeSet<&String> = cases
+        .iter()
+        .filter(|case| case.cost == Cost::Quick)
+        .map(|case| &case.id)
+        .collect();
+    let found: BTreeSet<&String> = results.keys().collect();
+    if declared == found {
+        return Ok(());
+    }
+    let less = |a: &BTreeSet<&String>, b| {
+        a.difference(b).map(|id| (*id).clone()).collect()
+    };
+    Err(ProofError::Cases {
+        path: path.to_owned(),
+        missing: less(&declared, &found),
+        unknown: less(&found, &declared),
+    })
+}
+
+/// Refuses a table with other columns, without rows, or cut.
+fn whole_table(path: &Path, text: &str) -> Result<(), ProofError> {
+    let refused = |line: usize, found: &str, expected: String| {
+        let found = found.to_owned();
+        Err(ProofError::Digits {
+            path: path.to_owned(),
+            line,
+            found,
+            expected,
+        })
+    };
+    let mut lines = text.split_inclusive('\n');
+    let header = lines.next().unwrap_or_default();
+    if header != DIGITS_HEADER {
+        return refused(1, header, format!("{DIGITS_HEADER:?}"));
+    }
+    let columns = cells(DIGITS_HEADER).len();
+    let mut count = 1;
+    for line in lines {
+        count += 1;
+        if cells(line).len() != columns || !line.ends_with('\n') {
+            return refused(count, line, format!("a row of {columns} cells"));
+        }
+    }
+    if count == 1 {
+        return refused(2, "", "a row".into());
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The folder of the committed results.
+    fn committed() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/data")
+    }
+
+    /// Reads the committed results after a change of both texts.
+    fn changed(
+        name: &str,
+        results: impl Fn(&str) -> String,
+        digits: impl Fn(&str) -> String,
+    ) -> String {
+        let own = format!("rocking-proof-{name}-{}", std::process::id());
+        let folder = std::env::temp_dir().join(own);
+        fs::create_dir_all(&folder).unwrap();
+        for (file, change) in
+            [(RESULTS, &results as &dyn Fn(&str) -> String), (DIGITS, &digits)]
+        {
+            let text = fs::read_to_string(committed().join(file)).unwrap();
+            fs::write(folder.join(file), change(&text)).unwrap();
+        }
+        let message = Proof::find(&folder)
+            .map_or_else(|e| e.to_string(), |_| "accepted".into());
+        fs::remove_dir_all(&folder).unwrap();
+        message
+    }
+
+    fn refused(message: &str, words: &[&str]) {
+        for word in words {
+            assert!(message.contains(word), "{word:?} not in {message:?}");
+        }
+    }
+
+    #[test]
+    fn the_committed_results_are_whole_and_say_whose_they_are() {
+        let proof = Proof::read(&committed()).unwrap();
+        let (passed, all) = (proof.passed(), proof.results().len());
+        assert_eq!(passed, all);
+        let own = "By the results handed in (data/validation.json): ";
+        let count = format!("{own}{all} of {all} declared cases pass");
+        let text = proof.to_string();
+        assert!(text.starts_with(&count), "{text}");
+        assert!(text.contains("not by this study"), "{text}");
+        assert!(!text.contains("NaN"), "{text}");
+        assert!(proof.digits_table().rows.len() > 30);
+        assert!(Proof::find(Path::new("nowhere")).unwrap().is_none());
+    }
+
+    #[test]
+    fn results_of_other_cases_are_refused_by_their_ids() {
+        let same = str::to_owned;
+        assert_eq!(changed("same", same, same), "accepted");
+        let id = load_all().unwrap()[0].id.clone();
+        let renamed = format!("{id}-renamed");
+        let other = |text: &str| {
+            let found = format!("\"{id}\": {{");
+            assert!(text.contains(&found));
+            text.replacen(&found, &format!("\"{renamed}\": {{"), 1)
+        };
+        let missing = format!("Missing: {id}. Unknown: {renamed}");
+        refused(&changed("other", other, same), &[RESULTS, &missing]);
+    }
+
+    #[test]
+    fn damaged_results_are_refused() {
+        let same = str::to_owned;
+        let half = |text: &str| text[..text.len() / 2].to_owned();
+        refused(&changed("cut", half, same), &[RESULTS, "JSON"]);
+        let bad = |text: &str| text.replacen("\"pass\"", "\"maybe\"", 1);
+        refused(&changed("verdict", bad, same), &["maybe", "pass"]);
+        let cut = |text: &str| text[..text.len() - 3].to_owned();
+        refused(&changed("row", same, cut), &[DIGITS, "a row of 9 cells"]);
+        let headless = |text: &str| text.replacen("equation", "eq", 1);
+        refused(&changed("head", same, headless), &["precision.csv:1:"]);
+        refused(&changed("none", same, |_| DIGITS_HEADER.into()), &[":2:"]);
+    }
+
+    #[test]
+    fn one_file_alone_is_refused() {
+        let own = format!("rocking-proof-alone-{}", std::process::id());
+        let folder = std::env::temp_dir().join(own);
+        fs::create_dir_all(&folder).unwrap();
+        fs::copy(committed().join(RESULTS), folder.join(RESULTS)).unwrap();
+        let message = Proof::find(&folder).unwrap_err().to_string();
+        fs::remove_dir_all(&folder).unwrap();
+        refused(&message, &[DIGITS, "rocking validate"]);
+    }
+}

@@ -1,0 +1,110 @@
+//! The head of the page: what was asked, which program ran on what, and who
+//! signs for it.
+
+use rocking_common::suites::inputs::sha256_hex;
+use rocking_study::figures::Results;
+
+/// The versions of everything that the program is built from.
+const LOCK: &str = include_str!("../../../Cargo.lock");
+
+/// Its headings are the revisions.
+const CHANGELOG: &str = include_str!("../../../CHANGELOG.md");
+
+/// The paper, as far as its text says.
+const PAPER: &str = "C. G. Lachanas, D. Vamvatsikos, E. G. Dimitrakopoulos, \
+    \u{201c}Statistical property parameterization of simple rocking block \
+    response\u{201d}, Earthquake Engineering and Structural Dynamics.";
+
+/// Who signs for a report, and when it was issued: words of the user, since
+/// the program knows no clock and no names.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub struct Signatures {
+    /// Date of issue, as it is to stand on the page.
+    #[arg(long, value_name = "DATE")]
+    pub issued: Option<String>,
+    /// Who prepared the report; otherwise the page has a line to sign.
+    #[arg(long, value_name = "NAME")]
+    pub prepared_by: Option<String>,
+    /// Who reviewed the report; otherwise the page has a line to sign.
+    #[arg(long, value_name = "NAME")]
+    pub reviewed_by: Option<String>,
+    /// Who approved the report; otherwise the page has a line to sign.
+    #[arg(long, value_name = "NAME")]
+    pub approved_by: Option<String>,
+}
+
+impl Signatures {
+    /// Each with what it is.
+    #[must_use]
+    pub fn shown(&self) -> Vec<(String, Option<String>)> {
+        [
+            ("Issued", &self.issued),
+            ("Prepared by", &self.prepared_by),
+            ("Reviewed by", &self.reviewed_by),
+            ("Approved by", &self.approved_by),
+        ]
+        .map(|(what, given)| (what.to_owned(), given.clone()))
+        .into()
+    }
+}
+
+/// The paper, the program and its input; whether results of the declared
+/// cases were handed in.
+#[must_use]
+pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
+    let mut out = vec![
+        ("Paper".into(), PAPER.into()),
+        (
+            "Program".into(),
+            format!(
+                "rocking {}, sha256 of Cargo.lock {}",
+                env!("CARGO_PKG_VERSION"),
+                sha256_hex(LOCK.as_bytes())
+            ),
+        ),
+    ];
+    for suite in [&results.ordinary, &results.pulse] {
+        out.push((
+            format!("Suite, {}", suite.kind),
+            format!(
+                "{}, {} records, sha256 {}",
+                suite.source,
+                suite.records.len(),
+                suite.sha256
+            ),
+        ));
+    }
+    out.push(("Command".into(), command(results, proved)));
+    out
+}
+
+/// Headings of the changelog, newest first, with the version of this one.
+#[must_use]
+pub fn revisions() -> String {
+    let headings = CHANGELOG.lines().filter_map(|l| l.strip_prefix("## "));
+    let all: Vec<&str> = headings.collect();
+    format!("{}; this is {}", all.join(", "), env!("CARGO_PKG_VERSION"))
+}
+
+/// The command that makes the page again.
+fn command(results: &Results, proved: bool) -> String {
+    let setup = &results.plan.setup;
+    let arms: Vec<&str> =
+        results.plan.arms.iter().map(|arm| arm.letter()).collect();
+    let suites = match results.embedded() {
+        true => "",
+        false => " --ordinary ORDINARY --pulse PULSE",
+    };
+    let proof = match proved {
+        true => " --proof FOLDER/data, after rocking validate --out FOLDER",
+        false => "",
+    };
+    format!(
+        "rocking study{suites} --eta {} --overturn {} --refine {} \
+         --arms {}{proof}",
+        setup.restitution.velocity_ratio(),
+        setup.overturning,
+        setup.tolerance,
+        arms.join(",")
+    )
+}

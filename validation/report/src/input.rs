@@ -1,0 +1,447 @@
+//! The page of a study: its words, for [`super::page`].
+
+use rocking::block::{BlockError, Restitution};
+use rocking::integrator::Overturning;
+
+use super::evidence::{self, EvidenceError, NOT_RUN, Proof};
+use super::head::Signatures;
+use super::page::{Answers, Chapter, ReportInput, ShownFigure};
+use super::timings::Timings;
+use super::{
+    ReportError, answers, credibility, findings, head, ledger, method,
+};
+use rocking_common::findings::{Findings, Theme};
+use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
+use rocking_common::table::PlainTable;
+use rocking_draw::figures::Figure;
+use rocking_study::figures::Results;
+use rocking_study::questions::Answer;
+
+/// Title of the page.
+pub(super) const TITLE: &str = "The statistics of rocking";
+
+/// Figures beside the answers, by their stems.
+const FIRST: [&str; 2] = ["figure-08", "figure-16"];
+
+/// The figure of Eq. 1's departure from similarity.
+const SIMILARITY: &str = "figure-19";
+
+/// Figures that open a theme, by their stems; its others are folded.
+const LEADING: [&str; 8] = [
+    "figure-02",
+    "figure-04",
+    "figure-06",
+    "figure-07",
+    "figure-11",
+    "figure-12",
+    "figure-15",
+    "figure-17",
+];
+
+/// What the page shows; `proof` are the results of the declared cases, if
+/// they were handed in.
+///
+/// # Errors
+/// [`ReportError`] where a figure cannot be drawn.
+pub fn input(
+    results: &Results,
+    figures: &[Figure],
+    charts: &[Figure],
+    found: &Findings,
+    questions: &[Answer],
+    proof: Option<&Proof>,
+    signatures: &Signatures,
+) -> Result<ReportInput, ReportError> {
+    let timings = Timings::kept()?;
+    let recorded = results
+        .embedded()
+        .then(findings::recorded)
+        .transpose()
+        .map_err(ReportError::Recorded)?;
+    let recorded = recorded.as_ref();
+    // Of figures that both arms have, those of the paper's grid stand in the
+    // annex.
+    let other = |figure: &&Figure| {
+        let arm = figure.heading.arm;
+        let both = figure.heading.name.len() > "figure-00".len();
+        both && arm == Some(Arm::A) && results.plan.drawn().len() > 1
+    };
+    let own: Vec<ShownFigure> = figures
+        .iter()
+        .filter(|f| is_paper_s(f))
+        .filter(|f| !other(f))
+        .map(shown)
+        .collect();
+    let names: Vec<(String, String)> =
+        own.iter().map(|f| (f.name.clone(), f.number.clone())).collect();
+    let (first, rest): (Vec<_>, Vec<_>) = own
+        .into_iter()
+        .partition(|f| FIRST.iter().any(|stem| f.name.starts_with(stem)));
+    let rows = answers::rows(
+        results.embedded(),
+        found,
+        recorded,
+        &timings,
+        proof,
+        &names,
+    );
+    let mut themes = findings::themes(found, recorded, &names);
+    for figure in rest {
+        let theme = findings::theme_of(&figure.name);
+        let place = Theme::ALL.into_iter().find(|t| *t == theme);
+        let id = place.map(findings::anchor);
+        if let Some(one) = themes.iter_mut().find(|t| Some(t.id) == id) {
+            let leads = LEADING.iter().any(|s| figure.name.starts_with(s));
+            let list = if leads { &mut one.figures } else { &mut one.more };
+            list.push(figure);
+        }
+    }
+    let compared = || questions.iter().filter(|q| q.id == "suites");
+    let work = [&results.ordinary, &results.pulse].map(answers::work);
+    let suites = Chapter {
+        id: "suites",
+        title: "Suites".into(),
+        text: compared().map(|q| q.answer.clone()).collect(),
+        figures: drawn(figures, |f| f.heading.name == "figure-suites"),
+        ..Chapter::default()
+    };
+    let by_block = Chapter {
+        id: "suites-by-block",
+        title: "Suites: motions, and capacities block by block".into(),
+        tables: compared().flat_map(|q| q.tables.clone()).collect(),
+        figures: drawn(figures, |f| {
+            f.heading.name == "figure-suites-capacities"
+        }),
+        ..Chapter::default()
+    };
+    let beyond = Chapter {
+        id: "beyond",
+        title: "Questions beyond the paper".into(),
+        tables: questions
+            .iter()
+            .filter(|q| q.id != "suites")
+            .flat_map(|q| answered(q, recorded))
+            .collect(),
+        figures: drawn(figures, |f| {
+            !is_paper_s(f) && !f.heading.name.starts_with("figure-suites")
+        }),
+        ..Chapter::default()
+    };
+    let claims = &found.claims;
+    let (ledger, mut trust) = (
+        ledger::table(proof.map(Proof::results), claims, figures)?,
+        credibility::tables(results, claims, proof, recorded)?,
+    );
+    // The assessment is short; the comparison has a row for each result.
+    let assessment = trust.split_off(trust.len().saturating_sub(1));
+    let mut speed = timings.tables();
+    let settings = speed.extract_if(.., |t| t.name == "speed-settings");
+    let settings: Vec<PlainTable> = settings.collect();
+    let coverage =
+        proof.map(Proof::coverage).transpose().map_err(EvidenceError::from)?;
+    Ok(ReportInput {
+        title: TITLE.into(),
+        subtitle: "Statistical property parameterization of simple rocking \
+                   block response, repeated from records to findings"
+            .into(),
+        head: [
+            head::head(results, proof.is_some()),
+            recorded.map(findings::kept).unwrap_or_default(),
+        ]
+        .concat(),
+        signatures: signatures.shown(),
+        answers: Answers { rows, figures: first },
+        columns: findings::columns(found, recorded),
+        findings: themes,
+        identities: findings::identities(found),
+        method: [
+            method::method(),
+            vec![answers::trust(found, recorded)],
+            coverage.iter().map(|c| c.words()).collect(),
+        ]
+        .concat(),
+        glossary: method::glossary(),
+        proof: format!(
+            "{} {} {}",
+            proof.map_or(NOT_RUN.into(), Proof::to_string),
+            timings.accuracy(),
+            answers::rounding(results)
+        ),
+        families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
+        evidence: Chapter {
+            figures: charts
+                .iter()
+                .filter(|c| c.heading.name != SIMILARITY)
+                .map(shown)
+                .collect(),
+            folded: vec![Chapter {
+                id: "checks",
+                title: "Pulses, critical values, departure from similarity"
+                    .into(),
+                tables: evidence::checks(proof)?,
+                figures: drawn(charts, |c| c.heading.name == SIMILARITY),
+                ..Chapter::default()
+            }],
+            ..Chapter::default()
+        },
+        chapters: vec![
+            Chapter {
+                id: "speed",
+                title: "Speed against error".into(),
+                text: vec![timings.plain()],
+                tables: settings,
+                figures: vec![ShownFigure {
+                    number: "Speed".into(),
+                    ..shown(&timings.figure())
+                }],
+                ..Chapter::default()
+            },
+            suites,
+            Chapter {
+                id: "limits",
+                title: "Limits and credibility".into(),
+                text: [
+                    limits(results),
+                    vec![format!(
+                        "Not checked: {}.",
+                        answers::not_checked(results.embedded())
+                    )],
+                    assessment.iter().map(credibility::levels).collect(),
+                ]
+                .concat(),
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "provenance",
+                title: "Provenance".into(),
+                list: provenance(results),
+                ..Chapter::default()
+            },
+        ],
+        annexes: vec![
+            Chapter {
+                id: "blocks",
+                title: "The blocks, and the digits of three precisions".into(),
+                text: work.into(),
+                tables: [
+                    vec![table_1()?],
+                    proof.map(Proof::digits_table).into_iter().collect(),
+                ]
+                .concat(),
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "inference",
+                title: "Coverage of the intervals".into(),
+                tables: coverage.iter().map(|c| c.table()).collect(),
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "paper-s-grid",
+                title: "Figures on the paper's grid (arm A)".into(),
+                figures: drawn(figures, |f| other(&f)),
+                ..Chapter::default()
+            },
+            beyond,
+            by_block,
+            Chapter {
+                id: "credibility",
+                title: "Credibility".into(),
+                tables: assessment,
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "comparison",
+                title: "Comparison with printed numbers".into(),
+                tables: trust,
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "speed-tried",
+                title: "Speed: other tools, and settings tried".into(),
+                tables: speed,
+                ..Chapter::default()
+            },
+            Chapter {
+                id: "requirements",
+                title: "Requirements".into(),
+                tables: vec![ledger],
+                ..Chapter::default()
+            },
+        ]
+        .into_iter()
+        .filter(|c| !(c.tables.is_empty() && c.figures.is_empty()))
+        .collect(),
+    })
+}
+
+/// The tables of a question, with what the recorded suites answer.
+fn answered(
+    question: &Answer,
+    recorded: Option<&Findings>,
+) -> Vec<PlainTable> {
+    let mut tables = question.tables.clone();
+    let kept = recorded.iter().flat_map(|found| &found.questions);
+    let kept = kept.into_iter().find(|q| q.id == question.id);
+    if let (Some(kept), Some(table)) = (kept, tables.first_mut())
+        && kept.answer != question.answer
+    {
+        table.reading = format!(
+            "Embedded suites: {} Recorded suites: {}",
+            table.reading, kept.answer
+        );
+    }
+    tables
+}
+
+/// Whether it is one of the paper's, by its number.
+fn is_paper_s(figure: &Figure) -> bool {
+    figure.heading.name.chars().any(|c| c.is_ascii_digit())
+}
+
+fn drawn(
+    figures: &[Figure],
+    is: impl Fn(&Figure) -> bool,
+) -> Vec<ShownFigure> {
+    figures.iter().filter(|f| is(f)).map(shown).collect()
+}
+
+/// Table 1, with the paper's gravity.
+///
+/// # Errors
+/// None in practice: all blocks are in range.
+pub fn table_1() -> Result<PlainTable, BlockError> {
+    let rows = BLOCKS
+        .iter()
+        .map(|block| {
+            let size = block.dimensions(GRAVITY_M_S2)?;
+            let eta = Restitution::housner(block)?.velocity_ratio();
+            Ok(vec![
+                format!("{}", block.frequency_rad_s()),
+                format!("{:.2}", block.slenderness_rad()),
+                millimetres(size.width_m),
+                millimetres(size.height_m),
+                millimetres(size.half_diagonal_m),
+                format!("{eta:.4}"),
+            ])
+        })
+        .collect::<Result<Vec<Vec<String>>, BlockError>>()?;
+    let header =
+        ["p (rad/s)", "alpha (rad)", "2b (m)", "2h (m)", "R (m)", "eta"];
+    Ok(PlainTable {
+        name: "table-01".into(),
+        title: "Table 1. The 15 blocks".into(),
+        reading: "Gravity 9.81 m/s2; eta is Housner's coefficient of \
+                  restitution, which the study does not use."
+            .into(),
+        header: header.map(String::from).into(),
+        rows,
+    })
+}
+
+/// A length in m with three decimals, half a millimetre up as the paper
+/// rounds it: `{:.3}` takes 7.3575 down, whose double lies below it.
+fn millimetres(length_m: f64) -> String {
+    format!("{:.3}", (1e3 * length_m).round() / 1e3)
+}
+
+fn shown(figure: &Figure) -> ShownFigure {
+    let heading = &figure.heading;
+    let digits: String =
+        heading.name.chars().filter(char::is_ascii_digit).collect();
+    let number = digits.trim_start_matches('0');
+    // Figures that both arms have end in the arm's letter.
+    let both = heading.name.len() > "figure-00".len();
+    let arm = heading
+        .arm
+        .filter(|_| both)
+        .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
+    ShownFigure {
+        name: heading.name.clone(),
+        number: if number.is_empty() {
+            "Beyond the paper".into()
+        } else {
+            format!("Figure {number}{arm}")
+        },
+        title: heading.title.clone(),
+        reading: figure.reading.clone(),
+        svg: figure.svg(),
+        csv_path: format!("data/{}.csv", heading.name),
+    }
+}
+
+pub(super) fn provenance(results: &Results) -> Vec<(String, String)> {
+    let setup = &results.plan.setup;
+    let mut out = vec![
+        ("Revisions".into(), head::revisions()),
+        (
+            "Restitution".into(),
+            format!("{}", setup.restitution.velocity_ratio()),
+        ),
+        (
+            "Overturning".into(),
+            match setup.overturning {
+                Overturning::Alpha => "|theta| reaches alpha".into(),
+                Overturning::HalfPi => "|theta| exceeds pi/2".into(),
+            },
+        ),
+        (
+            "Refinement".into(),
+            format!("{} in dimensionless intensity", setup.tolerance),
+        ),
+    ];
+    let arms = results.plan.arms.iter();
+    let arms: Vec<&str> = arms.map(|arm| arm.words()).collect();
+    out.push(("Arms of the grid".into(), arms.join("; ")));
+    for suite in [&results.ordinary, &results.pulse] {
+        out.push((
+            format!("Suite, {}", suite.kind),
+            format!(
+                "{} records, component: {}",
+                suite.records.len(),
+                suite.component_rule
+            ),
+        ));
+        if let Some(remarks) = &suite.remarks {
+            let name = format!("Remarks on records, {}", suite.kind);
+            out.push((name, remarks.clone()));
+        }
+        if !suite.set_aside.is_empty() {
+            let name = format!("Set aside, {} suite", suite.kind);
+            out.push((name, suite.set_aside.to_string()));
+        }
+    }
+    out
+}
+
+pub(super) fn limits(results: &Results) -> Vec<String> {
+    let mut out = vec![
+        "The paper does not list its records; these suites are like its \
+         suites, not the same."
+            .into(),
+    ];
+    if results.embedded() {
+        out.push(
+            "The embedded suites are synthetic, from published stochastic \
+             models; they can show how the procedure works, not what \
+             recorded motions do."
+                .into(),
+        );
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn table_1_rounds_as_the_paper_does() {
+        let rows = table_1().expect("table").rows;
+        let radii: Vec<&str> = rows.iter().map(|r| r[4].as_str()).collect();
+        assert_eq!(radii[..5], ["7.358"; 5]);
+        assert_eq!(radii[5..10], ["0.818"; 5]);
+        assert_eq!(radii[10..], ["0.460"; 5]);
+        assert_eq!(rows[0][2..4], ["0.735", "14.697"]);
+    }
+}

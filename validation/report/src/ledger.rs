@@ -1,0 +1,333 @@
+//! The ledger of evidence: what was required, and what proves it.
+
+use std::collections::BTreeSet;
+
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+use rocking_common::findings::Claim;
+use rocking_common::paper::Verdict;
+use rocking_common::table::PlainTable;
+use rocking_draw::figures::Figure;
+
+/// The requirements, embedded.
+const REQUIREMENTS: &str = include_str!("../../requirements.toml");
+
+/// Who requires something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// Who asked for the implementation.
+    User,
+    /// The paper.
+    Paper,
+    /// This project.
+    Ours,
+}
+
+/// One requirement and where its evidence is.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Requirement {
+    /// Unique name.
+    pub id: String,
+    /// Who requires it.
+    pub source: Origin,
+    /// Where it stands.
+    pub place: String,
+    /// What is required.
+    pub text: String,
+    /// Ids of declared cases; one `*` stands for anything.
+    #[serde(default)]
+    pub cases: Vec<String>,
+    /// Names of claims.
+    #[serde(default)]
+    pub findings: Vec<String>,
+    /// Functions of the gate: `file::function`.
+    #[serde(default)]
+    pub tests: Vec<String>,
+    /// Numbers of the paper's figures, first and last, each of which the run
+    /// draws and writes with its numbers.
+    pub figures: Option<(u32, u32)>,
+    /// What the evidence leaves open; may be empty.
+    #[serde(default)]
+    pub gap: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    requirement: Vec<Requirement>,
+}
+
+/// Why there is no ledger.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LedgerError {
+    /// The file is not of the expected form.
+    #[error("requirements.toml: {0}")]
+    Form(#[from] toml::de::Error),
+    /// Two requirements have one name.
+    #[error("requirements.toml: two requirements are named `{0}`")]
+    Duplicate(String),
+}
+
+/// The requirements, in the order of the file.
+///
+/// # Errors
+/// [`LedgerError`] for unknown keys, missing fields and duplicate names.
+pub fn requirements() -> Result<Vec<Requirement>, LedgerError> {
+    parse(REQUIREMENTS)
+}
+
+fn parse(text: &str) -> Result<Vec<Requirement>, LedgerError> {
+    let file: File = toml::from_str(text)?;
+    let mut ids = BTreeSet::new();
+    for requirement in &file.requirement {
+        if !ids.insert(requirement.id.as_str()) {
+            return Err(LedgerError::Duplicate(requirement.id.clone()));
+        }
+    }
+    Ok(file.requirement)
+}
+
+/// How a requirement stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Standing {
+    /// Number of cases that passed.
+    pub passed: usize,
+    /// Cases that did not.
+    pub failed: Vec<String>,
+    /// Whether cases are named whose results are not there.
+    pub not_run: bool,
+    /// Patterns and names that no executed evidence fits.
+    pub missing: Vec<String>,
+    /// Whether anything at all is named as evidence.
+    pub named: bool,
+}
+
+impl Standing {
+    /// Whether all evidence named was executed, and the cases passed.
+    #[must_use]
+    pub fn is_met(&self) -> bool {
+        self.named
+            && !self.not_run
+            && self.failed.is_empty()
+            && self.missing.is_empty()
+    }
+}
+
+impl Requirement {
+    /// Whether only tests prove it, whose results are in no file.
+    #[must_use]
+    pub fn is_tests_alone(&self) -> bool {
+        self.cases.is_empty()
+            && self.findings.is_empty()
+            && self.figures.is_none()
+            && !self.tests.is_empty()
+    }
+
+    /// How it stands, given the results of the declared cases, if there are
+    /// any, and whether a claim was measured, a test is part of the gate, a
+    /// figure was drawn.
+    #[must_use]
+    pub fn standing(
+        &self,
+        results: Option<&Map<String, Value>>,
+        measured: &dyn Fn(&str) -> bool,
+        is_test: &dyn Fn(&str) -> bool,
+        drawn: &dyn Fn(u32) -> bool,
+    ) -> Standing {
+        let named = [&self.cases, &self.findings, &self.tests];
+        let mut out = Standing {
+            named: named.iter().any(|list| !list.is_empty())
+                || self.figures.is_some(),
+            not_run: results.is_none() && !self.cases.is_empty(),
+            ..Standing::default()
+        };
+        let mut met = BTreeSet::new();
+        for pattern in &self.cases {
+            let Some(results) = results else { break };
+            let mut fits = false;
+            for (id, result) in results.iter().filter(|r| fit(pattern, r.0)) {
+                fits = true;
+                if !met.insert(id) {
+                    continue;
+                }
+                if result["verdict"] == "pass" {
+                    out.passed += 1;
+                } else {
+                    out.failed.push(id.clone());
+                }
+            }
+            if !fits {
+                out.missing.push(pattern.clone());
+            }
+        }
+        let missing = |list: &[String], there: &dyn Fn(&str) -> bool| {
+            let gone = list.iter().filter(|name| !there(name));
+            gone.cloned().collect::<Vec<String>>()
+        };
+        out.missing.extend(missing(&self.findings, measured));
+        out.missing.extend(missing(&self.tests, is_test));
+        let figures = self.figures.into_iter().flat_map(|(a, b)| a..=b);
+        let gone = figures.filter(|number| !drawn(*number));
+        out.missing.extend(gone.map(|number| format!("Figure {number}")));
+        out
+    }
+}
+
+/// Whether an id fits a pattern with at most one `*`.
+fn fit(pattern: &str, id: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == id,
+        Some((before, after)) => {
+            id.len() >= before.len() + after.len()
+                && id.starts_with(before)
+                && id.ends_with(after)
+        }
+    }
+}
+
+/// The ledger for the page: what was required, and what proves it; `figures`
+/// are those that the run drew.
+///
+/// # Errors
+/// [`LedgerError`] where the requirements cannot be read.
+pub fn table(
+    results: Option<&Map<String, Value>>,
+    claims: &[Claim],
+    figures: &[Figure],
+) -> Result<PlainTable, LedgerError> {
+    let measured = |name: &str| claims.iter().any(|c| c.id == name);
+    let drawn = |number: u32| {
+        let stem = format!("figure-{number:02}");
+        let is = |f: &Figure| f.heading.name.starts_with(&stem);
+        figures.iter().any(|f| is(f) && !f.csv.is_empty())
+    };
+    let requirements = requirements()?;
+    let mut rows = Vec::with_capacity(requirements.len());
+    let (mut met, mut by_tests) = (0, 0);
+    for r in &requirements {
+        let standing = r.standing(results, &measured, &|_| true, &drawn);
+        let tests_alone = r.is_tests_alone();
+        met += usize::from(standing.is_met() && !tests_alone);
+        by_tests += usize::from(tests_alone);
+        let source = match r.source {
+            Origin::User => "asked for",
+            Origin::Paper => "paper",
+            Origin::Ours => "our own",
+        };
+        rows.push(vec![
+            r.text.clone(),
+            format!("{source}, {}", r.place),
+            evidence(r, &standing, claims),
+            state(r, &standing, claims),
+            r.gap.clone(),
+        ]);
+    }
+    let header =
+        ["requirement", "source", "evidence", "state", "what it leaves open"];
+    Ok(PlainTable {
+        name: "ledger".into(),
+        title: "What was required, and what proves it".into(),
+        reading: format!(
+            "{met} of {} requirements have executed evidence and no failed \
+             case; {by_tests} more rest on tests of the gate alone, whose \
+             results are not in these files. A finding is evidence that the \
+             claim was measured, whatever its verdict.",
+            rows.len()
+        ),
+        header: header.map(String::from).into(),
+        rows,
+    })
+}
+
+fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
+    let mut parts = Vec::new();
+    if standing.not_run {
+        parts.push(format!("cases, not run here ({})", r.cases.join(", ")));
+    } else if !r.cases.is_empty() {
+        let n = standing.passed;
+        let cases = if n == 1 { "case" } else { "cases" };
+        parts.push(format!("{n} {cases} passed ({})", r.cases.join(", ")));
+    }
+    let found: Vec<String> = claims
+        .iter()
+        .filter(|claim| r.findings.contains(&claim.id))
+        .flat_map(|claim| {
+            claim.results.iter().filter_map(|result| {
+                let verdict = result.by_equivalence?.name();
+                let (id, place) = (&claim.id, result.place());
+                Some(format!("{id} ({place}) {verdict}"))
+            })
+        })
+        .collect();
+    if !found.is_empty() {
+        parts.push(format!("findings: {}", found.join(", ")));
+    }
+    if let Some((first, last)) = r.figures {
+        parts.push(format!(
+            "figures {first} to {last}, drawn in this run from its numbers, \
+             which stand beside each"
+        ));
+    }
+    if !r.tests.is_empty() {
+        // Names of tests are sentences; words wrap, paths don't.
+        let words = |test: &String| {
+            let (file, name) = test.split_once("::").unwrap_or(("", test));
+            format!("{} ({file})", name.replace('_', " "))
+        };
+        let tests: Vec<String> = r.tests.iter().map(words).collect();
+        parts.push(format!("tests: {}", tests.join(", ")));
+    }
+    parts.join("; ")
+}
+
+/// How a requirement stands, in words. A claim that was measured is not one
+/// that holds: its verdicts are counted.
+fn state(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {
+    if !standing.failed.is_empty() {
+        return format!("✗ failed: {}", standing.failed.join(", "));
+    }
+    if !standing.missing.is_empty() {
+        return format!("✗ no evidence: {}", standing.missing.join(", "));
+    }
+    if standing.not_run {
+        return "not run here".into();
+    }
+    if !standing.named {
+        return "✗ no evidence named".into();
+    }
+    if r.is_tests_alone() {
+        return "in the gate alone".into();
+    }
+    let mut parts = Vec::new();
+    if standing.passed > 0 {
+        parts.push("✓ cases passed".to_owned());
+    }
+    if r.figures.is_some() {
+        parts.push("✓ drawn".into());
+    }
+    if !r.findings.is_empty() {
+        let own = claims.iter().filter(|c| r.findings.contains(&c.id));
+        let verdicts: Vec<Verdict> = own
+            .flat_map(|claim| &claim.results)
+            .filter_map(|result| result.by_equivalence)
+            .collect();
+        let counted = Verdict::ALL.into_iter().filter_map(|verdict| {
+            let n = verdicts.iter().filter(|v| **v == verdict).count();
+            (n > 0).then(|| format!("{n} {}", verdict.name()))
+        });
+        let counted: Vec<String> = counted.collect();
+        parts.push(match counted.as_slice() {
+            [] => "stated, not judged".into(),
+            some => format!("measured: {}", some.join(", ")),
+        });
+    }
+    parts.join("; ")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,217 @@
+//! The files of a report, and where they lie in its folder.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use rocking::block::BlockError;
+
+use super::evidence::{self, Proof};
+use super::head::Signatures;
+use super::page::AnswerRow;
+use super::quantity::{rule_text, value_text};
+use super::timings::Timings;
+use super::{ReportError, answers, input, page};
+use rocking_common::findings::{Claim, Findings};
+use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
+use rocking_common::table::{Table, number};
+use rocking_study::figures::Results;
+use rocking_study::{Study, questions};
+
+/// Files of a report by name; folders in a name are parted by `/`.
+pub type Files = BTreeMap<String, Vec<u8>>;
+
+/// The page: where it is, all other files are.
+pub const PAGE: &str = "index.html";
+
+/// Results of the declared cases, which `rocking validate` writes.
+pub(super) const CASES: [&str; 2] =
+    ["data/precision.csv", "data/validation.json"];
+
+/// Where a report's findings lie.
+pub const FINDINGS: &str = "data/findings.json";
+
+/// What of a folder no study wrote, if it holds such a thing: a report there
+/// would replace it, or stand among it.
+///
+/// A study's folder is known by its findings and its page. Results of the
+/// declared cases alone, which a study shows, are no hindrance; hidden files
+/// are none either.
+#[must_use]
+pub fn foreign(folder: &Path) -> Option<String> {
+    let read = |name: &str| fs::read(folder.join(name)).ok();
+    let findings = read(FINDINGS);
+    if findings.is_some_and(|text| Findings::is_any(&text)) {
+        let page = read(PAGE).filter(|page| !is_page(page));
+        return page.map(|_| PAGE.to_owned());
+    }
+    let entries = |inner: &str| {
+        let entries = fs::read_dir(folder.join(inner));
+        let names = entries.into_iter().flatten().flatten();
+        let names = names.map(|entry| {
+            Path::new(inner).join(entry.file_name()).display().to_string()
+        });
+        names.filter(|name| !name.starts_with('.')).collect::<Vec<_>>()
+    };
+    let mut all = entries("");
+    if folder.join("data").is_dir() {
+        all.retain(|name| name != "data");
+        all.extend(entries("data"));
+    }
+    all.retain(|name| !CASES.contains(&name.as_str()));
+    all.sort();
+    all.into_iter().next()
+}
+
+/// Whether it is the page of a study, of whatever version.
+fn is_page(text: &[u8]) -> bool {
+    let head = &text[..text.len().min(1 << 12)];
+    let title = format!("<title>{}</title>", input::TITLE);
+    text.starts_with(b"<!DOCTYPE html>")
+        && String::from_utf8_lossy(head).contains(&title)
+}
+
+/// Puts what a person compares into `data/`, drawings into `figures/`; the
+/// page stays on top.
+fn laid_out(files: Files) -> Files {
+    let place = |name: String| match name.rsplit_once('.') {
+        Some((_, "csv" | "json")) => format!("data/{name}"),
+        Some((_, "svg")) => format!("figures/{name}"),
+        _ => name,
+    };
+    files.into_iter().map(|(name, text)| (place(name), text)).collect()
+}
+
+/// The report's files: `index.html`, numbers in `data/`, drawings in
+/// `figures/`. The page shows `proof`, the results of the declared cases,
+/// if they were handed in.
+///
+/// # Errors
+/// [`ReportError`] where a figure cannot be drawn.
+pub fn files(
+    study: &Study,
+    proof: Option<&Proof>,
+    signatures: &Signatures,
+) -> Result<Files, ReportError> {
+    let mut files = Files::new();
+    let timed = Timings::kept()?.figure();
+    let charts = evidence::charts()?;
+    for figure in study.figures.iter().chain([&timed]).chain(&charts) {
+        let name = &figure.heading.name;
+        files.insert(format!("{name}.svg"), figure.svg().into_bytes());
+        let csv = figure.csv.clone();
+        files.insert(format!("{name}.csv"), csv.into_bytes());
+    }
+    files.insert("table-01.csv".into(), table_1()?.into_bytes());
+    let single = single_csv(&study.results);
+    files.insert("single-records.csv".into(), single.into_bytes());
+    let text = study.findings.text();
+    files.insert("findings.json".into(), text.into_bytes());
+    files.extend(questions::files(&study.answers));
+    let input = input::input(
+        &study.results,
+        &study.figures,
+        &charts,
+        &study.findings,
+        &study.answers,
+        proof,
+        signatures,
+    )?;
+    files.insert("index.html".into(), page::page(&input).into_bytes());
+    Ok(laid_out(files))
+}
+
+/// Table 1 as CSV.
+fn table_1() -> Result<String, BlockError> {
+    let printed = input::table_1()?;
+    let header: Vec<&str> =
+        printed.header.iter().map(String::as_str).collect();
+    let mut table = Table::new(&header);
+    for row in printed.rows {
+        table.row(row);
+    }
+    Ok(table.finish())
+}
+
+/// Every record's histories and curves against those of alpha = 0.10.
+fn single_csv(results: &Results) -> String {
+    let mut table = Table::headed(
+        "suite,record,p_rad_s,im_pga,alpha_rad,normalized_l2_distance,\
+         peak_ratio,mean_abs_ln_im_ratio",
+    );
+    let others: Vec<f64> = (0..SLENDERNESSES_RAD.len())
+        .filter(|s| *s != REFERENCE)
+        .map(|s| SLENDERNESSES_RAD[s])
+        .collect();
+    for suite in [&results.ordinary, &results.pulse] {
+        for (single, p) in suite.single.iter().zip(FREQUENCIES_RAD_S) {
+            for (record, apart) in suite.records.iter().zip(&single.apart) {
+                for (alpha, a) in others.iter().zip(apart) {
+                    table.row([
+                        suite.kind.name().into(),
+                        record.name.clone(),
+                        number(p),
+                        number(single.im),
+                        number(*alpha),
+                        number(a.distance),
+                        number(a.peak_ratio),
+                        number(a.mean_ln_im),
+                    ]);
+                }
+            }
+        }
+    }
+    table.finish()
+}
+
+/// The answers of the page for people, of this study's suites alone.
+///
+/// # Errors
+/// [`ReportError`] where the kept timings cannot be read.
+pub fn answers_text(
+    study: &Study,
+    proof: Option<&Proof>,
+) -> Result<String, ReportError> {
+    let rows = answers::rows(
+        study.results.embedded(),
+        &study.findings,
+        None,
+        &Timings::kept()?,
+        proof,
+        &[],
+    );
+    let text = |row: &AnswerRow| {
+        let columns = row.columns.concat();
+        let counts =
+            if columns.is_empty() { "" } else { &format!("; {columns}") };
+        let AnswerRow { question, answer, effect, .. } = row;
+        format!("{question}\n  {answer}\n  {effect}{counts}.\n")
+    };
+    Ok(rows.iter().map(text).collect())
+}
+
+/// The findings among the claims as a table for people.
+#[must_use]
+pub fn claims_table(claims: &[Claim]) -> String {
+    let mut out = String::new();
+    for claim in claims {
+        for result in &claim.results {
+            let Some(verdict) = result.by_equivalence else { continue };
+            let criterion = result.by_criterion.map_or(String::new(), |v| {
+                format!("; by the paper's criterion {}", v.name())
+            });
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                out,
+                "{:<13}  {:<26} {:<17} {:<32} limit: {}{criterion}",
+                verdict.name(),
+                claim.id,
+                result.place(),
+                value_text(claim, result),
+                rule_text(claim),
+            );
+        }
+    }
+    out
+}

@@ -1,0 +1,54 @@
+//! Tables of words and numbers.
+
+use maud::{Markup, html};
+
+use rocking_common::table::PlainTable;
+
+/// The table under its title.
+pub fn plain(table: &PlainTable) -> Markup {
+    html! {
+        div id=(table.name) {
+            h3 { (table.title) }
+            (untitled(table))
+        }
+    }
+}
+
+/// The table alone.
+pub fn untitled(table: &PlainTable) -> Markup {
+    let body = html! {
+        table {
+            caption { span { (table.reading) } }
+            (head(&table.header))
+            tbody { @for row in &table.rows { (line(row)) } }
+        }
+    };
+    scrolled(&table.title, body)
+}
+
+/// A box that scrolls sideways, so that the page does not.
+pub fn scrolled(label: &str, body: Markup) -> Markup {
+    html! {
+        div.scroll role="region" aria-label=(label) tabindex="0" { (body) }
+    }
+}
+
+fn head(names: &[String]) -> Markup {
+    html! {
+        thead { tr { @for name in names { th scope="col" { (name) } } } }
+    }
+}
+
+fn line(cells: &[String]) -> Markup {
+    html! {
+        tr {
+            @for (k, cell) in cells.iter().enumerate() {
+                @if k == 0 {
+                    th scope="row" { (cell) }
+                } @else {
+                    td { (cell) }
+                }
+            }
+        }
+    }
+}

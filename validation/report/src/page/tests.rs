@@ -1,0 +1,264 @@
+//! The page from made-up words.
+
+use super::*;
+use rocking_draw::colour;
+use rocking_draw::figures::{BlockSketch, Figure, Heading};
+
+fn sketch(name: &str) -> Figure {
+    let heading = Heading::new(name, "made up", "of nothing", None);
+    BlockSketch { heading, alpha_rad: 0.3, rotation_rad: 0.15 }
+        .figure(String::new())
+}
+
+fn made_up() -> ReportInput {
+    let outcome = |k: usize| Outcome {
+        suite: Tested::Ordinary,
+        place: "ordinary, arm C".into(),
+        value: "91.0 % (83.0 to 96.0 %)".into(),
+        by_criterion: (k == 2).then_some(Verdict::NotConfirmed),
+        by_equivalence: Some(Verdict::ALL[k % 3]),
+        first: true,
+        remarks: vec!["52 of 52 cells inside, 0 outside".into()],
+    };
+    let finding = |k: usize| Finding {
+        id: format!("stage-{k}"),
+        plain: format!("median ratios are 1, claim {k}"),
+        quote: "The median r conforms to 1.0 with 95 % confidence.".into(),
+        source: format!("section {k}"),
+        criterion: "the notch covers 1".into(),
+        rule: "at least 90 %".into(),
+        measure: "share of stripes whose interval holds 1".into(),
+        columns: vec![vec![outcome(k); 2], vec![outcome(k + 1); 2]],
+        figures: vec![("figure-08".into(), "Figure 8".into())],
+        remark: if k == 1 { "The lowest stripe.".into() } else { "".into() },
+    };
+    let column = |name: &str| Column {
+        name: name.into(),
+        suites: "86 ordinary + 44 pulse-type".into(),
+        counts: Verdict::ALL.map(|verdict| (verdict, 7)),
+    };
+    let case = |k: usize| ShownCase {
+        id: format!("free-rocking/decay-{k}"),
+        claim: "peaks fall as the closed form says".into(),
+        source: "Housner 1963, Eq. 8".into(),
+        tolerance: "1e-12 relative".into(),
+        because: "hundred times what double precision can give".into(),
+        worst: "3.1 %, peak".into(),
+        rejects: "energy ratio taken for velocity ratio".into(),
+        passed: k != 2,
+    };
+    let shown = |figure: &Figure| {
+        let heading = &figure.heading;
+        ShownFigure {
+            name: heading.name.clone(),
+            number: heading.name.replace("figure-", "Figure "),
+            title: "made-up numbers & <marks>".into(),
+            reading: "Nothing can be seen here, the numbers are made up."
+                .into(),
+            svg: figure.svg(),
+            csv_path: format!("data/{}.csv", heading.name),
+        }
+    };
+    let words = |cells: &[&str]| -> Vec<String> {
+        cells.iter().map(|c| (*c).into()).collect()
+    };
+    ReportInput {
+        title: "Rocking: what was verified, what was found".into(),
+        subtitle: "Free-standing blocks under 86 + 44 records".into(),
+        head: vec![("Paper".into(), "Made-up authors".into())],
+        signatures: vec![
+            ("Issued".into(), Some("a day".into())),
+            ("Approved by".into(), None),
+        ],
+        answers: Answers {
+            rows: vec![AnswerRow {
+                question: "Is slenderness normalized out?".into(),
+                answer: "Nearly: for ratios; open for quantiles.".into(),
+                effect: "-0.9 % (-1 to -0.8 %)".into(),
+                columns: vec!["7 results for it".into(); 2],
+                shown: vec![("figure-08".into(), "Figure 8".into())],
+            }],
+            figures: vec![],
+        },
+        columns: ["recorded suites", "embedded suites"].map(column).into(),
+        findings: vec![Theme {
+            id: "theme-a",
+            question: "Does the slenderness drop out?".into(),
+            paragraph: "On average it does.".into(),
+            figures: ["figure-01", "figure-06", "figure-08-c"]
+                .map(|name| shown(&sketch(name)))
+                .into(),
+            more: Vec::new(),
+            findings: (0..7).map(finding).collect(),
+        }],
+        proof: "By the results handed in: all cases pass.".into(),
+        families: vec![Family {
+            name: "free-rocking".into(),
+            worst: "3.1 %, peak".into(),
+            rejected: 3,
+            cases: (0..3).map(case).collect(),
+        }],
+        identities: PlainTable::default(),
+        method: vec!["As one would.".into()],
+        glossary: vec![("p".into(), "frequency parameter".into())],
+        evidence: Chapter::default(),
+        chapters: vec![Chapter {
+            id: "provenance",
+            title: "Provenance".into(),
+            text: vec!["Two suites only.".into()],
+            list: vec![(
+                "suite ordinary".into(),
+                "sha256 ".to_owned() + &"ab1".repeat(21),
+            )],
+            ..Chapter::default()
+        }],
+        annexes: vec![Chapter {
+            id: "blocks",
+            title: "Blocks".into(),
+            tables: vec![PlainTable {
+                name: "table-1".into(),
+                title: "Table 1. The blocks".into(),
+                reading: "Sizes follow from p and alpha.".into(),
+                header: words(&["α (rad)", "p (1/s)", "R (m)", "2b (m)"]),
+                rows: vec![words(&["0.05", "1", "7.358", "0.735"]); 5],
+            }],
+            ..Chapter::default()
+        }],
+    }
+}
+
+/// Writes the page where `ROCKING_FIGURES` says, to be looked at.
+#[test]
+fn writes_it_to_be_looked_at() {
+    let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
+    std::fs::write(format!("{folder}/index.html"), page(&made_up())).unwrap();
+}
+
+#[test]
+fn suites_are_named_without_a_second_article() {
+    let mut input = made_up();
+    input.columns.truncate(1);
+    input.columns[0].name = "your suites".into();
+    let html = page(&input);
+    assert!(html.contains("Your suites, "), "your suites are not named");
+    assert!(!html.contains("the your"));
+}
+
+#[test]
+fn same_bytes_twice() {
+    assert_eq!(page(&made_up()), page(&made_up()));
+}
+
+#[test]
+fn asks_nothing_of_network_or_scripts() {
+    let html = page(&made_up());
+    for word in ["<script", "<link", "@import", "url(", "src="] {
+        assert!(!html.contains(word), "{word}");
+    }
+    let plain = html.replace("http://www.w3.org/2000/svg", "");
+    assert!(!plain.contains("http"));
+}
+
+#[test]
+fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
+    let html = page(&made_up());
+    let values = |key: &str| -> Vec<String> {
+        let parts = html.split(key).skip(1);
+        parts.map(|p| p.split('"').next().unwrap().to_owned()).collect()
+    };
+    let mut ids = values(" id=\"");
+    assert!(ids.len() > 30);
+    for target in values("href=\"#") {
+        assert!(ids.contains(&target), "{target}");
+    }
+    for labels in values("aria-labelledby=\"") {
+        for label in labels.split(' ') {
+            assert!(ids.contains(&label.to_owned()), "{label}");
+        }
+    }
+    let all = ids.len();
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), all);
+}
+
+#[test]
+fn has_landmarks_and_headings_without_gaps() {
+    let html = page(&made_up());
+    for tag in ["<header>", "<nav ", "<main ", "<footer>", "lang=\"en\""] {
+        assert_eq!(html.matches(tag).count(), 1, "{tag}");
+    }
+    let levels = html.match_indices("<h").filter_map(|(at, _)| {
+        html[at + 2..].chars().next().and_then(|c| c.to_digit(10))
+    });
+    let levels: Vec<u32> = levels.collect();
+    assert_eq!(levels.iter().filter(|l| **l == 1).count(), 1);
+    assert!(levels.windows(2).all(|w| w[1] <= w[0] + 1), "{levels:?}");
+    assert_eq!(
+        html.matches("<svg").count(),
+        html.matches("role=\"img\"").count()
+    );
+}
+
+#[test]
+fn figures_share_one_style_sheet() {
+    assert_eq!(page(&made_up()).matches(colour::STYLE).count(), 1);
+}
+
+/// WCAG 2 contrast of two colours.
+fn contrast(a: &str, b: &str) -> f64 {
+    let luminance = |hex: &str| {
+        let full: String = if hex.len() == 4 {
+            hex[1..].chars().flat_map(|c| [c, c]).collect()
+        } else {
+            hex[1..].to_owned()
+        };
+        let channel = |k: usize| {
+            let byte = u8::from_str_radix(&full[2 * k..2 * k + 2], 16);
+            let x = f64::from(byte.unwrap()) / 255.0;
+            if x <= 0.04045 {
+                x / 12.92
+            } else {
+                libm::pow((x + 0.055) / 1.055, 2.4)
+            }
+        };
+        0.2126 * channel(0) + 0.7152 * channel(1) + 0.0722 * channel(2)
+    };
+    let (a, b) = (luminance(a), luminance(b));
+    (a.max(b) + 0.05) / (a.min(b) + 0.05)
+}
+
+#[test]
+fn text_has_contrast_4_5_and_lines_3() {
+    let colour = |css: &str, key: &str| -> String {
+        let at = css.find(key).unwrap_or_else(|| panic!("{key}"));
+        let rest = &css[at + key.len()..];
+        rest.split([';', '}']).next().unwrap().trim().to_owned()
+    };
+    let (light, dark) = STYLE.split_once("@media screen").unwrap();
+    for css in [light, dark] {
+        let paper = colour(css, "--paper:");
+        for key in
+            ["--ink:", "--soft:", "--link:", "--yes:", "--no:", "--open:"]
+        {
+            let ratio = contrast(&colour(css, key), &paper);
+            assert!(ratio >= 4.5, "{key} {ratio}");
+        }
+    }
+    let (light, dark) = colour::STYLE.split_once("@media").unwrap();
+    for css in [light, dark] {
+        let paper = colour(css, ".p{fill:");
+        for (key, least) in [(".t{fill:", 4.5), (".m{fill:", 4.5)] {
+            let ratio = contrast(&colour(css, key), &paper);
+            assert!(ratio >= least, "{key} {ratio}");
+        }
+        let mut last = f64::INFINITY;
+        for k in 1..=5 {
+            let key = format!(".l.s{k}{{stroke:");
+            let ratio = contrast(&colour(css, &key), &paper);
+            assert!(ratio >= 3.0, "{key} {ratio}");
+            assert!(ratio < last || css == dark, "{key} {ratio}");
+            last = ratio;
+        }
+    }
+}

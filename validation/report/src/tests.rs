@@ -1,0 +1,266 @@
+//! Tests of the study as a whole, on the first motions of the embedded
+//! suites.
+
+use indicatif::ProgressBar;
+use rocking::block::Restitution;
+use rocking::integrator::Overturning;
+use rocking::record::{Processing, ReadOptions, SetAside};
+
+use super::evidence::{NOT_RUN, Proof};
+use super::head::{self, Signatures};
+use super::ledger::requirements;
+use super::output::{self, FINDINGS, Files};
+use super::{answers, credibility, findings, input};
+use rocking_common::curves::Execution;
+use rocking_common::findings::{Findings, Kind, Topic};
+use rocking_common::paper::{Arm, SuiteKind};
+use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::{Source, StudySuite};
+use rocking_proof::cases::load_all;
+use rocking_study::Study;
+use rocking_study::analyses::{Plan, SuiteResults, Work};
+use rocking_study::certainty::Certainty;
+use rocking_study::figures::Results;
+use rocking_study::findings::set_aside as findings_of;
+use rocking_study::runs::Setup;
+
+fn plan(way: Execution) -> Plan {
+    let setup = Setup {
+        restitution: Restitution::constant(0.92).expect("restitution"),
+        overturning: Overturning::Alpha,
+        tolerance: 1e-3,
+        way,
+    };
+    Plan { setup, arms: vec![Arm::A, Arm::B] }
+}
+
+/// Results of nothing, on two suites from there.
+fn empty(source: &Source) -> Results {
+    let suite = |kind| SuiteResults {
+        kind,
+        source: source.clone(),
+        component_rule: String::new(),
+        remarks: None,
+        set_aside: SetAside::default(),
+        sha256: String::new(),
+        work: Work { analyses: 0, certainty: Certainty::default() },
+        records: Vec::new(),
+        list: Vec::new(),
+        chosen: [0; 3],
+        arms: Vec::new(),
+        single: Vec::new(),
+        stripes: Vec::new(),
+        adjusted: Vec::new(),
+        contents: Vec::new(),
+    };
+    Results {
+        plan: plan(Execution::default()),
+        ordinary: suite(SuiteKind::Ordinary),
+        pulse: suite(SuiteKind::PulseType),
+        distributions: Vec::new(),
+        varied: Vec::new(),
+    }
+}
+
+/// What is set aside in a folder of a record and a note.
+fn set_aside() -> SetAside {
+    let folder = tempfile::tempdir().expect("folder");
+    let write = |name: &str, text: &str| {
+        std::fs::write(folder.path().join(name), text).expect("write");
+    };
+    write("a.csv", "t_s,a_g\n0,0\n0.1,0.2\n0.2,0\n");
+    write("<notes>.txt", "About these records.\n");
+    let read = ReadOptions::default();
+    let suite = read_suite(folder.path(), read).expect("suite");
+    suite.set_aside().clone()
+}
+
+#[test]
+fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
+    let mut results = empty(&Source::Embedded { streams: "x" });
+    assert!(
+        input::provenance(&results).iter().all(|r| !r.0.contains("aside"))
+    );
+    results.pulse.set_aside = set_aside();
+    let told: Vec<_> = input::provenance(&results)
+        .into_iter()
+        .filter(|row| row.0.contains("aside"))
+        .collect();
+    let words = "1 in no known format (first: <notes>.txt)";
+    assert_eq!(
+        told,
+        [("Set aside, pulse-type suite".to_owned(), words.to_owned())]
+    );
+    let found = findings_of(&results.pulse.set_aside);
+    let expected = serde_json::json!([
+        {"code": "format", "files": 1, "first": "<notes>.txt"}
+    ]);
+    assert_eq!(serde_json::to_value(&found).expect("JSON"), expected);
+}
+
+fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
+    let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
+    ordinary.motions.truncate(10);
+    pulse.motions.truncate(4);
+    let plan = plan(way);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("pool").install(|| {
+        let progress = ProgressBar::hidden();
+        let study = Study::run(plan, &[ordinary, pulse], false, &progress);
+        let signatures = Signatures::default();
+        output::files(&study.expect("study"), proof, &signatures)
+            .expect("report")
+    })
+}
+
+/// Everything that is said of where the records come from.
+fn said_of(source: &Source) -> String {
+    let results = empty(source);
+    let limits = input::limits(&results).concat();
+    let tables =
+        credibility::tables(&results, &[], None, None).expect("tables");
+    let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
+    let cells: String = cells.collect();
+    limits + &answers::not_checked(results.embedded()) + &cells
+}
+
+#[test]
+fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
+    let named = |name: &str| Source::Files {
+        name: name.into(),
+        processing: Processing::default(),
+    };
+    let own = said_of(&named("my-synthetic"));
+    assert!(own.contains("Suites given by the user"), "{own}");
+    assert!(!own.contains("ynthetic"), "{own}");
+    // The words in which the embedded suites are named.
+    assert_eq!(own, said_of(&named("embedded synthetic suite, streams x")));
+    let embedded = said_of(&Source::Embedded { streams: "x" });
+    assert!(embedded.contains("Synthetic suites from two"), "{embedded}");
+    assert!(embedded.contains("The embedded suites are synthetic"));
+    assert!(embedded.contains("recorded motions anew"));
+}
+
+#[test]
+fn the_command_names_the_proof_only_where_one_was_handed_in() {
+    let results = empty(&Source::Embedded { streams: "x" });
+    let command = |proved| {
+        let rows = head::head(&results, proved);
+        let row = rows.into_iter().find(|(name, _)| name == "Command");
+        row.expect("a command").1
+    };
+    let plain = command(false);
+    assert!(!plain.contains("--proof"), "{plain}");
+    assert!(!plain.contains("validate"), "{plain}");
+    assert!(command(true).contains("--proof FOLDER/data"));
+}
+
+#[test]
+fn identities_and_descriptions_are_counted_apart() {
+    let here = findings::recorded().expect("findings");
+    let count = |kind| here.claims.iter().filter(|c| c.kind == kind).count();
+    let (identities, descriptions) =
+        (count(Kind::Identity), count(Kind::Description));
+    assert!(identities > 0 && descriptions > 0);
+    let table = findings::identities(&here);
+    assert_eq!(table.rows.len(), identities + descriptions);
+    let said = &table.reading;
+    assert!(said.starts_with(&format!("{identities} of these statements")));
+    // A description could come out either way.
+    let other = format!("{descriptions} describe what could come out either");
+    assert!(said.contains(&other), "{said}");
+}
+
+#[test]
+fn no_claim_names_a_restitution_that_a_run_may_not_have() {
+    // --eta 0.90 measures against 0.90.
+    for claim in rocking_study::claims::declared() {
+        assert!(!claim.words.contains("0.92"), "{}", claim.id);
+    }
+}
+
+#[test]
+fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    let proof = Proof::read(data.as_ref()).expect("proof");
+    let mut one = small(1, Execution::default(), Some(&proof));
+    let mut two = small(2, Execution::OneByOne, None);
+    // The proof is on the page alone.
+    let pages = [&mut one, &mut two].map(|files| {
+        let page = files.remove("index.html").expect("page");
+        String::from_utf8(page).expect("text")
+    });
+    assert_eq!(one.keys().collect::<Vec<_>>(), two.keys().collect::<Vec<_>>());
+    for (name, content) in &one {
+        assert!(*content == two[name], "{name} differs");
+    }
+    let [page, without] = pages;
+    // The first case is named by an identity of the paper.
+    let cases = load_all().expect("cases");
+    let (id, table) = (&cases[cases.len() - 1].id, "table-precision");
+    assert!(page.contains(&proof.to_string()) && !page.contains(NOT_RUN));
+    assert!(page.contains(id) && page.contains(table));
+    assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
+    assert!(!without.contains(id) && !without.contains(table));
+    // Up to what the proof says, they are the same.
+    let findings = |page: &str| {
+        let start = page.find("<section id=\"findings\"").expect("findings");
+        let end = page.find("<section id=\"method\"").expect("method");
+        page[start..end].to_owned()
+    };
+    assert!(findings(&page) == findings(&without));
+    // Every figure with its numbers, the findings, Table 1 and the page.
+    for number in 1..=18 {
+        for (folder, suffix) in [("figures", "svg"), ("data", "csv")] {
+            let stem = format!("{folder}/figure-{number:02}");
+            let found = one
+                .keys()
+                .any(|name| name.starts_with(&stem) && name.ends_with(suffix));
+            assert!(found, "{stem}: no {suffix}");
+        }
+    }
+    for name in [FINDINGS, "data/table-01.csv"] {
+        assert!(one.contains_key(name), "{name}");
+    }
+    let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
+    let findings = Findings::parse(&text).expect("findings");
+    assert_eq!(findings.text(), text);
+    // Every finding is judged where it has an interval, and nowhere else.
+    for claim in &findings.claims {
+        let finding = claim.kind == Kind::Finding;
+        assert_eq!(claim.results.is_empty(), !finding, "{}", claim.id);
+        for result in &claim.results {
+            let known = result.measured().interval.is_some();
+            let judged = result.by_equivalence.is_some();
+            assert_eq!(judged, known, "{}, {}", claim.id, result.place());
+        }
+    }
+    // An identity names a case that there is.
+    let cases = load_all().expect("cases");
+    for claim in findings.claims.iter().filter(|c| c.kind == Kind::Identity) {
+        let declared = cases.iter().any(|case| case.id == claim.case);
+        assert!(declared, "{}: {}", claim.id, claim.case);
+    }
+    // Ten records, all above 0.14 g: none fails to lift alpha = 0.10.
+    let uplift = findings.table(Topic::UpliftUnscaled).expect("table");
+    assert_eq!(uplift.rows[1].values[0].value, 10.0);
+    // The ledger names what was measured, and all of it.
+    let keys: Vec<&str> =
+        findings.claims.iter().map(|claim| claim.id.as_str()).collect();
+    let named: Vec<String> = requirements()
+        .expect("ledger")
+        .into_iter()
+        .flat_map(|requirement| requirement.findings)
+        .collect();
+    for name in &named {
+        let measured = keys.contains(&name.as_str());
+        assert!(measured, "the ledger names {name}, which is no claim");
+    }
+    for key in &keys {
+        let listed = named.iter().any(|name| name == key);
+        assert!(listed, "the ledger does not name {key}");
+    }
+    for table in ["ledger", "comparison-error", "credibility-assessment"] {
+        assert!(page.contains(&format!("<div id=\"{table}\">")), "{table}");
+    }
+}

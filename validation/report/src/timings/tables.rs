@@ -1,0 +1,215 @@
+//! The timings as tables.
+
+use super::{PAPER, Timings, digits};
+use crate::speed::measured::Total;
+use crate::speed::singles::BASE;
+use crate::speed::throughput::Throughput;
+use rocking_common::table::PlainTable;
+
+/// What our own settings are for.
+const USES: [(&str, &str); 6] = [
+    ("order 4", "a first look; not for results"),
+    ("order 6", "exploring large numbers of analyses"),
+    ("order 8", "statistics of many analyses"),
+    ("order 10", "one above the default's own order, fixed"),
+    ("as shipped", "everything; lengthens its series where a step needs it"),
+    ("order 27", "single fates that double precision cannot tell: --certify"),
+];
+
+impl Timings {
+    /// Tools and settings; which of ours when; many analyses; what was tried
+    /// and not kept.
+    #[must_use]
+    pub fn tables(&self) -> Vec<PlainTable> {
+        vec![
+            self.tools(),
+            self.settings(),
+            self.throughput(),
+            self.window_step(),
+        ]
+    }
+
+    fn window_step(&self) -> PlainTable {
+        let (header, rows) = &self.window_step;
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        table(
+            "speed-window-step",
+            "Tried, and not kept: steps of several samples",
+            "Within a window the record is taken as a straight line, and \
+             products of moments of what that leaves out, made once a \
+             record, correct the end of one Taylor step. Errors of the peak \
+             over whole analyses (median, and 90 % are below) of ten \
+             recorded motions, 356 analyses; a step of eight lanes, timed \
+             in a trial of its own, per sample that a window covers (75 to \
+             90 % of those in flight for 4 samples, 51 to 81 % for 8). The \
+             last column is an estimate: the step is 57 % of the time of \
+             the whole analysis, and the rest stays. A single window of 4 \
+             samples holds 1e-11 in nine cases of ten, an analysis does not \
+             where p = 3 or 4. At p = 1, where windows gain most, order 6 \
+             sample by sample is more accurate than both, faster than those \
+             of 4 samples and a tenth slower than those of 8; where p = 3 \
+             or 4, order 7 is faster than both and no less accurate. \
+             Windows would take 60 to 100 MB of tables besides."
+                .into(),
+            &header,
+            rows.clone(),
+        )
+    }
+
+    fn tools(&self) -> PlainTable {
+        let row = |t: &Total| {
+            let [tool, version, method, setting] = &t.label;
+            vec![
+                format!("{tool} {version}, {method}, {setting}"),
+                digits(t.ratio),
+                digits(1e3 * t.cpu_s),
+                digits(t.peak_error),
+                digits(t.peak_error_90),
+                digits(t.impact_error_s),
+                format!("{} of {}", t.wrong_fates, t.cases),
+                format!("{} of {}", t.other_impacts, t.cases),
+                digits(t.work),
+            ]
+        };
+        let reference = |t: &&Total| t.label[3] != "order 27";
+        table(
+            "speed-tools",
+            "Speed and error of single analyses",
+            format!(
+                "Medians over the cases; times are processor time, the ratio \
+                 is taken case by case. Near overturning the dynamics \
+                 amplify any error. {}",
+                self.measured_on()
+            ),
+            &[
+                "tool and setting",
+                "time / ours as shipped",
+                "time (ms)",
+                "peak error",
+                "90 % below",
+                "impact times (s)",
+                "wrong fates",
+                "other number of impacts",
+                "evaluations",
+            ],
+            self.singles.iter().filter(reference).map(row).collect(),
+        )
+    }
+
+    fn settings(&self) -> PlainTable {
+        let shipped = self.of_many(PAPER).map(Throughput::rate_per_s);
+        let many = |setting: &str| {
+            if setting == BASE[2] {
+                return self.of_many(PAPER);
+            }
+            self.of_many(&format!("{PAPER}, {setting}"))
+        };
+        let moved = |setting| Some(many(setting)?.moved?.to_string());
+        let in_lanes =
+            |setting| Some(digits(shipped? / many(setting)?.rate_per_s()));
+        let rows = self
+            .singles
+            .iter()
+            .filter(|t| t.label[0] == "rocking")
+            .map(|t| {
+                let setting = t.label[3].as_str();
+                let is = |(name, _): &&(&str, &str)| *name == setting;
+                let reference = setting == "order 27";
+                let unless = |x: f64| {
+                    if reference { "reference".into() } else { digits(x) }
+                };
+                vec![
+                    if reference {
+                        "double-double".into()
+                    } else {
+                        setting.to_owned()
+                    },
+                    digits(t.ratio),
+                    in_lanes(setting).unwrap_or_default(),
+                    unless(t.peak_error),
+                    unless(t.peak_error_90),
+                    moved(setting).unwrap_or_default(),
+                    USES.iter().find(is).map_or("", |(_, u)| u).to_owned(),
+                ]
+            })
+            .collect();
+        table(
+            "speed-settings",
+            "Which of our settings when",
+            "Moved: chains of 15 blocks and all embedded records whose first \
+             overturning is at another level than as shipped."
+                .into(),
+            &[
+                "setting",
+                "single analyses: time / as shipped",
+                "many, in lanes: time / as shipped",
+                "peak error",
+                "90 % below",
+                "chains moved",
+                "for",
+            ],
+            rows,
+        )
+    }
+
+    fn throughput(&self) -> PlainTable {
+        let row = |t: &Throughput| {
+            vec![
+                t.work.clone(),
+                self.base(t).map_or(String::new(), |base| {
+                    digits(base.rate_per_s() / t.rate_per_s())
+                }),
+                t.threads.to_string(),
+                digits(t.cpu_s),
+                t.count.to_string(),
+                format!("{:.0}", t.rate_per_s()),
+                t.sample_ns().map_or(String::new(), digits),
+                t.moved.map_or(String::new(), |n| n.to_string()),
+            ]
+        };
+        table(
+            "speed-throughput",
+            "Many analyses",
+            format!(
+                "Levels of 0.01 g up to the first overturning, all embedded \
+                 records. {}",
+                self.measured_on()
+            ),
+            &[
+                "work",
+                "time an analysis / in lanes",
+                "threads",
+                "processor time (s)",
+                "analyses",
+                "analyses a second",
+                "ns a sample",
+                "chains moved",
+            ],
+            self.many.iter().map(row).collect(),
+        )
+    }
+
+    /// The same work in lanes on one thread, as shipped.
+    pub(super) fn base(&self, of: &Throughput) -> Option<&Throughput> {
+        self.many.iter().find(|t| {
+            let prefix = t.work.strip_suffix("in lanes");
+            t.threads == 1 && prefix.is_some_and(|p| of.work.starts_with(p))
+        })
+    }
+}
+
+fn table(
+    name: &str,
+    title: &str,
+    reading: String,
+    header: &[&str],
+    rows: Vec<Vec<String>>,
+) -> PlainTable {
+    PlainTable {
+        name: name.into(),
+        title: title.into(),
+        reading,
+        header: header.iter().map(|cell| (*cell).to_owned()).collect(),
+        rows,
+    }
+}

@@ -1,0 +1,286 @@
+//! The paper's claims: declared as data in `validation/claims`, measured by
+//! [`super::measures`], judged by [`super::inference`].
+
+use std::collections::BTreeSet;
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use super::StudyError;
+use super::figures::Results;
+use super::inference::{Draws, Replicated, Rule, judge, share};
+use super::measures::{Measure, Shares, Source, all_shares};
+use rocking_common::findings::{
+    Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
+};
+use rocking_common::paper::{Arm, Section};
+
+/// The declared claims, in the order of the page.
+const FILES: [(&str, &str); 4] = [
+    ("choices.toml", include_str!("../../claims/choices.toml")),
+    ("slenderness.toml", include_str!("../../claims/slenderness.toml")),
+    ("lognormality.toml", include_str!("../../claims/lognormality.toml")),
+    ("fragilities.toml", include_str!("../../claims/fragilities.toml")),
+];
+
+/// A claim as it is declared.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Declared {
+    /// Unique name.
+    pub id: String,
+    /// What sort of statement it is.
+    pub kind: Kind,
+    /// What it is about.
+    pub theme: Theme,
+    /// Where the paper says it.
+    pub section: Section,
+    /// The paper's words.
+    pub quote: String,
+    /// The statement in plain words, of a finding.
+    #[serde(default)]
+    pub plain: String,
+    /// Registered name of the measure of a finding.
+    pub measure: Option<Measure>,
+    /// What is measured, in words.
+    #[serde(default)]
+    pub words: String,
+    /// Blocks measured.
+    #[serde(default)]
+    pub blocks: String,
+    /// How many of the cells.
+    pub quantifier: Option<Quantifier>,
+    /// Where a value has to lie.
+    pub region: Option<Region>,
+    /// Why there.
+    #[serde(default)]
+    pub reason: String,
+    /// The paper's own criterion.
+    #[serde(default)]
+    pub criterion: String,
+    /// Suites that it is tested on.
+    #[serde(default)]
+    pub suites: Vec<Tested>,
+    /// Arms that it is tested on.
+    pub arms: Option<Arms>,
+    /// Declared case of an identity.
+    #[serde(default)]
+    pub case: String,
+    /// What else a reader must know.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// Arms of the grid that a claim is tested on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Arms {
+    /// Each that is drawn.
+    Drawn,
+    /// The one that figures share.
+    Common,
+    /// None: the grid does not enter.
+    None,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    claim: Vec<Declared>,
+}
+
+/// The declared claims.
+///
+/// # Panics
+/// If a file is not of the expected form: the files are compiled in, and a
+/// test reads them.
+#[must_use]
+pub fn declared() -> &'static [Declared] {
+    static CLAIMS: LazyLock<Vec<Declared>> = LazyLock::new(|| {
+        let mut out = Vec::new();
+        for (name, text) in FILES {
+            let file: File = toml::from_str(text)
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
+            out.extend(file.claim);
+        }
+        let mut ids = BTreeSet::new();
+        for claim in &out {
+            assert!(ids.insert(&claim.id), "two claims named {}", claim.id);
+            if let Err(error) = claim.check() {
+                panic!("claim {}: {error}", claim.id);
+            }
+        }
+        out
+    });
+    &CLAIMS
+}
+
+impl Declared {
+    /// What a claim of its kind must have, and nothing else.
+    fn check(&self) -> Result<(), &'static str> {
+        let judged = self.measure.is_some()
+            && self.quantifier.is_some()
+            && self.region.is_some()
+            && !self.reason.is_empty()
+            && !self.plain.is_empty()
+            && !self.suites.is_empty()
+            && self.arms.is_some();
+        let bare = self.measure.is_none()
+            && self.region.is_none()
+            && self.plain.is_empty()
+            && self.suites.is_empty();
+        match self.kind {
+            Kind::Finding if judged && self.case.is_empty() => Ok(()),
+            Kind::Finding => Err(
+                "a finding has plain words, a measure, a quantifier, a region \
+                 with its reason, suites and arms, and no case",
+            ),
+            Kind::Identity if bare && !self.case.is_empty() => Ok(()),
+            Kind::Identity => Err("an identity names its declared case"),
+            Kind::Description if bare && self.case.is_empty() => Ok(()),
+            Kind::Description => Err("a description is quoted alone"),
+        }
+    }
+}
+
+/// The end of the region that a measure is judged by which lies nearest to
+/// infinity; NaN where no claim has that measure.
+#[must_use]
+pub fn limit_of(measure: Measure) -> f64 {
+    let named = |claim: &&Declared| claim.measure == Some(measure);
+    let region = declared().iter().find(named).and_then(|claim| claim.region);
+    region.map_or(f64::NAN, |region| region.nearest_end(f64::INFINITY))
+}
+
+/// All claims, with what came out.
+///
+/// # Errors
+/// [`StudyError`] where a measure cannot be computed.
+pub fn all(
+    results: &Results,
+    draws: &Draws,
+) -> Result<Vec<Claim>, StudyError> {
+    let shares = all_shares(results, draws);
+    declared()
+        .iter()
+        .map(|claim| measured(claim, results, draws, &shares))
+        .collect()
+}
+
+fn measured(
+    claim: &Declared,
+    results: &Results,
+    draws: &Draws,
+    shares: &[Shares],
+) -> Result<Claim, StudyError> {
+    let mut found = Vec::new();
+    if let (Some(measure), Some(quantifier), Some(region)) =
+        (claim.measure, claim.quantifier, claim.region)
+    {
+        let (unit, range) = measure.unit();
+        let rule = Rule { quantifier, region, unit, range };
+        let common = results.plan.common();
+        let arms: Vec<(Arm, Option<Arm>)> = match claim.arms {
+            Some(Arms::Drawn) => {
+                let drawn = results.plan.drawn();
+                drawn.into_iter().map(|arm| (arm, Some(arm))).collect()
+            }
+            Some(Arms::Common) => vec![(common, Some(common))],
+            Some(Arms::None) | None => vec![(common, None)],
+        };
+        for suite in &claim.suites {
+            for (arm, shown) in &arms {
+                let source = Source {
+                    results,
+                    draws,
+                    shares,
+                    tested: *suite,
+                    arm: *arm,
+                };
+                let Some(prepared) = source.prepare(measure)? else {
+                    continue;
+                };
+                let mut result = judge(
+                    draws,
+                    *suite,
+                    *shown,
+                    &rule,
+                    &prepared.cells,
+                    &prepared.measured,
+                );
+                if let Some(criterion) = &prepared.criterion
+                    && !claim.criterion.is_empty()
+                {
+                    by_criterion(draws, claim, criterion, &mut result);
+                }
+                found.push(result);
+            }
+        }
+    }
+    Ok(Claim {
+        id: claim.id.clone(),
+        kind: claim.kind,
+        theme: claim.theme,
+        section: claim.section,
+        quote: claim.quote.clone(),
+        plain: claim.plain.clone(),
+        measure: claim.words.clone(),
+        blocks: claim.blocks.clone(),
+        quantifier: claim.quantifier,
+        region: claim.region,
+        reason: claim.reason.clone(),
+        criterion: claim.criterion.clone(),
+        case: claim.case.clone(),
+        note: claim.note.clone(),
+        results: found,
+    })
+}
+
+/// The verdict by the paper's own criterion: the share of notches that cover
+/// 1, which an exception must not.
+fn by_criterion(
+    draws: &Draws,
+    claim: &Declared,
+    notches: &Replicated,
+    result: &mut ClaimResult,
+) {
+    let region = match claim.quantifier {
+        Some(Quantifier::Most) => Region::Above(0.5),
+        Some(Quantifier::One) => Region::Below(0.5),
+        _ => Region::Within(0.9, 1.0),
+    };
+    let (interval, verdict) = share(draws, result.suite, notches, region);
+    result.by_criterion = Some(verdict);
+    result.details.push(Detail {
+        name: "share of the cells whose notch covers 1".into(),
+        measured: interval,
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_measure_has_a_claim_and_every_claim_its_measure() {
+        // A finding without a measure does not load; so what is left is a
+        // measure that no claim names.
+        let named: BTreeSet<Measure> =
+            declared().iter().filter_map(|claim| claim.measure).collect();
+        for measure in Measure::ALL {
+            assert!(named.contains(&measure), "{measure:?}: no claim");
+        }
+        assert_eq!(named.len(), Measure::ALL.len());
+    }
+
+    #[test]
+    fn quotations_are_whole_sentences() {
+        for claim in declared() {
+            let quote = &claim.quote;
+            let first = quote.chars().next().unwrap();
+            assert!(first.is_uppercase(), "{}: {quote}", claim.id);
+            assert!(quote.ends_with('.'), "{}: {quote}", claim.id);
+            assert!(!quote.contains("..."), "{}: {quote}", claim.id);
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Capacity samples of all blocks, and what Lilliefors' test says of them.
+
+use rayon::prelude::*;
+use rocking::capacity::{InversionRule, ResponseCurve};
+use rocking::statistics::acceptance::NullBand;
+use rocking::statistics::lilliefors::Assessment;
+
+use super::StudyError;
+use super::analyses::SuiteResults;
+use super::normality::{accepted_share, along, null_band};
+use super::runs::capacities;
+use rocking_common::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, demands,
+};
+
+/// Capacities of one block, and the test along the demand.
+#[derive(Clone, Debug)]
+pub struct BlockSamples {
+    /// Frequency parameter.
+    pub p_rad_s: f64,
+    /// Slenderness.
+    pub alpha_rad: f64,
+    /// The shift IM_R.
+    pub shift: f64,
+    /// Capacities by level of [`demands`], then by record.
+    pub samples: Vec<Vec<f64>>,
+    /// The test of ln x by level.
+    pub original: Vec<Assessment>,
+    /// The test of ln(x - shift) by level.
+    pub shifted: Vec<Assessment>,
+    /// Null bands of the two accepted shares, in the plan's common arm.
+    pub bands: [Option<NullBand>; 2],
+}
+
+impl BlockSamples {
+    /// Accepted share of the levels: original, shifted.
+    #[must_use]
+    pub fn shares(&self) -> (f64, f64) {
+        (accepted_share(&self.original), accepted_share(&self.shifted))
+    }
+}
+
+/// All 15 blocks of a suite in one arm and one measure.
+#[derive(Clone, Debug)]
+pub struct Distributions {
+    /// `ordinary` or `pulse-type`.
+    pub kind: SuiteKind,
+    /// Arm of the grid.
+    pub arm: Arm,
+    /// Intensity measure.
+    pub intensity: Intensity,
+    /// By frequency parameter, then by slenderness.
+    pub blocks: Vec<BlockSamples>,
+}
+
+/// The distributions of a suite: by arm, PGA then PGV; null bands for the
+/// arm `banded`.
+///
+/// # Errors
+/// None in practice: the levels are positive.
+pub fn of_suite(
+    suite: &SuiteResults,
+    banded: Arm,
+) -> Result<Vec<Distributions>, StudyError> {
+    let levels = demands();
+    let mut out = Vec::new();
+    for arm in &suite.arms {
+        let by_block: Vec<Vec<Vec<f64>>> = arm
+            .curves
+            .iter()
+            .map(|curves| samples(curves, &levels))
+            .collect::<Result<_, _>>()?;
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            let blocks = by_block
+                .iter()
+                .enumerate()
+                .map(|(i, s)| block(suite, intensity, i, s, arm.arm == banded))
+                .collect::<Result<_, _>>()?;
+            out.push(Distributions {
+                kind: suite.kind,
+                arm: arm.arm,
+                intensity,
+                blocks,
+            });
+        }
+    }
+    Ok(out)
+}
+
+fn block(
+    suite: &SuiteResults,
+    intensity: Intensity,
+    position: usize,
+    pga: &[Vec<f64>],
+    banded: bool,
+) -> Result<BlockSamples, StudyError> {
+    let slendernesses = SLENDERNESSES_RAD.len();
+    let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
+    let alpha_rad = SLENDERNESSES_RAD[position % slendernesses];
+    let factors = factors(suite, intensity, p_rad_s);
+    let samples: Vec<Vec<f64>> =
+        pga.iter().map(|sample| scaled(sample, &factors)).collect();
+    let shift = least(&factors);
+    let band = |shift: f64| {
+        let kind = if shift > 0.0 { "shifted" } else { "original" };
+        let name = format!(
+            "study/band/{}/{}/{p_rad_s}/{alpha_rad}/{kind}",
+            suite.kind,
+            intensity.name()
+        );
+        banded.then(|| null_band(&samples, shift, &name)).flatten()
+    };
+    Ok(BlockSamples {
+        bands: [band(0.0), band(shift)],
+        p_rad_s,
+        alpha_rad,
+        shift,
+        original: along(&samples, 0.0)?,
+        shifted: along(&samples, shift)?,
+        samples,
+    })
+}
+
+/// Samples by level: capacities of all records of a block.
+///
+/// # Errors
+/// [`StudyError`] for a level that is not positive.
+fn samples(
+    curves: &[ResponseCurve],
+    levels: &[f64],
+) -> Result<Vec<Vec<f64>>, StudyError> {
+    let by_record: Vec<Vec<f64>> = curves
+        .par_iter()
+        .map(|curve| capacities(curve, levels, InversionRule::Median))
+        .collect::<Result<_, _>>()?;
+    let of = |k: usize| by_record.iter().map(|r| r[k]).collect();
+    Ok((0..levels.len()).map(of).collect())
+}
+
+/// The same sample in another measure: each capacity times its record's
+/// factor.
+#[must_use]
+pub fn scaled(sample: &[f64], factors: &[f64]) -> Vec<f64> {
+    sample.iter().zip(factors).map(|(x, f)| x * f).collect()
+}
+
+/// What turns PGA/(g tan alpha) into the measure, record by record: 1, or
+/// p PGV/PGA. The least of them is IM_R: at uplift PGA/(g tan alpha) is 1.
+#[must_use]
+pub fn factors(
+    suite: &SuiteResults,
+    intensity: Intensity,
+    p_rad_s: f64,
+) -> Vec<f64> {
+    let of = |ratio_s: f64| match intensity {
+        Intensity::Pga => 1.0,
+        Intensity::Pgv => p_rad_s * ratio_s,
+    };
+    suite.records.iter().map(|r| of(r.velocity_ratio_s)).collect()
+}
+
+/// The least of some numbers; infinite if there is none.
+#[must_use]
+pub fn least(values: &[f64]) -> f64 {
+    values.iter().fold(f64::INFINITY, |m, x| if *x < m { *x } else { m })
+}

@@ -1,0 +1,109 @@
+//! Estimates that tables of the study show: medians, shares of records,
+//! paired ratios.
+
+use rocking::capacity::InversionRule;
+use rocking::statistics::ExtendedSample;
+use rocking::statistics::boxplot::median_interval;
+use rocking::statistics::paired::Pairs;
+
+use super::StudyError;
+use super::analyses::{Apart, SuiteResults};
+use super::figures::{Results, median_of};
+use super::runs::capacities;
+use super::sensitivities::Varied;
+use rocking_common::findings::Measured;
+use rocking_common::paper::{FREQUENCIES_RAD_S, position};
+
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
+
+/// Median with its exact order-statistic interval; what was never reached
+/// counts as infinite, what is NaN does not count.
+#[must_use]
+pub fn median(values: &[f64]) -> Measured {
+    let there: Vec<f64> =
+        values.iter().copied().filter(|x| !x.is_nan()).collect();
+    let Ok(sample) = ExtendedSample::try_new(&there) else {
+        return Measured::exact(f64::NAN);
+    };
+    let sorted = sample.sorted();
+    let n = sorted.len();
+    Measured {
+        value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
+        interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
+    }
+}
+
+/// One frequency parameter of a suite's single-record comparison, medians
+/// over records and slendernesses.
+#[derive(Clone, Copy, Debug)]
+pub struct SingleRow {
+    /// Frequency parameter.
+    pub p_rad_s: f64,
+    /// Level of the histories.
+    pub im: f64,
+    /// Number of pairs of histories in which both blocks stand.
+    pub usable: usize,
+    /// Normalized L2 distance.
+    pub distance: f64,
+    /// Ratio of the peaks.
+    pub peak_ratio: f64,
+    /// Mean |ln| of the ratio of intensities at equal demand.
+    pub mean_ln_im: f64,
+}
+
+/// The single-record comparison by frequency parameter.
+#[must_use]
+pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
+    suite
+        .single
+        .iter()
+        .zip(FREQUENCIES_RAD_S)
+        .map(|(single, p_rad_s)| {
+            let stands = |a: &&Apart| a.distance.is_finite();
+            SingleRow {
+                p_rad_s,
+                im: single.im,
+                usable: single.apart.iter().flatten().filter(stands).count(),
+                distance: median_of(single, |a| a.distance),
+                peak_ratio: median_of(single, |a| a.peak_ratio),
+                mean_ln_im: median_of(single, |a| a.mean_ln_im),
+            }
+        })
+        .collect()
+}
+
+/// Paired capacities at a demand: another choice over the study's.
+///
+/// # Errors
+/// [`StudyError`] where a curve cannot be inverted.
+pub fn varied_ratios(
+    results: &Results,
+    varied: &Varied,
+    demand: f64,
+) -> Result<Pairs, StudyError> {
+    let curves = results.ordinary.curves(results.plan.common());
+    let base = &curves.ok_or(StudyError::NoArm)?
+        [position(varied.frequency, varied.slenderness)];
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    for (curve, base) in varied.curves.iter().zip(base) {
+        if let Some(curve) = curve {
+            a.extend(capacities(curve, &[demand], InversionRule::Median)?);
+            b.extend(capacities(base, &[demand], InversionRule::Median)?);
+        }
+    }
+    Ok(Pairs::try_new(&a, &b)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_median_counts_what_was_never_reached() {
+        let inf = f64::INFINITY;
+        let found = median(&[1.0, inf, f64::NAN, 2.0]);
+        assert_eq!(found.value, 2.0);
+        assert_eq!(median(&[1.0, inf, inf]).value, inf);
+    }
+}

@@ -1,0 +1,314 @@
+//! Figures 15 to 17: the fragilities with the bands that decide the claims.
+
+use rocking::statistics::Lognormal;
+
+use super::super::{Figure, Results, name};
+use super::{THRESHOLDS, distance, usfl7};
+use crate::StudyError;
+use crate::claims::limit_of;
+use crate::inference::{Draw, Draws, Replicated, by_cell};
+use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
+use rocking_common::findings::{Measured, Tested};
+use rocking_common::paper::{Arm, Intensity};
+use rocking_draw::figures::{
+    BandOf, Estimator, Fitted, Fragilities, FragilityPanel, Heading, Limit,
+};
+
+/// Intensities at which the ends of a band are computed.
+const POINTS: u32 = 80;
+
+/// Which fits a figure compares.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pair {
+    /// Figure 15: USFL and SSFL.
+    Shifted,
+    /// Figure 16: the trimmed USFL and its USFL7.
+    Trimmed,
+    /// Figure 17: the untrimmed USFL and its USFL7.
+    Untrimmed,
+}
+
+impl Pair {
+    fn of(number: u32) -> Self {
+        match number {
+            15 => Self::Shifted,
+            16 => Self::Trimmed,
+            _ => Self::Untrimmed,
+        }
+    }
+
+    fn title(self) -> &'static str {
+        match self {
+            Self::Shifted => "Fragilities: USFL and SSFL, untrimmed",
+            Self::Trimmed => "Fragilities: USFL and USFL7, trimmed, c = 1",
+            Self::Untrimmed => "Fragilities: USFL and USFL7, untrimmed, c = 1",
+        }
+    }
+
+    fn first(self, at: &At) -> Option<Lognormal> {
+        match self {
+            Self::Trimmed => at.fits.trimmed,
+            _ => at.fits.usfl,
+        }
+    }
+
+    fn second(self, at: &At) -> Option<Lognormal> {
+        match self {
+            Self::Shifted => at.fits.ssfl,
+            _ => usfl7(self.first(at), at.shift, 1.0),
+        }
+    }
+
+    /// What the band of the second fit holds.
+    fn band_of(self) -> BandOf {
+        match self {
+            Self::Shifted => BandOf::Curve,
+            Self::Trimmed | Self::Untrimmed => BandOf::DifferenceToSsfl,
+        }
+    }
+
+    /// The measure of the claims on it.
+    fn measure(self, intensity: Intensity) -> Measure {
+        match (self, intensity) {
+            (Self::Shifted, Intensity::Pga) => Measure::ShiftGainPga,
+            (Self::Shifted, Intensity::Pgv) => Measure::ShiftGainPgv,
+            (Self::Trimmed, _) => Measure::TrimmedToSsfl,
+            (Self::Untrimmed, Intensity::Pga) => Measure::UntrimmedToSsfl,
+            (Self::Untrimmed, Intensity::Pgv) => Measure::UntrimmedToSsflPgv,
+        }
+    }
+}
+
+/// Figures 15, 16 and 17.
+pub(in super::super) fn thresholds(
+    results: &Results,
+    draws: &Draws,
+    arm: Arm,
+    number: u32,
+) -> Result<Figure, StudyError> {
+    let pair = Pair::of(number);
+    let source = Source {
+        results,
+        draws,
+        shares: &[],
+        tested: Tested::from(results.ordinary.kind),
+        arm,
+    };
+    let mut panels = Vec::new();
+    let mut words = Vec::new();
+    for intensity in [Intensity::Pga, Intensity::Pgv] {
+        let measure = pair.measure(intensity);
+        let limit = limit_of(measure);
+        let read = Thresholds::new(&source, intensity);
+        let read = read.ok_or(StudyError::NoArm)?;
+        let (_, range) = measure.unit();
+        let judged = |measured: &Replicated| {
+            by_cell(draws, source.tested, range, measured)
+        };
+        let decide = if pair == Pair::Shifted {
+            let prepared = source.prepare(measure)?;
+            prepared.map_or(Vec::new(), |p| judged(&p.measured))
+        } else {
+            let apart = |at: &At| to_ssfl(pair.first(at), at, 1.0);
+            judged(&by_demand(&source, &read, &apart))
+        };
+        let name = intensity.name().to_uppercase();
+        words.push(if pair == Pair::Shifted {
+            gain_in_words(&name, decide.first(), limit)
+        } else {
+            distances_in_words(&name, &decide, limit)
+        });
+        for (place, edp) in THRESHOLDS.into_iter().enumerate() {
+            let cell = decide.get(place).filter(|_| pair != Pair::Shifted);
+            let of = Panel { intensity, edp, place, limit, cell };
+            panels.push(panel(&source, &read, pair, &of)?);
+        }
+    }
+    words.push(
+        match pair {
+            Pair::Shifted => {
+                "Bands hold 95 % of the fits to resampled suites; brackets \
+                 are 95 % intervals."
+            }
+            _ => {
+                "The band is SSFL plus 95 % of the differences of USFL7 to \
+                 it over resampled suites, so that USFL7 need not lie in it; \
+                 brackets are 95 % intervals, at once for the three demands."
+            }
+        }
+        .into(),
+    );
+    Ok(Fragilities {
+        heading: Heading::new(
+            name(number, None),
+            pair.title(),
+            "Six panels, PGA above and PGV below, demands 0.15, 0.35 and \
+             1.00 from left to right: probability of exceedance against \
+             intensity as dots of the sample, two fitted curves and 95 % \
+             bands; p = 3, alpha = 0.20.",
+            Some(arm),
+        ),
+        panels,
+        columns: THRESHOLDS.len(),
+    }
+    .figure(words.join(" ")))
+}
+
+/// What a panel shows.
+struct Panel<'a> {
+    intensity: Intensity,
+    edp: f64,
+    place: usize,
+    limit: f64,
+    /// Largest distance of USFL7 to SSFL, as the claim judges it.
+    cell: Option<&'a Measured>,
+}
+
+fn panel(
+    source: &Source<'_>,
+    read: &Thresholds,
+    pair: Pair,
+    of: &Panel<'_>,
+) -> Result<FragilityPanel, StudyError> {
+    let kind = source.results.ordinary.kind;
+    let whole = source.draws.whole();
+    let at = read.at(whole.of(kind), of.place).ok_or(StudyError::NoArm)?;
+    let (first, second) = (pair.first(&at), pair.second(&at));
+    let sample = at.sample.sorted().to_vec();
+    let (low, high) = Fragilities::range(&sample);
+    let step = (high - low) / f64::from(POINTS);
+    let grid: Vec<f64> =
+        (0..=POINTS).map(|k| step.mul_add(f64::from(k), low)).collect();
+    // Of USFL7 the difference to SSFL, which moves with the records less
+    // than either.
+    let over = |draw: Draw<'_>| {
+        let Some(at) = read.at(draw.of(kind), of.place) else {
+            return vec![f64::NAN; 2 * grid.len()];
+        };
+        let (a, b) = (pair.first(&at), pair.second(&at));
+        let less = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
+        let all = |fit: Option<Lognormal>, less: Option<Lognormal>| {
+            grid.iter().map(move |x| {
+                let p = fit.map_or(f64::NAN, |f| f.cdf(*x));
+                p - less.map_or(0.0, |f| f.cdf(*x))
+            })
+        };
+        all(a, None).chain(all(b, less)).collect()
+    };
+    let bands = source.draws.smooth(source.tested, &over).percentiles();
+    let (of_first, of_second) = bands.split_at(grid.len());
+    let laid_on = |on: Option<Lognormal>, ends: &[Option<(f64, f64)>]| {
+        grid.iter()
+            .zip(ends)
+            .filter_map(|(x, ends)| {
+                let p = on.map_or(0.0, |f| f.cdf(*x));
+                ends.map(|(a, b)| (*x, p + a, p + b))
+            })
+            .collect::<Vec<_>>()
+    };
+    let on = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
+    let own = if pair == Pair::Shifted { of_first } else { &[] };
+    let estimator = match pair {
+        Pair::Shifted => Estimator::Ssfl,
+        _ => Estimator::Usfl7,
+    };
+    let notes = match (second, of.cell) {
+        (None, _) => Vec::new(),
+        (Some(_), None) => vec![
+            "largest distance to the ECDF:".into(),
+            format!(
+                "USFL {:.3}, SSFL {:.3}",
+                distance(first, &at.sample),
+                distance(second, &at.sample)
+            ),
+        ],
+        (Some(_), Some(cell)) => {
+            vec!["largest distance to SSFL:".into(), with_interval(cell)]
+        }
+    };
+    let limit = |around| Limit { around, by: of.limit };
+    Ok(FragilityPanel {
+        intensity: of.intensity,
+        edp: of.edp,
+        sample,
+        curves: vec![
+            Fitted {
+                estimator: Estimator::Usfl,
+                curve: first,
+                band: laid_on(None, own),
+                band_of: BandOf::Curve,
+            },
+            Fitted {
+                estimator,
+                curve: second,
+                band: laid_on(on, of_second),
+                band_of: pair.band_of(),
+            },
+        ],
+        limit: on.map(limit),
+        notes,
+    })
+}
+
+/// `0.031 (0.012 to 0.071)`.
+fn with_interval(of: &Measured) -> String {
+    let three = |x: f64| format!("{x:.3}").replace('-', "−");
+    match of.interval {
+        Some((low, high)) => {
+            format!("{} ({} to {})", three(of.value), three(low), three(high))
+        }
+        None => three(of.value),
+    }
+}
+
+/// What shifting gains, in a sentence.
+fn gain_in_words(name: &str, gain: Option<&Measured>, limit: f64) -> String {
+    let Some(gain) = gain else { return String::new() };
+    let Some((low, high)) = gain.interval else {
+        return format!("For {name} no interval tells what shifting gains.");
+    };
+    let finding = if low > limit {
+        format!("SSFL fits better than USFL by more than {limit}")
+    } else if high < -limit {
+        format!("SSFL fits worse than USFL by more than {limit}")
+    } else if low > -limit && high < limit {
+        format!("SSFL fits as USFL does, within {limit}")
+    } else if high < limit {
+        format!("SSFL does not fit better than USFL by {limit}")
+    } else {
+        format!("it is open whether SSFL fits better than USFL by {limit}")
+    };
+    format!(
+        "For {name} {finding}; the mean gain over three demands is {}.",
+        with_interval(gain)
+    )
+}
+
+/// At which demands USFL7 is near enough, in a sentence.
+fn distances_in_words(name: &str, cells: &[Measured], limit: f64) -> String {
+    let ends = |cell: &Measured| cell.interval.unwrap_or((0.0, 1.0));
+    let listed = |is: &dyn Fn((f64, f64)) -> bool| {
+        let demands: Vec<String> = THRESHOLDS
+            .iter()
+            .zip(cells)
+            .filter(|(_, cell)| is(ends(cell)))
+            .map(|(edp, _)| format!("{edp:.2}"))
+            .collect();
+        match demands.as_slice() {
+            [] => None,
+            [one] => Some(format!("demand {one}")),
+            [most @ .., last] => {
+                Some(format!("demands {} and {last}", most.join(", ")))
+            }
+        }
+    };
+    let inside = listed(&|(_, high)| high < limit)
+        .map(|at| format!("USFL7 lies within {limit} of SSFL at {at}"));
+    let outside = listed(&|(low, _)| low > limit)
+        .map(|at| format!("USFL7 leaves SSFL by more than {limit} at {at}"));
+    let open = listed(&|(low, high)| !(high < limit || low > limit))
+        .map(|at| format!("USFL7 may lie within {limit} of SSFL at {at}"));
+    let all: Vec<String> =
+        [inside, outside, open].into_iter().flatten().collect();
+    format!("For {name} {}.", all.join("; "))
+}

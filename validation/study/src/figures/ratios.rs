@@ -1,0 +1,241 @@
+//! Figures 6, 7 and 9: paired ratios by stripe.
+
+use rocking::statistics::paired::Pairs;
+use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
+
+use super::{Figure, name};
+use crate::StudyError;
+use crate::analyses::{StripeDemands, SuiteResults};
+use crate::inference::LEAST_DECIDING;
+use crate::measures::closed_form;
+use rocking_common::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, LEAST_USABLE, REFERENCE,
+    SLENDERNESSES_RAD, STRIPES, position,
+};
+use rocking_common::words::{percent, range};
+use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe, StripeKind};
+
+/// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
+pub(super) fn slendernesses(
+    suite: &SuiteResults,
+    arm: Arm,
+    number: u32,
+) -> Result<Option<Figure>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
+    let frequencies: &[usize] = if number == 6 { &[0] } else { &[1, 2] };
+    let mut panels = Vec::new();
+    for frequency in frequencies {
+        for (slenderness, alpha_rad) in
+            SLENDERNESSES_RAD.into_iter().enumerate()
+        {
+            if slenderness != REFERENCE {
+                panels.push(BoxPanel {
+                    p_rad_s: FREQUENCIES_RAD_S[*frequency],
+                    alpha_rad,
+                    closed_form: Some(closed_form(alpha_rad)),
+                    note: String::new(),
+                    stripes: boxes(stripes, *frequency, Some(slenderness))?,
+                });
+            }
+        }
+    }
+    let p = if number == 6 { "p = 1" } else { "p = 3 and 4" };
+    let reading = medians_in_words(&panels);
+    Ok(Some(
+        Boxplots {
+            heading: Heading::new(
+                name(number, Some(arm)),
+                format!("Paired ratios of demands to alpha = 0.10, {p}"),
+                "Notched boxplots of the ratio of peak rotation \
+                              over slenderness to that of the block with \
+                              alpha = 0.10 under the same record, by stripe \
+                              of intensity; the share of usable ratios \
+                              stands at the right.",
+                Some(arm),
+            ),
+            ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
+            stripes: StripeKind::Intensity(Intensity::Pga),
+            panels,
+            columns: 4,
+        }
+        .figure(reading),
+    ))
+}
+
+/// Figure 9; none where stripes were not run.
+pub(super) fn adjusted(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Option<Figure>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
+    let panels = FREQUENCIES_RAD_S
+        .into_iter()
+        .enumerate()
+        .map(|(frequency, p_rad_s)| {
+            Ok(BoxPanel {
+                p_rad_s,
+                alpha_rad: SLENDERNESSES_RAD[REFERENCE],
+                closed_form: None,
+                note: String::new(),
+                stripes: boxes(stripes, frequency, None)?,
+            })
+        })
+        .collect::<Result<Vec<_>, StudyError>>()?;
+    let reading = medians_in_words(&panels);
+    Ok(Some(
+        Boxplots {
+            heading: Heading::new(
+                name(9, Some(arm)),
+                "Slenderness adjustment against record scaling",
+                "Notched boxplots of the ratio of demands: \
+                              unscaled record on a block of adjusted \
+                              slenderness over scaled record on the block \
+                              with alpha = 0.10, by stripe of intensity.",
+                Some(arm),
+            ),
+            ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),
+            stripes: StripeKind::Intensity(Intensity::Pga),
+            panels,
+            columns: 3,
+        }
+        .figure(reading),
+    ))
+}
+
+/// Demands on the stripes of an arm.
+pub(crate) fn of_arm(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Option<&StripeDemands> {
+    suite.stripes.iter().find(|s| s.arm == arm)
+}
+
+/// Pairs on each stripe: a slenderness over the reference, or (none) the
+/// adjusted one over scaled records.
+pub(crate) fn pairs(
+    stripes: &StripeDemands,
+    frequency: usize,
+    slenderness: Option<usize>,
+) -> Result<Vec<(f64, Pairs)>, StudyError> {
+    let reference = &stripes.demands[position(frequency, REFERENCE)];
+    let compared = match slenderness {
+        Some(s) => &stripes.demands[position(frequency, s)],
+        None => &stripes.adjusted[frequency],
+    };
+    STRIPES
+        .iter()
+        .zip(compared.iter().zip(reference))
+        .map(|(im, (a, b))| Ok((*im, Pairs::try_new(a, b)?)))
+        .collect()
+}
+
+/// Boxes of Figure 9 by frequency parameter; none where stripes were not
+/// run.
+pub(crate) fn adjusted_boxes(
+    suite: &SuiteResults,
+    arm: Arm,
+) -> Result<Vec<(f64, Vec<Stripe>)>, StudyError> {
+    let Some(stripes) = of_arm(suite, arm) else { return Ok(Vec::new()) };
+    FREQUENCIES_RAD_S
+        .into_iter()
+        .enumerate()
+        .map(|(frequency, p)| Ok((p, boxes(stripes, frequency, None)?)))
+        .collect()
+}
+
+/// Ratios of Figure 9 on a stripe, apart by the adjusted slenderness: up to
+/// the paper's largest, and above.
+pub(crate) struct Split {
+    /// Level of the stripe.
+    pub im: f64,
+    /// Ratios of the records whose adjusted slenderness is at most 0.25.
+    pub within: Vec<f64>,
+    /// Ratios of the others.
+    pub above: Vec<f64>,
+}
+
+/// Ratios of Figure 9 by frequency parameter, apart by slenderness.
+pub(crate) fn adjusted_split(
+    suite: &SuiteResults,
+    stripes: &StripeDemands,
+    frequency: usize,
+) -> Result<Vec<Split>, StudyError> {
+    let steepest = libm::tan(SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1]);
+    let reference = &stripes.demands[position(frequency, REFERENCE)];
+    STRIPES
+        .iter()
+        .zip(stripes.adjusted[frequency].iter().zip(reference))
+        .map(|(im, (adjusted, scaled))| {
+            let ratios = |wanted: bool| {
+                let (mut a, mut b) = (Vec::new(), Vec::new());
+                for ((x, y), record) in
+                    adjusted.iter().zip(scaled).zip(&suite.records)
+                {
+                    if (record.pga_g <= im * steepest) == wanted {
+                        a.push(*x);
+                        b.push(*y);
+                    }
+                }
+                Ok::<_, StudyError>(Pairs::try_new(&a, &b)?.ratios)
+            };
+            Ok(Split { im: *im, within: ratios(true)?, above: ratios(false)? })
+        })
+        .collect()
+}
+
+/// Boxes of the stripes with at least ten usable ratios.
+fn boxes(
+    stripes: &StripeDemands,
+    frequency: usize,
+    slenderness: Option<usize>,
+) -> Result<Vec<Stripe>, StudyError> {
+    pairs(stripes, frequency, slenderness)?
+        .into_iter()
+        .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
+        .map(|(level, paired)| {
+            Ok(Stripe {
+                level,
+                usable: paired.ratios.len(),
+                records: paired.n,
+                summary: Some(notched(&paired.ratios)?),
+            })
+        })
+        .collect()
+}
+
+fn notched(ratios: &[f64]) -> Result<Boxplot, StudyError> {
+    let sample = ExtendedSample::try_new(ratios)?;
+    Ok(Boxplot::try_new(&sample, QuantileType::default())?)
+}
+
+fn medians_in_words(panels: &[BoxPanel]) -> String {
+    let stripes = || panels.iter().flat_map(|p| &p.stripes);
+    let medians =
+        stripes().filter_map(|s| s.summary.as_ref()).map(|b| b.median);
+    let (low, high) = range(medians);
+    let (least, _) = range(stripes().map(Stripe::usable_share));
+    // Of the boxes with enough ratios to tell.
+    let off = panels.iter().flat_map(|panel| {
+        let of = panel.closed_form.unwrap_or(1.0);
+        let many = |s: &&Stripe| s.usable >= LEAST_DECIDING;
+        let median = move |s: &Stripe| {
+            let b = s.summary.as_ref();
+            b.map_or(f64::NAN, |b| (b.median / of - 1.0).abs())
+        };
+        panel.stripes.iter().filter(many).map(median)
+    });
+    let (_, off) = range(off);
+    let about = if panels.iter().any(|p| p.closed_form.is_some()) {
+        "the closed form"
+    } else {
+        "1"
+    };
+    format!(
+        "Medians of {LEAST_DECIDING} ratios or more lie within {} of {about}. \
+         All {} medians lie between {low:.3} and {high:.3}. The share of \
+         usable ratios falls to {}; boxes of fewer than 20 have no notch.",
+        percent(off, 2),
+        stripes().count(),
+        percent(least, 1)
+    )
+}

@@ -1,0 +1,433 @@
+//! Sections 2 to 4: measures of capacities, the intensities that reach a
+//! demand.
+
+use libm::tan;
+use rocking::capacity::{InversionRule, ResponseCurve};
+
+use super::{Measure, Prepared, Source, block, mean};
+use crate::StudyError;
+use crate::distributions::factors;
+use crate::figures::of_arm;
+use crate::inference::{Cell, Draw, Replicated};
+use crate::runs::capacities;
+use crate::sensitivities::{Choice, Varied};
+use rocking::statistics::Proportion;
+use rocking::statistics::resampling::Ranked;
+use rocking_common::paper::{
+    FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, STRIPES,
+    demand_index, position,
+};
+
+/// Demands at which intensities are compared.
+pub const DEMANDS: [f64; 10] =
+    [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+
+/// Demands of other choices' capacities: the paper's thresholds.
+const THRESHOLDS: [f64; 3] = [0.15, 0.35, 1.0];
+
+/// The quantiles of Figures 8 and 10.
+const QUANTILES: [f64; 3] = [0.16, 0.50, 0.84];
+
+/// A sample whose quantiles are compared with another's.
+struct Pair {
+    at: String,
+    own: Ranked,
+    reference: Ranked,
+}
+
+/// Quantiles of one sample over those of another, for all pairs of samples;
+/// NaN where one of the two is infinite.
+fn quantile_ratios(source: &Source<'_>, pairs: &[Pair]) -> Prepared {
+    let kind = source.kind();
+    let mut cells = Vec::new();
+    for pair in pairs {
+        let records = pair.own.records().min(pair.reference.records());
+        for p in QUANTILES {
+            let at = format!("{}, {:.0} %", pair.at, 100.0 * p);
+            cells.push(Cell { at, records });
+        }
+    }
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        let mut out = Vec::with_capacity(cells.len());
+        for pair in pairs {
+            for p in QUANTILES {
+                let ratio = pair.own.quantile(counts, p)
+                    / pair.reference.quantile(counts, p);
+                out.push(if ratio > 0.0 { ratio } else { f64::NAN });
+            }
+        }
+        out
+    };
+    let measured = source.draws.smooth(source.tested, &of);
+    Prepared { cells, measured, criterion: None }
+}
+
+/// Paired ratios, by record; NaN where one is infinite or missing.
+fn ratios(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter()
+        .zip(b)
+        .map(
+            |(a, b)| {
+                if a.is_finite() && b.is_finite() { a / b } else { f64::NAN }
+            },
+        )
+        .collect()
+}
+
+/// Medians of paired ratios, cell by cell.
+fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
+    let kind = source.kind();
+    let ranked: Vec<(String, Ranked)> = cells
+        .into_iter()
+        .map(|(at, values)| (at, Ranked::new(&values)))
+        .collect();
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        ranked.iter().map(|(_, r)| r.median(counts)).collect()
+    };
+    let measured = source.draws.smooth(source.tested, &of);
+    let cells = ranked
+        .into_iter()
+        .map(|(at, r)| Cell { at, records: r.records() })
+        .collect();
+    Prepared { cells, measured, criterion: None }
+}
+
+pub(super) fn prepare(
+    source: &Source<'_>,
+    measure: Measure,
+) -> Result<Option<Prepared>, StudyError> {
+    match measure {
+        Measure::FirstOverturningByCriterion => criterion(source).map(Some),
+        Measure::RestitutionEffect => restitution(source).map(Some),
+        Measure::ComponentEffect => component(source).map(Some),
+        Measure::InversionBias => inversion(source),
+        Measure::HousnerSpread => housner(source),
+        Measure::UpliftUnscaled => uplift(source).map(Some),
+        Measure::DemandRatios => Ok(demand_ratios(source)),
+        Measure::Quantiles => Ok(quantiles(source)),
+        Measure::AdjustmentQuantiles => adjusted_quantiles(source),
+        Measure::OnsetSpreadPgv => Ok(Some(onset(source))),
+        _ => Ok(None),
+    }
+}
+
+/// Other choices that were run, and the study's own curves of that block.
+fn varied<'a>(
+    source: &Source<'a>,
+    choices: &'a [Choice],
+) -> Result<Vec<(&'a Varied, &'a [ResponseCurve])>, StudyError> {
+    let results = source.results;
+    let curves = results.ordinary.curves(results.plan.common());
+    let curves = curves.ok_or(StudyError::NoArm)?;
+    let of = |v: &'a Varied| {
+        let at = position(v.frequency, v.slenderness);
+        (v, curves[at].as_slice())
+    };
+    let found = results.varied.iter();
+    Ok(found.filter(|v| choices.contains(&v.choice)).map(of).collect())
+}
+
+/// Capacity of a curve at a demand; NaN where there is no curve.
+fn capacity(
+    curve: Option<&ResponseCurve>,
+    demand: f64,
+) -> Result<f64, StudyError> {
+    let of = |c: &ResponseCurve| {
+        Ok(c.capacity(demand, InversionRule::Median)?.im())
+    };
+    curve.map_or(Ok(f64::NAN), of)
+}
+
+fn criterion(source: &Source<'_>) -> Result<Prepared, StudyError> {
+    let first = |curve: &ResponseCurve| {
+        curve.overturning_im().unwrap_or(f64::INFINITY)
+    };
+    let mut pairs = Vec::new();
+    for (varied, base) in varied(source, &[Choice::OtherCriterion])? {
+        let own: Vec<f64> = varied
+            .curves
+            .iter()
+            .map(|c| c.as_ref().map_or(f64::NAN, first))
+            .collect();
+        let reference: Vec<f64> = base.iter().map(first).collect();
+        pairs.push(Pair {
+            at: block(varied.frequency, varied.slenderness),
+            own: Ranked::new(&own),
+            reference: Ranked::new(&reference),
+        });
+    }
+    Ok(quantile_ratios(source, &pairs))
+}
+
+fn restitution(source: &Source<'_>) -> Result<Prepared, StudyError> {
+    let kind = source.kind();
+    let choices = [Choice::Eta085, Choice::Eta097];
+    let mut cells = Vec::new();
+    let mut pairs = Vec::new();
+    for (varied, base) in varied(source, &choices)? {
+        let own: Vec<f64> = varied
+            .curves
+            .iter()
+            .map(|c| capacity(c.as_ref(), 1.0))
+            .collect::<Result<_, _>>()?;
+        let reference: Vec<f64> = base
+            .iter()
+            .map(|c| capacity(Some(c), 1.0))
+            .collect::<Result<_, _>>()?;
+        let at = block(varied.frequency, varied.slenderness);
+        cells.push(Cell {
+            at: format!("{}, {at}", varied.choice.name()),
+            records: own.len(),
+        });
+        pairs.push((Ranked::new(&own), Ranked::new(&reference)));
+    }
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        pairs
+            .iter()
+            .map(|(a, b)| a.median(counts) / b.median(counts))
+            .collect()
+    };
+    let measured = source.draws.smooth(source.tested, &of);
+    Ok(Prepared { cells, measured, criterion: None })
+}
+
+fn component(source: &Source<'_>) -> Result<Prepared, StudyError> {
+    let mut pairs = Vec::new();
+    for (varied, base) in varied(source, &[Choice::OtherComponent])? {
+        for demand in THRESHOLDS {
+            let own: Vec<f64> = varied
+                .curves
+                .iter()
+                .map(|c| capacity(c.as_ref(), demand))
+                .collect::<Result<_, _>>()?;
+            // Only pairs that have both components.
+            let reference: Vec<f64> = base
+                .iter()
+                .zip(&own)
+                .map(|(c, own)| capacity((!own.is_nan()).then_some(c), demand))
+                .collect::<Result<_, _>>()?;
+            let at = block(varied.frequency, varied.slenderness);
+            pairs.push(Pair {
+                at: format!("{at}, demand {demand}"),
+                own: Ranked::new(&own),
+                reference: Ranked::new(&reference),
+            });
+        }
+    }
+    Ok(quantile_ratios(source, &pairs))
+}
+
+/// Samples of a suite at a demand, by block.
+fn samples<'a>(
+    source: &Source<'a>,
+    frequency: usize,
+    slenderness: usize,
+    demand: f64,
+) -> Option<&'a [f64]> {
+    let results = source.results;
+    let found =
+        results.distributions(source.kind(), source.arm, Intensity::Pga)?;
+    let block = &found.blocks[position(frequency, slenderness)];
+    Some(&block.samples[demand_index(demand)])
+}
+
+fn demand_ratios(source: &Source<'_>) -> Option<Prepared> {
+    let mut cells = Vec::new();
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            if slenderness == REFERENCE {
+                continue;
+            }
+            for demand in DEMANDS {
+                let own = samples(source, frequency, slenderness, demand)?;
+                let reference = samples(source, frequency, REFERENCE, demand)?;
+                let at = format!(
+                    "{}, demand {demand}",
+                    block(frequency, slenderness)
+                );
+                cells.push((at, ratios(own, reference)));
+            }
+        }
+    }
+    Some(paired(source, cells))
+}
+
+/// Figure 8: intensity given demand, and demand given intensity.
+fn quantiles(source: &Source<'_>) -> Option<Prepared> {
+    let suite = source.results.suite(source.kind());
+    let stripes = of_arm(suite, source.arm)?;
+    let mut pairs = Vec::new();
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            if slenderness == REFERENCE {
+                continue;
+            }
+            let name = block(frequency, slenderness);
+            for demand in DEMANDS {
+                let own = samples(source, frequency, slenderness, demand)?;
+                let reference = samples(source, frequency, REFERENCE, demand)?;
+                pairs.push(Pair {
+                    at: format!("{name}, intensity at demand {demand}"),
+                    own: Ranked::new(own),
+                    reference: Ranked::new(reference),
+                });
+            }
+            let of = |s| &stripes.demands[position(frequency, s)];
+            let levels = of(slenderness).iter().zip(of(REFERENCE));
+            for (im, (own, reference)) in STRIPES.iter().zip(levels) {
+                pairs.push(Pair {
+                    at: format!("{name}, demand at intensity {im}"),
+                    own: Ranked::new(own),
+                    reference: Ranked::new(reference),
+                });
+            }
+        }
+    }
+    Some(quantile_ratios(source, &pairs))
+}
+
+/// Figure 10: the same, slenderness adjusted over records scaled.
+fn adjusted_quantiles(
+    source: &Source<'_>,
+) -> Result<Option<Prepared>, StudyError> {
+    let suite = source.results.suite(source.kind());
+    let stripes = of_arm(suite, source.arm);
+    let curves = suite.adjusted.iter().find(|a| a.arm == source.arm);
+    let (Some(stripes), Some(curves)) = (stripes, curves) else {
+        return Ok(None);
+    };
+    let mut pairs = Vec::new();
+    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+        for demand in DEMANDS {
+            let own: Vec<f64> = curves.curves[frequency]
+                .iter()
+                .map(|c| capacity(Some(c), demand))
+                .collect::<Result<_, _>>()?;
+            let Some(reference) =
+                samples(source, frequency, REFERENCE, demand)
+            else {
+                return Ok(None);
+            };
+            pairs.push(Pair {
+                at: format!("p = {p}, intensity at demand {demand}"),
+                own: Ranked::new(&own),
+                reference: Ranked::new(reference),
+            });
+        }
+        let scaled = &stripes.demands[position(frequency, REFERENCE)];
+        let levels = stripes.adjusted[frequency].iter().zip(scaled);
+        for (im, (own, reference)) in STRIPES.iter().zip(levels) {
+            pairs.push(Pair {
+                at: format!("p = {p}, demand at intensity {im}"),
+                own: Ranked::new(own),
+                reference: Ranked::new(reference),
+            });
+        }
+    }
+    Ok(Some(quantile_ratios(source, &pairs)))
+}
+
+fn inversion(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
+    let kind = source.kind();
+    let suite = source.results.suite(kind);
+    let Some(curves) = suite.curves(source.arm) else { return Ok(None) };
+    let mut cells = Vec::new();
+    // By cell, by record: median-point and monotone capacity.
+    let mut values: Vec<Vec<(f64, f64)>> = Vec::new();
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            let own = &curves[position(frequency, slenderness)];
+            let by = |rule| -> Result<Vec<Vec<f64>>, StudyError> {
+                own.iter().map(|c| capacities(c, &DEMANDS, rule)).collect()
+            };
+            let median = by(InversionRule::Median)?;
+            let monotone = by(InversionRule::Monotone)?;
+            for (k, demand) in DEMANDS.iter().enumerate() {
+                let name = block(frequency, slenderness);
+                cells.push(Cell {
+                    at: format!("{name}, demand {demand}"),
+                    records: own.len(),
+                });
+                let pairs = median.iter().zip(&monotone);
+                values.push(pairs.map(|(a, b)| (a[k], b[k])).collect());
+            }
+        }
+    }
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        let ratio = |pairs: &Vec<(f64, f64)>| {
+            let (mut a, mut b) = (0.0, 0.0);
+            for ((x, y), count) in pairs.iter().zip(counts) {
+                if x.is_finite() && y.is_finite() {
+                    a += x * f64::from(*count);
+                    b += y * f64::from(*count);
+                }
+            }
+            a / b
+        };
+        values.iter().map(ratio).collect()
+    };
+    let measured = source.draws.smooth(source.tested, &of);
+    Ok(Some(Prepared { cells, measured, criterion: None }))
+}
+
+/// Capacities with Housner's restitution, stocky over slender, by way of the
+/// study's: what the slenderness's own ratio does is divided out.
+fn housner(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
+    let found = varied(source, &[Choice::Housner])?;
+    let of = |slenderness| -> Result<Option<Vec<f64>>, StudyError> {
+        let is =
+            |v: &&Varied| v.frequency == 1 && v.slenderness == slenderness;
+        let one = found.iter().find(|(v, _)| is(v));
+        let Some((varied, base)) = one else { return Ok(None) };
+        let pairs = varied.curves.iter().zip(*base);
+        let each = pairs.map(|(own, base)| {
+            Ok(capacity(own.as_ref(), 1.0)? / capacity(Some(base), 1.0)?)
+        });
+        each.collect::<Result<_, StudyError>>().map(Some)
+    };
+    let (Some(stocky), Some(slender)) = (of(4)?, of(0)?) else {
+        return Ok(None);
+    };
+    let ranked = Ranked::new(&ratios(&stocky, &slender));
+    let kind = source.kind();
+    let at = "p = 3, alpha = 0.25 over 0.05";
+    let records = ranked.records();
+    Ok(Some(source.value(at, records, move |draw| {
+        (ranked.median(draw.of(kind)) - 1.0).abs()
+    })))
+}
+
+fn uplift(source: &Source<'_>) -> Result<Prepared, StudyError> {
+    let records = &source.results.suite(source.kind()).records;
+    let stockiest = SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1];
+    let moved = records.iter().filter(|r| r.pga_g > tan(stockiest));
+    let share = Proportion::try_new(moved.count(), records.len())?;
+    let cell = Cell { at: "alpha = 0.25".into(), records: records.len() };
+    Ok(Prepared {
+        cells: vec![cell],
+        measured: Replicated::counted(vec![share]),
+        criterion: None,
+    })
+}
+
+/// Spread of the intensities at uplift in PGV, p = 1; in PGA it is 1 by
+/// definition.
+fn onset(source: &Source<'_>) -> Prepared {
+    let kind = source.kind();
+    let suite = source.results.suite(kind);
+    let onsets = factors(suite, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
+    let ranked = Ranked::new(&onsets);
+    source.value("p = 1", onsets.len(), move |draw| {
+        let counts = draw.of(kind);
+        ranked.quantile(counts, 0.84) / ranked.quantile(counts, 0.16)
+    })
+}
+
+/// Mean over cells, kept here for the other measures of this section.
+pub(super) fn mean_of_medians(ranked: &[Ranked], counts: &[u32]) -> f64 {
+    mean(ranked.iter().map(|r| r.median(counts)))
+}

@@ -1,0 +1,241 @@
+//! Section 5, Figures 15 to 18: measures of fitted and transformed
+//! fragilities, p = 3, alpha = 0.20.
+
+use libm::log;
+use rocking::statistics::resampling::Subsampling;
+use rocking::statistics::{ExtendedSample, Lognormal, normal};
+
+use super::{Measure, Prepared, Source, mean};
+use crate::StudyError;
+use crate::distributions::{BlockSamples, factors};
+use crate::figures::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
+use crate::inference::{Cell, Draw, Replicated};
+use rocking::statistics::resampling::Ranked;
+use rocking_common::paper::{Intensity, demand_index};
+
+/// Dispersion of a lognormal sample over that of the same sample without its
+/// largest twentieth: 1/sqrt(variance of a standard normal cut at its 95 %
+/// quantile).
+const LOGNORMAL_INFLATION: f64 = 1.104;
+
+/// One threshold of one intensity measure, in a draw.
+pub(crate) struct At {
+    pub(crate) sample: ExtendedSample,
+    pub(crate) shift: f64,
+    pub(crate) fits: Fits,
+}
+
+/// The thresholds of a block in an intensity measure.
+pub(crate) struct Thresholds {
+    ranked: Vec<Ranked>,
+    /// What the shift is the least of.
+    onsets: Vec<f64>,
+}
+
+impl Thresholds {
+    pub(crate) fn new(
+        source: &Source<'_>,
+        intensity: Intensity,
+    ) -> Option<Self> {
+        let kind = source.kind();
+        let found =
+            source.results.distributions(kind, source.arm, intensity)?;
+        let at = rocking_common::paper::position(BLOCK.0, BLOCK.1);
+        let block: &BlockSamples = &found.blocks[at];
+        let suite = source.results.suite(kind);
+        let ranked = THRESHOLDS
+            .iter()
+            .map(|edp| Ranked::new(&block.samples[demand_index(*edp)]))
+            .collect();
+        let onsets = factors(suite, intensity, block.p_rad_s);
+        Some(Self { ranked, onsets })
+    }
+
+    fn shift(&self, counts: &[u32]) -> f64 {
+        let drawn = self.onsets.iter().zip(counts).filter(|(_, c)| **c > 0);
+        drawn.fold(f64::INFINITY, |m, (x, _)| if *x < m { *x } else { m })
+    }
+
+    pub(crate) fn at(&self, counts: &[u32], place: usize) -> Option<At> {
+        let drawn = self.ranked[place].drawn(counts);
+        let sample = ExtendedSample::try_new(&drawn).ok()?;
+        let shift = self.shift(counts);
+        let fits = Fits::new(&sample, shift);
+        Some(At { sample, shift, fits })
+    }
+
+    fn each(&self, counts: &[u32], f: impl Fn(&At) -> f64) -> Vec<f64> {
+        (0..THRESHOLDS.len())
+            .map(|k| self.at(counts, k).as_ref().map_or(f64::NAN, &f))
+            .collect()
+    }
+}
+
+/// Largest difference of two fragilities in probability, over 400 quantiles
+/// of the first; 1 where one of them does not exist.
+fn apart(a: Option<Lognormal>, b: Option<Lognormal>) -> f64 {
+    let (Some(a), Some(b)) = (a, b) else { return 1.0 };
+    let mut most = 0.0;
+    for (x, y) in [(a, b), (b, a)] {
+        for k in 1..400 {
+            let p = f64::from(k) / 400.0;
+            let off = (y.cdf(x.quantile(p)) - p).abs();
+            if !(off <= most) {
+                most = off;
+            }
+        }
+    }
+    most
+}
+
+/// Largest difference of USFL7 to the SSFL in probability.
+pub(crate) fn to_ssfl(usfl: Option<Lognormal>, at: &At, c: f64) -> f64 {
+    apart(usfl7(usfl, at.shift, c), at.fits.ssfl)
+}
+
+/// A number of each threshold, over the replicates.
+pub(crate) fn by_demand(
+    source: &Source<'_>,
+    thresholds: &Thresholds,
+    f: &(dyn Fn(&At) -> f64 + Sync),
+) -> Replicated {
+    let kind = source.kind();
+    let of = |draw: Draw<'_>| thresholds.each(draw.of(kind), f);
+    source.draws.smooth(source.tested, &of)
+}
+
+pub(super) fn prepare(
+    source: &Source<'_>,
+    measure: Measure,
+) -> Result<Option<Prepared>, StudyError> {
+    let intensity = match measure {
+        Measure::ShiftGainPgv | Measure::UntrimmedToSsflPgv => Intensity::Pgv,
+        _ => Intensity::Pga,
+    };
+    let Some(thresholds) = Thresholds::new(source, intensity) else {
+        return Ok(None);
+    };
+    let kind = source.kind();
+    let n = source.results.suite(kind).records.len();
+    let each = |f: &(dyn Fn(&At) -> f64 + Sync)| {
+        let cell =
+            |edp: f64| Cell { at: format!("demand {edp:.2}"), records: n };
+        Some(Prepared {
+            cells: THRESHOLDS.map(cell).into(),
+            measured: by_demand(source, &thresholds, f),
+            criterion: None,
+        })
+    };
+    let lowest = |f: &(dyn Fn(&At) -> f64 + Sync)| {
+        let at = format!("demand {:.2}", THRESHOLDS[0]);
+        Some(source.value(&at, n, |draw| {
+            thresholds.at(draw.of(kind), 0).as_ref().map_or(f64::NAN, f)
+        }))
+    };
+    Ok(match measure {
+        Measure::ShiftGainPga | Measure::ShiftGainPgv => {
+            let of = |draw: Draw<'_>| {
+                vec![mean(thresholds.each(draw.of(kind), |at| {
+                    distance(at.fits.usfl, &at.sample)
+                        - distance(at.fits.ssfl, &at.sample)
+                }))]
+            };
+            Some(Prepared {
+                cells: vec![Cell {
+                    at: "mean over demands 0.15, 0.35 and 1.00".into(),
+                    records: n,
+                }],
+                measured: source.draws.subsampled(source.tested, &of),
+                criterion: None,
+            })
+        }
+        Measure::TrimmedToSsfl => {
+            each(&|at| to_ssfl(at.fits.trimmed, at, 1.0))
+        }
+        Measure::UntrimmedToSsfl | Measure::UntrimmedToSsflPgv => {
+            each(&|at| to_ssfl(at.fits.usfl, at, 1.0))
+        }
+        Measure::LowConstantGain => lowest(&|at| {
+            to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)
+        }),
+        Measure::ConstantSpread => lowest(&|at| {
+            let of = |c| usfl7(at.fits.trimmed, at.shift, c);
+            apart(of(0.25), of(1.0))
+        }),
+        Measure::TailInflation => {
+            let last = THRESHOLDS.len() - 1;
+            Some(source.value("demand 1.00", n, |draw| {
+                thresholds.at(draw.of(kind), last).map_or(f64::NAN, |at| {
+                    let of = |fit: Option<Lognormal>| {
+                        fit.map_or(f64::NAN, |f| f.dispersion())
+                    };
+                    of(at.fits.usfl)
+                        / of(at.fits.trimmed)
+                        / LOGNORMAL_INFLATION
+                })
+            }))
+        }
+        Measure::QuantileScatter => Some(scatter(source, &thresholds)),
+        _ => None,
+    })
+}
+
+/// How much more the 16 and 84 % quantiles of a sample scatter than those of
+/// the lognormal fitted to it: root of the ratio of the variances of their
+/// logarithms over halves of the drawn records, mean over both quantiles and
+/// the demands.
+fn scatter(source: &Source<'_>, thresholds: &Thresholds) -> Prepared {
+    const HALVES: u64 = 40;
+    let kind = source.kind();
+    let n = source.results.suite(kind).records.len();
+    let of = |draw: Draw<'_>| {
+        let counts = draw.of(kind);
+        let halves: Vec<Vec<u32>> =
+            (0..HALVES).map(|index| half(counts, index)).collect();
+        let mut ratios = Vec::new();
+        for ranked in &thresholds.ranked {
+            for p in [0.16, 0.84] {
+                let both =
+                    halves.iter().map(|half| quantiles(ranked, half, p));
+                let (sample, fit): (Vec<f64>, Vec<f64>) = both.unzip();
+                ratios.push((variance(&sample) / variance(&fit)).sqrt());
+            }
+        }
+        vec![mean(ratios)]
+    };
+    Prepared {
+        cells: vec![Cell {
+            at: "mean over 16 and 84 %, demands 0.15, 0.35 and 1.00".into(),
+            records: n,
+        }],
+        measured: source.draws.subsampled(source.tested, &of),
+        criterion: None,
+    }
+}
+
+/// Logarithms of a quantile: the sample's, and the fitted lognormal's.
+fn quantiles(ranked: &Ranked, counts: &[u32], p: f64) -> (f64, f64) {
+    let logs: Vec<f64> =
+        ranked.drawn(counts).iter().map(|x| log(*x)).collect();
+    let centre = mean(logs.iter().copied());
+    let fit = normal::quantile(p) * variance(&logs).sqrt() + centre;
+    (log(ranked.quantile(counts, p)), fit)
+}
+
+fn variance(values: &[f64]) -> f64 {
+    let centre = mean(values.iter().copied());
+    mean(values.iter().map(|x| (x - centre) * (x - centre)))
+}
+
+/// Half of the drawn records.
+fn half(counts: &[u32], index: u64) -> Vec<u32> {
+    let drawn: Vec<usize> =
+        (0..counts.len()).filter(|r| counts[*r] > 0).collect();
+    let size = drawn.len() / 2;
+    let halves = Subsampling::new("study/scatter", 0, drawn.len(), size);
+    let mut out = vec![0; counts.len()];
+    for (record, count) in drawn.iter().zip(halves.multiplicities(index)) {
+        out[*record] = count * counts[*record];
+    }
+    out
+}

@@ -1,0 +1,409 @@
+//! Section 4, Figures 6, 7 and 9, and resurrections: measures on stripes of
+//! equal intensity.
+
+use libm::{atan, log, sin, tan};
+
+use super::{Measure, Prepared, Source, block};
+use crate::StudyError;
+use crate::analyses::StripeDemands;
+use crate::figures::{Results, of_arm};
+use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
+use rocking::statistics::Proportion;
+use rocking::statistics::resampling::Ranked;
+use rocking_common::findings::Tested;
+use rocking_common::paper::{
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, SuiteKind,
+    position,
+};
+
+/// Ratios of one cell of Figure 6, 7 or 9, by record.
+struct Ratios {
+    at: String,
+    ranked: Ranked,
+}
+
+impl Ratios {
+    /// Of two lists of demands; where a block overturned there is none.
+    fn new(at: String, a: &[f64], b: &[f64], scale: f64) -> Self {
+        let ratios: Vec<f64> = a
+            .iter()
+            .zip(b)
+            .map(|(a, b)| {
+                if a.is_finite() && b.is_finite() {
+                    scale * a / b
+                } else {
+                    f64::NAN
+                }
+            })
+            .collect();
+        Self { at, ranked: Ranked::new(&ratios) }
+    }
+
+    /// Whether the notch about the median of a replicate covers 1: McGill,
+    /// Tukey and Larsen, Am. Stat. 32 (1978) 12.
+    fn notch_covers_1(&self, counts: &[u32]) -> bool {
+        let n = self.ranked.drawn(counts).len() as f64;
+        let at = |p| self.ranked.quantile(counts, p);
+        let half = 1.57 * (at(0.75) - at(0.25)) / n.sqrt();
+        (at(0.5) - 1.0).abs() <= half
+    }
+}
+
+/// A cell of Figures 6 and 7: block and stripe.
+fn stripe_ratios(
+    stripes: &StripeDemands,
+    frequency: usize,
+    slenderness: usize,
+    scale: f64,
+) -> Vec<Ratios> {
+    let own = &stripes.demands[position(frequency, slenderness)];
+    let reference = &stripes.demands[position(frequency, REFERENCE)];
+    let name = block(frequency, slenderness);
+    STRIPES
+        .iter()
+        .zip(own.iter().zip(reference))
+        .map(|(im, (a, b))| {
+            Ratios::new(format!("{name}, intensity {im}"), a, b, scale)
+        })
+        .collect()
+}
+
+/// Cells of Figure 9: frequency parameter and stripe; only records whose
+/// adjusted slenderness is at most 0.25 (or above), if asked.
+fn adjusted_ratios(
+    source: &Source<'_>,
+    stripes: &StripeDemands,
+    part: Option<bool>,
+) -> Vec<Ratios> {
+    let records = &source.results.suite(source.kind()).records;
+    let steepest = tan(SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1]);
+    let mut out = Vec::new();
+    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+        let scaled = &stripes.demands[position(frequency, REFERENCE)];
+        let adjusted = &stripes.adjusted[frequency];
+        for (im, (a, b)) in STRIPES.iter().zip(adjusted.iter().zip(scaled)) {
+            let of_part: Vec<f64> = a
+                .iter()
+                .zip(records)
+                .map(|(x, record)| {
+                    let slender = record.pga_g <= im * steepest;
+                    if part.is_none_or(|wanted| wanted == slender) {
+                        *x
+                    } else {
+                        f64::NAN
+                    }
+                })
+                .collect();
+            let at = format!("p = {p}, intensity {im}");
+            out.push(Ratios::new(at, &of_part, b, 1.0));
+        }
+    }
+    out
+}
+
+/// Medians of cells over all draws, with the share of notches that cover 1.
+fn medians(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
+    let kind = source.kind();
+    let cells = ratios
+        .iter()
+        .map(|r| Cell { at: r.at.clone(), records: r.ranked.records() })
+        .collect();
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        ratios.iter().map(|r| r.ranked.median(counts)).collect()
+    };
+    let enough = |r: &&Ratios| r.ranked.records() >= LEAST_DECIDING;
+    let covering = |draw: Draw<'_>| {
+        let counts = draw.of(kind);
+        let deciding = ratios.iter().filter(enough);
+        let covers =
+            deciding.clone().filter(|r| r.notch_covers_1(counts)).count();
+        vec![covers as f64 / deciding.count() as f64]
+    };
+    Prepared {
+        cells,
+        measured: source.draws.smooth(source.tested, &of),
+        criterion: Some(source.draws.subsampled(source.tested, &covering)),
+    }
+}
+
+/// What the small-rotation limit of Eq. 1 makes of a ratio to the reference
+/// slenderness: (sin alpha/alpha)/(sin 0.1/0.1).
+#[must_use]
+pub fn closed_form(alpha_rad: f64) -> f64 {
+    let of = |alpha: f64| sin(alpha) / alpha;
+    of(alpha_rad) / of(SLENDERNESSES_RAD[REFERENCE])
+}
+
+/// Cells of Figures 6, 7 and 9 by name, with the median ratio once what the
+/// small-rotation limit of Eq. 1 makes of it is divided out: of Figure 9
+/// record by record, since each has an adjusted slenderness of its own.
+#[must_use]
+pub fn without_closed_form(
+    results: &Results,
+    tested: Tested,
+    arm: Arm,
+) -> Vec<(String, f64)> {
+    let kind = match tested {
+        Tested::Ordinary => SuiteKind::Ordinary,
+        Tested::PulseType => SuiteKind::PulseType,
+        Tested::None | Tested::Both => return Vec::new(),
+    };
+    let suite = results.suite(kind);
+    let Some(stripes) = of_arm(suite, arm) else { return Vec::new() };
+    let mut cells = Vec::new();
+    for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
+        for (slenderness, alpha) in SLENDERNESSES_RAD.into_iter().enumerate() {
+            if slenderness != REFERENCE {
+                let scale = 1.0 / closed_form(alpha);
+                cells.extend(stripe_ratios(
+                    stripes,
+                    frequency,
+                    slenderness,
+                    scale,
+                ));
+            }
+        }
+        let scaled = &stripes.demands[position(frequency, REFERENCE)];
+        let adjusted = &stripes.adjusted[frequency];
+        for (im, (a, b)) in STRIPES.iter().zip(adjusted.iter().zip(scaled)) {
+            let records = a.iter().zip(&suite.records);
+            let left: Vec<f64> = records
+                .map(|(x, record)| x / closed_form(atan(record.pga_g / im)))
+                .collect();
+            let at = format!("p = {p}, intensity {im}");
+            cells.push(Ratios::new(at, &left, b, 1.0));
+        }
+    }
+    let every = vec![1; suite.records.len()];
+    let median = |r: Ratios| (r.at, r.ranked.median(&every));
+    cells.into_iter().map(median).collect()
+}
+
+pub(super) fn prepare(
+    source: &Source<'_>,
+    measure: Measure,
+) -> Result<Option<Prepared>, StudyError> {
+    let suite = source.results.suite(source.kind());
+    let Some(stripes) = of_arm(suite, source.arm) else { return Ok(None) };
+    let of = |frequencies: &[usize], corrected: bool| -> Vec<Ratios> {
+        let mut out = Vec::new();
+        for frequency in frequencies {
+            for (slenderness, alpha) in
+                SLENDERNESSES_RAD.into_iter().enumerate()
+            {
+                if slenderness != REFERENCE {
+                    let scale =
+                        if corrected { 1.0 / closed_form(alpha) } else { 1.0 };
+                    out.extend(stripe_ratios(
+                        stripes,
+                        *frequency,
+                        slenderness,
+                        scale,
+                    ));
+                }
+            }
+        }
+        out
+    };
+    let stocky = SLENDERNESSES_RAD.len() - 1;
+    let exception =
+        |r: &Ratios| r.at == stripe_ratios(stripes, 0, stocky, 1.0)[0].at;
+    Ok(Some(match measure {
+        Measure::StripeRatiosLarge => {
+            let mut ratios = of(&[0], false);
+            ratios.retain(|r| !exception(r));
+            medians(source, &ratios)
+        }
+        Measure::StripeRatioException => {
+            let mut ratios = of(&[0], false);
+            ratios.retain(exception);
+            medians(source, &ratios)
+        }
+        Measure::StripeRatiosSmall => medians(source, &of(&[1, 2], false)),
+        Measure::StripeRatiosCorrected => {
+            medians(source, &of(&[0, 1, 2], true))
+        }
+        Measure::StripeOutliers => outliers(source, &of(&[0, 1, 2], false)),
+        Measure::AdjustmentRatios => {
+            medians(source, &adjusted_ratios(source, stripes, None))
+        }
+        Measure::AdjustmentRatiosSlender => {
+            let part = Some(true);
+            medians(source, &adjusted_ratios(source, stripes, part))
+        }
+        Measure::AdjustmentRatiosStocky => {
+            let part = Some(false);
+            medians(source, &adjusted_ratios(source, stripes, part))
+        }
+        Measure::ResurrectionProbability => probabilities(stripes)?,
+        Measure::ResurrectionMedian => median_again(source, stripes),
+        Measure::ResurrectionsBySize => {
+            let large = |f: usize, _: usize| Some(f == 0);
+            again_apart(source, stripes, "p = 1 minus p = 3 and 4", large)
+        }
+        Measure::ResurrectionsBySlenderness => {
+            let at = "alpha = 0.20 and 0.25 minus 0.05 and 0.10";
+            let stocky = |_: usize, s: usize| (s != 2).then_some(s > 2);
+            again_apart(source, stripes, at, stocky)
+        }
+        _ => return Ok(None),
+    }))
+}
+
+/// Share of the ratios of all cells that lie more than 10 % from 1.
+fn outliers(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
+    let kind = source.kind();
+    let n = source.results.suite(kind).records.len();
+    let mut far = vec![0_u32; n];
+    let mut all = vec![0_u32; n];
+    for (x, record) in ratios.iter().flat_map(|r| r.ranked.each()) {
+        all[record] += 1;
+        far[record] += u32::from((x - 1.0).abs() > 0.10);
+    }
+    source.value("ratios further than 10 % from 1", n, |draw| {
+        let sum = |of: &[u32]| -> f64 {
+            let each = of.iter().zip(draw.of(kind));
+            f64::from(each.map(|(x, count)| x * count).sum::<u32>())
+        };
+        sum(&far) / sum(&all)
+    })
+}
+
+/// By block and stripe, the share of the records that overturned at or below
+/// and stand there again.
+fn probabilities(stripes: &StripeDemands) -> Result<Prepared, StudyError> {
+    let (mut cells, mut counts) = (Vec::new(), Vec::new());
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            let own = &stripes.stands_again[position(frequency, slenderness)];
+            let name = block(frequency, slenderness);
+            for (im, flags) in STRIPES.iter().zip(own) {
+                let records = flags.len();
+                let again = flags.iter().filter(|again| **again).count();
+                counts.push(Proportion::try_new(again, records)?);
+                let at = format!("{name}, intensity {im}");
+                cells.push(Cell { at, records });
+            }
+        }
+    }
+    let measured = Replicated::counted(counts);
+    Ok(Prepared { cells, measured, criterion: None })
+}
+
+/// By block, the intensity at which half of the records lie overturned, with
+/// resurrections over without; by interpolation in the logarithm of the
+/// intensity between stripes.
+fn median_again(source: &Source<'_>, stripes: &StripeDemands) -> Prepared {
+    let kind = source.kind();
+    let mut cells = Vec::new();
+    let mut blocks = Vec::new();
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            let at = position(frequency, slenderness);
+            cells.push(Cell {
+                at: block(frequency, slenderness),
+                records: stripes.stands_again[at].first().map_or(0, Vec::len),
+            });
+            blocks.push(at);
+        }
+    }
+    let half = |counts: &[u32], lies: &dyn Fn(usize, usize) -> bool| -> f64 {
+        let n = f64::from(counts.iter().sum::<u32>());
+        let mut below: Option<(f64, f64)> = None;
+        for (stripe, im) in STRIPES.iter().enumerate() {
+            let overturned: u32 = (0..counts.len())
+                .filter(|record| lies(stripe, *record))
+                .map(|record| counts[record])
+                .sum();
+            let share = f64::from(overturned) / n;
+            if share >= 0.5 {
+                let (x0, y0) = below.unwrap_or((0.0, 0.0));
+                let (x1, y1) = (log(*im), share);
+                return x0 + (x1 - x0) * (0.5 - y0) / (y1 - y0);
+            }
+            below = Some((log(*im), share));
+        }
+        f64::NAN
+    };
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        let ratio = |at: &usize| {
+            let demands = &stripes.demands[*at];
+            let again = &stripes.stands_again[*at];
+            let used = demands.len();
+            let first = |stripe: usize, record: usize| {
+                stripe < used && demands[stripe][record].is_infinite()
+            };
+            let lies = |stripe: usize, record: usize| {
+                first(stripe, record) && !again[stripe][record]
+            };
+            libm::exp(half(counts, &lies) - half(counts, &first))
+        };
+        blocks.iter().map(ratio).collect()
+    };
+    Prepared {
+        cells,
+        measured: source.draws.smooth(source.tested, &of),
+        criterion: None,
+    }
+}
+
+/// Share of the overturned that stand again, of the blocks that are `first`
+/// minus that of those that are not.
+fn again_apart(
+    source: &Source<'_>,
+    stripes: &StripeDemands,
+    at: &str,
+    first: impl Fn(usize, usize) -> Option<bool>,
+) -> Prepared {
+    let kind = source.kind();
+    let n = source.results.suite(kind).records.len();
+    // By part, by record: overturned, and standing again.
+    let mut sums = [[(); 2]; 2].map(|part| part.map(|()| vec![0_u32; n]));
+    for frequency in 0..FREQUENCIES_RAD_S.len() {
+        for slenderness in 0..SLENDERNESSES_RAD.len() {
+            let Some(first) = first(frequency, slenderness) else {
+                continue;
+            };
+            let part = usize::from(first);
+            let at = position(frequency, slenderness);
+            for (demands, again) in
+                stripes.demands[at].iter().zip(&stripes.stands_again[at])
+            {
+                for record in 0..n {
+                    sums[part][0][record] +=
+                        u32::from(demands[record].is_infinite());
+                    sums[part][1][record] += u32::from(again[record]);
+                }
+            }
+        }
+    }
+    source.value(at, n, |draw| {
+        let sum = |of: &[u32]| -> f64 {
+            let each = of.iter().zip(draw.of(kind));
+            f64::from(each.map(|(x, count)| x * count).sum::<u32>())
+        };
+        let share = |part: usize| sum(&sums[part][1]) / sum(&sums[part][0]);
+        share(1) - share(0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn closed_form_at_the_slendernesses_of_the_paper() {
+        // (sin a/a)/(sin 0.1/0.1) by Python's math.sin.
+        for (alpha, expected) in [
+            (0.05, 1.001_251_303_408_461_1),
+            (0.15, 0.997_916_579_390_467_9),
+            (0.20, 0.995_004_165_278_025_7),
+            (0.25, 0.991_267_123_030_526_1),
+        ] {
+            let off = (closed_form(alpha) - expected).abs();
+            assert!(off < 1e-15, "{alpha}: {off}");
+        }
+    }
+}

@@ -1,0 +1,377 @@
+//! Section 5.3 as a table: Options 1, 2 and 3 for every block, measure and
+//! threshold.
+
+mod drawing;
+
+use rayon::prelude::*;
+use rocking::block::Block;
+use rocking::fragility::options::{Centre, Recipe};
+use rocking::integrator::Model;
+use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::lognormal::FitMethod;
+use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::{Pact, unit_intensity};
+
+use super::{Answer, Cell, Rows};
+use crate::StudyError;
+use crate::distributions::BlockSamples;
+use crate::estimates::median;
+use crate::figures::{BLOCK, Results, THRESHOLDS};
+use rocking_common::paper::{
+    FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
+};
+use rocking_common::table::{Table, digits, number};
+use rocking_common::words::range;
+
+/// Draws of the bootstrap, by default and with all blocks and choices.
+const REPLICATES: [usize; 2] = [100, 1000];
+
+/// One recipe for one block, measure and threshold.
+struct Entry {
+    recipe: Recipe,
+    intensity: Intensity,
+    p_rad_s: f64,
+    alpha_rad: f64,
+    edp: f64,
+    shift: f64,
+    /// The fragility, or why there is none.
+    fragility: Result<Lognormal, String>,
+    ks: f64,
+    area: f64,
+    ks_interval: (f64, f64),
+    area_interval: (f64, f64),
+    /// Draws of the bootstrap in which the recipe is defined.
+    used: usize,
+}
+
+pub(super) fn answer(
+    results: &Results,
+    full: bool,
+) -> Result<Answer, StudyError> {
+    let arm = results.plan.common();
+    let kind = results.ordinary.kind;
+    let replicates = REPLICATES[usize::from(full)];
+    // Records drawn once for all blocks, measures and thresholds.
+    let n = results.ordinary.records.len();
+    let draws: Vec<Vec<usize>> =
+        Bootstrap::new("study/options", 0, n, replicates).map(<[_]>::to_vec);
+    let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
+    for intensity in [Intensity::Pga, Intensity::Pgv] {
+        let found = results.distributions(kind, arm, intensity);
+        for block in &found.ok_or(StudyError::NoArm)?.blocks {
+            cells.extend(THRESHOLDS.map(|edp| (intensity, block, edp)));
+        }
+    }
+    let entries: Vec<Entry> = cells
+        .par_iter()
+        .map(|(intensity, block, edp)| {
+            let paper = block.p_rad_s == FREQUENCIES_RAD_S[BLOCK.0]
+                && block.alpha_rad == SLENDERNESSES_RAD[BLOCK.1];
+            entries(*intensity, block, *edp, &draws, full || paper)
+        })
+        .collect::<Result<Vec<_>, _>>()?
+        .into_iter()
+        .flatten()
+        .collect();
+    let summaries = summaries(&entries);
+    let mut answer = Answer::new(
+        "options",
+        "Which of the paper's three options gives the best fragility?",
+        words(&summaries),
+    );
+    let mut table = Rows::new(&[
+        "option",
+        "recipe",
+        "numbers_reported",
+        "im_kind",
+        "defined_share",
+        "median_ks",
+        "largest_ks",
+        "median_area",
+    ]);
+    for s in &summaries {
+        let parameters = s.recipe.parameters();
+        table.row(
+            s.recipe.option() != 3 || shown_constant(&s.recipe),
+            vec![
+                Cell::Count(usize::from(s.recipe.option())),
+                Cell::word(s.recipe.to_string()),
+                Cell::word(
+                    parameters.map_or("sample".into(), |n| n.to_string()),
+                ),
+                Cell::word(s.intensity.name()),
+                Cell::Number(s.defined, 3),
+                Cell::Number(s.ks, 4),
+                Cell::Number(s.largest, 4),
+                Cell::Number(s.area, 4),
+            ],
+        );
+    }
+    table.finish(
+        &mut answer,
+        "Options 1, 2 and 3",
+        &format!(
+            "Over 15 blocks and demands 0.15, 0.35 and 1.00, ordinary \
+             records: Kolmogorov and area distance to the empirical \
+             fragility; option 0 is the unshifted lognormal that FEMA P-58 \
+             takes. Every block with {replicates} bootstrap draws of the \
+             records: options-by-block.csv (intervals of the area for the \
+             paper's block alone, or with --full); for PACT: \
+             options-pact.csv."
+        ),
+    );
+    answer.files = vec![
+        ("options-by-block.csv".into(), by_block(&entries)),
+        ("options-pact.csv".into(), pact(&entries)?),
+    ];
+    answer.figures.push(drawing::figure(&summaries, arm));
+    Ok(answer)
+}
+
+fn shown_constant(recipe: &Recipe) -> bool {
+    matches!(recipe, Recipe::Transformed { c, .. } if *c == 0.25 || *c == 1.0)
+}
+
+fn entries(
+    intensity: Intensity,
+    block: &BlockSamples,
+    edp: f64,
+    draws: &[Vec<usize>],
+    areas: bool,
+) -> Result<Vec<Entry>, StudyError> {
+    let values = &block.samples[demand_index(edp)];
+    let sample = ExtendedSample::try_new(values)?;
+    let recipes = Recipe::all(QuantileType::default());
+    // Distances of fragilities made from a draw to the benchmark, which is
+    // the empirical fragility of the records themselves.
+    let mut drawn: Vec<[Vec<f64>; 2]> =
+        recipes.iter().map(|_| [Vec::new(), Vec::new()]).collect();
+    for draw in draws {
+        let own: Vec<f64> = draw.iter().map(|i| values[*i]).collect();
+        let own = ExtendedSample::try_new(&own)?;
+        let made = Recipe::fragilities(&recipes, &own, block.shift);
+        for (fragility, columns) in made.iter().zip(&mut drawn) {
+            if let Ok(fragility) = fragility {
+                columns[0].push(fragility.kolmogorov_distance(&sample));
+                if areas {
+                    columns[1].extend(fragility.area_distance(&sample));
+                }
+            }
+        }
+    }
+    let made = Recipe::fragilities(&recipes, &sample, block.shift);
+    Ok(recipes
+        .into_iter()
+        .zip(made)
+        .zip(drawn)
+        .map(|((recipe, fragility), columns)| {
+            let distances = fragility.as_ref().map(|f| {
+                let area = f.area_distance(&sample);
+                (f.kolmogorov_distance(&sample), area.unwrap_or(f64::NAN))
+            });
+            let (ks, area) = distances.unwrap_or((f64::NAN, f64::NAN));
+            let interval = |point, values: &[f64]| {
+                let found = estimate(point, values, 0.95);
+                found.map_or((f64::NAN, f64::NAN), |e| (e.low, e.high))
+            };
+            Entry {
+                recipe,
+                intensity,
+                p_rad_s: block.p_rad_s,
+                alpha_rad: block.alpha_rad,
+                edp,
+                shift: block.shift,
+                fragility: fragility.map_err(|e| e.to_string()),
+                ks,
+                area,
+                ks_interval: interval(ks, &columns[0]),
+                area_interval: interval(area, &columns[1]),
+                used: columns[0].len(),
+            }
+        })
+        .collect())
+}
+
+/// One recipe over all blocks and thresholds.
+struct Summary {
+    recipe: Recipe,
+    intensity: Intensity,
+    defined: f64,
+    ks: f64,
+    largest: f64,
+    area: f64,
+}
+
+fn summaries(entries: &[Entry]) -> Vec<Summary> {
+    let recipes = Recipe::all(QuantileType::default());
+    let mut out = Vec::new();
+    for intensity in [Intensity::Pga, Intensity::Pgv] {
+        for recipe in &recipes {
+            let own: Vec<&Entry> = entries
+                .iter()
+                .filter(|e| e.recipe == *recipe && e.intensity == intensity)
+                .collect();
+            let defined: Vec<&&Entry> =
+                own.iter().filter(|e| e.fragility.is_ok()).collect();
+            let of = |f: fn(&Entry) -> f64| -> Vec<f64> {
+                defined.iter().map(|e| f(e)).collect()
+            };
+            let ks = of(|e| e.ks);
+            out.push(Summary {
+                recipe: *recipe,
+                intensity,
+                defined: defined.len() as f64 / own.len() as f64,
+                ks: median(&ks).value,
+                largest: range(ks.into_iter()).1,
+                area: median(&of(|e| e.area)).value,
+            });
+        }
+    }
+    out
+}
+
+const MLE: FitMethod = FitMethod::MaximumLikelihood;
+
+fn trimmed() -> FitMethod {
+    FitMethod::Trimmed(QuantileType::default())
+}
+
+fn words(summaries: &[Summary]) -> String {
+    let of = |recipe: Recipe, intensity| {
+        let found = summaries
+            .iter()
+            .find(|s| s.recipe == recipe && s.intensity == intensity);
+        found.map_or_else(String::new, |s| {
+            let undefined = if s.defined < 1.0 {
+                format!(", undefined for {:.0} %", 100.0 * (1.0 - s.defined))
+            } else {
+                String::new()
+            };
+            format!("{:.3}{undefined}", s.ks)
+        })
+    };
+    let seven = |method, c| Recipe::Transformed {
+        method,
+        centre: Centre::FittedMedian,
+        c,
+    };
+    [Intensity::Pga, Intensity::Pgv]
+        .map(|im| {
+            format!(
+                "{}, median distance to the empirical fragility: Option 1 \
+                 {}, Option 2 {}, Option 3 trimmed {} (c = 1) and {} (c = \
+                 0.25), untrimmed {} (c = 1) and {} (c = 0.25), unshifted \
+                 {}.",
+                im.name().to_uppercase(),
+                of(Recipe::Shifted(MLE), im),
+                of(Recipe::Quantiles(QuantileType::default()), im),
+                of(seven(trimmed(), 1.0), im),
+                of(seven(trimmed(), 0.25), im),
+                of(seven(MLE, 1.0), im),
+                of(seven(MLE, 0.25), im),
+                of(Recipe::Unshifted(MLE), im),
+            )
+        })
+        .join(" ")
+}
+
+/// Every recipe of every block, with its parameters and distances.
+fn by_block(entries: &[Entry]) -> String {
+    let mut table = Table::new(&[
+        "im_kind",
+        "p_rad_s",
+        "alpha_rad",
+        "edp",
+        "im_r",
+        "option",
+        "recipe",
+        "numbers_reported",
+        "ln_median",
+        "dispersion",
+        "shift",
+        "ks_distance",
+        "ks_low",
+        "ks_high",
+        "area_distance",
+        "area_low",
+        "area_high",
+        "draws_used",
+        "undefined_because",
+    ]);
+    for e in entries {
+        let fragility = e.fragility.as_ref();
+        let of = |f: fn(&Lognormal) -> f64| {
+            fragility.map_or_else(|_| String::new(), |x| short(f(x)))
+        };
+        table.row([
+            e.intensity.name().into(),
+            number(e.p_rad_s),
+            number(e.alpha_rad),
+            number(e.edp),
+            short(e.shift),
+            e.recipe.option().to_string(),
+            e.recipe.to_string(),
+            e.recipe
+                .parameters()
+                .map_or_else(|| "sample".into(), |n| n.to_string()),
+            of(Lognormal::log_mean),
+            of(Lognormal::dispersion),
+            of(Lognormal::shift),
+            short(e.ks),
+            short(e.ks_interval.0),
+            short(e.ks_interval.1),
+            short(e.area),
+            short(e.area_interval.0),
+            short(e.area_interval.1),
+            e.used.to_string(),
+            fragility.err().cloned().unwrap_or_default(),
+        ]);
+    }
+    table.finish()
+}
+
+/// Six digits: more than 86 records say.
+fn short(x: f64) -> String {
+    digits(x, 6)
+}
+
+/// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
+/// unshifted lognormal, dimensionless and in physical units.
+fn pact(entries: &[Entry]) -> Result<String, StudyError> {
+    let mut table = Table::new(&[
+        "p_rad_s",
+        "alpha_rad",
+        "edp",
+        "fit",
+        "demand",
+        "median_dimensionless",
+        "median",
+        "unit",
+        "dispersion",
+    ]);
+    for e in entries {
+        let (Recipe::Unshifted(method), Ok(fragility)) =
+            (e.recipe, &e.fragility)
+        else {
+            continue;
+        };
+        let block = Block::try_new(e.alpha_rad, e.p_rad_s)?;
+        let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
+        let unit = unit_intensity(e.intensity, &block, model, gravity);
+        let own = fragility.scaled(unit)?;
+        let Some(told) = Pact::of(e.intensity, &own) else { continue };
+        table.row([
+            number(e.p_rad_s),
+            number(e.alpha_rad),
+            number(e.edp),
+            method.to_string(),
+            told.demand.into(),
+            short(fragility.median()),
+            short(told.median),
+            told.unit.into(),
+            short(told.dispersion),
+        ]);
+    }
+    Ok(table.finish())
+}

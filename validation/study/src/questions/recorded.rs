@@ -1,0 +1,108 @@
+//! Recorded motions that may be passed on: three stations of the Mw 7.1
+//! Ridgecrest earthquake of 2019, raw, corrected by this program.
+
+use std::io::Cursor;
+
+use rocking::block::Block;
+use rocking::excitation::{Excitation, ScaledRecord};
+use rocking::integrator::{Model, Observe, Scene, respond};
+use rocking::intensity::{Measures, Settings};
+use rocking::record::{Processing, ReadOptions, Suite};
+
+use super::{Answer, Cell, Rows};
+use crate::StudyError;
+use crate::figures::Results;
+use rocking_common::suites::{StudySuiteError, inputs};
+
+/// Original files, as the PyPI package `gmprocess` 2.8.0 has them, zipped.
+const RIDGECREST: &[u8] =
+    include_bytes!("../../../../fixtures/records/ridgecrest.zip");
+
+/// Corners of the high-pass: what the choice of one does.
+const CORNERS_HZ: [f64; 3] = [0.05, 0.1, 0.2];
+
+/// The block: p in rad/s and alpha in rad.
+const P_RAD_S: f64 = 2.0;
+const ALPHA_RAD: f64 = 0.2;
+
+const QUESTION: &str = "What do recorded motions that may be shipped give?";
+
+/// The three pairs, as recorded.
+///
+/// # Errors
+/// None in practice: the files are fixed.
+pub fn ridgecrest() -> Result<Suite, StudySuiteError> {
+    let options = inputs::suite_options(ReadOptions::default());
+    let archive = Cursor::new(RIDGECREST);
+    let survey = inputs::survey_zip("ridgecrest.zip", archive, &options)?;
+    Ok(survey.into_suite()?)
+}
+
+pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+    let setup = &results.plan.setup;
+    let suite = ridgecrest()?;
+    let settings = Settings::default();
+    let block = Block::try_new(ALPHA_RAD, P_RAD_S)?;
+    let mut rows = Rows::new(&[
+        "record",
+        "corner_hz",
+        "pga_g",
+        "pgv_m_s",
+        "pgd_m",
+        "arias_intensity_m_s",
+        "peak_over_alpha",
+    ]);
+    let (mut overturned, mut analyses) = (0, 0);
+    for corner_hz in CORNERS_HZ {
+        let processing = Processing::try_new(true, Some(corner_hz))
+            .map_err(StudySuiteError::from)?;
+        let suite = suite.clone().processed(&processing);
+        for member in suite.map_err(StudySuiteError::from)?.members() {
+            let motion = &member.accelerogram;
+            let measures = Measures::of(motion, &settings)?;
+            let scene = Scene {
+                block,
+                restitution: setup.restitution,
+                model: Model::Nonlinear,
+                overturning: setup.overturning,
+                excitation: Excitation::Record(ScaledRecord::by_factor(
+                    motion, 1.0,
+                )),
+                initial_ratio: 0.0,
+            };
+            let outcome = respond(&scene, &Observe::default())?.outcome;
+            analyses += 1;
+            overturned += usize::from(outcome.is_overturned());
+            rows.row(
+                true,
+                vec![
+                    Cell::word(motion.name().replace('_', " ")),
+                    Cell::Number(corner_hz, 2),
+                    Cell::Number(measures.pga_g, 3),
+                    Cell::Number(measures.pgv_m_s, 3),
+                    Cell::Number(measures.pgd_m, 3),
+                    Cell::Number(measures.arias_intensity_m_s, 2),
+                    Cell::Number(outcome.edp(), 3),
+                ],
+            );
+        }
+    }
+    let words = format!(
+        "The six horizontal components of three stations near the Mw 7.1 \
+         Ridgecrest earthquake of 2019 overturn a block of alpha = \
+         {ALPHA_RAD} rad and p = {P_RAD_S} rad/s in {overturned} of \
+         {analyses} analyses, three corners of the high-pass each."
+    );
+    let mut answer = Answer::new("recorded", QUESTION, words);
+    rows.finish(
+        &mut answer,
+        "Recorded motions that ship: Ridgecrest 2019, Mw 7.1",
+        "Raw records of network CI at China Lake, Christmas Canyon and Tower 2, unscaled; \
+         mean removed, then high-passed (Butterworth of order 4, forwards \
+         and backwards) at each corner. PGA and the response hardly depend \
+         on the corner, PGD is what the corner makes it: three motions of \
+         one earthquake are a check of the way from file to response, and \
+         no suite.",
+    );
+    Ok(answer)
+}

@@ -1,0 +1,457 @@
+//! What can the embedded suites show, and what not? They are compared with
+//! recorded ones: with the study's own where it has any, else with the
+//! committed comparison that such a study wrote.
+
+mod compare;
+mod drawing;
+mod row;
+
+use row::{Group, Row, Shown};
+
+use super::Answer;
+use crate::StudyError;
+use crate::estimates::median;
+use crate::figures::Results;
+use rocking_common::paper::{Intensity, SuiteKind};
+use rocking_common::table::PlainTable;
+use rocking_common::words::{capital, range};
+use rocking_draw::markup;
+
+/// The comparison with 86 ordinary and 44 pulse-type recorded motions:
+/// medians, dispersions and intervals alone.
+const COMMITTED: &str =
+    include_str!("../../../../fixtures/comparison/suites.csv");
+
+/// Measures of motions in words and figures, by their names in the CSV, with
+/// the labels of the figure.
+const MOTIONS: [(&str, &str); 8] = [
+    ("pga_g", "PGA"),
+    ("pgv_m_s", "PGV"),
+    ("pgv_over_pga_s", "PGV/PGA"),
+    ("arias_intensity_m_s", "Arias"),
+    ("cav_m_s", "CAV"),
+    ("significant_duration_5_75_s", "*D*_{5–75}"),
+    ("significant_duration_5_95_s", "*D*_{5–95}"),
+    ("mean_period_s", "*T*_{m}"),
+];
+
+const QUESTION: &str = "What can the embedded suites show, and what not?";
+
+/// Medians and dispersions are alike within this share of the recorded ones:
+/// the smallest effect of interest, as for the claims.
+const LIMIT: f64 = 0.1;
+
+pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+    let own = results.embedded();
+    let rows = if own {
+        row::from_csv(COMMITTED)
+    } else {
+        // Through the file's digits: the same numbers as from the file.
+        row::from_csv(&row::to_csv(&compare::rows(results)?))
+    };
+    if rows.is_empty() {
+        return Ok(Answer { csv: row::to_csv(&rows), ..none() });
+    }
+    let kinds = SuiteKind::BOTH.map(SuiteKind::name);
+    let mut answer = Answer::new("suites", QUESTION, words(&rows, kinds));
+    answer.csv = row::to_csv(&rows);
+    let origin = if own {
+        "The recorded suites are not part of this run: the numbers are kept \
+         from a run with its default choices on 86 ordinary and 44 \
+         pulse-type recorded motions of PEER's database, of which nothing \
+         but these medians, dispersions and intervals is kept."
+    } else {
+        "The recorded suites are those of this run; the embedded ones were \
+         run beside them with the same choices."
+    };
+    answer.tables = vec![
+        motions(&rows, &answer.answer, origin),
+        capacities(&rows, kinds),
+        accepted(&rows),
+    ];
+    answer.figures = vec![
+        drawing::motions(&rows, kinds),
+        drawing::capacities(&rows, kinds),
+    ];
+    Ok(answer)
+}
+
+/// What is said where no comparison is kept.
+fn none() -> Answer {
+    Answer::new(
+        "suites",
+        QUESTION,
+        "This version keeps no comparison with recorded suites; a study of \
+         recorded suites makes one. Levels of capacity and of motion of the \
+         embedded suites are those of published models, no more."
+            .into(),
+    )
+}
+
+/// The row of a measure of the motions.
+fn of_motion<'a>(
+    rows: &'a [Row],
+    kind: &str,
+    quantity: &str,
+) -> Option<&'a Row> {
+    rows.iter().find(|r| {
+        r.group == Group::Motion && r.suite == kind && r.quantity == quantity
+    })
+}
+
+fn of_group<'a>(
+    rows: &'a [Row],
+    group: Group,
+    kind: &str,
+    quantity: &str,
+) -> Vec<&'a Row> {
+    rows.iter()
+        .filter(|r| {
+            r.group == group && r.suite == kind && r.quantity == quantity
+        })
+        .collect()
+}
+
+fn words(rows: &[Row], kinds: [&str; 2]) -> String {
+    let mut out = Vec::new();
+    for kind in kinds {
+        let found: Vec<(&Row, &str)> = MOTIONS
+            .iter()
+            .filter_map(|(name, label)| {
+                Some((of_motion(rows, kind, name)?, *label))
+            })
+            .collect();
+        let apart: Vec<String> = found
+            .iter()
+            .filter(|(row, _)| row.medians(LIMIT) == Shown::Apart)
+            .map(|(row, label)| {
+                let label = markup::plain(label);
+                format!("{label} {:.2}", row.ratio.value)
+            })
+            .collect();
+        let apart = match apart.as_slice() {
+            [] => String::new(),
+            some => format!(" (embedded over recorded {})", some.join(", ")),
+        };
+        let shown = found.iter().map(|(row, _)| row.medians(LIMIT));
+        out.push(format!(
+            "{} motions, medians of measures: {}{apart}.",
+            capital(kind),
+            counted(shown),
+        ));
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            let own = of_group(rows, Group::Capacity, kind, intensity.name());
+            let (low, high) = range(own.iter().map(|r| r.ratio.value));
+            out.push(format!(
+                "Capacities in {}: medians {low:.2} to {high:.2} times \
+                 recorded, {}; dispersions, {}.",
+                intensity.name().to_uppercase(),
+                counted(own.iter().map(|r| r.medians(LIMIT))),
+                counted(own.iter().map(|r| r.dispersions(LIMIT))),
+            ));
+        }
+    }
+    out.join(" ")
+}
+
+/// In how many comparisons what is shown, without what is shown in none: `all
+/// 45 open`, or `of 45 5 shown to differ, 40 open`.
+fn counted(all: impl Iterator<Item = Shown>) -> String {
+    let all: Vec<Shown> = all.collect();
+    let agree = format!("agree within {:.0} %", 100.0 * LIMIT);
+    let said = [
+        (Shown::Apart, "shown to differ"),
+        (Shown::Alike, agree.as_str()),
+        (Shown::Open, "open"),
+    ];
+    let found: Vec<(usize, &str)> = said
+        .into_iter()
+        .map(|(shown, words)| {
+            (all.iter().filter(|s| **s == shown).count(), words)
+        })
+        .filter(|(count, _)| *count > 0)
+        .collect();
+    match found.as_slice() {
+        [(count, words)] => format!("all {count} {words}"),
+        some => {
+            let parts: Vec<String> = some
+                .iter()
+                .map(|(count, words)| format!("{count} {words}"))
+                .collect();
+            format!("of {} {}", all.len(), parts.join(", "))
+        }
+    }
+}
+
+fn header(names: &[&str]) -> Vec<String> {
+    names.iter().map(|n| (*n).to_owned()).collect()
+}
+
+fn motions(rows: &[Row], answer: &str, origin: &str) -> PlainTable {
+    let shown = rows.iter().filter(|r| r.group == Group::Motion);
+    let shown = shown
+        .map(|r| {
+            vec![
+                r.suite.clone(),
+                r.quantity.replace('_', " "),
+                format!("{:.3}", r.embedded.middle),
+                format!("{:.3}", r.recorded.middle),
+                format!("{:.2}", r.ratio.value),
+                format!("{:.2} to {:.2}", r.ratio.low, r.ratio.high),
+                format!("{:.2}", r.embedded.dispersion()),
+                format!("{:.2}", r.recorded.dispersion()),
+                format!("{:.2} to {:.2}", r.spread.low, r.spread.high),
+                format!("{:.2}", r.distance),
+                format!("{:.3}", r.p_value),
+            ]
+        })
+        .collect();
+    PlainTable {
+        name: "table-suites".into(),
+        title: "Embedded motions beside recorded ones".into(),
+        reading: format!(
+            "{answer} {origin} Study components; dispersion is half the \
+             logarithm of the 84 over the 16 % quantile; intervals are of 95 \
+             %, from 2000 bootstrap draws of the records of both suites. Two \
+             numbers are shown to agree where the whole interval lies within \
+             {:.0} % of the recorded one, and to differ where it leaves out \
+             equality and does not lie there; an interval that holds \
+             equality shows no agreement. D is Kolmogorov's and Smirnov's \
+             distance of the two samples. All rows: suites.csv.",
+            100.0 * LIMIT
+        ),
+        header: header(&[
+            "suite",
+            "measure",
+            "embedded median",
+            "recorded median",
+            "ratio",
+            "95 %",
+            "embedded dispersion",
+            "recorded dispersion",
+            "95 % of the difference",
+            "D",
+            "p-value",
+        ]),
+        rows: shown,
+    }
+}
+
+fn capacities(rows: &[Row], kinds: [&str; 2]) -> PlainTable {
+    let mut shown = Vec::new();
+    for kind in kinds {
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            for r in of_group(rows, Group::Capacity, kind, intensity.name()) {
+                if r.edp != 1.0 {
+                    continue;
+                }
+                shown.push(vec![
+                    kind.to_owned(),
+                    intensity.name().to_uppercase(),
+                    format!("{}", r.p_rad_s),
+                    format!("{:.2}", r.alpha_rad),
+                    format!("{:.2}", r.embedded.middle),
+                    format!("{:.2}", r.recorded.middle),
+                    format!("{:.2}", r.ratio.value),
+                    format!("{:.2} to {:.2}", r.ratio.low, r.ratio.high),
+                    format!("{:.2}", r.embedded.dispersion()),
+                    format!("{:.2}", r.recorded.dispersion()),
+                    format!("{:.2} to {:.2}", r.spread.low, r.spread.high),
+                ]);
+            }
+        }
+    }
+    PlainTable {
+        name: "table-suites-capacities".into(),
+        title: "Overturning capacities, block by block".into(),
+        reading: "At demand 1.00, with equal dimensionless steps; demands \
+                  0.15 and 0.35 are in suites.csv."
+            .into(),
+        header: header(&[
+            "suite",
+            "measure",
+            "p (rad/s)",
+            "alpha (rad)",
+            "embedded median",
+            "recorded median",
+            "ratio",
+            "95 %",
+            "embedded dispersion",
+            "recorded dispersion",
+            "95 % of the difference",
+        ]),
+        rows: shown,
+    }
+}
+
+fn accepted(rows: &[Row]) -> PlainTable {
+    let mut names: Vec<(&str, &str)> = Vec::new();
+    for r in rows.iter().filter(|r| r.group == Group::Accepted) {
+        if !names.contains(&(&r.suite, &r.quantity)) {
+            names.push((&r.suite, &r.quantity));
+        }
+    }
+    let shown = names
+        .into_iter()
+        .map(|(kind, quantity)| {
+            let own = of_group(rows, Group::Accepted, kind, quantity);
+            let of = |value: fn(&Row) -> f64| {
+                let all: Vec<f64> = own.iter().map(|r| value(r)).collect();
+                median(&all)
+            };
+            let below = |side: fn(&Row) -> row::Side| {
+                let side = |r: &&&Row| side(r).middle < side(r).low;
+                own.iter().filter(side).count().to_string()
+            };
+            let apart = of(|r| r.embedded.middle - r.recorded.middle);
+            let interval = apart
+                .interval
+                .map_or("–".into(), |(a, b)| format!("{a:.2} to {b:.2}"));
+            vec![
+                kind.to_owned(),
+                quantity.replace('_', " "),
+                own.len().to_string(),
+                format!("{:.2}", of(|r| r.embedded.middle).value),
+                format!("{:.2}", of(|r| r.recorded.middle).value),
+                format!("{:.2}", apart.value),
+                interval,
+                below(|r| r.embedded),
+                below(|r| r.recorded),
+            ]
+        })
+        .collect();
+    PlainTable {
+        name: "table-suites-accepted".into(),
+        title: "Accepted shares of both".into(),
+        reading: "Share of the demand levels at which a block's capacities \
+                  pass as lognormal: medians over blocks, the median of the \
+                  differences with its interval over blocks, and the number \
+                  of blocks whose share lies below the null band of its own \
+                  suite. Block by block: suites.csv."
+            .into(),
+        header: header(&[
+            "suite",
+            "sample",
+            "blocks",
+            "embedded",
+            "recorded",
+            "difference",
+            "95 %",
+            "embedded below its band",
+            "recorded below its band",
+        ]),
+        rows: shown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::row::{Interval, Side};
+    use super::*;
+    use crate::analyses::facts;
+    use rocking::statistics::ExtendedSample;
+    use rocking::statistics::QuantileType;
+    use rocking_common::suites::StudySuite;
+
+    /// A row of capacities with intervals of the ratio of medians and of
+    /// the difference of dispersions, about a recorded dispersion of 0.5.
+    fn capacity(ratio: (f64, f64), spread: (f64, f64)) -> Row {
+        let interval = |(low, high): (f64, f64)| Interval {
+            value: 0.5 * (low + high),
+            low,
+            high,
+        };
+        let side = Side {
+            records: 86,
+            low: libm::exp(-0.5),
+            middle: 1.0,
+            high: libm::exp(0.5),
+        };
+        Row {
+            suite: "ordinary".into(),
+            group: Group::Capacity,
+            quantity: "pga".into(),
+            p_rad_s: 1.0,
+            alpha_rad: 0.1,
+            edp: 1.0,
+            embedded: side,
+            recorded: side,
+            ratio: interval(ratio),
+            spread: interval(spread),
+            distance: f64::NAN,
+            p_value: f64::NAN,
+        }
+    }
+
+    #[test]
+    fn an_interval_that_holds_equality_shows_no_agreement() {
+        let nan = (f64::NAN, f64::NAN);
+        let rows = [
+            // Wide about equality: nothing is shown.
+            capacity((0.6, 1.6), (-0.4, 0.4)),
+            // Away from equality.
+            capacity((0.6, 0.95), (0.01, 0.4)),
+            // Within 10 %, and of 0.5: with equality, and without.
+            capacity((0.95, 1.05), (-0.04, 0.04)),
+            capacity((1.01, 1.09), (0.01, 0.04)),
+            // Within 0.1, but not within a tenth of 0.5.
+            capacity((0.6, 1.6), (-0.09, 0.09)),
+            capacity(nan, nan),
+        ];
+        let said = words(&rows, ["ordinary", "pulse-type"]);
+        let medians = "of 6 1 shown to differ, 2 agree within 10 %, 3 open";
+        assert!(said.contains(&format!("times recorded, {medians};")));
+        assert!(said.contains(&format!("dispersions, {medians}.")), "{said}");
+        let motion = Row {
+            group: Group::Motion,
+            quantity: "pga_g".into(),
+            ..capacity((0.6, 1.6), (-0.4, 0.4))
+        };
+        let said = words(&[motion], ["ordinary", "pulse-type"]);
+        assert!(said.contains("medians of measures: all 1 open."), "{said}");
+    }
+
+    #[test]
+    fn the_committed_comparison_is_of_these_embedded_suites() {
+        let rows = row::from_csv(COMMITTED);
+        assert_eq!(row::to_csv(&rows), COMMITTED);
+        if rows.is_empty() {
+            println!("skipped: no comparison with recorded suites is kept");
+            return;
+        }
+        for suite in StudySuite::embedded().expect("suites") {
+            let all: Vec<_> = suite
+                .motions
+                .iter()
+                .map(|m| facts(m).expect("moves"))
+                .collect();
+            let of = |value: &dyn Fn(&crate::analyses::Facts) -> f64| {
+                let values: Vec<f64> = all.iter().map(value).collect();
+                let sample = ExtendedSample::try_new(&values).expect("sample");
+                QuantileType::default()
+                    .of_extended(&sample, 0.5)
+                    .expect("median")
+            };
+            for (quantity, own) in [
+                ("pga_g", of(&|f| f.pga_g)),
+                (
+                    "arias_intensity_m_s",
+                    of(&|f| f.measures.arias_intensity_m_s),
+                ),
+                (
+                    "mean_period_s",
+                    of(&|f| f.measures.mean_period_s.unwrap_or(0.0)),
+                ),
+            ] {
+                let row = of_motion(&rows, suite.kind.name(), quantity);
+                let kept = row.expect("a row").embedded.middle;
+                assert!(
+                    (own - kept).abs() < 6e-4 * own,
+                    "{} {quantity}: {own}, kept {kept}; run `rocking study` \
+                     with recorded suites and keep its suites.csv",
+                    suite.kind
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! The comparison of recorded suites with the embedded ones.
+
+use rayon::prelude::*;
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::Adjust;
+use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::two_sample::kolmogorov_smirnov;
+use rocking::statistics::{ExtendedSample, QuantileType};
+
+use super::row::{Group, Interval, Row, Side};
+use crate::StudyError;
+use crate::analyses::{
+    ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
+};
+use crate::certainty::Certainty;
+use crate::distributions::{BlockSamples, Distributions, of_suite};
+use crate::figures::{Results, THRESHOLDS};
+use crate::normality::ends;
+use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
+use rocking_common::suites::StudySuite;
+
+/// Draws of the bootstrap.
+const REPLICATES: usize = 2000;
+
+/// All rows: both suites of the study against the embedded ones of the same
+/// kind.
+pub(super) fn rows(results: &Results) -> Result<Vec<Row>, StudyError> {
+    let arm = results.plan.common();
+    let mut out = Vec::new();
+    for embedded in StudySuite::embedded()? {
+        let recorded = results.suite(embedded.kind);
+        let embedded = capacities(results, &embedded, arm)?;
+        let draws = |side: &str, n: usize| -> Vec<Vec<usize>> {
+            let name = format!("study/suites/{side}/{}", recorded.kind);
+            Bootstrap::new(&name, 0, n, REPLICATES).map(<[_]>::to_vec)
+        };
+        let pair = Pair {
+            kind: recorded.kind.name(),
+            draws: [
+                draws("embedded", embedded.records.len()),
+                draws("recorded", recorded.records.len()),
+            ],
+        };
+        out.push(pair.source(&embedded, recorded));
+        out.extend(pair.motions(&embedded.records, &recorded.records)?);
+        let of_embedded = of_suite(&embedded, arm)?;
+        for own in &of_embedded {
+            let other =
+                results.distributions(recorded.kind, arm, own.intensity);
+            let other = other.ok_or(StudyError::NoArm)?;
+            out.extend(pair.capacities(own, other)?);
+            out.extend(pair.accepted(own, other));
+        }
+    }
+    Ok(out)
+}
+
+/// What of a suite's results the comparison needs.
+fn capacities(
+    results: &Results,
+    suite: &StudySuite,
+    arm: Arm,
+) -> Result<SuiteResults, StudyError> {
+    let records: Vec<NormalisedRecord> = suite
+        .motions
+        .iter()
+        .map(|m| NormalisedRecord::new(&m.study))
+        .collect();
+    let chains = results.plan.setup.chains(
+        &BLOCKS,
+        &records,
+        &[arm],
+        Adjust::RecordScaling,
+        || (),
+    )?;
+    let certainty: Certainty = chains.certainty;
+    let curves = chains.curves.into_iter();
+    Ok(SuiteResults {
+        kind: suite.kind,
+        source: suite.source.clone(),
+        component_rule: suite.component_rule.clone(),
+        remarks: suite.remarks.words(),
+        set_aside: suite.set_aside.clone(),
+        list: Vec::new(),
+        sha256: suite.sha256(),
+        work: Work { analyses: chains.analyses, certainty },
+        records: suite.motions.iter().map(facts).collect::<Result<_, _>>()?,
+        chosen: [0; 3],
+        arms: curves.map(|curves| ArmCurves { arm, curves }).collect(),
+        single: Vec::new(),
+        stripes: Vec::new(),
+        adjusted: Vec::new(),
+        contents: Vec::new(),
+    })
+}
+
+/// Both suites of one kind.
+struct Pair {
+    kind: &'static str,
+    /// Records drawn once for all quantities: embedded, recorded.
+    draws: [Vec<Vec<usize>>; 2],
+}
+
+impl Pair {
+    fn row(&self, group: Group, quantity: String) -> Row {
+        let side = |k: usize| Side {
+            records: self.draws[k].first().map_or(0, Vec::len),
+            low: f64::NAN,
+            middle: f64::NAN,
+            high: f64::NAN,
+        };
+        Row {
+            suite: self.kind.into(),
+            group,
+            quantity,
+            p_rad_s: f64::NAN,
+            alpha_rad: f64::NAN,
+            edp: f64::NAN,
+            embedded: side(0),
+            recorded: side(1),
+            ratio: Interval::NONE,
+            spread: Interval::NONE,
+            distance: f64::NAN,
+            p_value: f64::NAN,
+        }
+    }
+
+    fn source(&self, _: &SuiteResults, recorded: &SuiteResults) -> Row {
+        self.row(Group::Source, recorded.sha256.clone())
+    }
+
+    fn motions(
+        &self,
+        embedded: &[Facts],
+        recorded: &[Facts],
+    ) -> Result<Vec<Row>, StudyError> {
+        let names = measures(&embedded[0]);
+        (0..names.len())
+            .into_par_iter()
+            .map(|k| {
+                let of = |facts: &[Facts]| -> Vec<f64> {
+                    facts.iter().map(|f| measures(f)[k].1).collect()
+                };
+                let row = self.row(Group::Motion, names[k].0.clone());
+                self.filled(row, &of(embedded), &of(recorded))
+            })
+            .collect()
+    }
+
+    fn capacities(
+        &self,
+        embedded: &Distributions,
+        recorded: &Distributions,
+    ) -> Result<Vec<Row>, StudyError> {
+        let both = embedded.blocks.iter().zip(&recorded.blocks);
+        let cells: Vec<_> = both
+            .flat_map(|(e, r)| THRESHOLDS.map(|edp| (e, r, edp)))
+            .collect();
+        cells
+            .into_par_iter()
+            .map(|(e, r, edp)| {
+                let level = demand_index(edp);
+                let mut row =
+                    self.row(Group::Capacity, name(embedded.intensity));
+                row.p_rad_s = e.p_rad_s;
+                row.alpha_rad = e.alpha_rad;
+                row.edp = edp;
+                self.filled(row, &e.samples[level], &r.samples[level])
+            })
+            .collect()
+    }
+
+    fn accepted(
+        &self,
+        embedded: &Distributions,
+        recorded: &Distributions,
+    ) -> Vec<Row> {
+        let mut out = Vec::new();
+        for (k, kind) in ["original", "shifted"].into_iter().enumerate() {
+            for (e, r) in embedded.blocks.iter().zip(&recorded.blocks) {
+                let quantity = format!("{kind}_{}", name(embedded.intensity));
+                let mut row = self.row(Group::Accepted, quantity);
+                row.p_rad_s = e.p_rad_s;
+                row.alpha_rad = e.alpha_rad;
+                share(&mut row.embedded, e, k);
+                share(&mut row.recorded, r, k);
+                out.push(row);
+            }
+        }
+        out
+    }
+
+    /// The row with what two samples say.
+    fn filled(
+        &self,
+        mut row: Row,
+        embedded: &[f64],
+        recorded: &[f64],
+    ) -> Result<Row, StudyError> {
+        let points = [quantiles(embedded)?, quantiles(recorded)?];
+        for (side, [low, middle, high]) in
+            [&mut row.embedded, &mut row.recorded].into_iter().zip(points)
+        {
+            (side.low, side.middle, side.high) = (low, middle, high);
+        }
+        let drawn = |values: &[f64], draw: &[usize]| {
+            let own: Vec<f64> = draw.iter().map(|i| values[*i]).collect();
+            quantiles(&own)
+        };
+        let (mut ratios, mut spreads) = (Vec::new(), Vec::new());
+        for (e, r) in self.draws[0].iter().zip(&self.draws[1]) {
+            let (e, r) = (drawn(embedded, e)?, drawn(recorded, r)?);
+            ratios.push(libm::log(e[1] / r[1]));
+            spreads.push(dispersion(e) - dispersion(r));
+        }
+        let [e, r] = points;
+        let ratio = interval(libm::log(e[1] / r[1]), &ratios);
+        row.ratio = Interval {
+            value: libm::exp(ratio.value),
+            low: libm::exp(ratio.low),
+            high: libm::exp(ratio.high),
+        };
+        row.spread = interval(dispersion(e) - dispersion(r), &spreads);
+        let found = kolmogorov_smirnov(
+            &ExtendedSample::try_new(embedded)?,
+            &ExtendedSample::try_new(recorded)?,
+        );
+        (row.distance, row.p_value) = (found.statistic, found.p_value);
+        Ok(row)
+    }
+}
+
+/// Quantity of capacities or shares in a measure.
+fn name(intensity: Intensity) -> String {
+    intensity.name().to_owned()
+}
+
+fn share(side: &mut Side, block: &BlockSamples, k: usize) {
+    let (original, shifted) = block.shares();
+    side.middle = [original, shifted][k];
+    if let Some((low, high)) = block.bands[k].as_ref().and_then(ends) {
+        (side.low, side.high) = (low, high);
+    }
+}
+
+/// Measures of a motion by name; spectral accelerations last.
+fn measures(facts: &Facts) -> Vec<(String, f64)> {
+    let m = &facts.measures;
+    let mut out: Vec<(String, f64)> = [
+        ("pga_g", m.pga_g),
+        ("pgv_m_s", m.pgv_m_s),
+        ("pgv_over_pga_s", facts.velocity_ratio_s),
+        ("arias_intensity_m_s", m.arias_intensity_m_s),
+        ("cav_m_s", m.cav_m_s),
+        ("significant_duration_5_75_s", m.significant_duration_5_75_s),
+        ("significant_duration_5_95_s", m.significant_duration_5_95_s),
+        ("mean_period_s", m.mean_period_s.unwrap_or(f64::INFINITY)),
+    ]
+    .map(|(name, value)| (name.to_owned(), value))
+    .into();
+    let spectrum = SPECTRUM_PERIODS_S.iter().zip(&m.spectral_acceleration_g);
+    out.extend(spectrum.map(|(t, a)| (format!("sa_{t}_g"), *a)));
+    out
+}
+
+/// 16, 50 and 84 % quantiles of the default type.
+fn quantiles(values: &[f64]) -> Result<[f64; 3], StudyError> {
+    let sample = ExtendedSample::try_new(values)?;
+    let at = |p| QuantileType::default().of_extended(&sample, p);
+    Ok([at(0.16)?, at(0.5)?, at(0.84)?])
+}
+
+fn dispersion([low, _, high]: [f64; 3]) -> f64 {
+    0.5 * libm::log(high / low)
+}
+
+fn interval(value: f64, replicates: &[f64]) -> Interval {
+    match estimate(value, replicates, 0.95) {
+        Some(found) => Interval { value, low: found.low, high: found.high },
+        None => Interval { value, ..Interval::NONE },
+    }
+}

@@ -1,0 +1,228 @@
+//! One quantity of the embedded and the recorded suite, and its CSV.
+
+use rocking_common::table::{Table, digits};
+
+/// What kind of quantity a row holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Group {
+    /// Hash of the recorded suite, as the quantity's name.
+    Source,
+    /// A measure of the motions.
+    Motion,
+    /// Capacities of a block at a demand.
+    Capacity,
+    /// Share of demand levels at which a block's capacities pass as
+    /// lognormal: no quantiles, but the share with its null band.
+    Accepted,
+}
+
+impl Group {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Source => "source",
+            Self::Motion => "motion",
+            Self::Capacity => "capacity",
+            Self::Accepted => "accepted",
+        }
+    }
+
+    fn parse(text: &str) -> Option<Self> {
+        let all = [Self::Source, Self::Motion, Self::Capacity, Self::Accepted];
+        all.into_iter().find(|group| group.name() == text)
+    }
+}
+
+/// One side: 16, 50 and 84 %; or low end of the null band, share, high end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Side {
+    pub(super) records: usize,
+    pub(super) low: f64,
+    pub(super) middle: f64,
+    pub(super) high: f64,
+}
+
+impl Side {
+    /// Log-dispersion: half the logarithm of the 84 % over the 16 %
+    /// quantile.
+    pub(super) fn dispersion(&self) -> f64 {
+        0.5 * libm::log(self.high / self.low)
+    }
+}
+
+/// A value with its 95 % interval; NaN where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Interval {
+    pub(super) value: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+impl Interval {
+    pub(super) const NONE: Self =
+        Self { value: f64::NAN, low: f64::NAN, high: f64::NAN };
+
+    /// What the interval shows of two numbers that are equal where the value
+    /// is `equal`, and alike where it is at most `limit` from there.
+    pub(super) fn shows(&self, equal: f64, limit: f64) -> Shown {
+        let (low, high) = (self.low - equal, self.high - equal);
+        if low >= -limit && high <= limit {
+            Shown::Alike
+        } else if low > 0.0 || high < 0.0 {
+            Shown::Apart
+        } else {
+            Shown::Open
+        }
+    }
+}
+
+/// What an interval shows of two numbers. One that holds equality shows no
+/// agreement: it may be wide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// They differ, and perhaps by more than the limit.
+    Apart,
+    /// They differ by less than the limit.
+    Alike,
+    /// Neither, or there is no interval.
+    Open,
+}
+
+/// One quantity on both sides.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Row {
+    pub(super) suite: String,
+    pub(super) group: Group,
+    pub(super) quantity: String,
+    pub(super) p_rad_s: f64,
+    pub(super) alpha_rad: f64,
+    pub(super) edp: f64,
+    pub(super) embedded: Side,
+    pub(super) recorded: Side,
+    /// Embedded median over recorded.
+    pub(super) ratio: Interval,
+    /// Embedded dispersion less recorded.
+    pub(super) spread: Interval,
+    /// Distance of the two empirical distributions, and its p-value.
+    pub(super) distance: f64,
+    pub(super) p_value: f64,
+}
+
+impl Row {
+    /// What is shown of the medians, alike within `limit` of the recorded
+    /// one.
+    pub(super) fn medians(&self, limit: f64) -> Shown {
+        self.ratio.shows(1.0, limit)
+    }
+
+    /// What is shown of the dispersions, alike within `limit` of the
+    /// recorded one.
+    pub(super) fn dispersions(&self, limit: f64) -> Shown {
+        self.spread.shows(0.0, limit * self.recorded.dispersion())
+    }
+}
+
+const HEADER: [&str; 24] = [
+    "suite",
+    "group",
+    "quantity",
+    "p_rad_s",
+    "alpha_rad",
+    "edp",
+    "embedded_records",
+    "embedded_low",
+    "embedded",
+    "embedded_high",
+    "recorded_records",
+    "recorded_low",
+    "recorded",
+    "recorded_high",
+    "ratio",
+    "ratio_low",
+    "ratio_high",
+    "embedded_dispersion",
+    "recorded_dispersion",
+    "dispersion_difference",
+    "dispersion_difference_low",
+    "dispersion_difference_high",
+    "ks_distance",
+    "ks_p_value",
+];
+
+/// Four digits, more than so many records say; nothing where it is not finite.
+fn short(x: f64) -> String {
+    if x.is_finite() { digits(x, 4) } else { String::new() }
+}
+
+pub(super) fn to_csv(rows: &[Row]) -> String {
+    let mut table = Table::new(&HEADER);
+    for row in rows {
+        let (e, r) = (&row.embedded, &row.recorded);
+        let dispersion = |side: &Side| match row.group {
+            Group::Motion | Group::Capacity => short(side.dispersion()),
+            Group::Source | Group::Accepted => String::new(),
+        };
+        table.row([
+            row.suite.clone(),
+            row.group.name().into(),
+            row.quantity.clone(),
+            short(row.p_rad_s),
+            short(row.alpha_rad),
+            short(row.edp),
+            e.records.to_string(),
+            short(e.low),
+            short(e.middle),
+            short(e.high),
+            r.records.to_string(),
+            short(r.low),
+            short(r.middle),
+            short(r.high),
+            short(row.ratio.value),
+            short(row.ratio.low),
+            short(row.ratio.high),
+            dispersion(e),
+            dispersion(r),
+            short(row.spread.value),
+            short(row.spread.low),
+            short(row.spread.high),
+            short(row.distance),
+            short(row.p_value),
+        ]);
+    }
+    table.finish()
+}
+
+/// Rows of a CSV that [`to_csv`] wrote; lines that are none are left out.
+pub(super) fn from_csv(text: &str) -> Vec<Row> {
+    let line = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |k: usize| -> f64 {
+            cells.get(k).and_then(|c| c.parse().ok()).unwrap_or(f64::NAN)
+        };
+        let side = |k: usize| Side {
+            records: number(k) as usize,
+            low: number(k + 1),
+            middle: number(k + 2),
+            high: number(k + 3),
+        };
+        let interval = |k: usize| Interval {
+            value: number(k),
+            low: number(k + 1),
+            high: number(k + 2),
+        };
+        Some(Row {
+            suite: (*cells.first()?).to_owned(),
+            group: Group::parse(cells.get(1)?)?,
+            quantity: (*cells.get(2)?).to_owned(),
+            p_rad_s: number(3),
+            alpha_rad: number(4),
+            edp: number(5),
+            embedded: side(6),
+            recorded: side(10),
+            ratio: interval(14),
+            spread: interval(19),
+            distance: number(22),
+            p_value: number(23),
+        })
+    };
+    text.lines().filter_map(line).collect()
+}

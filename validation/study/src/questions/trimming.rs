@@ -1,0 +1,302 @@
+//! When does trimming help Eq. 7?
+
+use rayon::prelude::*;
+use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
+use rocking::statistics::lognormal::FitMethod;
+use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking::streams::{Streams, standard_normal};
+
+use super::{Answer, Cell, Rows, both, mean};
+use crate::StudyError;
+use crate::figures::Results;
+use crate::normality::every;
+use rocking_common::paper::Intensity;
+use rocking_common::words::{capital, percent};
+
+/// Every so many demand levels enter.
+const STRIDE: usize = 10;
+
+/// Edges between the classes of skewness of ln(x - IM_R).
+const EDGES: [f64; 3] = [-0.25, 0.25, 0.75];
+
+/// Samples of a truth that is shifted lognormal.
+const DRAWS: u64 = 1000;
+
+/// Trimmed against untrimmed.
+#[derive(Clone, Copy, Default)]
+struct Count {
+    samples: usize,
+    helps: usize,
+    only_trimmed: usize,
+    neither: usize,
+}
+
+pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+    let arm = results.plan.common();
+    let mut table = Rows::new(&[
+        "suite",
+        "im_kind",
+        "skewness",
+        "c",
+        "samples",
+        "trimmed_is_nearer",
+        "only_trimmed_is_defined",
+        "neither_is_defined",
+        "share_helped",
+    ]);
+    let mut words = Vec::new();
+    for suite in both(results) {
+        for intensity in [Intensity::Pga, Intensity::Pgv] {
+            let found = results.distributions(suite.kind, arm, intensity);
+            let found = found.ok_or(StudyError::NoArm)?;
+            let rows: Vec<(usize, [Outcome; 4])> = found
+                .blocks
+                .par_iter()
+                .flat_map_iter(|block| {
+                    every(&block.samples, STRIDE).filter_map(|values| {
+                        let sample = ExtendedSample::try_new(values).ok()?;
+                        let class = class(skewness(values, block.shift)?);
+                        Some((class, outcomes(&sample, block.shift, None)))
+                    })
+                })
+                .collect();
+            let counts = count(&rows);
+            for (class, by_constant) in counts.iter().enumerate() {
+                for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
+                    let mut cells = vec![
+                        Cell::word(suite.kind.name()),
+                        Cell::word(intensity.name()),
+                        Cell::word(class_words(class)),
+                        Cell::Number(c, 2),
+                    ];
+                    cells.extend(count.cells());
+                    table.row(c == 0.25 || c == 1.0, cells);
+                }
+            }
+            if intensity == Intensity::Pga {
+                let shares: Vec<String> = (0..=EDGES.len())
+                    .map(|class| {
+                        let [low, .., high] = counts[class];
+                        format!(
+                            "{} for skewness {} ({} samples; {} at c = 0.25)",
+                            percent(high.share(), 0),
+                            class_words(class),
+                            high.samples,
+                            percent(low.share(), 0),
+                        )
+                    })
+                    .collect();
+                words.push(format!(
+                    "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
+                     empirical fragility in {}.",
+                    capital(suite.kind.name()),
+                    shares.join(", ")
+                ));
+            }
+        }
+    }
+    let truth = simulated(results.ordinary.records.len())?;
+    for (c, count) in CONSTANTS.into_iter().zip(truth) {
+        let mut cells = vec![
+            Cell::word("simulated"),
+            Cell::word("shifted lognormal"),
+            Cell::word("any"),
+            Cell::Number(c, 2),
+        ];
+        cells.extend(count.cells());
+        table.row(true, cells);
+    }
+    words.push(format!(
+        "Where the truth is shifted lognormal (excess median 1, dispersion \
+         0.6), trimming brings USFL7 nearer to it in {} of the samples at c \
+         = 1 and in {} at c = 0.25.",
+        percent(truth[3].share(), 0),
+        percent(truth[0].share(), 0),
+    ));
+    let mut answer = Answer::new(
+        "trimming",
+        "When does trimming help Eq. 7?",
+        words.join(" "),
+    );
+    table.finish(
+        &mut answer,
+        "Trimming and Eq. 7",
+        "USFL7 from the trimmed sample's moments against that from the \
+         whole sample's maximum likelihood, both with the fitted median, by \
+         Kolmogorov distance, by the skewness of ln(x - IM_R); 15 blocks, \
+         20 demands.",
+    );
+    Ok(answer)
+}
+
+#[derive(Clone, Copy)]
+enum Outcome {
+    Helps,
+    Harms,
+    OnlyTrimmed,
+    Neither,
+}
+
+impl Count {
+    fn add(&mut self, outcome: Outcome) {
+        self.samples += 1;
+        match outcome {
+            Outcome::Helps => self.helps += 1,
+            Outcome::OnlyTrimmed => self.only_trimmed += 1,
+            Outcome::Neither => self.neither += 1,
+            Outcome::Harms => {}
+        }
+    }
+
+    /// Samples in which the trimmed fragility is nearer, or the only one.
+    fn share(&self) -> f64 {
+        (self.helps + self.only_trimmed) as f64 / self.samples as f64
+    }
+
+    fn cells(&self) -> Vec<Cell> {
+        vec![
+            Cell::Count(self.samples),
+            Cell::Count(self.helps),
+            Cell::Count(self.only_trimmed),
+            Cell::Count(self.neither),
+            Cell::Number(self.share(), 3),
+        ]
+    }
+}
+
+fn count(rows: &[(usize, [Outcome; 4])]) -> [[Count; 4]; 4] {
+    let mut counts = [[Count::default(); 4]; 4];
+    for (class, outcomes) in rows {
+        for (count, outcome) in counts[*class].iter_mut().zip(outcomes) {
+            count.add(*outcome);
+        }
+    }
+    counts
+}
+
+/// By constant: which of the two fragilities is nearer to the truth, or to
+/// the empirical fragility where no truth is given.
+fn outcomes(
+    sample: &ExtendedSample,
+    shift: f64,
+    truth: Option<&Lognormal>,
+) -> [Outcome; 4] {
+    let trimmed = FitMethod::Trimmed(QuantileType::default());
+    CONSTANTS.map(|c| {
+        let centre = Centre::FittedMedian;
+        let distance = |method| {
+            let recipe = Recipe::Transformed { method, centre, c };
+            let made = recipe.fragility(sample, shift).ok()?;
+            Some(match truth {
+                None => made.kolmogorov_distance(sample),
+                Some(truth) => apart(&made, truth),
+            })
+        };
+        let whole = distance(FitMethod::MaximumLikelihood);
+        match (distance(trimmed), whole) {
+            (Some(a), Some(b)) if a < b => Outcome::Helps,
+            (Some(_), Some(_)) => Outcome::Harms,
+            (Some(_), None) => Outcome::OnlyTrimmed,
+            _ => Outcome::Neither,
+        }
+    })
+}
+
+/// Largest difference of two distributions at the truth's quantiles.
+fn apart(made: &Lognormal, truth: &Lognormal) -> f64 {
+    (1..200).map(|k| f64::from(k) / 200.0).fold(0.0, |worst, p| {
+        let off = (made.cdf(truth.quantile(p)) - p).abs();
+        if off > worst { off } else { worst }
+    })
+}
+
+/// Samples of a shifted lognormal, judged by the truth itself.
+fn simulated(n: usize) -> Result<[Count; 4], StudyError> {
+    let streams = Streams::new("study/trimming", 0);
+    let truth = Lognormal::try_new(1.0, 0.0, 0.6).ok();
+    let rows: Vec<(usize, [Outcome; 4])> = (0..DRAWS)
+        .into_par_iter()
+        .filter_map(|index| {
+            let truth = truth.as_ref()?;
+            let mut stream = streams.stream(index);
+            let values: Vec<f64> = (0..n)
+                .map(|_| 1.0 + libm::exp(0.6 * standard_normal(&mut stream)))
+                .collect();
+            let sample = ExtendedSample::try_new(&values).ok()?;
+            Some((0, outcomes(&sample, 1.0, Some(truth))))
+        })
+        .collect();
+    Ok(count(&rows)[0])
+}
+
+/// Skewness of ln(x - shift): third central moment over the cube of the
+/// standard deviation (divisor n).
+fn skewness(values: &[f64], shift: f64) -> Option<f64> {
+    let logs: Vec<f64> = values.iter().map(|x| libm::log(x - shift)).collect();
+    if logs.iter().any(|y| !y.is_finite()) {
+        return None;
+    }
+    let centre = mean(&logs);
+    let moment = |power: i32| {
+        let term = |y: &f64| {
+            let d = y - centre;
+            if power == 2 { d * d } else { d * d * d }
+        };
+        mean(&logs.iter().map(term).collect::<Vec<_>>())
+    };
+    let square = moment(2);
+    (square > 0.0).then(|| moment(3) / (square * square.sqrt()))
+}
+
+fn class(skewness: f64) -> usize {
+    EDGES.partition_point(|edge| *edge <= skewness)
+}
+
+fn class_words(class: usize) -> String {
+    match class {
+        0 => format!("below {}", EDGES[0]),
+        k if k == EDGES.len() => format!("above {}", EDGES[k - 1]),
+        k => format!("{} to {}", EDGES[k - 1], EDGES[k]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn skewness_is_the_textbook_s() {
+        let logs: [f64; 4] = [0.0, 1.0, 2.0, 7.0];
+        let values = logs.map(|y| 3.0 + libm::exp(y));
+        let found = skewness(&values, 3.0).expect("skewness");
+        // Deviations -2.5, -1.5, -0.5, 4.5: squares 29/4, cubes 72/4.
+        let expected = 18.0 / (7.25 * 7.25_f64.sqrt());
+        assert!((found - expected).abs() < 1e-12, "{found}");
+        assert!(skewness(&values, 4.0).is_none());
+        assert!(skewness(&[5.0, 5.0], 3.0).is_none());
+        assert_eq!([-1.0, 0.0, 0.5, 2.0].map(class), [0, 1, 2, 3]);
+    }
+
+    #[test]
+    fn distance_of_two_lognormals_is_the_closed_form() {
+        // Equal dispersions: 2 Phi(delta/(2 beta)) - 1, half way between.
+        let of = |mu| Lognormal::try_new(1.0, mu, 0.6).expect("lognormal");
+        let expected = 2.0 * rocking::statistics::normal::cdf(0.1) - 1.0;
+        let found = apart(&of(0.12), &of(0.0));
+        assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+    }
+
+    #[test]
+    fn trimming_helps_a_sample_with_a_long_right_tail() {
+        let z = rocking::statistics::normal::quantile;
+        let values: Vec<f64> = (0..86)
+            .map(|i| {
+                let x = libm::exp(0.6 * z((f64::from(i) + 0.5) / 86.0));
+                1.0 + if i < 82 { x } else { 8.0 * x }
+            })
+            .collect();
+        let sample = ExtendedSample::try_new(&values).expect("sample");
+        let found = outcomes(&sample, 1.0, None)[3];
+        assert!(matches!(found, Outcome::Helps | Outcome::OnlyTrimmed));
+    }
+}

@@ -1,0 +1,155 @@
+//! What other choices would do to the capacities: restitution, criterion,
+//! component.
+
+use rocking::block::{Block, Restitution};
+use rocking::capacity::ResponseCurve;
+use rocking::excitation::NormalisedRecord;
+use rocking::ida::Adjust;
+use rocking::integrator::Overturning;
+
+use super::StudyError;
+use super::analyses::Plan;
+use super::runs::Setup;
+use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
+use rocking_common::suites::StudySuite;
+
+/// A choice other than the study's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choice {
+    /// Restitution 0.85.
+    Eta085,
+    /// Restitution 0.97.
+    Eta097,
+    /// Housner's restitution, which depends on the slenderness.
+    Housner,
+    /// The other overturning criterion.
+    OtherCriterion,
+    /// The other component of each pair, where there is one.
+    OtherComponent,
+}
+
+impl Choice {
+    /// All choices.
+    pub const ALL: [Self; 5] = [
+        Self::Eta085,
+        Self::Eta097,
+        Self::Housner,
+        Self::OtherCriterion,
+        Self::OtherComponent,
+    ];
+
+    /// Short name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Eta085 => "eta-0.85",
+            Self::Eta097 => "eta-0.97",
+            Self::Housner => "eta-housner",
+            Self::OtherCriterion => "other-criterion",
+            Self::OtherComponent => "other-component",
+        }
+    }
+
+    /// Slendernesses looked at without `--full`: 0.10 and 0.20; for
+    /// Housner's restitution also the extremes.
+    fn slendernesses(self, full: bool) -> &'static [usize] {
+        match self {
+            _ if full => &[0, 1, 2, 3, 4],
+            Self::Housner => &[0, 1, 3, 4],
+            _ => &[1, 3],
+        }
+    }
+
+    fn setup(self, setup: Setup, block: &Block) -> Result<Setup, StudyError> {
+        let restitution = match self {
+            Self::Eta085 => Restitution::constant(0.85)?,
+            Self::Eta097 => Restitution::constant(0.97)?,
+            Self::Housner => Restitution::housner(block)?,
+            Self::OtherCriterion | Self::OtherComponent => setup.restitution,
+        };
+        let overturning = match (self, setup.overturning) {
+            (Self::OtherCriterion, Overturning::Alpha) => Overturning::HalfPi,
+            (Self::OtherCriterion, Overturning::HalfPi) => Overturning::Alpha,
+            (_, same) => same,
+        };
+        Ok(Setup { restitution, overturning, ..setup })
+    }
+}
+
+/// Curves of one block under a choice, by record; none for a record without
+/// its other component.
+#[derive(Clone, Debug)]
+pub struct Varied {
+    /// The choice.
+    pub choice: Choice,
+    /// Position of the frequency parameter.
+    pub frequency: usize,
+    /// Position of the slenderness.
+    pub slenderness: usize,
+    /// Curves by record, in the plan's common arm.
+    pub curves: Vec<Option<ResponseCurve>>,
+}
+
+impl Plan {
+    /// Runs the other choices on a suite: p = 3 alone, or all blocks.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub fn sensitivities(
+        &self,
+        suite: &StudySuite,
+        full: bool,
+    ) -> Result<Vec<Varied>, StudyError> {
+        let study: Vec<Option<NormalisedRecord>> = suite
+            .motions
+            .iter()
+            .map(|m| Some(NormalisedRecord::new(&m.study)))
+            .collect();
+        let other: Vec<Option<NormalisedRecord>> = suite
+            .motions
+            .iter()
+            .map(|m| m.other.as_ref().map(NormalisedRecord::new))
+            .collect();
+        let frequencies: &[usize] = if full { &[0, 1, 2] } else { &[1] };
+        let mut out = Vec::new();
+        for choice in Choice::ALL {
+            let records = match choice {
+                Choice::OtherComponent => &other,
+                _ => &study,
+            };
+            for &frequency in frequencies {
+                for &slenderness in choice.slendernesses(full) {
+                    let block = Block::try_new(
+                        SLENDERNESSES_RAD[slenderness],
+                        FREQUENCIES_RAD_S[frequency],
+                    )?;
+                    let setup = choice.setup(self.setup.clone(), &block)?;
+                    let arm = [self.common()];
+                    let present: Vec<NormalisedRecord> =
+                        records.iter().flatten().cloned().collect();
+                    let method = Adjust::RecordScaling;
+                    let chains = setup.chains(
+                        &[block],
+                        &present,
+                        &arm,
+                        method,
+                        || {},
+                    )?;
+                    let mut found =
+                        chains.curves.into_iter().flatten().flatten();
+                    let curves = records
+                        .iter()
+                        .map(|r| r.as_ref().and_then(|_| found.next()))
+                        .collect();
+                    out.push(Varied {
+                        choice,
+                        frequency,
+                        slenderness,
+                        curves,
+                    });
+                }
+            }
+        }
+        Ok(out)
+    }
+}

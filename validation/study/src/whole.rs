@@ -1,0 +1,59 @@
+//! The study from suites to findings.
+
+use indicatif::ProgressBar;
+
+use super::StudyError;
+use super::analyses::Plan;
+use super::claims;
+use super::distributions::of_suite;
+use super::figures::Results;
+use super::findings;
+use super::questions::{self, Answer};
+use rocking_common::findings::Findings;
+use rocking_common::suites::StudySuite;
+use rocking_draw::figures::Figure;
+
+/// A finished study.
+pub struct Study {
+    /// What the analyses gave.
+    pub results: Results,
+    /// The figures, those of the answers at the end.
+    pub figures: Vec<Figure>,
+    /// What was found.
+    pub findings: Findings,
+    /// Answers to the questions beyond the paper; their figures are among
+    /// the others.
+    pub answers: Vec<Answer>,
+}
+
+impl Study {
+    /// Runs everything: `suites` are the ordinary and the pulse-type one;
+    /// `full` runs other choices on all blocks.
+    ///
+    /// # Errors
+    /// [`StudyError`] where an analysis cannot be done.
+    pub fn run(
+        plan: Plan,
+        suites: &[StudySuite; 2],
+        full: bool,
+        progress: &ProgressBar,
+    ) -> Result<Self, StudyError> {
+        let [first, second] = suites;
+        let ordinary = plan.run(first, progress)?;
+        let pulse = plan.run(second, progress)?;
+        let common = plan.common();
+        let mut distributions = of_suite(&ordinary, common)?;
+        distributions.extend(of_suite(&pulse, common)?);
+        let varied = plan.sensitivities(first, full)?;
+        let results = Results { plan, ordinary, pulse, distributions, varied };
+        let draws = results.draws();
+        let mut figures = results.figures(&draws)?;
+        let mut answers = questions::all(&results, &draws, full)?;
+        for answer in &mut answers {
+            figures.append(&mut answer.figures);
+        }
+        let claims = claims::all(&results, &draws)?;
+        let findings = findings::all(&results, claims, &answers)?;
+        Ok(Self { results, figures, findings, answers })
+    }
+}

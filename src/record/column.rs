@@ -5,8 +5,8 @@
 //! an index's `npts` or `sha256` does. A file that ends within a number is
 //! refused where the number's form tells it.
 
-use super::fields::Forms;
-use super::number::{self, Form, Reading};
+use super::fields::{Forms, one_number};
+use super::number;
 use super::text::{Text, excerpt};
 use super::{Channel, Fault, RecordError, csv};
 
@@ -55,24 +55,4 @@ fn check_first(
                     or an interval belongs behind a #";
     let fault = Fault::Header { found: excerpt(line), expected };
     Err(text.on_line(index, fault))
-}
-
-/// The number that a line or a field of it is, and its form.
-pub(super) fn one_number(
-    text: &Text<'_>,
-    index: usize,
-    found: &str,
-) -> Result<(f64, Form), RecordError> {
-    let found = found.trim();
-    match number::read(found) {
-        Reading::Finite(value, form) => Ok((value, form)),
-        Reading::NotFinite => {
-            Err(text.on_line(index, Fault::NotFinite(excerpt(found))))
-        }
-        Reading::Other => {
-            let expected = "a number".to_owned();
-            let fault = Fault::Number { found: excerpt(found), expected };
-            Err(text.on_line(index, fault))
-        }
-    }
 }

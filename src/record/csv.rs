@@ -8,8 +8,7 @@
 //! file that ends within a number is refused where the number's form tells
 //! it.
 
-use super::column::one_number;
-use super::fields::Forms;
+use super::fields::{Forms, one_number};
 use super::number;
 use super::text::{Text, excerpt};
 use super::{Channel, Fault, RecordError};

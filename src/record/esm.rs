@@ -1,8 +1,7 @@
 //! ESM and ITACA (the DYNA header, which AFAD uses today): lines
 //! `KEY: value`, then one sample a line.
 
-use super::column::one_number;
-use super::fields::Forms;
+use super::fields::{Forms, one_number};
 use super::text::{self, Text, excerpt};
 use super::{Channel, Direction, Fault, RecordError, keys};
 use crate::units::AccelerationUnit;

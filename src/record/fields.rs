@@ -313,3 +313,23 @@ fn describe(form: Form) -> String {
         None => format!("no decimal point and {exponent}, as the first"),
     }
 }
+
+/// The number that a line or a field of it is, and its form.
+pub(super) fn one_number(
+    text: &Text<'_>,
+    index: usize,
+    found: &str,
+) -> Result<(f64, Form), RecordError> {
+    let found = found.trim();
+    match number::read(found) {
+        Reading::Finite(value, form) => Ok((value, form)),
+        Reading::NotFinite => {
+            Err(text.on_line(index, Fault::NotFinite(excerpt(found))))
+        }
+        Reading::Other => {
+            let expected = "a number".to_owned();
+            let fault = Fault::Number { found: excerpt(found), expected };
+            Err(text.on_line(index, fault))
+        }
+    }
+}

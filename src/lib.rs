@@ -71,6 +71,8 @@
 //! `ARCHITECTURE.md` in the repository is the map of the code: where a new
 //! pulse, impact law or record format goes.
 
+#![deny(missing_docs)]
+
 pub mod block;
 pub mod capacity;
 pub mod excitation;

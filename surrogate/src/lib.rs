@@ -11,6 +11,8 @@
 //! suite with eta = 0.92; the error is that at 100 other blocks.
 //! `validation/surrogate/run` makes all of it again.
 
+#![deny(missing_docs)]
+
 mod beside;
 mod blocks;
 mod design;

@@ -57,6 +57,8 @@
 //! As in the paper every component has PGA above 0.14 g: a pair that has not
 //! is drawn again with the next stream.
 
+#![deny(missing_docs)]
+
 mod draws;
 mod near_fault;
 mod noise;

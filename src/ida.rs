@@ -355,8 +355,9 @@ pub fn demand_at(
     levels.at(im)?.run(Isa::best())
 }
 
-/// What the motion at one intensity asks of the pivot: a whole run, of which
-/// [`demand_at`] knows the outcome.
+/// Friction and normal force that the pivot needs at one intensity.
+///
+/// It integrates the whole record; [`demand_at`] gives the outcome.
 ///
 /// # Errors
 /// As [`demand_at`].

@@ -16,8 +16,8 @@ pub(crate) struct RecordIndex {
     peaks: Vec<f64>,
     /// What is left from each run on.
     left: Vec<Remaining<f64>>,
-    /// For each length of windows, how far apart the ground's places within
-    /// a window are at most, from each run on.
+    /// `sway[w][i]`: largest range of ground displacement in any window of
+    /// length `w` that starts at run `i` or later.
     sway: Vec<Vec<f64>>,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Remaining<N> {
 }
 
 impl Remaining<f64> {
-    /// Of nothing.
+    /// The value after the last sample.
     const NOTHING: Self = Self { speed: 0.0, travel: 0.0 };
 }
 

@@ -38,12 +38,11 @@ pub struct Certification {
     pub analyses: u64,
     /// Those whose decisions were assessed one by one.
     pub assessed: u64,
-    /// Those of them that double precision told, double-double told, and
-    /// octuple precision told.
+    /// Assessed analyses that double precision resolved.
     pub double: u64,
-    /// See `double`.
+    /// Those that double-double arithmetic resolved.
     pub double_double: u64,
-    /// See `double`.
+    /// Those that octuple precision resolved.
     pub octuple: u64,
     /// Analyses of which outcome and peak are not known.
     pub unresolved: u64,

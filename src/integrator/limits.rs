@@ -1,4 +1,4 @@
-//! What is refused: scenes that are none, and runs without end.
+//! Input validation and work limits of a run.
 
 use thiserror::Error;
 
@@ -6,8 +6,8 @@ use crate::excitation::Excitation;
 use crate::integrator::forcing::pieces_of;
 use crate::integrator::{Observe, Scene};
 
-/// Pieces of a pulse at most: 1e15 tenths of 1/p, of which the last digit of
-/// the time tells a tenth.
+/// Most pieces of a pulse. Beyond 1e15 a double cannot distinguish one piece
+/// (0.1/p) from the next.
 const MOST_PIECES: f64 = 1e15;
 
 /// Work of a run beyond which it is refused with [`SceneError::Work`].

@@ -225,9 +225,9 @@ pub struct Response<N = f64> {
     /// The same for all inputs that round to the doubles that were given;
     /// recorded with accuracy.
     pub input_certificate: Option<Certificate>,
-    /// Rough estimate of the largest ratio of error to margin among the
-    /// decisions, made by runs of which outcome and peak alone are asked:
-    /// whether their certificate is worth its cost.
+    /// Estimated worst ratio of error to margin over all decisions. Only runs
+    /// that observe the peak alone compute it; a large value means that the
+    /// full certificate should be computed.
     pub doubt: Option<f64>,
     /// Work counters.
     pub work: Work,

@@ -22,7 +22,8 @@ pub(crate) fn tail_speed<N: Real>() -> f64 {
     }
 }
 
-/// The same of an observer of forces, which depend on the square of it.
+/// The threshold for the output of forces. Forces depend on the square of the
+/// speed, so the threshold may be larger.
 const TAIL_OF_FORCES: f64 = 1e-5;
 
 /// Rotation over alpha up to which a barrier is raised where larger ones do

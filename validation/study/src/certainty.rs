@@ -1,6 +1,6 @@
-//! Analyses that double precision cannot tell, what wider arithmetic says of
-//! first overturnings among them, and how far capacities move if those that
-//! were told wrongly flip.
+//! Counts of unresolved analyses, first overturnings among them evaluated
+//! again in wider arithmetic, and a bound on the effect of wrong ones on
+//! capacities.
 
 use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};

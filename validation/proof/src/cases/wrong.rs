@@ -11,13 +11,13 @@ named! {
         EtaSquared = "eta-squared",
         /// Eq. 2 for Eq. 1, or Eq. 1 for Eq. 2.
         OtherEquation = "other-equation",
-        /// P 1 % too high.
+        /// `p` 1 % too high.
         POnePercentHigh = "p-one-percent-high",
-        /// P 1 % too low.
+        /// `p` 1 % too low.
         POnePercentLow = "p-one-percent-low",
-        /// Alpha 1 % too low.
+        /// `alpha` 1 % too low.
         AlphaOnePercentLow = "alpha-one-percent-low",
-        /// Alpha 1 % too high.
+        /// `alpha` 1 % too high.
         AlphaOnePercentHigh = "alpha-one-percent-high",
         /// 9.80665 for 9.81 m/s2.
         OtherGravity = "other-gravity",
@@ -27,7 +27,7 @@ named! {
         OneSampleLate = "one-sample-late",
         /// A record of whatever size made 1 g.
         RecordNormalised = "record-normalised",
-        /// Cm/s2 taken for m/s2.
+        /// cm/s2 read as m/s2.
         CmReadAsM = "cm-read-as-m",
         /// Record one sample short.
         LastSampleLost = "last-sample-lost",
@@ -43,7 +43,7 @@ named! {
         SuppressedHop = "suppressed-hop",
         /// Acceleration constant between samples.
         ZeroOrderHold = "zero-order-hold",
-        /// G alpha in Eq. 1, g tan(alpha) in Eq. 2.
+        /// `g alpha` in Eq. 1, g tan(alpha) in Eq. 2.
         OtherThreshold = "other-threshold",
         /// No motion after the last sample.
         StopsWithTheRecord = "stops-with-the-record",
@@ -65,7 +65,7 @@ named! {
         InertiaOfAPoint = "inertia-of-a-point",
         /// The series stops two terms early.
         OrderTooLow = "order-too-low",
-        /// Pi/2 for alpha, or alpha for pi/2.
+        /// `pi/2` for `alpha`, or alpha for pi/2.
         OtherCriterion = "other-criterion",
         /// An error estimate 100 times too small.
         EstimateHundredth = "estimate-hundredth",
@@ -83,11 +83,11 @@ named! {
         RoundingAtTheLanding = "rounding-at-the-landing",
         /// Coefficients and pi of a wider engine rounded to double precision.
         F64Constants = "f64-constants",
-        /// A/g of a wider engine rounded to double precision.
+        /// `a/g` of a wider engine rounded to double precision.
         F64Inputs = "f64-inputs",
         /// Variance in one pass, sum x^2 - (sum x)^2/n.
         SumOfSquares = "sum-of-squares",
-        /// N for n - 1, n - 1 for n, or the whole sample.
+        /// `n` for `n - 1`, `n - 1` for `n`, or the whole sample.
         OtherDivisor = "other-divisor",
         /// D+ alone, or the smaller side.
         UpperSideOnly = "upper-side-only",
@@ -133,12 +133,12 @@ named! {
         WilsonInterval = "wilson-interval",
         /// Another interval, too narrow.
         OtherInterval = "other-interval",
-    /// An interval for each cell alone where all are meant.
-    PointwiseIntervals = "pointwise-intervals",
-    /// Percentiles of the share of the replicates' points.
-    ShareOfPoints = "share-of-points",
-    /// Replicates with replacement for a test that ties break.
-    TiedReplicates = "tied-replicates",
+        /// An interval for each cell alone where all are meant.
+        PointwiseIntervals = "pointwise-intervals",
+        /// Percentiles of the share of the replicates' points.
+        ShareOfPoints = "share-of-points",
+        /// Replicates with replacement for a test that ties break.
+        TiedReplicates = "tied-replicates",
         /// Oscillators 1 % too slow.
         PeriodOnePercentLong = "period-one-percent-long",
         /// Oscillators without damping.

@@ -9,7 +9,7 @@ use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::rounded_text;
 use rocking_study::analyses::SuiteResults;
-use rocking_study::figures::Results;
+use rocking_study::results::Results;
 
 /// A part of a question: its short name, and the claims that answer it.
 type Part = (&'static str, &'static [&'static str]);

@@ -8,8 +8,8 @@ use rocking_common::findings::{Claim, Findings, Measured};
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
 use rocking_common::words::rounded_text;
-use rocking_study::figures::Results;
 use rocking_study::measures::without_closed_form;
+use rocking_study::results::Results;
 
 /// Half width of a 95 % interval in standard uncertainties.
 const COVERAGE: f64 = 1.959_963_985;

@@ -14,8 +14,8 @@ use rocking_common::findings::{Findings, Theme};
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
-use rocking_study::figures::Results;
 use rocking_study::questions::Answer;
+use rocking_study::results::Results;
 
 /// Title of the page.
 pub(super) const TITLE: &str = "The statistics of rocking";

@@ -16,7 +16,7 @@ use super::{ReportError, answers, input, page};
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use rocking_common::table::{Table, number};
-use rocking_study::figures::Results;
+use rocking_study::results::Results;
 use rocking_study::{Study, questions};
 
 /// Files of a report by name; folders in a name are parted by `/`.

@@ -20,8 +20,8 @@ use rocking_proof::cases::load_all;
 use rocking_study::Study;
 use rocking_study::analyses::{Plan, SuiteResults, Work};
 use rocking_study::certainty::Certainty;
-use rocking_study::figures::Results;
 use rocking_study::findings::set_aside as findings_of;
+use rocking_study::results::Results;
 use rocking_study::runs::Setup;
 
 fn plan(way: Execution) -> Plan {

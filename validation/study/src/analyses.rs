@@ -15,9 +15,9 @@ use rocking::intensity::{Measures, Settings};
 use rocking::record::SetAside;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::StudyError;
-use super::certainty::Certainty;
-use super::runs::Setup;
+use crate::certainty::Certainty;
+use crate::error::StudyError;
+use crate::runs::Setup;
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, REFERENCE, SuiteKind, position,

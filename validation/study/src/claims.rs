@@ -6,10 +6,10 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::StudyError;
-use super::figures::Results;
-use super::inference::{Draws, Replicated, Rule, judge, share};
-use super::measures::{Measure, Shares, Source, all_shares};
+use crate::error::StudyError;
+use crate::inference::{Draws, Replicated, Rule, judge, share};
+use crate::measures::{Measure, Shares, Source, all_shares};
+use crate::results::Results;
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
 };

@@ -6,11 +6,11 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::Pairs;
 
-use super::StudyError;
-use super::analyses::{Apart, SuiteResults};
-use super::figures::{Results, median_of};
-use super::runs::capacities;
-use super::sensitivities::Varied;
+use crate::analyses::{Apart, SuiteResults};
+use crate::error::StudyError;
+use crate::results::Results;
+use crate::runs::capacities;
+use crate::sensitivities::Varied;
 use rocking_common::findings::Measured;
 use rocking_common::paper::{FREQUENCIES_RAD_S, position};
 
@@ -65,9 +65,9 @@ pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
                 p_rad_s,
                 im: single.im,
                 usable: single.apart.iter().flatten().filter(stands).count(),
-                distance: median_of(single, |a| a.distance),
-                peak_ratio: median_of(single, |a| a.peak_ratio),
-                mean_ln_im: median_of(single, |a| a.mean_ln_im),
+                distance: single.median_of(|a| a.distance),
+                peak_ratio: single.median_of(|a| a.peak_ratio),
+                mean_ln_im: single.median_of(|a| a.mean_ln_im),
             }
         })
         .collect()

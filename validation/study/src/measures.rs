@@ -15,11 +15,11 @@ use serde::Deserialize;
 
 pub(crate) use fragilities::{At, Thresholds, by_demand, to_ssfl};
 pub use shares::{Shares, all as all_shares};
-pub use stripes::{closed_form, without_closed_form};
+pub use stripes::without_closed_form;
 
-use super::StudyError;
-use super::figures::Results;
-use super::inference::{Cell, Draws, Replicated};
+use crate::error::StudyError;
+use crate::inference::{Cell, Draws, Replicated};
+use crate::results::Results;
 use rocking_common::findings::{Tested, Unit};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind,

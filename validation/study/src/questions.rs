@@ -3,7 +3,7 @@
 
 mod contents;
 mod equivalence;
-pub(super) mod grid;
+mod grid;
 mod inversion;
 mod levels;
 mod measures;
@@ -16,10 +16,10 @@ mod suites;
 mod surface;
 mod trimming;
 
-use super::StudyError;
-use super::analyses::SuiteResults;
-use super::figures::Results;
-use super::inference::Draws;
+use crate::analyses::SuiteResults;
+use crate::error::StudyError;
+use crate::inference::Draws;
+use crate::results::Results;
 use rocking_common::findings::Question;
 use rocking_common::table::{PlainTable, Table};
 use rocking_draw::figures::Figure;

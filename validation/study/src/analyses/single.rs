@@ -7,7 +7,7 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
 use super::{Plan, SuiteResults};
-use crate::StudyError;
+use crate::error::StudyError;
 use crate::runs::capacities;
 use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, position};
 
@@ -47,6 +47,24 @@ pub struct Apart {
     /// Mean |ln| of the ratio of intensities at equal demand; NaN where
     /// there is none.
     pub mean_ln_im: f64,
+}
+
+impl SingleRecords {
+    /// Median over records and slendernesses of what is defined.
+    pub(crate) fn median_of(&self, of: impl Fn(&Apart) -> f64) -> f64 {
+        let mut values: Vec<f64> = self
+            .apart
+            .iter()
+            .flatten()
+            .map(of)
+            .filter(|x| x.is_finite())
+            .collect();
+        values.sort_by(f64::total_cmp);
+        match values.len() {
+            0 => f64::NAN,
+            n => 0.5 * (values[(n - 1) / 2] + values[n / 2]),
+        }
+    }
 }
 
 impl Plan {

@@ -7,7 +7,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
 use super::{ArmCurves, Plan, StripeDemands, SuiteResults};
-use crate::StudyError;
+use crate::error::StudyError;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };

@@ -3,54 +3,23 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 
-use super::{Figure, Results, name};
-use crate::StudyError;
-use crate::distributions::{BlockSamples, Distributions};
+use super::name;
+use crate::error::StudyError;
 use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
 };
-use crate::questions::grid::critical_on_grid;
+use crate::results::Results;
+use crate::ties::critical_on_grid;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
-    demand_index, demands, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
+    demands,
 };
 use rocking_common::words::percent;
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     AcceptedShares, BlockShare, Capacities, CapacityCurve, CapacityPanel,
     Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
 };
-
-impl Results {
-    /// The capacity samples of a suite in an arm and a measure.
-    #[must_use]
-    pub fn distributions(
-        &self,
-        kind: SuiteKind,
-        arm: Arm,
-        intensity: Intensity,
-    ) -> Option<&Distributions> {
-        self.distributions.iter().find(|d| {
-            d.kind == kind && d.arm == arm && d.intensity == intensity
-        })
-    }
-
-    /// One block of the ordinary suite.
-    ///
-    /// # Errors
-    /// [`StudyError::NoArm`] if the arm was not run.
-    pub(crate) fn ordinary_block(
-        &self,
-        arm: Arm,
-        intensity: Intensity,
-        frequency: usize,
-        slenderness: usize,
-    ) -> Result<&BlockSamples, StudyError> {
-        let kind = self.ordinary.kind;
-        let found = self.distributions(kind, arm, intensity);
-        let found = found.ok_or(StudyError::NoArm)?;
-        Ok(&found.blocks[position(frequency, slenderness)])
-    }
-}
 
 /// Figure 11: p = 1, alpha = 0.20.
 pub(super) fn inverted(

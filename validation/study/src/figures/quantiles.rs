@@ -4,13 +4,14 @@ use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
-use super::{Figure, name};
-use crate::StudyError;
+use super::name;
 use crate::analyses::SuiteResults;
+use crate::error::StudyError;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use rocking_common::words::{percent, range};
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     Heading, QuantileGroup, QuantilePanel, Quantiles,
 };

@@ -5,12 +5,12 @@ use libm::tan;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::{Measure, Prepared, Source, block, mean};
-use crate::StudyError;
 use crate::distributions::factors;
-use crate::figures::of_arm;
+use crate::error::StudyError;
 use crate::inference::{Cell, Draw, Replicated};
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
+use crate::stripes::of_arm;
 use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{

@@ -6,9 +6,9 @@ use rocking::statistics::resampling::Subsampling;
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
 
 use super::{Measure, Prepared, Source, mean};
-use crate::StudyError;
 use crate::distributions::{BlockSamples, factors};
-use crate::figures::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
+use crate::error::StudyError;
+use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
 use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{Intensity, demand_index};

@@ -11,9 +11,9 @@ use rocking::statistics::lilliefors::Table;
 
 use super::{Measure, Prepared, Source, block, mean};
 use crate::distributions::{BlockSamples, factors, scaled};
-use crate::figures::Results;
 use crate::inference::{Cell, Draw, Draws, Replicated};
 use crate::normality::{BAND_STRIDE, LEVEL, accepted_share, along, every};
+use crate::results::Results;
 use rocking_common::paper::{
     Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
     position,

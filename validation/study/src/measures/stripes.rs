@@ -1,19 +1,20 @@
 //! Section 4, Figures 6, 7 and 9, and resurrections: measures on stripes of
 //! equal intensity.
 
-use libm::{atan, log, sin, tan};
+use libm::{atan, log, tan};
 
 use super::{Measure, Prepared, Source, block};
-use crate::StudyError;
 use crate::analyses::StripeDemands;
-use crate::figures::{Results, of_arm};
+use crate::error::StudyError;
 use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
+use crate::results::Results;
+use crate::stripes::of_arm;
 use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 use rocking_common::findings::Tested;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, SuiteKind,
-    position,
+    closed_form, position,
 };
 
 /// Ratios of one cell of Figure 6, 7 or 9, by record.
@@ -125,14 +126,6 @@ fn medians(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
         measured: source.draws.smooth(source.tested, &of),
         criterion: Some(source.draws.subsampled(source.tested, &covering)),
     }
-}
-
-/// What the small-rotation limit of Eq. 1 makes of a ratio to the reference
-/// slenderness: (sin alpha/alpha)/(sin 0.1/0.1).
-#[must_use]
-pub fn closed_form(alpha_rad: f64) -> f64 {
-    let of = |alpha: f64| sin(alpha) / alpha;
-    of(alpha_rad) / of(SLENDERNESSES_RAD[REFERENCE])
 }
 
 /// Cells of Figures 6, 7 and 9 by name, with the median ratio once what the
@@ -387,23 +380,4 @@ fn again_apart(
         let share = |part: usize| sum(&sums[part][1]) / sum(&sums[part][0]);
         share(1) - share(0)
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn closed_form_at_the_slendernesses_of_the_paper() {
-        // (sin a/a)/(sin 0.1/0.1) by Python's math.sin.
-        for (alpha, expected) in [
-            (0.05, 1.001_251_303_408_461_1),
-            (0.15, 0.997_916_579_390_467_9),
-            (0.20, 0.995_004_165_278_025_7),
-            (0.25, 0.991_267_123_030_526_1),
-        ] {
-            let off = (closed_form(alpha) - expected).abs();
-            assert!(off < 1e-15, "{alpha}: {off}");
-        }
-    }
 }

@@ -6,11 +6,11 @@ use rocking::statistics::lognormal::fit_intervals;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
 use crate::analyses::SuiteResults;
 use crate::contents::{Item, items};
-use crate::figures::Results;
+use crate::error::StudyError;
 use crate::inference::{Draw, Draws, Replicated};
+use crate::results::Results;
 use crate::runs::overturning;
 use rocking_common::findings::Tested;
 use rocking_common::paper::SuiteKind;

@@ -3,8 +3,8 @@
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
 use super::{Answer, Cell, Rows, both};
-use crate::StudyError;
-use crate::figures::Results;
+use crate::error::StudyError;
+use crate::results::Results;
 use crate::runs::capacities;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use rocking_common::words::capital;

@@ -7,11 +7,11 @@ use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
 use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
-use crate::figures::Results;
+use crate::error::StudyError;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
+use crate::results::Results;
 use rocking_common::paper::Intensity;
 use rocking_common::words::capital;
 

@@ -6,10 +6,10 @@ use rocking::intensity::IntensityMeasure;
 use rocking::statistics::lognormal::fit_intervals;
 
 use super::{Answer, Cell, Rows, both};
-use crate::StudyError;
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
-use crate::figures::Results;
+use crate::error::StudyError;
 use crate::inference::{Draw, Draws, Replicated, by_cell};
+use crate::results::Results;
 use crate::runs::overturning;
 use rocking_common::findings::{Measured, Region, Tested};
 use rocking_common::paper::{

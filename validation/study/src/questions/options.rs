@@ -14,10 +14,11 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 
 use super::{Answer, Cell, Rows};
-use crate::StudyError;
 use crate::distributions::BlockSamples;
+use crate::error::StudyError;
 use crate::estimates::median;
-use crate::figures::{BLOCK, Results, THRESHOLDS};
+use crate::fits::{BLOCK, THRESHOLDS};
+use crate::results::Results;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };

@@ -7,11 +7,11 @@ use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
 use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
 use crate::distributions::BlockSamples;
+use crate::error::StudyError;
 use crate::estimates::median;
-use crate::figures::Results;
 use crate::normality::{LEVEL, accepted_share, every};
+use crate::results::Results;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, range};
 

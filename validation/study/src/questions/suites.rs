@@ -9,9 +9,9 @@ mod row;
 use row::{Group, Row, Shown};
 
 use super::Answer;
-use crate::StudyError;
+use crate::error::StudyError;
 use crate::estimates::median;
-use crate::figures::Results;
+use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
 use rocking_common::words::{capital, range};

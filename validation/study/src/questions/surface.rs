@@ -4,8 +4,9 @@
 use rocking::statistics::ExtendedSample;
 
 use super::{Answer, Cell, Rows};
-use crate::StudyError;
-use crate::figures::{Fits, Results};
+use crate::error::StudyError;
+use crate::fits::Fits;
+use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,

@@ -7,9 +7,9 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
 use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
-use crate::figures::Results;
+use crate::error::StudyError;
 use crate::normality::every;
+use crate::results::Results;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 

@@ -2,14 +2,16 @@
 
 use rocking::statistics::Lognormal;
 
-use super::super::{Figure, Results, name};
-use super::{THRESHOLDS, distance, usfl7};
-use crate::StudyError;
 use crate::claims::limit_of;
+use crate::error::StudyError;
+use crate::figures::name;
+use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
+use crate::results::Results;
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     BandOf, Estimator, Fitted, Fragilities, FragilityPanel, Heading, Limit,
 };

@@ -8,14 +8,15 @@ use rocking::statistics::two_sample::kolmogorov_smirnov;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::row::{Group, Interval, Row, Side};
-use crate::StudyError;
 use crate::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
 };
 use crate::certainty::Certainty;
 use crate::distributions::{BlockSamples, Distributions, of_suite};
-use crate::figures::{Results, THRESHOLDS};
+use crate::error::StudyError;
+use crate::fits::THRESHOLDS;
 use crate::normality::ends;
+use crate::results::Results;
 use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
 use rocking_common::suites::StudySuite;
 

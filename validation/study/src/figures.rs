@@ -5,13 +5,13 @@ mod fragilities;
 mod quantiles;
 mod ratios;
 mod single;
+mod stem;
 
 pub(crate) use ratios::adjusted_boxes;
 
 use crate::error::StudyError;
 use crate::inference::Draws;
 use crate::results::Results;
-use rocking_common::paper::Arm;
 use rocking_draw::figures::Figure;
 
 /// Figures 1 to 18, in order; those of the grid's arms once for each arm
@@ -57,14 +57,4 @@ pub fn all(
     }
     out.push(fragilities::constants(results, one)?);
     Ok(out)
-}
-
-/// Name of a figure, with the arm's letter where both arms have one.
-fn name(number: u32, arm: Option<Arm>) -> String {
-    match arm {
-        Some(arm) => {
-            format!("figure-{number:02}-{}", arm.letter().to_lowercase())
-        }
-        None => format!("figure-{number:02}"),
-    }
 }

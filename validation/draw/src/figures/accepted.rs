@@ -2,7 +2,7 @@
 //! accepted, by block.
 
 use super::common::{self, Slendernesses};
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
 use crate::axis::Tick;
 use crate::{
     Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,

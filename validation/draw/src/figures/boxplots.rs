@@ -1,7 +1,8 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
 
+use super::common;
 use super::common::Slendernesses;
-use super::{Figure, Heading, common};
+use super::heading::{Figure, Heading};
 use rocking::statistics::Boxplot;
 
 use crate::axis::Tick;

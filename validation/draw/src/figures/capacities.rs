@@ -1,7 +1,7 @@
 //! Figure 11: intensity given demand, original and shifted side by side.
 
 use super::common::{self, thin};
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
 use crate::{
     Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
 };

@@ -1,7 +1,7 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
 use super::common::{self, largest, thin};
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
 use crate::{
     Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
     markup,

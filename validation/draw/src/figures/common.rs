@@ -1,6 +1,6 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
-use super::Heading;
+use super::heading::Heading;
 use crate::geometry::kept;
 use crate::{
     Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene, legend, markup,

@@ -1,6 +1,7 @@
 //! A map of fates in the plane of frequency and amplitude.
 
-use super::{Figure, Heading, common};
+use super::common;
+use super::heading::{Figure, Heading};
 use crate::{Axis, Dash, Entry, Fill, Grid, Ink, Panel, Pen, Sample, Scene};
 use rocking_common::table::{Table, number};
 use rocking_common::words::named;

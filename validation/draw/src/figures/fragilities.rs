@@ -1,6 +1,7 @@
 //! Figures 15 to 18: empirical and fitted fragilities.
 
-use super::{Figure, Heading, common};
+use super::common;
+use super::heading::{Figure, Heading};
 use crate::{
     Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
     Sample, Scene,

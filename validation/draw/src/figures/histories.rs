@@ -1,7 +1,7 @@
 //! Figures 2 and 3: response histories.
 
 use super::common::{self, Slendernesses, largest, thin};
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
 use crate::{Axis, Grid, Ink, Marker, Panel, Pen, Scene};
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};

@@ -1,7 +1,7 @@
 //! Figures 4 and 5: single-record IDA curves.
 
 use super::common::{self, Slendernesses, largest, thin};
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
 use crate::{Axis, Grid, Panel, Pen, Scene};
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};

@@ -1,6 +1,7 @@
 //! Figures 8 and 10: 16/50/84 % curves of the demand given the intensity.
 
-use super::{Figure, Heading, common};
+use super::common;
+use super::heading::{Figure, Heading};
 use crate::{
     Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene, markup,
 };

@@ -1,6 +1,6 @@
 //! Figure 1: the block and its symbols.
 
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
 use crate::{
     Caption, Dash, Fill, Horizontal, Ink, Pen, Point, Scene, TextLine,
 };

@@ -1,6 +1,7 @@
 //! Figure 13: the test along the demand, and histograms at one level.
 
-use super::{Figure, Heading, common};
+use super::common;
+use super::heading::{Figure, Heading};
 use crate::geometry::Rect;
 use crate::{
     Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,

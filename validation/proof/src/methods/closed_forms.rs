@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use rocking::excitation::{PulseName, PulseParameter};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::edge::{around, edge};
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;

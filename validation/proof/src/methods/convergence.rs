@@ -3,7 +3,7 @@
 use rocking::integrator::{Order, Response};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::engine;
 use crate::naive::{Events, Naive, Rules};

@@ -18,7 +18,7 @@ use rocking::number::octuple::Octuple;
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::scene::{EngineError, Forcing};
 use crate::trials::{Stratum, trial};

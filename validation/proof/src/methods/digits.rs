@@ -7,9 +7,10 @@ use rayon::prelude::*;
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
+use super::method::MethodError;
 use super::references;
 use super::references::TRAJECTORIES;
-use super::{MethodError, fates, hard};
+use super::{fates, hard};
 use crate::cases::{Case, CaseError, load_all};
 use crate::engine::{Arithmetic, WideTrace};
 use crate::scene::{Model, Overturning, Scene};

@@ -4,7 +4,7 @@
 use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::edge::{self, around};
 use crate::oracles::overturning;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};

@@ -6,7 +6,7 @@ use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
 use crate::engine::{certify, respond};
 use crate::scene::{Forcing, Overturning, PulseKind, Scene};

@@ -7,9 +7,9 @@ use rocking::number::double::DoubleDouble;
 use rocking::streams::Streams;
 use serde::Deserialize;
 
+use super::method::{Answer, Context, MethodError};
 use super::references;
 use super::references::TRAJECTORIES;
-use super::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
 use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};

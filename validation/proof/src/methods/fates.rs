@@ -2,9 +2,9 @@
 
 use serde::Deserialize;
 
+use super::method::{Answer, Context, MethodError, input_of};
 use super::references;
 use super::wrong::scale;
-use super::{Answer, Context, MethodError, input_of};
 use crate::cases::Case;
 use crate::engine::Core;
 use crate::scene::{

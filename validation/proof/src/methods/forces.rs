@@ -4,7 +4,7 @@
 use rocking::integrator::{Forces, Observe};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::engine;
 use crate::scene::{Forcing, Model, Scene};

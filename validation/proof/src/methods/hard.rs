@@ -5,9 +5,9 @@ use rocking::number::Real as _;
 use serde::Deserialize;
 
 use super::fates::Samples;
+use super::method::{Answer, Context, MethodError, input_of};
 use super::references;
 use super::wrong::scale;
-use super::{Answer, Context, MethodError, input_of};
 use crate::cases::Case;
 use crate::engine::{Arithmetic, WideTrace};
 use crate::oracles::free_rocking;

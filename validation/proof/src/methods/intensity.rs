@@ -7,7 +7,7 @@ use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 
 const EXPECTED: &str = "fixtures/oracles/intensity.csv";

@@ -4,9 +4,9 @@
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
+use super::method::{Answer, Context, MethodError};
 use super::references;
 use super::wrong::scale;
-use super::{Answer, Context, MethodError};
 use crate::engine::Core;
 use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
 

@@ -3,9 +3,9 @@
 
 use serde::Deserialize;
 
+use super::method::{Answer, Context, MethodError};
 use super::references;
 use super::references::{LINEAR_PULSES, TRAJECTORIES};
-use super::{Answer, Context, MethodError};
 use crate::scene::Overturning;
 
 #[derive(Deserialize)]

@@ -8,11 +8,11 @@ use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::method::{Answer, Context, MethodError};
 use super::references;
 use super::references::{
     LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE, TRAJECTORIES,
 };
-use super::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
 use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};

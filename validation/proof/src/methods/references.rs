@@ -8,7 +8,7 @@ use rocking::number::double::DoubleDouble;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::MethodError;
+use super::method::MethodError;
 use crate::arithmetic::decimal;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene, rescaled};
 

@@ -3,9 +3,9 @@
 
 use serde::Deserialize;
 
+use super::method::{Answer, Context, MethodError};
 use super::references;
 use super::references::TRAJECTORIES;
-use super::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{Engine as _, Forcing, Overturning};

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use serde::Deserialize;
 
 use super::closed_forms::{flip, linear_scene, overturns_at_once};
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::edge::{around, edge};
 use crate::oracles::overturning::sine_without_impact;

@@ -4,8 +4,8 @@
 use rocking::integrator::Observe;
 use serde::Deserialize;
 
+use super::method::{Answer, Context, MethodError};
 use super::references;
-use super::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::engine;
 use crate::scene::{Forcing, Model, Overturning, Scene, other};

@@ -3,8 +3,8 @@
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::method::{Answer, Context, MethodError};
 use super::references::SPECTRUM;
-use super::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::edge::{self, around};
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};

@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context, MethodError};
 use crate::cases::WrongModel;
 use crate::oracles::square::{SquareWave, State};
 use crate::scene::{Forcing, Overturning, Scene};

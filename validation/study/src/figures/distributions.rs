@@ -3,7 +3,7 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 
-use super::name;
+use super::stem::name;
 use crate::error::StudyError;
 use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,

@@ -6,7 +6,7 @@ pub(super) use thresholds::thresholds;
 
 use rocking::statistics::ExtendedSample;
 
-use super::name;
+use super::stem::name;
 use crate::distributions::BlockSamples;
 use crate::error::StudyError;
 use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
-use super::name;
+use super::stem::name;
 use crate::analyses::SuiteResults;
 use crate::error::StudyError;
 use rocking_common::paper::{

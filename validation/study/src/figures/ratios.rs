@@ -2,7 +2,7 @@
 
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::name;
+use super::stem::name;
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::error::StudyError;
 use crate::inference::LEAST_DECIDING;

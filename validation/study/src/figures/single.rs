@@ -1,6 +1,6 @@
 //! Figures 1 to 5: the block, and single records.
 
-use super::name;
+use super::stem::name;
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use crate::error::StudyError;
 use rocking_common::paper::{

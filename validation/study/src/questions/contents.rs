@@ -5,7 +5,7 @@ use libm::{exp, log};
 use rocking::statistics::lognormal::fit_intervals;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::{Answer, Cell, Rows, both, mean};
+use super::answer::{Answer, Cell, Rows, both, mean};
 use crate::analyses::SuiteResults;
 use crate::contents::{Item, items};
 use crate::error::StudyError;

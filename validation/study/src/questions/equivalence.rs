@@ -8,7 +8,7 @@ use rocking::statistics::paired::{
 };
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::{Answer, Cell, Rows};
+use super::answer::{Answer, Cell, Rows};
 use crate::error::StudyError;
 use crate::results::Results;
 use crate::runs::capacities;

@@ -5,7 +5,7 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 
-use super::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Cell, Rows, both};
 use crate::error::StudyError;
 use crate::results::Results;
 use crate::ties::grid_alone;

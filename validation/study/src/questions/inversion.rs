@@ -2,7 +2,7 @@
 
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
-use super::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Cell, Rows, both};
 use crate::error::StudyError;
 use crate::results::Results;
 use crate::runs::capacities;

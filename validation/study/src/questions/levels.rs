@@ -6,7 +6,7 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::{Answer, Cell, Rows, both, mean};
+use super::answer::{Answer, Cell, Rows, both, mean};
 use crate::error::StudyError;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,

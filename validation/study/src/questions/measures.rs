@@ -5,7 +5,7 @@ use libm::log;
 use rocking::intensity::IntensityMeasure;
 use rocking::statistics::lognormal::fit_intervals;
 
-use super::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Cell, Rows, both};
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
 use crate::error::StudyError;
 use crate::inference::{Draw, Draws, Replicated, by_cell};

@@ -2,7 +2,7 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Cell, Rows, both};
 use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
 use crate::error::StudyError;

@@ -9,7 +9,7 @@ use rocking::statistics::normality::{
 };
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows};
+use super::answer::{Answer, Cell, Rows};
 use crate::error::StudyError;
 use crate::normality::LEVEL;
 use crate::results::Results;

@@ -9,7 +9,7 @@ use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking::intensity::{Measures, Settings};
 use rocking::record::{Processing, ReadOptions, Suite};
 
-use super::{Answer, Cell, Rows};
+use super::answer::{Answer, Cell, Rows};
 use crate::error::StudyError;
 use crate::results::Results;
 use rocking_common::suites::{StudySuiteError, inputs};

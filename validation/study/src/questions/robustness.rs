@@ -6,7 +6,7 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
-use super::{Answer, Cell, Rows, both, mean};
+use super::answer::{Answer, Cell, Rows, both, mean};
 use crate::distributions::BlockSamples;
 use crate::error::StudyError;
 use crate::estimates::median;

@@ -3,7 +3,7 @@
 
 use rocking::statistics::ExtendedSample;
 
-use super::{Answer, Cell, Rows};
+use super::answer::{Answer, Cell, Rows};
 use crate::error::StudyError;
 use crate::fits::Fits;
 use crate::results::Results;

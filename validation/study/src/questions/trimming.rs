@@ -6,7 +6,7 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows, both, mean};
+use super::answer::{Answer, Cell, Rows, both, mean};
 use crate::error::StudyError;
 use crate::normality::every;
 use crate::results::Results;

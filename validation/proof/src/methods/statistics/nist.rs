@@ -3,9 +3,9 @@
 use rocking::statistics::Sample;
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::methods::method::{Answer, Context, MethodError};
 
 const FILE: &str = "fixtures/nist/univariate.csv";
 const CSV: &str = include_str!("../../../../../fixtures/nist/univariate.csv");

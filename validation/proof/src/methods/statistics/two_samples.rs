@@ -4,9 +4,9 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 use serde::Deserialize;
 
-use super::refused;
+use super::cells::refused;
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::methods::method::{Answer, Context, MethodError};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

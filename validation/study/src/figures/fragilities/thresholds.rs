@@ -4,7 +4,7 @@ use rocking::statistics::Lognormal;
 
 use crate::claims::limit_of;
 use crate::error::StudyError;
-use crate::figures::name;
+use crate::figures::stem::name;
 use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};

@@ -18,6 +18,7 @@ pub mod questions;
 pub mod results;
 pub mod runs;
 pub mod sensitivities;
+mod shares;
 mod stripes;
 mod ties;
 mod whole;

@@ -108,7 +108,7 @@ pub(in super::super) fn thresholds(
             by_cell(draws, source.tested, range, measured)
         };
         let decide = if pair == Pair::Shifted {
-            let prepared = source.prepare(measure)?;
+            let prepared = measure.prepare(&source)?;
             prepared.map_or(Vec::new(), |p| judged(&p.measured))
         } else {
             let apart = |at: &At| to_ssfl(pair.first(at), at, 1.0);

@@ -16,7 +16,6 @@ mod invariance;
 mod method;
 mod points;
 mod precise;
-mod references;
 mod response;
 mod schemes;
 mod sines;
@@ -29,11 +28,11 @@ mod velocity_pulse;
 mod wrong;
 
 pub use digits::{DIGITS_HEADER, DigitsError, Reach, Row, digits, digits_csv};
-pub use method::{Answer, Context, MethodError, Quantities};
-pub(crate) use references::attainable_float64;
+pub use method::{Answer, Context, Quantities};
 
 use crate::cases::{Case, WrongModel};
 use crate::engine::Core;
+use crate::error::MethodError;
 use crate::naive::{Naive, Rules};
 use crate::scene::Engine;
 

@@ -23,7 +23,7 @@ pub use summary::{Judgement, SHARES, Summary};
 use rayon::prelude::*;
 use rocking::streams::Streams;
 
-use super::scene::EngineError;
+use crate::scene::EngineError;
 use draw::Draw;
 use rocking_common::words::named;
 

@@ -14,7 +14,7 @@ pub use error::EvidenceError;
 pub use families::families;
 pub use proof::{NOT_RUN, Proof, ProofError};
 
-use super::page::Family;
+use crate::page::Family;
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
 use rocking_proof::cases::load_all;

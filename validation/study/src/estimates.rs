@@ -2,9 +2,9 @@
 //! paired ratios.
 
 use rocking::capacity::InversionRule;
-use rocking::statistics::ExtendedSample;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::Pairs;
+use rocking::statistics::{ExtendedSample, QuantileType};
 
 use crate::analyses::{Apart, SuiteResults};
 use crate::error::StudyError;
@@ -32,6 +32,24 @@ pub fn median(values: &[f64]) -> Measured {
         value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
         interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
     }
+}
+
+/// Mean of the finite ones among some numbers.
+pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for x in values.into_iter().filter(|x| x.is_finite()) {
+        sum += x;
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// 16, 50 and 84 % quantiles of the default type; what was never reached
+/// counts as infinite.
+pub(crate) fn three_quantiles(values: &[f64]) -> Result<[f64; 3], StudyError> {
+    let sample = ExtendedSample::try_new(values)?;
+    let at = |p| QuantileType::default().of_extended(&sample, p);
+    Ok([at(0.16)?, at(0.5)?, at(0.84)?])
 }
 
 /// One frequency parameter of a suite's single-record comparison, medians

@@ -1,7 +1,7 @@
 //! The lognormals that the paper compares.
 
 use rocking::fragility::transform;
-use rocking::statistics::lognormal::{FitMethod, fit};
+use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 
 /// Demand thresholds of Figures 15 to 17.
@@ -54,4 +54,18 @@ pub(crate) fn distance(
     sample: &ExtendedSample,
 ) -> f64 {
     fitted.map_or(f64::NAN, |f| f.kolmogorov_distance(sample))
+}
+
+/// The lognormal of most likelihood for intensities that are known as
+/// (low, high), each counted so often; none where there is none.
+pub(crate) fn of_intervals(
+    known: &[(f64, f64)],
+    counts: &[u32],
+    shift: f64,
+) -> Option<Lognormal> {
+    let times = known.iter().zip(counts);
+    let all: Vec<(f64, f64)> = times
+        .flat_map(|(x, n)| std::iter::repeat_n(*x, *n as usize))
+        .collect();
+    fit_intervals(&all, shift).ok().map(|fit| fit.distribution)
 }

@@ -2,10 +2,13 @@
 
 use super::common::{self, largest, thin};
 use super::heading::{Figure, Heading};
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
-    markup,
-};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::markup;
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
 

@@ -2,7 +2,12 @@
 
 use super::common;
 use super::heading::{Figure, Heading};
-use crate::{Axis, Dash, Entry, Fill, Grid, Ink, Panel, Pen, Sample, Scene};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::Panel;
+use crate::scene::Scene;
 use rocking_common::table::{Table, number};
 use rocking_common::words::named;
 

@@ -1,6 +1,6 @@
 //! A figure, and the words that go with it.
 
-use crate::Scene;
+use crate::scene::Scene;
 use rocking_common::paper::Arm;
 
 /// The words that go with a figure.

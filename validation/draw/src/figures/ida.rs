@@ -2,7 +2,11 @@
 
 use super::common::{self, Slendernesses, largest, thin};
 use super::heading::{Figure, Heading};
-use crate::{Axis, Grid, Panel, Pen, Scene};
+use crate::axis::Axis;
+use crate::colour::Pen;
+use crate::grid::Grid;
+use crate::panel::Panel;
+use crate::scene::Scene;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};
 use rocking_common::words::letter;

@@ -2,9 +2,14 @@
 
 use super::common;
 use super::heading::{Figure, Heading};
-use crate::{
-    Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene, markup,
-};
+use crate::axis::Axis;
+use crate::colour::{Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::markup;
+use crate::panel::Panel;
+use crate::scene::Scene;
+use crate::text::Horizontal;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;

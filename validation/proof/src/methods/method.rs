@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 
 use rocking::integrator::{HistoryPoint, Observe};
-use rocking::names::UnknownName;
 use serde::de::DeserializeOwned;
-use thiserror::Error;
 
 use crate::cases::{Case, WrongModel};
 use crate::engine;
-use crate::scene::{Engine, EngineError, Scene};
+use crate::error::MethodError;
+use crate::scene::{Engine, Scene};
 
 /// Numbers by name.
 pub type Quantities = BTreeMap<String, Vec<f64>>;
@@ -45,35 +44,6 @@ impl Answer {
     ) {
         self.observed.entry(name.to_owned()).or_default().extend(observed);
     }
-}
-
-/// Why a method gave no answer.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum MethodError {
-    /// No method of this name is registered.
-    #[error("method `{0}` is not registered")]
-    Unknown(String),
-    /// The input is not what the method reads.
-    #[error("input: {0}")]
-    Input(String),
-    /// A name in the input that is none.
-    #[error("input: {0}")]
-    Name(#[from] UnknownName),
-    /// A reference lacks what was asked for.
-    #[error("{file}: {what}")]
-    Reference {
-        /// The file.
-        file: &'static str,
-        /// What is missing.
-        what: String,
-    },
-    /// The engine gave no trace.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-    /// An oracle has no value for this input.
-    #[error("oracle: {0}")]
-    Oracle(String),
 }
 
 /// What a method works with.

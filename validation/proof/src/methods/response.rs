@@ -3,9 +3,10 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::method::{Answer, Context, MethodError};
-use super::references;
-use super::references::{
+use super::method::{Answer, Context};
+use crate::error::MethodError;
+use crate::references;
+use crate::references::{
     FREE_ROCKING, LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE,
     TRAJECTORIES,
 };

@@ -1,10 +1,11 @@
 //! Figures 11 to 14: capacities and their tests.
 
 use rocking::statistics::lilliefors::Assessment;
-use rocking::statistics::{ExtendedSample, QuantileType, Sample};
+use rocking::statistics::{QuantileType, Sample};
 
 use super::stem::name;
 use crate::error::StudyError;
+use crate::estimates::three_quantiles;
 use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
 };
@@ -32,7 +33,7 @@ pub(super) fn inverted(
     let mut ends = 0;
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let block = results.ordinary_block(arm, intensity, 0, 3)?;
-        onsets.push(spread(&block.samples[0])?);
+        onsets.push(three_quantiles(&block.samples[0])?);
         let last = block.samples.last().ok_or(StudyError::NoArm)?;
         ends = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
@@ -49,7 +50,7 @@ pub(super) fn inverted(
             quantiles: levels
                 .iter()
                 .zip(&block.samples)
-                .map(|(edp, sample)| Ok((*edp, spread(sample)?)))
+                .map(|(edp, sample)| Ok((*edp, three_quantiles(sample)?)))
                 .collect::<Result<_, StudyError>>()?,
         });
     }
@@ -83,13 +84,6 @@ pub(super) fn inverted(
         times(onsets[0], shifts[0]),
         times(onsets[1], shifts[1]),
     )))
-}
-
-/// 16, 50 and 84 % of a sample.
-fn spread(sample: &[f64]) -> Result<[f64; 3], StudyError> {
-    let sample = ExtendedSample::try_new(sample)?;
-    let of = |p| QuantileType::default().of_extended(&sample, p);
-    Ok([of(0.16)?, of(0.5)?, of(0.84)?])
 }
 
 /// Figure 12 (PGA) or 14 (PGV).

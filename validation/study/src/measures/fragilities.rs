@@ -5,8 +5,9 @@ use libm::log;
 use rocking::statistics::resampling::Subsampling;
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
 
-use super::source::{Found, Prepared, Source, mean};
+use super::source::{Found, Prepared, Source};
 use crate::distributions::{BlockSamples, factors};
+use crate::estimates::mean;
 use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
 use rocking::statistics::resampling::Ranked;
@@ -70,21 +71,11 @@ impl Thresholds {
     }
 }
 
-/// Largest difference of two fragilities in probability, over 400 quantiles
-/// of the first; 1 where one of them does not exist.
+/// Largest difference of two fragilities in probability; 1 where one of them
+/// does not exist.
 fn apart(a: Option<Lognormal>, b: Option<Lognormal>) -> f64 {
     let (Some(a), Some(b)) = (a, b) else { return 1.0 };
-    let mut most = 0.0;
-    for (x, y) in [(a, b), (b, a)] {
-        for k in 1..400 {
-            let p = f64::from(k) / 400.0;
-            let off = (y.cdf(x.quantile(p)) - p).abs();
-            if !(off <= most) {
-                most = off;
-            }
-        }
-    }
-    most
+    a.distance(&b).unwrap_or(f64::NAN)
 }
 
 /// Largest difference of USFL7 to the SSFL in probability.

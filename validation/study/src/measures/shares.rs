@@ -1,6 +1,7 @@
 //! Section 5, Figures 12 to 14: measures of accepted shares.
 
-use super::source::{Found, Prepared, Source, block, mean};
+use super::source::{Found, Prepared, Source, block};
+use crate::estimates::mean;
 use crate::inference::Cell;
 use crate::shares::{SLENDER, Shares, Tests, WITHOUT_EARLIEST, blocks, place};
 use rocking_common::paper::{Intensity, SLENDERNESSES_RAD};

@@ -1,7 +1,8 @@
 //! Section 4, Figures 2 to 5: measures of records one by one.
 
-use super::source::{Found, Prepared, Source, mean, mean_of_medians};
+use super::source::{Found, Prepared, Source, mean_of_medians};
 use crate::analyses::{Apart, SuiteResults};
+use crate::estimates::mean;
 use crate::inference::{Cell, Draw, LEAST_DECIDING};
 use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SuiteKind};

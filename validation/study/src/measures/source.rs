@@ -3,6 +3,7 @@
 use rocking::statistics::resampling::Ranked;
 
 use crate::error::StudyError;
+use crate::estimates::mean;
 use crate::inference::{Cell, Draw, Draws, Replicated};
 use crate::results::Results;
 use crate::shares::Shares;
@@ -69,16 +70,6 @@ pub(super) fn block(frequency: usize, slenderness: usize) -> String {
         "p = {}, alpha = {:.2}",
         FREQUENCIES_RAD_S[frequency], SLENDERNESSES_RAD[slenderness]
     )
-}
-
-/// Mean of the finite ones among some numbers.
-pub(super) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for x in values.into_iter().filter(|x| x.is_finite()) {
-        sum += x;
-        count += 1.0;
-    }
-    sum / count
 }
 
 /// Mean over cells of the medians of a draw.

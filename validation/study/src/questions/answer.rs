@@ -116,11 +116,6 @@ impl Cell {
     }
 }
 
-/// Mean of some numbers; NaN of none.
-pub fn mean(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |sum, x| sum + x) / values.len() as f64
-}
-
 pub fn both(results: &Results) -> [&SuiteResults; 2] {
     [&results.ordinary, &results.pulse]
 }

@@ -3,10 +3,10 @@
 use rocking::capacity::ResponseCurve;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
-use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
 
 use super::answer::{Answer, Cell, Rows, both};
 use crate::error::StudyError;
+use crate::fits::{Fits, of_intervals};
 use crate::results::Results;
 use crate::ties::grid_alone;
 use rocking_common::paper::{
@@ -166,22 +166,21 @@ fn rows(results: &Results, kind: SuiteKind) -> Result<Vec<Row>, StudyError> {
 /// Dispersion above a shift by maximum likelihood.
 fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
     let sample = ExtendedSample::try_new(values).ok()?;
-    let fit = fit(&sample, shift, FitMethod::MaximumLikelihood).ok()?;
-    Some(fit.distribution.dispersion())
+    Fits::new(&sample, shift).ssfl.map(|f| f.dispersion())
 }
 
 /// The same of first overturnings that are known by their brackets: above
 /// the last level that stood, up to the first that did not.
 fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
-    let intervals: Vec<(f64, f64)> = curves
+    let known: Vec<(f64, f64)> = curves
         .iter()
         .map(|curve| {
             let high = curve.overturning_im().unwrap_or(f64::INFINITY);
             (curve.last_im(), high)
         })
         .collect();
-    let fit = fit_intervals(&intervals, shift).ok()?;
-    Some(fit.distribution.dispersion())
+    let once = vec![1; known.len()];
+    of_intervals(&known, &once, shift).map(|f| f.dispersion())
 }
 
 fn tied(assessment: &Assessment) -> bool {

@@ -13,7 +13,6 @@ use rocking_draw::figures::{
 };
 use rocking_surrogate::{
     FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
-    apart,
 };
 
 const QUESTION: &str =
@@ -76,7 +75,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         for (model, _) in &surrogate.models {
             for block in of.iter().filter(|b| b.suite == model.suite) {
                 let found = model.at(block.alpha_rad, block.p_rad_s)?;
-                let off = apart(&found, &block.lognormal()?);
+                let off = found.distance(&block.lognormal()?);
                 table.row(
                     blocks == "study",
                     vec![
@@ -90,7 +89,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                         Cell::Number(found.median(), 3),
                         Cell::Number(block.dispersion, 3),
                         Cell::Number(found.dispersion(), 3),
-                        Cell::Number(off, 3),
+                        Cell::Number(off.unwrap_or(f64::NAN), 3),
                     ],
                 );
             }

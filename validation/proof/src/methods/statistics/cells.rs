@@ -1,6 +1,6 @@
 //! Numbers of a reference's CSV, and refusals.
 
-use crate::methods::method::MethodError;
+use crate::error::MethodError;
 
 /// A refusal of the core where an answer was due.
 pub fn refused(error: impl std::fmt::Display) -> MethodError {

@@ -7,7 +7,8 @@ use serde::Deserialize;
 
 use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const CHOICE: &str = "fixtures/oracles/choice.csv";
 const CHOICE_CSV: &str =

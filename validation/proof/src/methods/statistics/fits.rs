@@ -14,7 +14,8 @@ use serde::Deserialize;
 
 use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const LOGNORMAL: &str = "fixtures/oracles/lognormal.csv";
 const LOGNORMAL_CSV: &str =

@@ -17,7 +17,8 @@ use serde::Deserialize;
 
 use super::cells::refused;
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;

@@ -10,7 +10,8 @@ use serde::Deserialize;
 
 use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const EXACT: &str = "fixtures/oracles/lilliefors_exact.csv";
 const EXACT_CSV: &str =

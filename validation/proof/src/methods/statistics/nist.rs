@@ -5,7 +5,8 @@ use serde::Deserialize;
 
 use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const FILE: &str = "fixtures/nist/univariate.csv";
 const CSV: &str = include_str!("../../../../../fixtures/nist/univariate.csv");

@@ -10,7 +10,8 @@ use serde::Deserialize;
 
 use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const FILE: &str = "fixtures/oracles/risk.csv";
 const CSV: &str = include_str!("../../../../../fixtures/oracles/risk.csv");

@@ -7,7 +7,7 @@ use rocking::streams::{Streams, below, standard_normal};
 use serde::Deserialize;
 
 use super::cells::refused;
-use crate::methods::method::MethodError;
+use crate::error::MethodError;
 
 /// The law of the values that are tested or fitted, in logarithms where the
 /// study takes them.

@@ -6,7 +6,8 @@ use serde::Deserialize;
 
 use super::cells::refused;
 use crate::cases::WrongModel;
-use crate::methods::method::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -16,6 +16,8 @@ use serde::Deserialize;
 mod edges;
 #[path = "house/fixtures.rs"]
 mod fixtures;
+#[path = "house/layers.rs"]
+mod layers;
 #[path = "house/results.rs"]
 mod results;
 #[path = "house/source.rs"]

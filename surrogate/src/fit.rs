@@ -4,7 +4,7 @@ use libm::{exp, log, sqrt};
 use nalgebra::{DMatrix, DVector};
 use rocking::statistics::Lognormal;
 
-use super::model::{self, Degrees, Model, apart};
+use super::model::{self, Degrees, Model};
 use super::{Fitted, SHIFT, SurrogateError};
 use rocking_common::paper::SuiteKind;
 
@@ -70,7 +70,8 @@ fn attempt(
     let mut squares = Vec::new();
     for (k, block) in own.iter().enumerate() {
         let found = Lognormal::try_new(SHIFT, mus[k], exp(betas[k]))?;
-        let off = apart(&found, &block.lognormal()?);
+        let off = found.distance(&block.lognormal()?);
+        let off = off.unwrap_or(f64::NAN);
         squares.push(off * off);
     }
     Ok((Model { suite, terms, coefficients: [mu, beta] }, squares))

@@ -27,7 +27,7 @@ pub use beside::{Recorded, Sampling, ToRecorded};
 pub use blocks::{Fitted, read_merged, read_table, table};
 pub use design::{design, point};
 pub use fit::{Choice, fit};
-pub use model::{Degrees, Errors, Model, Size, Surrogate, apart};
+pub use model::{Degrees, Errors, Model, Size, Surrogate};
 
 /// Range of p in rad/s: from the paper's largest block, whose diagonal is
 /// 14.7 m, to contents with a diagonal of 0.41 m. Below 1 some records would

@@ -1,7 +1,7 @@
 //! The surface and its error.
 
 use libm::{exp, log, sqrt};
-use rocking::statistics::{Lognormal, normal};
+use rocking::statistics::Lognormal;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -116,7 +116,7 @@ impl Model {
             let own = block.lognormal()?;
             let median = found.median() / block.median - 1.0;
             let dispersion = found.dispersion() / block.dispersion - 1.0;
-            let off = apart(&found, &own);
+            let off = found.distance(&own).unwrap_or(f64::NAN);
             errors.median.add(median);
             errors.dispersion.add(dispersion);
             errors.probability.add(off);
@@ -174,29 +174,6 @@ pub struct Errors {
     /// Share of the blocks with the surface's median in the 95 % interval of
     /// their own.
     pub inside: f64,
-}
-
-/// Largest difference in probability of two lognormals with one shift: that
-/// where their densities are equal.
-///
-/// With z of the first, the second's is (z b_1 + m_1 - m_2)/b_2, and the
-/// densities are equal where z^2 - (that)^2 = 2 ln(b_2/b_1).
-#[must_use]
-pub fn apart(one: &Lognormal, other: &Lognormal) -> f64 {
-    let ratio = one.dispersion() / other.dispersion();
-    let off = (one.log_mean() - other.log_mean()) / other.dispersion();
-    let at = |z: f64| (normal::cdf(z) - normal::cdf(ratio * z + off)).abs();
-    // (1 - r^2) z^2 - 2 r d z - (d^2 - 2 ln r) = 0.
-    let (a, b) = (1.0 - ratio * ratio, -ratio * off);
-    let c = -(off * off - 2.0 * log(ratio));
-    let root = sqrt((b * b - a * c).max(0.0));
-    // The stable one of the two forms of a root; the other from the product.
-    let q = if b > 0.0 { -b - root } else { -b + root };
-    [q / a, c / q]
-        .into_iter()
-        .filter(|z| z.is_finite())
-        .map(at)
-        .fold(0.0, f64::max)
 }
 
 /// A coefficient as it is kept.

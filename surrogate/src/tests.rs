@@ -1,38 +1,9 @@
-use rocking::statistics::{Lognormal, normal};
-
 use super::*;
 use rocking_common::paper::SuiteKind;
 
 const DESIGN: &str = include_str!("../../fixtures/surrogate/design.csv");
 const COEFFICIENTS: &str =
     include_str!("../../fixtures/surrogate/coefficients.csv");
-
-#[test]
-fn the_largest_difference_is_that_of_a_fine_grid() {
-    let of = |m, b| Lognormal::try_new(1.0, m, b).unwrap();
-    for (one, other) in [
-        (of(0.0, 0.5), of(0.1, 0.5)),
-        (of(0.0, 0.5), of(0.0, 0.6)),
-        (of(0.3, 0.6), of(0.1, 0.4)),
-        (of(-1.0, 0.3), of(-1.2, 0.35)),
-    ] {
-        let off = |k: i32| {
-            let z = f64::from(k) / 1000.0;
-            let x = (one.dispersion() * z + one.log_mean() - other.log_mean())
-                / other.dispersion();
-            (normal::cdf(z) - normal::cdf(x)).abs()
-        };
-        let most = (-8000..8000).map(off).fold(0.0, f64::max);
-        let found = apart(&one, &other);
-        assert!((found - most).abs() < 1e-6, "{found} {most}");
-        assert!((found - apart(&other, &one)).abs() < 1e-12);
-    }
-    let one = of(0.2, 0.5);
-    assert!(apart(&one, &one) < 1e-15);
-    // Phi(1/2) - Phi(-1/2) where one is a dispersion away: 0.382924922548.
-    let off = apart(&of(0.0, 0.5), &of(0.5, 0.5));
-    assert!((off - 0.382_924_922_548).abs() < 1e-10, "{off}");
-}
 
 #[test]
 fn a_surface_of_its_own_form_is_found_again() {

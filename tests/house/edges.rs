@@ -65,10 +65,225 @@ const COMMON: Edges = &[
     ("words", &[]),
 ];
 
+/// The modules of the drawings.
+const DRAW: Edges = &[
+    ("axis", &[]),
+    ("colour", &[]),
+    (
+        "figures",
+        &[
+            "axis", "colour", "geometry", "grid", "legend", "markup", "panel",
+            "scene", "text",
+        ],
+    ),
+    ("geometry", &[]),
+    ("grid", &["geometry"]),
+    ("legend", &["colour", "markup", "panel", "scene", "text"]),
+    ("markup", &[]),
+    ("panel", &["axis", "colour", "geometry", "markup", "scene", "text"]),
+    ("scene", &["colour", "geometry", "svg", "text"]),
+    ("svg", &["colour", "geometry", "markup", "text"]),
+    ("tests", &["axis", "colour", "geometry", "markup", "scene", "text"]),
+    ("text", &["colour", "geometry", "markup"]),
+];
+
+/// The modules of the declared cases.
+const PROOF: Edges = &[
+    ("arithmetic", &[]),
+    ("cases", &["references"]),
+    ("edge", &[]),
+    ("engine", &["arithmetic", "scene"]),
+    ("error", &["scene"]),
+    (
+        "methods",
+        &[
+            "arithmetic",
+            "cases",
+            "edge",
+            "engine",
+            "error",
+            "naive",
+            "oracles",
+            "references",
+            "scene",
+            "trials",
+        ],
+    ),
+    ("naive", &["scene"]),
+    ("oracles", &["scene"]),
+    ("references", &["arithmetic", "error", "scene"]),
+    ("scene", &[]),
+    ("trials", &["arithmetic", "cases", "engine", "scene"]),
+    ("verdict", &["cases", "error", "methods"]),
+];
+
+/// The modules of the report.
+const REPORT: Edges = &[
+    ("answers", &["evidence", "page", "quantity", "recorded", "timings"]),
+    ("credibility", &["evidence", "recorded"]),
+    ("diff", &[]),
+    ("error", &["evidence", "ledger"]),
+    ("evidence", &["diff", "page"]),
+    ("findings", &["answers", "page", "quantity"]),
+    ("head", &[]),
+    (
+        "input",
+        &[
+            "answers",
+            "credibility",
+            "error",
+            "evidence",
+            "findings",
+            "head",
+            "ledger",
+            "method",
+            "page",
+            "recorded",
+            "timings",
+        ],
+    ),
+    ("ledger", &["evidence", "recorded"]),
+    ("method", &[]),
+    (
+        "output",
+        &[
+            "answers", "error", "evidence", "head", "input", "page",
+            "quantity", "timings",
+        ],
+    ),
+    ("page", &[]),
+    ("quantity", &[]),
+    ("readme", &["answers", "evidence", "page", "recorded", "timings"]),
+    ("recorded", &[]),
+    ("speed", &[]),
+    ("stale", &["diff", "output"]),
+    (
+        "tests",
+        &[
+            "answers",
+            "credibility",
+            "evidence",
+            "findings",
+            "head",
+            "input",
+            "ledger",
+            "output",
+            "recorded",
+        ],
+    ),
+    ("timings", &["speed"]),
+];
+
+/// The modules of the study: results, then fits, stripes and ties, then
+/// measures, then claims, questions and figures, then findings.
+const STUDY: Edges = &[
+    ("analyses", &["certainty", "error", "runs"]),
+    ("certainty", &["error"]),
+    ("claims", &["error", "inference", "measures", "results", "shares"]),
+    ("contents", &["analyses", "error"]),
+    ("distributions", &["analyses", "error", "normality", "runs"]),
+    ("error", &[]),
+    ("estimates", &["analyses", "error", "results", "runs", "sensitivities"]),
+    (
+        "figures",
+        &[
+            "analyses",
+            "claims",
+            "distributions",
+            "error",
+            "estimates",
+            "fits",
+            "inference",
+            "measures",
+            "normality",
+            "results",
+            "stripes",
+            "ties",
+        ],
+    ),
+    (
+        "findings",
+        &[
+            "analyses",
+            "error",
+            "estimates",
+            "figures",
+            "inference",
+            "normality",
+            "questions",
+            "results",
+            "stripes",
+        ],
+    ),
+    ("fits", &[]),
+    ("inference", &[]),
+    (
+        "measures",
+        &[
+            "analyses",
+            "distributions",
+            "error",
+            "estimates",
+            "fits",
+            "inference",
+            "results",
+            "runs",
+            "sensitivities",
+            "shares",
+            "stripes",
+        ],
+    ),
+    ("normality", &[]),
+    (
+        "questions",
+        &[
+            "analyses",
+            "certainty",
+            "contents",
+            "distributions",
+            "error",
+            "estimates",
+            "fits",
+            "inference",
+            "normality",
+            "results",
+            "runs",
+            "stripes",
+            "ties",
+        ],
+    ),
+    (
+        "results",
+        &["analyses", "distributions", "error", "inference", "sensitivities"],
+    ),
+    ("runs", &["certainty", "error"]),
+    ("sensitivities", &["analyses", "error", "runs"]),
+    ("shares", &["distributions", "inference", "normality", "results"]),
+    ("stripes", &["analyses", "error"]),
+    ("ties", &["distributions", "normality"]),
+    (
+        "whole",
+        &[
+            "analyses",
+            "claims",
+            "distributions",
+            "error",
+            "figures",
+            "findings",
+            "questions",
+            "results",
+        ],
+    ),
+];
+
 /// Each source folder with its table.
-pub const TREES: [(&str, Edges); 4] = [
+pub const TREES: [(&str, Edges); 8] = [
     ("src", CORE),
     ("exchange/src", EXCHANGE),
     ("synthesis/src", SYNTHESIS),
     ("validation/common/src", COMMON),
+    ("validation/draw/src", DRAW),
+    ("validation/proof/src", PROOF),
+    ("validation/report/src", REPORT),
+    ("validation/study/src", STUDY),
 ];

@@ -198,3 +198,29 @@ fn counts_that_tell_no_dispersion_are_refused() {
         assert!(matches!(error, FitError::Stripe { number: 2, .. }));
     }
 }
+
+#[test]
+fn the_distance_of_two_lognormals_is_that_of_a_fine_grid() {
+    let of = |m, b| Lognormal::try_new(1.0, m, b).unwrap();
+    for (one, other) in [
+        (of(0.0, 0.5), of(0.1, 0.5)),
+        (of(0.0, 0.5), of(0.0, 0.6)),
+        (of(0.3, 0.6), of(0.1, 0.4)),
+        (of(-1.0, 0.3), of(-1.2, 0.35)),
+    ] {
+        let off = |k: i32| {
+            let z = f64::from(k) / 1000.0;
+            let x = (one.dispersion() * z + one.log_mean() - other.log_mean())
+                / other.dispersion();
+            (normal::cdf(z) - normal::cdf(x)).abs()
+        };
+        let most = (-8000..8000).map(off).fold(0.0, f64::max);
+        let found = one.distance(&other).unwrap();
+        assert!((found - most).abs() < 1e-6, "{found} {most}");
+        assert!((found - other.distance(&one).unwrap()).abs() < 1e-12);
+    }
+    let one = of(0.2, 0.5);
+    assert!(one.distance(&one).unwrap() < 1e-15);
+    let elsewhere = Lognormal::try_new(0.0, 0.2, 0.5).unwrap();
+    assert!(one.distance(&elsewhere).is_none());
+}

@@ -5,6 +5,7 @@
 //! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
 
 mod claims;
+mod measured;
 
 use std::fmt;
 
@@ -15,6 +16,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::json::nine;
 use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
+
+pub use measured::{Measured, Unit};
 
 pub use claims::{
     CellCounts, Claim, ClaimResult, Detail, Interval, Kind, Quantifier,
@@ -136,73 +139,6 @@ pub struct ToldAgain {
     pub told_wrongly_in_double: usize,
 }
 
-/// A number, and its 95 % interval where there is one.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Written", into = "Written")]
-pub struct Measured {
-    /// The value; NaN where there are no data.
-    pub value: f64,
-    /// 95 % interval.
-    pub interval: Option<(f64, f64)>,
-}
-
-impl Measured {
-    /// A value that is not a sample's: counted or computed exactly.
-    #[must_use]
-    pub fn exact(value: f64) -> Self {
-        Self { value, interval: None }
-    }
-}
-
-/// [`Measured`] as it is written.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    #[serde(with = "nine")]
-    value: f64,
-    #[serde(with = "nine", default = "none", skip_serializing_if = "is_none")]
-    low: f64,
-    #[serde(with = "nine", default = "none", skip_serializing_if = "is_none")]
-    high: f64,
-}
-
-/// What stands for an end that is not there.
-fn none() -> f64 {
-    f64::NAN
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands it so")]
-fn is_none(x: &f64) -> bool {
-    x.is_nan()
-}
-
-impl From<Measured> for Written {
-    fn from(Measured { value, interval }: Measured) -> Self {
-        let (low, high) = interval.unwrap_or((f64::NAN, f64::NAN));
-        Self { value, low, high }
-    }
-}
-
-impl TryFrom<Written> for Measured {
-    type Error = String;
-
-    fn try_from(
-        Written { value, low, high }: Written,
-    ) -> Result<Self, String> {
-        let interval = match (low.is_nan(), high.is_nan()) {
-            (true, true) => None,
-            _ if low <= high => Some((low, high)),
-            _ => {
-                return Err(format!(
-                    "low {low}, high {high}: expected rising numbers, or \
-                     neither"
-                ));
-            }
-        };
-        Ok(Self { value, interval })
-    }
-}
-
 /// What a table is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -292,30 +228,6 @@ pub struct Quantity {
     pub words: String,
     /// Its unit.
     pub unit: Unit,
-}
-
-/// Unit of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Unit {
-    /// A number without dimension.
-    #[serde(rename = "1")]
-    One,
-    /// A number of things.
-    #[serde(rename = "count")]
-    Count,
-    /// A part of a whole, from 0 to 1.
-    #[serde(rename = "share")]
-    Share,
-    /// A difference of two shares, from -1 to 1, in percentage points when
-    /// shown.
-    #[serde(rename = "points")]
-    Points,
-    /// A distance of curves or histories, or a difference of two.
-    #[serde(rename = "distance")]
-    Distance,
-    /// A probability, or a difference of two.
-    #[serde(rename = "probability")]
-    Probability,
 }
 
 /// One place, and what was measured there.

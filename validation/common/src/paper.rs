@@ -4,6 +4,7 @@
 
 use std::fmt;
 
+use libm::sin;
 use rocking::block::Block;
 pub use rocking::intensity::Intensity;
 use serde::{Deserialize, Serialize};
@@ -60,6 +61,14 @@ const fn block(frequency: usize, slenderness: usize) -> Block {
 #[must_use]
 pub fn position(frequency: usize, slenderness: usize) -> usize {
     frequency * SLENDERNESSES_RAD.len() + slenderness
+}
+
+/// What the small-rotation limit of Eq. 1 makes of a ratio to the reference
+/// slenderness: (sin alpha/alpha)/(sin 0.1/0.1).
+#[must_use]
+pub fn closed_form(alpha_rad: f64) -> f64 {
+    let of = |alpha: f64| sin(alpha) / alpha;
+    of(alpha_rad) / of(SLENDERNESSES_RAD[REFERENCE])
 }
 
 /// Demand levels of the tests: 0.005, 0.010, ... 1.000, each the double
@@ -228,5 +237,19 @@ mod tests {
         let at = &BLOCKS[position(2, REFERENCE)];
         assert_eq!(at.frequency_rad_s(), 4.0);
         assert_eq!(at.slenderness_rad(), 0.10);
+    }
+
+    #[test]
+    fn closed_form_at_the_slendernesses_of_the_paper() {
+        // (sin a/a)/(sin 0.1/0.1) by Python's math.sin.
+        for (alpha, expected) in [
+            (0.05, 1.001_251_303_408_461_1),
+            (0.15, 0.997_916_579_390_467_9),
+            (0.20, 0.995_004_165_278_025_7),
+            (0.25, 0.991_267_123_030_526_1),
+        ] {
+            let off = (closed_form(alpha) - expected).abs();
+            assert!(off < 1e-15, "{alpha}: {off}");
+        }
     }
 }

@@ -106,3 +106,15 @@ pub fn capital(word: &str) -> String {
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn holds_significant_digits() {
+        assert_eq!(rounded(0.123_456, 3), 0.123);
+        assert_eq!(rounded(-98_765.0, 1), -1e5);
+        assert!(rounded(f64::INFINITY, 1).is_infinite());
+    }
+}

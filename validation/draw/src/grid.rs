@@ -1,6 +1,6 @@
 //! Panels in rows and columns, with room for titles, axes and a legend.
 
-use super::geometry::Rect;
+use crate::geometry::Rect;
 
 /// Sizes of a grid of equal panels, in px.
 #[derive(Debug, Clone, Copy, PartialEq)]

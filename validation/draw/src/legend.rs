@@ -1,11 +1,11 @@
 //! One legend for all panels, above them.
 
-use super::colour::{Fill, Ink, Pen};
-use super::markup;
-use super::panel::Marker;
-use super::scene::Scene;
-use super::text::TEXT_PX;
-use super::text::{Horizontal, TextLine};
+use crate::colour::{Fill, Ink, Pen};
+use crate::markup;
+use crate::panel::Marker;
+use crate::scene::Scene;
+use crate::text::TEXT_PX;
+use crate::text::{Horizontal, TextLine};
 
 const SAMPLE_PX: f64 = 26.0;
 const GAP_PX: f64 = 6.0;

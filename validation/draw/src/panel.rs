@@ -1,12 +1,12 @@
 //! One pair of axes and what is drawn on them.
 
-use super::axis::Axis;
-use super::colour::{Fill, Ink, Pen};
-use super::geometry::{Point, Rect, clip};
-use super::markup;
-use super::scene::Scene;
-use super::text::TEXT_PX;
-use super::text::{Horizontal, TextLine};
+use crate::axis::Axis;
+use crate::colour::{Fill, Ink, Pen};
+use crate::geometry::{Point, Rect, clip};
+use crate::markup;
+use crate::scene::Scene;
+use crate::text::TEXT_PX;
+use crate::text::{Horizontal, TextLine};
 
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;

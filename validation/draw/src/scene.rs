@@ -1,9 +1,9 @@
 //! A list of shapes in pixels.
 
-use super::colour::{Fill, Ink, Pen};
-use super::geometry::{Point, Rect, simplify};
-use super::svg::Svg;
-use super::text::{Caption, TextLine};
+use crate::colour::{Fill, Ink, Pen};
+use crate::geometry::{Point, Rect, simplify};
+use crate::svg::Svg;
+use crate::text::{Caption, TextLine};
 
 /// Bytes of an SVG above which its lines are drawn more coarsely. With many
 /// records it may be larger even so.

@@ -10,10 +10,10 @@ use plotters::coord::CoordTranslate as _;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::types::RangedCoordf64;
 
-use super::colour::{Fill, Ink, Pen, STYLE};
-use super::geometry::Point;
-use super::markup;
-use super::text::{Caption, Horizontal, TEXT_PX, TextLine};
+use crate::colour::{Fill, Ink, Pen, STYLE};
+use crate::geometry::Point;
+use crate::markup;
+use crate::text::{Caption, Horizontal, TEXT_PX, TextLine};
 
 /// Coordinate steps in a pixel.
 const PER_PX: i32 = 20;

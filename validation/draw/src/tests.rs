@@ -1,11 +1,13 @@
 //! Axes, clipping, text and the backend against values worked out by hand.
 
-use super::axis::Tick;
-use super::geometry::{clip, simplify};
-use super::markup::{escape, fit, runs, width};
-use super::{
-    Axis, Caption, Fill, Horizontal, Ink, Pen, Rect, Scene, TextLine,
-};
+use crate::axis::Axis;
+use crate::axis::Tick;
+use crate::colour::{Fill, Ink, Pen};
+use crate::geometry::Rect;
+use crate::geometry::{clip, simplify};
+use crate::markup::{escape, fit, runs, width};
+use crate::scene::Scene;
+use crate::text::{Caption, Horizontal, TextLine};
 
 fn labels(axis: &Axis) -> Vec<&str> {
     axis.ticks().iter().map(|t: &Tick| t.label.as_str()).collect()

@@ -1,8 +1,8 @@
 //! Words of a drawing: its caption, and lines of text.
 
-use super::colour::Ink;
-use super::geometry::{Point, Rect};
-use super::markup;
+use crate::colour::Ink;
+use crate::geometry::{Point, Rect};
+use crate::markup;
 
 /// Text size that elements have unless they say otherwise, in px.
 pub const TEXT_PX: f64 = 11.0;

@@ -13,9 +13,9 @@ mod forces;
 mod hard;
 mod intensity;
 mod invariance;
+mod method;
 mod points;
 mod precise;
-mod references;
 mod response;
 mod schemes;
 mod sines;
@@ -28,141 +28,13 @@ mod velocity_pulse;
 mod wrong;
 
 pub use digits::{DIGITS_HEADER, DigitsError, Reach, Row, digits, digits_csv};
-pub(crate) use references::attainable_float64;
-
-use std::collections::BTreeMap;
-
-use rocking::integrator::{HistoryPoint, Observe};
-use rocking::names::UnknownName;
-use serde::de::DeserializeOwned;
-use thiserror::Error;
+pub use method::{Answer, Context, Quantities};
 
 use crate::cases::{Case, WrongModel};
-use crate::engine::{self, Core};
+use crate::engine::Core;
+use crate::error::MethodError;
 use crate::naive::{Naive, Rules};
-use crate::scene::{Engine, EngineError, Scene};
-
-/// Numbers by name.
-pub type Quantities = BTreeMap<String, Vec<f64>>;
-
-/// What a method observed, and what it expected where the case names a
-/// reference or an oracle instead of writing the values.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub struct Answer {
-    /// From the code under test.
-    pub observed: Quantities,
-    /// From outside it.
-    pub expected: Quantities,
-}
-
-impl Answer {
-    /// Adds to the lists of a quantity: what was observed, and what is
-    /// expected of it.
-    pub fn put(
-        &mut self,
-        name: &str,
-        observed: impl IntoIterator<Item = f64>,
-        expected: impl IntoIterator<Item = f64>,
-    ) {
-        self.see(name, observed);
-        self.expected.entry(name.to_owned()).or_default().extend(expected);
-    }
-
-    /// Adds to what was observed of a quantity whose values the case writes.
-    pub fn see(
-        &mut self,
-        name: &str,
-        observed: impl IntoIterator<Item = f64>,
-    ) {
-        self.observed.entry(name.to_owned()).or_default().extend(observed);
-    }
-}
-
-/// Why a method gave no answer.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum MethodError {
-    /// No method of this name is registered.
-    #[error("method `{0}` is not registered")]
-    Unknown(String),
-    /// The input is not what the method reads.
-    #[error("input: {0}")]
-    Input(String),
-    /// A name in the input that is none.
-    #[error("input: {0}")]
-    Name(#[from] UnknownName),
-    /// A reference lacks what was asked for.
-    #[error("{file}: {what}")]
-    Reference {
-        /// The file.
-        file: &'static str,
-        /// What is missing.
-        what: String,
-    },
-    /// The engine gave no trace.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-    /// An oracle has no value for this input.
-    #[error("oracle: {0}")]
-    Oracle(String),
-}
-
-/// What a method works with.
-pub struct Context<'a> {
-    /// The case.
-    pub case: &'a Case,
-    /// What answers scenes: the core, or a wrong model.
-    pub engine: &'a dyn Engine,
-    /// The wrong model; the engine makes the mistake, or the method.
-    pub wrong: Option<WrongModel>,
-}
-
-impl Context<'_> {
-    /// The case's input.
-    ///
-    /// # Errors
-    /// [`MethodError::Input`] for missing, unknown or malformed keys.
-    pub fn input<T: DeserializeOwned>(&self) -> Result<T, MethodError> {
-        input_of(self.case)
-    }
-
-    /// The scene as the wrong model sees it, where that changes the input;
-    /// for methods that run the core themselves.
-    #[must_use]
-    pub fn altered(&self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
-        if let Some(wrong) = self.wrong {
-            wrong.alter(&mut scene);
-        }
-        scene
-    }
-
-    /// The state of a scene at an instant, by a history of that interval.
-    fn state(
-        &self,
-        scene: &Scene,
-        time_s: f64,
-    ) -> Result<HistoryPoint, MethodError> {
-        let observe = Observe {
-            history_interval_s: Some(time_s),
-            until_s: Some(1.5 * time_s),
-            ..Observe::default()
-        };
-        let response = engine::respond(&self.altered(scene), &observe)?;
-        // A run that has ended before says so by what cannot be compared.
-        let missing = HistoryPoint {
-            time_s,
-            rotation_rad: f64::NAN,
-            velocity_rad_s: f64::NAN,
-        };
-        Ok(response.history.get(1).copied().unwrap_or(missing))
-    }
-}
-
-fn input_of<T: DeserializeOwned>(case: &Case) -> Result<T, MethodError> {
-    let table = toml::Value::Table(case.input.clone());
-    table.try_into().map_err(|e| MethodError::Input(e.to_string()))
-}
+use crate::scene::Engine;
 
 type Run = fn(&Context) -> Result<Answer, MethodError>;
 

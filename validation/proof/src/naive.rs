@@ -11,7 +11,7 @@ pub use rules::{
     Events, Hold, Loss, Pushback, Rest, Rules, STEP_P, Threshold,
 };
 
-use super::scene::{
+use crate::scene::{
     self, Engine, EngineError, Forcing, Impact, Model, Scene, Trace,
 };
 

@@ -5,6 +5,7 @@
 //! them alone. Gravity is 1 in all of them, so that accelerations are
 //! multiples of it and no quotient rounds them again.
 
+mod address;
 mod compare;
 mod draw;
 mod ends;
@@ -15,13 +16,14 @@ mod records;
 mod search;
 mod summary;
 
+pub use address::Trial;
 pub use compare::{Finding, Reading, Seen, Truth, compare, truth};
 pub use summary::{Judgement, SHARES, Summary};
 
 use rayon::prelude::*;
 use rocking::streams::Streams;
 
-use super::scene::{EngineError, Scene};
+use crate::scene::EngineError;
 use draw::Draw;
 use rocking_common::words::named;
 
@@ -50,15 +52,6 @@ impl Stratum {
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|stratum| stratum.name() == name)
     }
-}
-
-/// A scene with its address.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Trial {
-    /// Stratum, index and kind of the excitation.
-    pub name: String,
-    /// The scene.
-    pub scene: Scene,
 }
 
 /// The scene of an address.

@@ -9,7 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
 use crate::cases::{Basis, Bound, Case, Kind, Status};
-use crate::methods::{self, Answer, MethodError, Quantities};
+use crate::error::MethodError;
+use crate::methods::{self, Answer, Quantities};
 use rocking_common::words::named;
 
 named! {

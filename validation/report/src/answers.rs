@@ -1,15 +1,15 @@
 //! The answers of the page, each made from verdicts and measured numbers by
 //! one rule, and what stands about every theme and every suite.
 
-use super::evidence::Proof;
-use super::page::AnswerRow;
-use super::quantity::{cell_text, rule_text, value_text};
-use super::timings::Timings;
+use crate::evidence::Proof;
+use crate::page::AnswerRow;
+use crate::quantity::{cell_text, rule_text, value_text};
+use crate::timings::Timings;
 use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::rounded_text;
 use rocking_study::analyses::SuiteResults;
-use rocking_study::figures::Results;
+use rocking_study::results::Results;
 
 /// A part of a question: its short name, and the claims that answer it.
 type Part = (&'static str, &'static [&'static str]);
@@ -508,7 +508,7 @@ mod tests {
 
     #[test]
     fn answers_have_at_most_fifteen_words_and_rest_on_claims() {
-        let recorded = super::super::findings::recorded().unwrap();
+        let recorded = crate::recorded::recorded().unwrap();
         for asked in &ASKED {
             let ids = asked.parts.iter().flat_map(|(_, ids)| *ids);
             for id in ids.chain([&asked.effect]) {

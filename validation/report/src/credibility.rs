@@ -3,13 +3,13 @@
 
 use rocking::block::{BlockError, Restitution};
 
-use super::evidence::{NOT_RUN, Proof};
+use crate::evidence::{NOT_RUN, Proof};
 use rocking_common::findings::{Claim, Findings, Measured};
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
 use rocking_common::words::rounded_text;
-use rocking_study::figures::Results;
 use rocking_study::measures::without_closed_form;
+use rocking_study::results::Results;
 
 /// Half width of a 95 % interval in standard uncertainties.
 const COVERAGE: f64 = 1.959_963_985;
@@ -429,7 +429,7 @@ mod tests {
 
     #[test]
     fn recorded_results_beside_a_synthetic_run_are_told() {
-        let recorded = super::super::findings::recorded().unwrap();
+        let recorded = crate::recorded::recorded().unwrap();
         let (evidence, gap) = synthetic(Some(&recorded));
         assert!(evidence.contains("86 ordinary and 44 pulse-type recorded"));
         assert!(!gap.contains("No recorded motion"), "{gap}");

@@ -3,32 +3,21 @@
 //! forms.
 
 mod defect;
+mod error;
 mod families;
 mod fates;
 mod proof;
 mod spectrum;
 mod tables;
 
+pub use error::EvidenceError;
 pub use families::families;
 pub use proof::{NOT_RUN, Proof, ProofError};
 
-use super::page::Family;
+use crate::page::Family;
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
-use rocking_proof::cases::{CaseError, load_all};
-use rocking_proof::scene::EngineError;
-
-/// Why there is nothing to show.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum EvidenceError {
-    /// The cases cannot be read.
-    #[error(transparent)]
-    Case(#[from] CaseError),
-    /// A scene of a figure cannot be run.
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-}
+use rocking_proof::cases::load_all;
 
 /// Declared cases with their results, family by family.
 ///

@@ -1,27 +1,12 @@
 //! The findings of a study for the page: by theme, recorded suites first.
 
-use super::answers;
-use super::page::{Column, Finding, Outcome, Theme as Shown};
-use super::quantity::{cell_text, rule_text, value_text};
+use crate::answers;
+use crate::page::{Column, Finding, Outcome, Theme as Shown};
+use crate::quantity::{cell_text, rule_text, value_text};
 use rocking_common::findings::{Claim, ClaimResult, Findings, Kind, Theme};
 use rocking_common::paper::Arm;
 use rocking_common::table::PlainTable;
 use rocking_common::words::rounded_text;
-
-/// Findings of the recorded suites: values, intervals, verdicts, record names
-/// and hashes, and no sample of a record. The file's own words say how it is
-/// made.
-const RECORDED: &str =
-    include_str!("../../../fixtures/recorded/findings.json");
-
-/// The findings of the recorded suites.
-///
-/// # Errors
-/// What the reader found instead of findings of this schema.
-pub fn recorded() -> Result<Findings, String> {
-    Findings::parse(RECORDED)
-        .map_err(|e| format!("fixtures/recorded/findings.json: {e}"))
-}
 
 /// Where the numbers of the recorded suites come from: name and words.
 #[must_use]

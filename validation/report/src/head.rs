@@ -2,7 +2,7 @@
 //! signs for it.
 
 use rocking_common::suites::inputs::sha256_hex;
-use rocking_study::figures::Results;
+use rocking_study::results::Results;
 
 /// The versions of everything that the program is built from.
 const LOCK: &str = include_str!("../../../Cargo.lock");

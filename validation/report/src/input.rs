@@ -3,19 +3,24 @@
 use rocking::block::{BlockError, Restitution};
 use rocking::integrator::Overturning;
 
-use super::evidence::{self, EvidenceError, NOT_RUN, Proof};
-use super::head::Signatures;
-use super::page::{Answers, Chapter, ReportInput, ShownFigure};
-use super::timings::Timings;
-use super::{
-    ReportError, answers, credibility, findings, head, ledger, method,
-};
+use crate::answers;
+use crate::credibility;
+use crate::error::ReportError;
+use crate::evidence::{self, EvidenceError, NOT_RUN, Proof};
+use crate::findings;
+use crate::head;
+use crate::head::Signatures;
+use crate::ledger;
+use crate::method;
+use crate::page::{Answers, Chapter, ReportInput, ShownFigure};
+use crate::recorded;
+use crate::timings::Timings;
 use rocking_common::findings::{Findings, Theme};
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
-use rocking_study::figures::Results;
 use rocking_study::questions::Answer;
+use rocking_study::results::Results;
 
 /// Title of the page.
 pub(super) const TITLE: &str = "The statistics of rocking";
@@ -55,7 +60,7 @@ pub fn input(
     let timings = Timings::kept()?;
     let recorded = results
         .embedded()
-        .then(findings::recorded)
+        .then(recorded::recorded)
         .transpose()
         .map_err(ReportError::Recorded)?;
     let recorded = recorded.as_ref();

@@ -7,16 +7,19 @@ use std::path::Path;
 
 use rocking::block::BlockError;
 
-use super::evidence::{self, Proof};
-use super::head::Signatures;
-use super::page::AnswerRow;
-use super::quantity::{rule_text, value_text};
-use super::timings::Timings;
-use super::{ReportError, answers, input, page};
+use crate::answers;
+use crate::error::ReportError;
+use crate::evidence::{self, Proof};
+use crate::head::Signatures;
+use crate::input;
+use crate::page;
+use crate::page::AnswerRow;
+use crate::quantity::{rule_text, value_text};
+use crate::timings::Timings;
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
 use rocking_common::table::{Table, number};
-use rocking_study::figures::Results;
+use rocking_study::results::Results;
 use rocking_study::{Study, questions};
 
 /// Files of a report by name; folders in a name are parted by `/`.

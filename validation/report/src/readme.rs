@@ -2,11 +2,11 @@
 
 use thiserror::Error;
 
-use super::answers;
-use super::evidence::Proof;
-use super::findings::recorded;
-use super::page::AnswerRow;
-use super::timings::Timings;
+use crate::answers;
+use crate::evidence::Proof;
+use crate::page::AnswerRow;
+use crate::recorded::recorded;
+use crate::timings::Timings;
 use rocking_common::findings::Findings;
 
 /// Marks around the table.

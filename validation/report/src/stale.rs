@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::output::{CASES, FINDINGS, Files};
 use crate::diff::{DiffError, Results, compare};
+use crate::output::{CASES, FINDINGS, Files};
 use rocking_common::table::cells;
 
 /// Numbers without a stated interval may change by this share.

@@ -6,11 +6,15 @@ use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 use rocking::record::{Processing, ReadOptions, SetAside};
 
-use super::evidence::{NOT_RUN, Proof};
-use super::head::{self, Signatures};
-use super::ledger::requirements;
-use super::output::{self, FINDINGS, Files};
-use super::{answers, credibility, findings, input};
+use crate::answers;
+use crate::credibility;
+use crate::evidence::{NOT_RUN, Proof};
+use crate::findings;
+use crate::head::{self, Signatures};
+use crate::input;
+use crate::ledger::requirements;
+use crate::output::{self, FINDINGS, Files};
+use crate::recorded;
 use rocking_common::curves::Execution;
 use rocking_common::findings::{Findings, Kind, Topic};
 use rocking_common::paper::{Arm, SuiteKind};
@@ -20,8 +24,8 @@ use rocking_proof::cases::load_all;
 use rocking_study::Study;
 use rocking_study::analyses::{Plan, SuiteResults, Work};
 use rocking_study::certainty::Certainty;
-use rocking_study::figures::Results;
 use rocking_study::findings::set_aside as findings_of;
+use rocking_study::results::Results;
 use rocking_study::runs::Setup;
 
 fn plan(way: Execution) -> Plan {
@@ -157,7 +161,7 @@ fn the_command_names_the_proof_only_where_one_was_handed_in() {
 
 #[test]
 fn identities_and_descriptions_are_counted_apart() {
-    let here = findings::recorded().expect("findings");
+    let here = recorded::recorded().expect("findings");
     let count = |kind| here.claims.iter().filter(|c| c.kind == kind).count();
     let (identities, descriptions) =
         (count(Kind::Identity), count(Kind::Description));

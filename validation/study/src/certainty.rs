@@ -7,7 +7,7 @@ use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
 use rocking::integrator::{Arithmetic, Certified, Certify, Scene, certify};
 
-use super::StudyError;
+use crate::error::StudyError;
 
 /// What is known of outcomes and peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,10 +6,11 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use super::StudyError;
-use super::figures::Results;
-use super::inference::{Draws, Replicated, Rule, judge, share};
-use super::measures::{Measure, Shares, Source, all_shares};
+use crate::error::StudyError;
+use crate::inference::{Draws, Replicated, Rule, judge, share};
+use crate::measures::{Measure, Source};
+use crate::results::Results;
+use crate::shares::{self, Shares};
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
 };
@@ -160,7 +161,7 @@ pub fn all(
     results: &Results,
     draws: &Draws,
 ) -> Result<Vec<Claim>, StudyError> {
-    let shares = all_shares(results, draws);
+    let shares = shares::all(results, draws);
     declared()
         .iter()
         .map(|claim| measured(claim, results, draws, &shares))
@@ -197,7 +198,7 @@ fn measured(
                     tested: *suite,
                     arm: *arm,
                 };
-                let Some(prepared) = source.prepare(measure)? else {
+                let Some(prepared) = measure.prepare(&source)? else {
                     continue;
                 };
                 let mut result = judge(

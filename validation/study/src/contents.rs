@@ -11,8 +11,8 @@ use rocking::ida::Adjust;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::StudyError;
-use super::analyses::Plan;
+use crate::analyses::Plan;
+use crate::error::StudyError;
 
 const INCH_M: f64 = 0.0254;
 

@@ -5,10 +5,10 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::lilliefors::Assessment;
 
-use super::StudyError;
-use super::analyses::SuiteResults;
-use super::normality::{accepted_share, along, null_band};
-use super::runs::capacities;
+use crate::analyses::SuiteResults;
+use crate::error::StudyError;
+use crate::normality::{accepted_share, along, null_band};
+use crate::runs::capacities;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, demands,
 };

@@ -2,15 +2,15 @@
 //! paired ratios.
 
 use rocking::capacity::InversionRule;
-use rocking::statistics::ExtendedSample;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::Pairs;
+use rocking::statistics::{ExtendedSample, QuantileType};
 
-use super::StudyError;
-use super::analyses::{Apart, SuiteResults};
-use super::figures::{Results, median_of};
-use super::runs::capacities;
-use super::sensitivities::Varied;
+use crate::analyses::{Apart, SuiteResults};
+use crate::error::StudyError;
+use crate::results::Results;
+use crate::runs::capacities;
+use crate::sensitivities::Varied;
 use rocking_common::findings::Measured;
 use rocking_common::paper::{FREQUENCIES_RAD_S, position};
 
@@ -32,6 +32,24 @@ pub fn median(values: &[f64]) -> Measured {
         value: 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]),
         interval: median_interval(&sample, LEVEL).map(|i| (i.low, i.high)),
     }
+}
+
+/// Mean of the finite ones among some numbers.
+pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for x in values.into_iter().filter(|x| x.is_finite()) {
+        sum += x;
+        count += 1.0;
+    }
+    sum / count
+}
+
+/// 16, 50 and 84 % quantiles of the default type; what was never reached
+/// counts as infinite.
+pub(crate) fn three_quantiles(values: &[f64]) -> Result<[f64; 3], StudyError> {
+    let sample = ExtendedSample::try_new(values)?;
+    let at = |p| QuantileType::default().of_extended(&sample, p);
+    Ok([at(0.16)?, at(0.5)?, at(0.84)?])
 }
 
 /// One frequency parameter of a suite's single-record comparison, medians
@@ -65,9 +83,9 @@ pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
                 p_rad_s,
                 im: single.im,
                 usable: single.apart.iter().flatten().filter(stands).count(),
-                distance: median_of(single, |a| a.distance),
-                peak_ratio: median_of(single, |a| a.peak_ratio),
-                mean_ln_im: median_of(single, |a| a.mean_ln_im),
+                distance: single.median_of(|a| a.distance),
+                peak_ratio: single.median_of(|a| a.peak_ratio),
+                mean_ln_im: single.median_of(|a| a.mean_ln_im),
             }
         })
         .collect()

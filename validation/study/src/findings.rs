@@ -3,12 +3,15 @@
 use rocking::record::{AsideCount, SetAside};
 use rocking::statistics::Proportion;
 
-use super::analyses::{Plan, SuiteResults};
-use super::estimates;
-use super::figures::{Results, adjusted_boxes, adjusted_split, of_arm};
-use super::inference::LEVEL;
-use super::questions::{self, Answer};
-use super::{StudyError, normality};
+use crate::analyses::{Plan, SuiteResults};
+use crate::error::StudyError;
+use crate::estimates;
+use crate::figures::adjusted_boxes;
+use crate::inference::LEVEL;
+use crate::normality;
+use crate::questions::{self, Answer};
+use crate::results::Results;
+use crate::stripes::{adjusted_split, of_arm};
 use rocking_common::findings::{
     Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Settings,
     Suite, Table, ToldAgain, Topic, Unit,

@@ -1,9 +1,10 @@
 //! What the paper's procedure does: questions that the paper leaves open,
 //! answered with figures beside its claims.
 
+mod answer;
 mod contents;
 mod equivalence;
-pub(super) mod grid;
+mod grid;
 mod inversion;
 mod levels;
 mod measures;
@@ -16,45 +17,12 @@ mod suites;
 mod surface;
 mod trimming;
 
-use super::StudyError;
-use super::analyses::SuiteResults;
-use super::figures::Results;
-use super::inference::Draws;
+pub use answer::Answer;
+
+use crate::error::StudyError;
+use crate::inference::Draws;
+use crate::results::Results;
 use rocking_common::findings::Question;
-use rocking_common::table::{PlainTable, Table};
-use rocking_draw::figures::Figure;
-
-/// A question with its answer and the numbers behind it.
-pub struct Answer {
-    /// Short name, also of the CSV: `grid`.
-    pub id: &'static str,
-    /// What is asked.
-    pub question: &'static str,
-    /// What came out, in a sentence or two made from the numbers.
-    pub answer: String,
-    /// The numbers, full and as CSV.
-    pub csv: String,
-    /// What the page shows of them.
-    pub tables: Vec<PlainTable>,
-    /// Drawings.
-    pub figures: Vec<Figure>,
-    /// Other CSV files, by name.
-    pub files: Vec<(String, String)>,
-}
-
-impl Answer {
-    fn new(id: &'static str, question: &'static str, answer: String) -> Self {
-        Self {
-            id,
-            question,
-            answer,
-            csv: String::new(),
-            tables: Vec::new(),
-            figures: Vec::new(),
-            files: Vec::new(),
-        }
-    }
-}
 
 /// All answers, in a fixed order.
 ///
@@ -102,88 +70,4 @@ pub fn files(answers: &[Answer]) -> impl Iterator<Item = (String, Vec<u8>)> {
         let all = std::iter::once(own).chain(answer.files.iter().cloned());
         all.map(|(name, csv)| (name, csv.into_bytes()))
     })
-}
-
-/// Rows for a CSV and a table of the page at once.
-struct Rows {
-    csv: Table,
-    header: Vec<String>,
-    shown: Vec<Vec<String>>,
-}
-
-impl Rows {
-    fn new(header: &[&str]) -> Self {
-        Self {
-            csv: Table::new(header),
-            header: header.iter().map(|h| h.replace('_', " ")).collect(),
-            shown: Vec::new(),
-        }
-    }
-
-    /// A row of the CSV, and of the page if it is `shown` there.
-    fn row(&mut self, shown: bool, cells: Vec<Cell>) {
-        if shown {
-            self.shown.push(cells.iter().map(Cell::short).collect());
-        }
-        self.csv.row(cells.iter().map(Cell::full));
-    }
-
-    fn finish(self, answer: &mut Answer, title: &str, reading: &str) {
-        answer.csv = self.csv.finish();
-        answer.tables.push(PlainTable {
-            name: format!("table-{}", answer.id),
-            title: title.into(),
-            reading: format!(
-                "{} {reading} All rows: {}.csv.",
-                answer.answer, answer.id
-            ),
-            header: self.header,
-            rows: self.shown,
-        });
-    }
-}
-
-/// One cell.
-enum Cell {
-    Word(String),
-    Count(usize),
-    /// A number with so many decimals on the page.
-    Number(f64, usize),
-}
-
-impl Cell {
-    fn word(text: impl Into<String>) -> Self {
-        Self::Word(text.into())
-    }
-
-    fn full(&self) -> String {
-        match self {
-            Self::Word(text) => text.clone(),
-            Self::Count(count) => count.to_string(),
-            Self::Number(x, _) => rocking_common::table::number(*x),
-        }
-    }
-
-    fn short(&self) -> String {
-        match self {
-            Self::Number(x, _) if !x.is_finite() => {
-                if x.is_nan() {
-                    "–".into()
-                } else {
-                    self.full()
-                }
-            }
-            Self::Number(x, decimals) => format!("{x:.decimals$}"),
-            _ => self.full(),
-        }
-    }
-}
-
-/// Mean of some numbers; NaN of none.
-fn mean(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |sum, x| sum + x) / values.len() as f64
-}
-
-fn both(results: &Results) -> [&SuiteResults; 2] {
-    [&results.ordinary, &results.pulse]
 }

@@ -9,8 +9,8 @@ use rocking::integrator::{
     Model, Observe, Overturning, Response, Scene, respond, uplift_threshold,
 };
 
-use super::StudyError;
-use super::certainty::{Certainty, certainty};
+use crate::certainty::{Certainty, certainty};
+use crate::error::StudyError;
 use rocking_common::curves::Execution;
 use rocking_common::paper::Arm;
 

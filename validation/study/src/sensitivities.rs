@@ -7,9 +7,9 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 use rocking::integrator::Overturning;
 
-use super::StudyError;
-use super::analyses::Plan;
-use super::runs::Setup;
+use crate::analyses::Plan;
+use crate::error::StudyError;
+use crate::runs::Setup;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use rocking_common::suites::StudySuite;
 

@@ -2,13 +2,14 @@
 
 use indicatif::ProgressBar;
 
-use super::StudyError;
-use super::analyses::Plan;
-use super::claims;
-use super::distributions::of_suite;
-use super::figures::Results;
-use super::findings;
-use super::questions::{self, Answer};
+use crate::analyses::Plan;
+use crate::claims;
+use crate::distributions::of_suite;
+use crate::error::StudyError;
+use crate::figures;
+use crate::findings;
+use crate::questions::{self, Answer};
+use crate::results::Results;
 use rocking_common::findings::Findings;
 use rocking_common::suites::StudySuite;
 use rocking_draw::figures::Figure;
@@ -47,7 +48,7 @@ impl Study {
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
         let draws = results.draws();
-        let mut figures = results.figures(&draws)?;
+        let mut figures = figures::all(&results, &draws)?;
         let mut answers = questions::all(&results, &draws, full)?;
         for answer in &mut answers {
             figures.append(&mut answer.figures);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use super::{
+use super::unfinished::{
     LOCK, WriteError, builder, folder_of, remove_left_behind, said, unfinished,
 };
 

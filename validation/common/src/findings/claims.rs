@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Measured, Unit};
+use super::measured::{Measured, Unit};
 use crate::json::nine;
 use crate::paper::{Arm, Section, SuiteKind, Verdict};
 

@@ -2,12 +2,15 @@
 //! accepted, by block.
 
 use super::common::{self, Slendernesses};
-use super::{Figure, Heading};
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
 use crate::axis::Tick;
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
-    Sample, Scene,
-};
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
+use crate::text::Horizontal;
 use rocking_common::paper::{Arm, Intensity};
 use rocking_common::table::{Table, number, optional};
 use rocking_common::words::letter;

@@ -1,14 +1,18 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
 
+use super::common;
 use super::common::Slendernesses;
-use super::{Figure, Heading, common};
+use super::heading::{Figure, Heading};
 use rocking::statistics::Boxplot;
 
+use crate::axis::Axis;
 use crate::axis::Tick;
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Point, Sample,
-    Scene,
-};
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::geometry::Point;
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, optional};
 use rocking_common::words::letter;

@@ -1,10 +1,13 @@
 //! Figure 11: intensity given demand, original and shifted side by side.
 
 use super::common::{self, thin};
-use super::{Figure, Heading};
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
-};
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};
 use rocking_common::words::letter;

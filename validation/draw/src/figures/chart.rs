@@ -1,11 +1,14 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
 use super::common::{self, largest, thin};
-use super::{Figure, Heading};
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
-    markup,
-};
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::markup;
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
 

@@ -1,10 +1,15 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
-use super::Heading;
+use super::heading::Heading;
+use crate::colour::{Ink, Pen};
 use crate::geometry::kept;
-use crate::{
-    Caption, Entry, Grid, Ink, Marker, Pen, Sample, Scene, legend, markup,
-};
+use crate::grid::Grid;
+use crate::legend;
+use crate::legend::{Entry, Sample};
+use crate::markup;
+use crate::panel::Marker;
+use crate::scene::Scene;
+use crate::text::Caption;
 use rocking_common::paper::{Arm, Intensity};
 use rocking_common::words::letter;
 

@@ -1,7 +1,13 @@
 //! A map of fates in the plane of frequency and amplitude.
 
-use super::{Figure, Heading, common};
-use crate::{Axis, Dash, Entry, Fill, Grid, Ink, Panel, Pen, Sample, Scene};
+use super::common;
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::Panel;
+use crate::scene::Scene;
 use rocking_common::table::{Table, number};
 use rocking_common::words::named;
 

@@ -1,10 +1,14 @@
 //! Figures 15 to 18: empirical and fitted fragilities.
 
-use super::{Figure, Heading, common};
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Horizontal, Ink, Marker, Panel, Pen,
-    Sample, Scene,
-};
+use super::common;
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
+use crate::text::Horizontal;
 use rocking::statistics::Lognormal;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};

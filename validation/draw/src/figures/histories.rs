@@ -1,8 +1,12 @@
 //! Figures 2 and 3: response histories.
 
 use super::common::{self, Slendernesses, largest, thin};
-use super::{Figure, Heading};
-use crate::{Axis, Grid, Ink, Marker, Panel, Pen, Scene};
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Ink, Pen};
+use crate::grid::Grid;
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};
 use rocking_common::words::letter;

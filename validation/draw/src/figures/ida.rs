@@ -1,8 +1,12 @@
 //! Figures 4 and 5: single-record IDA curves.
 
 use super::common::{self, Slendernesses, largest, thin};
-use super::{Figure, Heading};
-use crate::{Axis, Grid, Panel, Pen, Scene};
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::Pen;
+use crate::grid::Grid;
+use crate::panel::Panel;
+use crate::scene::Scene;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, point};
 use rocking_common::words::letter;

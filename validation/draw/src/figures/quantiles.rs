@@ -1,9 +1,15 @@
 //! Figures 8 and 10: 16/50/84 % curves of the demand given the intensity.
 
-use super::{Figure, Heading, common};
-use crate::{
-    Axis, Entry, Grid, Horizontal, Ink, Panel, Pen, Sample, Scene, markup,
-};
+use super::common;
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Ink, Pen};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::markup;
+use crate::panel::Panel;
+use crate::scene::Scene;
+use crate::text::Horizontal;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;

@@ -1,9 +1,10 @@
 //! Figure 1: the block and its symbols.
 
-use super::{Figure, Heading};
-use crate::{
-    Caption, Dash, Fill, Horizontal, Ink, Pen, Point, Scene, TextLine,
-};
+use super::heading::{Figure, Heading};
+use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::geometry::Point;
+use crate::scene::Scene;
+use crate::text::{Caption, Horizontal, TextLine};
 use rocking_common::table::{Table, number};
 
 /// The block with its symbols, rotated about its right-hand pivot.

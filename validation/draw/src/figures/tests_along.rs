@@ -1,10 +1,14 @@
 //! Figure 13: the test along the demand, and histograms at one level.
 
-use super::{Figure, Heading, common};
+use super::common;
+use super::heading::{Figure, Heading};
+use crate::axis::Axis;
+use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Rect;
-use crate::{
-    Axis, Dash, Entry, Fill, Grid, Ink, Marker, Panel, Pen, Sample, Scene,
-};
+use crate::grid::Grid;
+use crate::legend::{Entry, Sample};
+use crate::panel::{Marker, Panel};
+use crate::scene::Scene;
 use rocking::statistics::normal;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number};

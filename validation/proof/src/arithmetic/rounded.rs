@@ -1,7 +1,7 @@
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number, Real};
 
-use super::{Wide, forward};
+use super::wide::{Wide, forward};
 
 /// Double-double whose coefficients and pi/2 were rounded to one double: the
 /// mistake that caps such an engine at 1e-17 without a word.

@@ -1,7 +1,7 @@
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number, Real};
 
-use super::{Wide, forward};
+use super::wide::{Wide, forward};
 
 /// Single precision: every input and every operation rounded to 24 bits.
 ///

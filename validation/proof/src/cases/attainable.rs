@@ -4,8 +4,8 @@
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use crate::methods::attainable_float64;
-use crate::verdict::snapshot::rounded;
+use crate::references::attainable_float64;
+use rocking_common::words::rounded;
 
 /// A quantity of which the reference lists the error.
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -7,7 +7,8 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::attainable::Attainable;
-use super::{CaseError, Family};
+use super::case::Family;
+use super::error::CaseError;
 
 /// Tables that are merged key by key. Every other value, a bound or a list
 /// too, replaces the inherited one as a whole.

@@ -1,7 +1,7 @@
 use rocking::integrator::{Assessment, Observe, Outcome, Response};
 use rocking::number::double::DoubleDouble;
 
-use super::{Quotient, respond, respond_in};
+use super::core::{Quotient, respond, respond_in};
 use crate::arithmetic::{RoundedConstants, Single, Wide};
 use crate::scene::{EngineError, Scene};
 

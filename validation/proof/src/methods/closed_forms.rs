@@ -5,8 +5,9 @@ use std::convert::Infallible;
 use rocking::excitation::{PulseName, PulseParameter};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::edge::{around, edge};
+use crate::error::MethodError;
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};

@@ -3,9 +3,10 @@
 use rocking::integrator::{Order, Response};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
 use crate::engine;
+use crate::error::MethodError;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{Engine as _, EngineError, Forcing, Scene};
 

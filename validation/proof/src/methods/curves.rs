@@ -18,8 +18,9 @@ use rocking::number::octuple::Octuple;
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
+use crate::error::MethodError;
 use crate::scene::{EngineError, Forcing};
 use crate::trials::{Stratum, trial};
 

@@ -7,11 +7,12 @@ use rayon::prelude::*;
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::references;
-use super::references::TRAJECTORIES;
-use super::{MethodError, fates, hard};
+use super::{fates, hard};
 use crate::cases::{Case, CaseError, load_all};
 use crate::engine::{Arithmetic, WideTrace};
+use crate::error::MethodError;
+use crate::references;
+use crate::references::TRAJECTORIES;
 use crate::scene::{Model, Overturning, Scene};
 
 /// Why there is no table.

@@ -4,8 +4,9 @@
 use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::edge::{self, around};
+use crate::error::MethodError;
 use crate::oracles::overturning;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 

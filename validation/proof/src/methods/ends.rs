@@ -6,9 +6,10 @@ use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::arithmetic::decimal;
 use crate::engine::{certify, respond};
+use crate::error::MethodError;
 use crate::scene::{Forcing, Overturning, PulseKind, Scene};
 use crate::trials::{Reading, Seen};
 

@@ -7,12 +7,13 @@ use rocking::number::double::DoubleDouble;
 use rocking::streams::Streams;
 use serde::Deserialize;
 
-use super::references;
-use super::references::TRAJECTORIES;
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::arithmetic::decimal;
 use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};
+use crate::error::MethodError;
+use crate::references;
+use crate::references::TRAJECTORIES;
 use crate::scene::{Forcing, Model, Overturning, Scene};
 
 #[derive(Deserialize)]

@@ -2,11 +2,12 @@
 
 use serde::Deserialize;
 
-use super::references;
+use super::method::{Answer, Context, input_of};
 use super::wrong::scale;
-use super::{Answer, Context, MethodError, input_of};
 use crate::cases::Case;
 use crate::engine::Core;
+use crate::error::MethodError;
+use crate::references;
 use crate::scene::{
     Engine as _, Forcing, Model, Overturning, PulseKind, Scene,
 };

@@ -4,9 +4,10 @@
 use rocking::integrator::{Forces, Observe};
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
 use crate::engine;
+use crate::error::MethodError;
 use crate::scene::{Forcing, Model, Scene};
 
 /// R p^2/g of a rectangle.

@@ -7,8 +7,9 @@ use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
+use crate::error::MethodError;
 
 const EXPECTED: &str = "fixtures/oracles/intensity.csv";
 const EXPECTED_CSV: &str =

@@ -4,10 +4,11 @@
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::references;
+use super::method::{Answer, Context};
 use super::wrong::scale;
-use super::{Answer, Context, MethodError};
 use crate::engine::Core;
+use crate::error::MethodError;
+use crate::references;
 use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
 
 #[derive(Deserialize)]

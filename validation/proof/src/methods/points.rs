@@ -3,9 +3,10 @@
 
 use serde::Deserialize;
 
-use super::references;
-use super::references::{LINEAR_PULSES, TRAJECTORIES};
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
+use crate::error::MethodError;
+use crate::references;
+use crate::references::{LINEAR_PULSES, TRAJECTORIES};
 use crate::scene::Overturning;
 
 #[derive(Deserialize)]

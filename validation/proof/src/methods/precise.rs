@@ -8,14 +8,15 @@ use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::references;
-use super::references::{
-    LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE, TRAJECTORIES,
-};
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::arithmetic::decimal;
 use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};
+use crate::error::MethodError;
+use crate::references;
+use crate::references::{
+    LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE, TRAJECTORIES,
+};
 use crate::scene::{Forcing, Model, Overturning, Scene};
 
 /// Largest error of each quantity; infinite where something is missing.

@@ -3,12 +3,13 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::references;
-use super::references::{
+use super::method::{Answer, Context};
+use crate::error::MethodError;
+use crate::references;
+use crate::references::{
     FREE_ROCKING, LINEAR_PULSES, Named, Numbered, PulseOnBlocks, RECT_PULSE,
     TRAJECTORIES,
 };
-use super::{Answer, Context, MethodError};
 use crate::scene::{Forcing, Model, Overturning, Scene, Trace};
 
 /// Impact times times `rate` and speeds over `unit_speed`, as many as the

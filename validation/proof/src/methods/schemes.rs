@@ -3,11 +3,12 @@
 
 use serde::Deserialize;
 
-use super::references;
-use super::references::TRAJECTORIES;
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
+use crate::error::MethodError;
 use crate::naive::{Events, Naive, Rules};
+use crate::references;
+use crate::references::TRAJECTORIES;
 use crate::scene::{Engine as _, Forcing, Overturning};
 
 #[derive(Deserialize)]

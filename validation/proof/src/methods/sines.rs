@@ -6,9 +6,10 @@ use std::f64::consts::PI;
 use serde::Deserialize;
 
 use super::closed_forms::{flip, linear_scene, overturns_at_once};
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
 use crate::edge::{around, edge};
+use crate::error::MethodError;
 use crate::oracles::overturning::sine_without_impact;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 

@@ -3,10 +3,11 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::references::SPECTRUM;
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
 use crate::edge::{self, around};
+use crate::error::MethodError;
+use crate::references::SPECTRUM;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 #[derive(Deserialize)]

@@ -3,8 +3,9 @@
 
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
 use crate::cases::WrongModel;
+use crate::error::MethodError;
 use crate::oracles::square::{SquareWave, State};
 use crate::scene::{Forcing, Overturning, Scene};
 

@@ -5,7 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::Deserialize;
 
-use super::{Answer, Context, MethodError};
+use super::method::{Answer, Context};
+use crate::error::MethodError;
 use crate::trials::{Finding, Reading, SHARES, Stratum, Summary, findings};
 
 #[derive(Deserialize)]

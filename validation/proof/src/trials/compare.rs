@@ -7,7 +7,7 @@ use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 
-use super::Trial;
+use super::address::Trial;
 use crate::arithmetic::Wide;
 use crate::cases::WrongModel;
 use crate::engine::{Quotient, respond, respond_in};

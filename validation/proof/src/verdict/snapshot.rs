@@ -4,6 +4,8 @@
 use serde_json::{Map, Value, json};
 
 use super::{Check, Outcome};
+use rocking_common::words::rounded;
+
 use crate::cases::{Bound, Case};
 use rocking_common::json;
 
@@ -99,25 +101,4 @@ pub fn supported_digits(relative: f64) -> usize {
         unit *= 0.1;
     }
     digits
-}
-
-/// The number with so many significant digits.
-pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
-    if !x.is_finite() {
-        return x;
-    }
-    let text = format!("{x:.*e}", digits - 1);
-    text.parse().unwrap_or(x)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn holds_significant_digits() {
-        assert_eq!(rounded(0.123_456, 3), 0.123);
-        assert_eq!(rounded(-98_765.0, 1), -1e5);
-        assert!(rounded(f64::INFINITY, 1).is_infinite());
-    }
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use super::flaw::{Flaw, amount};
-use super::{Content, Item, Limit};
+use super::item::{Content, Item, Limit};
 use rocking_proof::verdict::snapshot::supported_digits;
 
 #[derive(Deserialize)]

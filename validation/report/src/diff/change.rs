@@ -1,7 +1,7 @@
 //! Whether two values differ, and by how many of their uncertainties.
 
+use super::item::{Content, Item, Limit};
 use super::words::{pair, percent, plain};
-use super::{Content, Item, Limit};
 
 /// Half width of a 95 % interval in standard errors of a normal variate.
 const STANDARD_ERRORS: f64 = 1.959_963_985;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::flaw::Flaw;
-use super::{Content, Item, Limit};
+use super::item::{Content, Item, Limit};
 use rocking_common::findings::{
     Claim, Findings, Measured, Place, Question, Suite, Table, Tested, Topic,
 };

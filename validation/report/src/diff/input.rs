@@ -10,8 +10,9 @@ use rocking_common::files::is_interrupted;
 use rocking_common::findings::Findings;
 
 use super::flaw::{Flaw, kind};
+use super::item::Item;
 use super::strict::Strict;
-use super::{Item, cases, findings};
+use super::{cases, findings};
 
 /// Names of the files that can be compared.
 const NAMES: [&str; 2] = ["findings.json", "validation.json"];

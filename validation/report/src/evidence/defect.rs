@@ -1,4 +1,4 @@
-use super::EvidenceError;
+use super::error::EvidenceError;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };

@@ -3,7 +3,7 @@
 use libm::{exp, log};
 use rayon::prelude::*;
 
-use super::EvidenceError;
+use super::error::EvidenceError;
 use super::spectrum::{ETA, STOCKY_RAD, fate};
 use rocking_draw::figures::{Fate, FateMap, Figure, Heading};
 use rocking_proof::oracles::overturning;

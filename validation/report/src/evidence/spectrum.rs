@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use super::EvidenceError;
+use super::error::EvidenceError;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };

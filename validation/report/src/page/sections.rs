@@ -3,11 +3,11 @@
 use maud::{Markup, html};
 
 use super::figures::{self, ShownFigure};
-use super::table::{self, scrolled};
-use super::{
+use super::input::{
     Answers, Chapter, Column, Family, Finding, Outcome, Part, ReportInput,
     Theme,
 };
+use super::table::{self, scrolled};
 use rocking_common::findings::Tested;
 use rocking_common::paper::Verdict;
 use rocking_common::words::capital;

@@ -1,6 +1,9 @@
 //! The page from made-up words.
 
 use super::*;
+use rocking_common::findings::Tested;
+use rocking_common::paper::Verdict;
+use rocking_common::table::PlainTable;
 use rocking_draw::colour;
 use rocking_draw::figures::{BlockSketch, Figure, Heading};
 

@@ -6,8 +6,9 @@ use rocking::block::Block;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
-use super::{Plan, SuiteResults};
-use crate::StudyError;
+use super::plan::Plan;
+use super::suite::{Apart, ShownHistory, SingleRecords, SuiteResults};
+use crate::error::StudyError;
 use crate::runs::capacities;
 use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, position};
 
@@ -17,37 +18,6 @@ pub const HISTORY_INTERVAL_S: f64 = 0.01;
 /// Intensities PGA/(g tan alpha) at which histories of both suites are
 /// compared: from just above uplift to where blocks begin to overturn.
 pub const LEVELS_IM: [f64; 4] = [1.25, 1.5, 2.0, 3.0];
-
-/// Theta/alpha every [`HISTORY_INTERVAL_S`], and whether the block
-/// overturned.
-pub type ShownHistory = (Vec<f64>, bool);
-
-/// Histories of the chosen records, and how far all records' histories and
-/// curves are from the reference slenderness, for one frequency parameter.
-#[derive(Clone, Debug)]
-pub struct SingleRecords {
-    /// Level of the histories.
-    pub im: f64,
-    /// Theta/alpha of the chosen records, by record, then by slenderness,
-    /// and whether the block overturned.
-    pub histories: Vec<Vec<ShownHistory>>,
-    /// By record, then by slenderness other than the reference.
-    pub apart: Vec<Vec<Apart>>,
-    /// The same at each of `LEVELS_IM`, for comparisons of the suites.
-    pub by_level: Vec<(f64, Vec<Vec<Apart>>)>,
-}
-
-/// A block against the reference slenderness under one record.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Apart {
-    /// Normalized L2 distance of the histories; NaN where one overturned.
-    pub distance: f64,
-    /// Ratio of the peaks; NaN where one overturned.
-    pub peak_ratio: f64,
-    /// Mean |ln| of the ratio of intensities at equal demand; NaN where
-    /// there is none.
-    pub mean_ln_im: f64,
-}
 
 impl Plan {
     pub(super) fn single(

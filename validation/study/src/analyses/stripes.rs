@@ -6,8 +6,9 @@ use rocking::capacity::ResponseCurve;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
-use super::{ArmCurves, Plan, StripeDemands, SuiteResults};
-use crate::StudyError;
+use super::plan::Plan;
+use super::suite::{ArmCurves, StripeDemands, SuiteResults};
+use crate::error::StudyError;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };

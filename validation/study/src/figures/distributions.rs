@@ -1,56 +1,26 @@
 //! Figures 11 to 14: capacities and their tests.
 
 use rocking::statistics::lilliefors::Assessment;
-use rocking::statistics::{ExtendedSample, QuantileType, Sample};
+use rocking::statistics::{QuantileType, Sample};
 
-use super::{Figure, Results, name};
-use crate::StudyError;
-use crate::distributions::{BlockSamples, Distributions};
+use super::stem::name;
+use crate::error::StudyError;
+use crate::estimates::three_quantiles;
 use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
 };
-use crate::questions::grid::critical_on_grid;
+use crate::results::Results;
+use crate::ties::critical_on_grid;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
-    demand_index, demands, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
+    demands,
 };
 use rocking_common::words::percent;
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     AcceptedShares, BlockShare, Capacities, CapacityCurve, CapacityPanel,
     Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
 };
-
-impl Results {
-    /// The capacity samples of a suite in an arm and a measure.
-    #[must_use]
-    pub fn distributions(
-        &self,
-        kind: SuiteKind,
-        arm: Arm,
-        intensity: Intensity,
-    ) -> Option<&Distributions> {
-        self.distributions.iter().find(|d| {
-            d.kind == kind && d.arm == arm && d.intensity == intensity
-        })
-    }
-
-    /// One block of the ordinary suite.
-    ///
-    /// # Errors
-    /// [`StudyError::NoArm`] if the arm was not run.
-    pub(crate) fn ordinary_block(
-        &self,
-        arm: Arm,
-        intensity: Intensity,
-        frequency: usize,
-        slenderness: usize,
-    ) -> Result<&BlockSamples, StudyError> {
-        let kind = self.ordinary.kind;
-        let found = self.distributions(kind, arm, intensity);
-        let found = found.ok_or(StudyError::NoArm)?;
-        Ok(&found.blocks[position(frequency, slenderness)])
-    }
-}
 
 /// Figure 11: p = 1, alpha = 0.20.
 pub(super) fn inverted(
@@ -63,7 +33,7 @@ pub(super) fn inverted(
     let mut ends = 0;
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let block = results.ordinary_block(arm, intensity, 0, 3)?;
-        onsets.push(spread(&block.samples[0])?);
+        onsets.push(three_quantiles(&block.samples[0])?);
         let last = block.samples.last().ok_or(StudyError::NoArm)?;
         ends = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
@@ -80,7 +50,7 @@ pub(super) fn inverted(
             quantiles: levels
                 .iter()
                 .zip(&block.samples)
-                .map(|(edp, sample)| Ok((*edp, spread(sample)?)))
+                .map(|(edp, sample)| Ok((*edp, three_quantiles(sample)?)))
                 .collect::<Result<_, StudyError>>()?,
         });
     }
@@ -114,13 +84,6 @@ pub(super) fn inverted(
         times(onsets[0], shifts[0]),
         times(onsets[1], shifts[1]),
     )))
-}
-
-/// 16, 50 and 84 % of a sample.
-fn spread(sample: &[f64]) -> Result<[f64; 3], StudyError> {
-    let sample = ExtendedSample::try_new(sample)?;
-    let of = |p| QuantileType::default().of_extended(&sample, p);
-    Ok([of(0.16)?, of(0.5)?, of(0.84)?])
 }
 
 /// Figure 12 (PGA) or 14 (PGV).

@@ -2,15 +2,16 @@
 
 use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
-use rocking::statistics::{ExtendedSample, QuantileType};
 
-use super::{Figure, name};
-use crate::StudyError;
+use super::stem::name;
 use crate::analyses::SuiteResults;
+use crate::error::StudyError;
+use crate::estimates::three_quantiles;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use rocking_common::words::{percent, range};
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     Heading, QuantileGroup, QuantilePanel, Quantiles,
 };
@@ -187,9 +188,7 @@ pub(crate) fn three(
             c.edp_at(im).unwrap_or_else(last)
         })
         .collect();
-    let sample = ExtendedSample::try_new(&demands)?;
-    let of = |p| QuantileType::default().of_extended(&sample, p);
-    Ok([of(0.16)?, of(0.5)?, of(0.84)?])
+    three_quantiles(&demands)
 }
 
 fn overturning_in_words(panels: &[QuantilePanel]) -> String {

@@ -1,18 +1,18 @@
 //! Figures 6, 7 and 9: paired ratios by stripe.
 
-use rocking::statistics::paired::Pairs;
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::{Figure, name};
-use crate::StudyError;
+use super::stem::name;
 use crate::analyses::{StripeDemands, SuiteResults};
+use crate::error::StudyError;
 use crate::inference::LEAST_DECIDING;
-use crate::measures::closed_form;
+use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, LEAST_USABLE, REFERENCE,
-    SLENDERNESSES_RAD, STRIPES, position,
+    SLENDERNESSES_RAD, closed_form,
 };
 use rocking_common::words::{percent, range};
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe, StripeKind};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
@@ -102,33 +102,6 @@ pub(super) fn adjusted(
     ))
 }
 
-/// Demands on the stripes of an arm.
-pub(crate) fn of_arm(
-    suite: &SuiteResults,
-    arm: Arm,
-) -> Option<&StripeDemands> {
-    suite.stripes.iter().find(|s| s.arm == arm)
-}
-
-/// Pairs on each stripe: a slenderness over the reference, or (none) the
-/// adjusted one over scaled records.
-pub(crate) fn pairs(
-    stripes: &StripeDemands,
-    frequency: usize,
-    slenderness: Option<usize>,
-) -> Result<Vec<(f64, Pairs)>, StudyError> {
-    let reference = &stripes.demands[position(frequency, REFERENCE)];
-    let compared = match slenderness {
-        Some(s) => &stripes.demands[position(frequency, s)],
-        None => &stripes.adjusted[frequency],
-    };
-    STRIPES
-        .iter()
-        .zip(compared.iter().zip(reference))
-        .map(|(im, (a, b))| Ok((*im, Pairs::try_new(a, b)?)))
-        .collect()
-}
-
 /// Boxes of Figure 9 by frequency parameter; none where stripes were not
 /// run.
 pub(crate) fn adjusted_boxes(
@@ -140,46 +113,6 @@ pub(crate) fn adjusted_boxes(
         .into_iter()
         .enumerate()
         .map(|(frequency, p)| Ok((p, boxes(stripes, frequency, None)?)))
-        .collect()
-}
-
-/// Ratios of Figure 9 on a stripe, apart by the adjusted slenderness: up to
-/// the paper's largest, and above.
-pub(crate) struct Split {
-    /// Level of the stripe.
-    pub im: f64,
-    /// Ratios of the records whose adjusted slenderness is at most 0.25.
-    pub within: Vec<f64>,
-    /// Ratios of the others.
-    pub above: Vec<f64>,
-}
-
-/// Ratios of Figure 9 by frequency parameter, apart by slenderness.
-pub(crate) fn adjusted_split(
-    suite: &SuiteResults,
-    stripes: &StripeDemands,
-    frequency: usize,
-) -> Result<Vec<Split>, StudyError> {
-    let steepest = libm::tan(SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1]);
-    let reference = &stripes.demands[position(frequency, REFERENCE)];
-    STRIPES
-        .iter()
-        .zip(stripes.adjusted[frequency].iter().zip(reference))
-        .map(|(im, (adjusted, scaled))| {
-            let ratios = |wanted: bool| {
-                let (mut a, mut b) = (Vec::new(), Vec::new());
-                for ((x, y), record) in
-                    adjusted.iter().zip(scaled).zip(&suite.records)
-                {
-                    if (record.pga_g <= im * steepest) == wanted {
-                        a.push(*x);
-                        b.push(*y);
-                    }
-                }
-                Ok::<_, StudyError>(Pairs::try_new(&a, &b)?.ratios)
-            };
-            Ok(Split { im: *im, within: ratios(true)?, above: ratios(false)? })
-        })
         .collect()
 }
 

@@ -1,13 +1,12 @@
 //! Figures 1 to 5: the block, and single records.
 
-use super::{Figure, name};
-use crate::StudyError;
-use crate::analyses::{
-    Apart, HISTORY_INTERVAL_S, SingleRecords, SuiteResults,
-};
+use super::stem::name;
+use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
+use crate::error::StudyError;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
     IdaCurves, IdaPanel,
@@ -98,7 +97,7 @@ fn apart_in_words(suite: &SuiteResults) -> String {
         .iter()
         .zip(FREQUENCIES_RAD_S)
         .map(|(single, p)| {
-            let distance = median_of(single, |a| a.distance);
+            let distance = single.median_of(|a| a.distance);
             format!("{distance:.3} at p = {p}")
         })
         .collect();
@@ -108,25 +107,6 @@ fn apart_in_words(suite: &SuiteResults) -> String {
         suite.records.len(),
         by_frequency.join(", ")
     )
-}
-
-/// Median over records and slendernesses of what is defined.
-pub(crate) fn median_of(
-    single: &SingleRecords,
-    of: impl Fn(&Apart) -> f64,
-) -> f64 {
-    let mut values: Vec<f64> = single
-        .apart
-        .iter()
-        .flatten()
-        .map(of)
-        .filter(|x| x.is_finite())
-        .collect();
-    values.sort_by(f64::total_cmp);
-    match values.len() {
-        0 => f64::NAN,
-        n => 0.5 * (values[(n - 1) / 2] + values[n / 2]),
-    }
 }
 
 pub(super) fn curves(
@@ -166,7 +146,7 @@ pub(super) fn curves(
         .iter()
         .zip(FREQUENCIES_RAD_S)
         .map(|(single, p)| {
-            let apart = median_of(single, |a| a.mean_ln_im);
+            let apart = single.median_of(|a| a.mean_ln_im);
             format!("{:.2} % at p = {p}", 100.0 * apart)
         })
         .collect();

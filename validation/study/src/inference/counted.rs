@@ -2,7 +2,7 @@
 
 use rocking::statistics::Proportion;
 
-use super::{Replicated, Scheme};
+use super::draws::{Replicated, Scheme};
 
 impl Replicated {
     /// Probabilities from counts of records.

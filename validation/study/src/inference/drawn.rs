@@ -4,7 +4,9 @@
 use rayon::prelude::*;
 use rocking::statistics::bootstrap::estimate;
 
-use super::{Draws, LEVEL, Replicated, band, clipped};
+use super::draws::{Draws, LEVEL, Replicated, Scheme};
+use rocking::statistics::Proportion;
+use rocking::statistics::resampling::simultaneous;
 use rocking_common::findings::{Measured, Tested};
 
 impl Replicated {
@@ -45,4 +47,41 @@ pub fn by_cell(
         interval: ends.get(k).copied(),
     };
     measured.points.iter().enumerate().map(with).collect()
+}
+
+pub(super) fn clipped(x: f64, (low, high): (f64, f64)) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
+/// The band that holds all cells of a measure at once.
+pub(super) fn band(
+    draws: &Draws,
+    tested: Tested,
+    range: (f64, f64),
+    own: &Replicated,
+) -> Vec<(f64, f64)> {
+    let band = match own.scheme {
+        Scheme::Bootstrap => simultaneous(&own.points, &own.replicates, LEVEL),
+        Scheme::Subsampling => {
+            // Bonferroni: these cells are few.
+            let count = own.points.len();
+            let level = 1.0 - (1.0 - LEVEL) / count as f64;
+            let ends = |k| own.interval(k, &draws.rules, tested, level);
+            (0..count).map(|k| ends(k).map(|e| (e.0, e.1))).collect()
+        }
+        Scheme::Counted => {
+            let band = Proportion::band(&own.counts, LEVEL);
+            band.unwrap_or_default().into_iter().map(Some).collect()
+        }
+    };
+    band.into_iter()
+        .map(|ends| ends.unwrap_or((f64::NEG_INFINITY, f64::INFINITY)))
+        .map(|(a, b)| (clipped(a, range), clipped(b, range)))
+        .collect()
 }

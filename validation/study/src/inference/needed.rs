@@ -1,7 +1,19 @@
-//! How many records would decide what these do not.
+//! The rule of a claim, and how many records would decide what these do not.
 
-use super::Rule;
-use rocking_common::findings::{ClaimResult, Quantifier};
+use rocking_common::findings::{ClaimResult, Quantifier, Region, Unit};
+
+/// What a claim asks of its cells.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// How many of them.
+    pub quantifier: Quantifier,
+    /// Where they have to lie.
+    pub region: Region,
+    /// Unit of a cell.
+    pub unit: Unit,
+    /// Ends that a value cannot cross: 0 and 1 of a share.
+    pub range: (f64, f64),
+}
 
 /// Records that would decide if the value stayed: an interval shrinks by the
 /// root of their number, until it reaches the nearest end of the region.

@@ -1,6 +1,8 @@
 use rocking::statistics::resampling::Ranked;
 
 use super::*;
+use rocking::statistics::Proportion;
+use rocking_common::paper::SuiteKind;
 
 fn rule(quantifier: Quantifier, region: Region) -> Rule {
     let range = (f64::NEG_INFINITY, f64::INFINITY);

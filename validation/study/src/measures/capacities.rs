@@ -4,13 +4,13 @@
 use libm::tan;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
-use super::{Measure, Prepared, Source, block, mean};
-use crate::StudyError;
+use super::source::{Found, Prepared, Source, block, ratios};
 use crate::distributions::factors;
-use crate::figures::of_arm;
+use crate::error::StudyError;
 use crate::inference::{Cell, Draw, Replicated};
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
+use crate::stripes::of_arm;
 use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{
@@ -63,18 +63,6 @@ fn quantile_ratios(source: &Source<'_>, pairs: &[Pair]) -> Prepared {
     Prepared { cells, measured, criterion: None }
 }
 
-/// Paired ratios, by record; NaN where one is infinite or missing.
-fn ratios(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter()
-        .zip(b)
-        .map(
-            |(a, b)| {
-                if a.is_finite() && b.is_finite() { a / b } else { f64::NAN }
-            },
-        )
-        .collect()
-}
-
 /// Medians of paired ratios, cell by cell.
 fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
     let kind = source.kind();
@@ -92,25 +80,6 @@ fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
         .map(|(at, r)| Cell { at, records: r.records() })
         .collect();
     Prepared { cells, measured, criterion: None }
-}
-
-pub(super) fn prepare(
-    source: &Source<'_>,
-    measure: Measure,
-) -> Result<Option<Prepared>, StudyError> {
-    match measure {
-        Measure::FirstOverturningByCriterion => criterion(source).map(Some),
-        Measure::RestitutionEffect => restitution(source).map(Some),
-        Measure::ComponentEffect => component(source).map(Some),
-        Measure::InversionBias => inversion(source),
-        Measure::HousnerSpread => housner(source),
-        Measure::UpliftUnscaled => uplift(source).map(Some),
-        Measure::DemandRatios => Ok(demand_ratios(source)),
-        Measure::Quantiles => Ok(quantiles(source)),
-        Measure::AdjustmentQuantiles => adjusted_quantiles(source),
-        Measure::OnsetSpreadPgv => Ok(Some(onset(source))),
-        _ => Ok(None),
-    }
 }
 
 /// Other choices that were run, and the study's own curves of that block.
@@ -140,7 +109,7 @@ fn capacity(
     curve.map_or(Ok(f64::NAN), of)
 }
 
-fn criterion(source: &Source<'_>) -> Result<Prepared, StudyError> {
+pub(super) fn criterion(source: &Source<'_>) -> Found {
     let first = |curve: &ResponseCurve| {
         curve.overturning_im().unwrap_or(f64::INFINITY)
     };
@@ -158,10 +127,10 @@ fn criterion(source: &Source<'_>) -> Result<Prepared, StudyError> {
             reference: Ranked::new(&reference),
         });
     }
-    Ok(quantile_ratios(source, &pairs))
+    Ok(Some(quantile_ratios(source, &pairs)))
 }
 
-fn restitution(source: &Source<'_>) -> Result<Prepared, StudyError> {
+pub(super) fn restitution(source: &Source<'_>) -> Found {
     let kind = source.kind();
     let choices = [Choice::Eta085, Choice::Eta097];
     let mut cells = Vec::new();
@@ -191,10 +160,10 @@ fn restitution(source: &Source<'_>) -> Result<Prepared, StudyError> {
             .collect()
     };
     let measured = source.draws.smooth(source.tested, &of);
-    Ok(Prepared { cells, measured, criterion: None })
+    Ok(Some(Prepared { cells, measured, criterion: None }))
 }
 
-fn component(source: &Source<'_>) -> Result<Prepared, StudyError> {
+pub(super) fn component(source: &Source<'_>) -> Found {
     let mut pairs = Vec::new();
     for (varied, base) in varied(source, &[Choice::OtherComponent])? {
         for demand in THRESHOLDS {
@@ -217,7 +186,7 @@ fn component(source: &Source<'_>) -> Result<Prepared, StudyError> {
             });
         }
     }
-    Ok(quantile_ratios(source, &pairs))
+    Ok(Some(quantile_ratios(source, &pairs)))
 }
 
 /// Samples of a suite at a demand, by block.
@@ -234,7 +203,12 @@ fn samples<'a>(
     Some(&block.samples[demand_index(demand)])
 }
 
-fn demand_ratios(source: &Source<'_>) -> Option<Prepared> {
+pub(super) fn demand_ratios(source: &Source<'_>) -> Found {
+    let Some(cells) = demand_cells(source) else { return Ok(None) };
+    Ok(Some(paired(source, cells)))
+}
+
+fn demand_cells(source: &Source<'_>) -> Option<Vec<(String, Vec<f64>)>> {
     let mut cells = Vec::new();
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         for slenderness in 0..SLENDERNESSES_RAD.len() {
@@ -248,15 +222,19 @@ fn demand_ratios(source: &Source<'_>) -> Option<Prepared> {
                     "{}, demand {demand}",
                     block(frequency, slenderness)
                 );
-                cells.push((at, ratios(own, reference)));
+                cells.push((at, ratios(own, reference, 1.0)));
             }
         }
     }
-    Some(paired(source, cells))
+    Some(cells)
 }
 
 /// Figure 8: intensity given demand, and demand given intensity.
-fn quantiles(source: &Source<'_>) -> Option<Prepared> {
+pub(super) fn quantiles(source: &Source<'_>) -> Found {
+    Ok(quantile_pairs(source).map(|pairs| quantile_ratios(source, &pairs)))
+}
+
+fn quantile_pairs(source: &Source<'_>) -> Option<Vec<Pair>> {
     let suite = source.results.suite(source.kind());
     let stripes = of_arm(suite, source.arm)?;
     let mut pairs = Vec::new();
@@ -286,13 +264,11 @@ fn quantiles(source: &Source<'_>) -> Option<Prepared> {
             }
         }
     }
-    Some(quantile_ratios(source, &pairs))
+    Some(pairs)
 }
 
 /// Figure 10: the same, slenderness adjusted over records scaled.
-fn adjusted_quantiles(
-    source: &Source<'_>,
-) -> Result<Option<Prepared>, StudyError> {
+pub(super) fn adjusted_quantiles(source: &Source<'_>) -> Found {
     let suite = source.results.suite(source.kind());
     let stripes = of_arm(suite, source.arm);
     let curves = suite.adjusted.iter().find(|a| a.arm == source.arm);
@@ -330,7 +306,7 @@ fn adjusted_quantiles(
     Ok(Some(quantile_ratios(source, &pairs)))
 }
 
-fn inversion(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
+pub(super) fn inversion(source: &Source<'_>) -> Found {
     let kind = source.kind();
     let suite = source.results.suite(kind);
     let Some(curves) = suite.curves(source.arm) else { return Ok(None) };
@@ -376,7 +352,7 @@ fn inversion(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
 
 /// Capacities with Housner's restitution, stocky over slender, by way of the
 /// study's: what the slenderness's own ratio does is divided out.
-fn housner(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
+pub(super) fn housner(source: &Source<'_>) -> Found {
     let found = varied(source, &[Choice::Housner])?;
     let of = |slenderness| -> Result<Option<Vec<f64>>, StudyError> {
         let is =
@@ -392,7 +368,7 @@ fn housner(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
     let (Some(stocky), Some(slender)) = (of(4)?, of(0)?) else {
         return Ok(None);
     };
-    let ranked = Ranked::new(&ratios(&stocky, &slender));
+    let ranked = Ranked::new(&ratios(&stocky, &slender, 1.0));
     let kind = source.kind();
     let at = "p = 3, alpha = 0.25 over 0.05";
     let records = ranked.records();
@@ -401,33 +377,28 @@ fn housner(source: &Source<'_>) -> Result<Option<Prepared>, StudyError> {
     })))
 }
 
-fn uplift(source: &Source<'_>) -> Result<Prepared, StudyError> {
+pub(super) fn uplift(source: &Source<'_>) -> Found {
     let records = &source.results.suite(source.kind()).records;
     let stockiest = SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1];
     let moved = records.iter().filter(|r| r.pga_g > tan(stockiest));
     let share = Proportion::try_new(moved.count(), records.len())?;
     let cell = Cell { at: "alpha = 0.25".into(), records: records.len() };
-    Ok(Prepared {
+    Ok(Some(Prepared {
         cells: vec![cell],
         measured: Replicated::counted(vec![share]),
         criterion: None,
-    })
+    }))
 }
 
 /// Spread of the intensities at uplift in PGV, p = 1; in PGA it is 1 by
 /// definition.
-fn onset(source: &Source<'_>) -> Prepared {
+pub(super) fn onset(source: &Source<'_>) -> Found {
     let kind = source.kind();
     let suite = source.results.suite(kind);
     let onsets = factors(suite, Intensity::Pgv, FREQUENCIES_RAD_S[0]);
     let ranked = Ranked::new(&onsets);
-    source.value("p = 1", onsets.len(), move |draw| {
+    Ok(Some(source.value("p = 1", onsets.len(), move |draw| {
         let counts = draw.of(kind);
         ranked.quantile(counts, 0.84) / ranked.quantile(counts, 0.16)
-    })
-}
-
-/// Mean over cells, kept here for the other measures of this section.
-pub(super) fn mean_of_medians(ranked: &[Ranked], counts: &[u32]) -> f64 {
-    mean(ranked.iter().map(|r| r.median(counts)))
+    })))
 }

@@ -5,10 +5,10 @@ use libm::log;
 use rocking::statistics::resampling::Subsampling;
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
 
-use super::{Measure, Prepared, Source, mean};
-use crate::StudyError;
+use super::source::{Found, Prepared, Source};
 use crate::distributions::{BlockSamples, factors};
-use crate::figures::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
+use crate::estimates::mean;
+use crate::fits::{BLOCK, Fits, THRESHOLDS, distance, usfl7};
 use crate::inference::{Cell, Draw, Replicated};
 use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{Intensity, demand_index};
@@ -71,21 +71,11 @@ impl Thresholds {
     }
 }
 
-/// Largest difference of two fragilities in probability, over 400 quantiles
-/// of the first; 1 where one of them does not exist.
+/// Largest difference of two fragilities in probability; 1 where one of them
+/// does not exist.
 fn apart(a: Option<Lognormal>, b: Option<Lognormal>) -> f64 {
     let (Some(a), Some(b)) = (a, b) else { return 1.0 };
-    let mut most = 0.0;
-    for (x, y) in [(a, b), (b, a)] {
-        for k in 1..400 {
-            let p = f64::from(k) / 400.0;
-            let off = (y.cdf(x.quantile(p)) - p).abs();
-            if !(off <= most) {
-                most = off;
-            }
-        }
-    }
-    most
+    a.distance(&b).unwrap_or(f64::NAN)
 }
 
 /// Largest difference of USFL7 to the SSFL in probability.
@@ -104,79 +94,102 @@ pub(crate) fn by_demand(
     source.draws.smooth(source.tested, &of)
 }
 
-pub(super) fn prepare(
+/// A number of each threshold as a measure.
+fn each(
     source: &Source<'_>,
-    measure: Measure,
-) -> Result<Option<Prepared>, StudyError> {
-    let intensity = match measure {
-        Measure::ShiftGainPgv | Measure::UntrimmedToSsflPgv => Intensity::Pgv,
-        _ => Intensity::Pga,
+    intensity: Intensity,
+    f: &(dyn Fn(&At) -> f64 + Sync),
+) -> Found {
+    let Some(thresholds) = Thresholds::new(source, intensity) else {
+        return Ok(None);
     };
+    let records = source.results.suite(source.kind()).records.len();
+    let cell = |edp: f64| Cell { at: format!("demand {edp:.2}"), records };
+    Ok(Some(Prepared {
+        cells: THRESHOLDS.map(cell).into(),
+        measured: by_demand(source, &thresholds, f),
+        criterion: None,
+    }))
+}
+
+/// A number of one threshold, PGA, as a measure.
+fn at_place(
+    source: &Source<'_>,
+    place: usize,
+    f: impl Fn(&At) -> f64 + Sync,
+) -> Found {
+    let Some(thresholds) = Thresholds::new(source, Intensity::Pga) else {
+        return Ok(None);
+    };
+    let kind = source.kind();
+    let records = source.results.suite(kind).records.len();
+    let at = format!("demand {:.2}", THRESHOLDS[place]);
+    Ok(Some(source.value(&at, records, |draw| {
+        let at = thresholds.at(draw.of(kind), place);
+        at.as_ref().map_or(f64::NAN, &f)
+    })))
+}
+
+/// Mean over the thresholds, from subsamples: a draw with replacement would
+/// tie values.
+fn mean_over(
+    source: &Source<'_>,
+    intensity: Intensity,
+    over: &str,
+    f: impl Fn(&Thresholds, &[u32]) -> Vec<f64> + Sync,
+) -> Found {
     let Some(thresholds) = Thresholds::new(source, intensity) else {
         return Ok(None);
     };
     let kind = source.kind();
-    let n = source.results.suite(kind).records.len();
-    let each = |f: &(dyn Fn(&At) -> f64 + Sync)| {
-        let cell =
-            |edp: f64| Cell { at: format!("demand {edp:.2}"), records: n };
-        Some(Prepared {
-            cells: THRESHOLDS.map(cell).into(),
-            measured: by_demand(source, &thresholds, f),
-            criterion: None,
+    let of = |draw: Draw<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
+    Ok(Some(Prepared {
+        cells: vec![Cell {
+            at: format!("mean over {over}demands 0.15, 0.35 and 1.00"),
+            records: source.results.suite(kind).records.len(),
+        }],
+        measured: source.draws.subsampled(source.tested, &of),
+        criterion: None,
+    }))
+}
+
+/// What shifting gains in distance to the sample.
+pub(super) fn shift_gain(source: &Source<'_>, intensity: Intensity) -> Found {
+    mean_over(source, intensity, "", |thresholds, counts| {
+        thresholds.each(counts, |at| {
+            distance(at.fits.usfl, &at.sample)
+                - distance(at.fits.ssfl, &at.sample)
         })
-    };
-    let lowest = |f: &(dyn Fn(&At) -> f64 + Sync)| {
-        let at = format!("demand {:.2}", THRESHOLDS[0]);
-        Some(source.value(&at, n, |draw| {
-            thresholds.at(draw.of(kind), 0).as_ref().map_or(f64::NAN, f)
-        }))
-    };
-    Ok(match measure {
-        Measure::ShiftGainPga | Measure::ShiftGainPgv => {
-            let of = |draw: Draw<'_>| {
-                vec![mean(thresholds.each(draw.of(kind), |at| {
-                    distance(at.fits.usfl, &at.sample)
-                        - distance(at.fits.ssfl, &at.sample)
-                }))]
-            };
-            Some(Prepared {
-                cells: vec![Cell {
-                    at: "mean over demands 0.15, 0.35 and 1.00".into(),
-                    records: n,
-                }],
-                measured: source.draws.subsampled(source.tested, &of),
-                criterion: None,
-            })
-        }
-        Measure::TrimmedToSsfl => {
-            each(&|at| to_ssfl(at.fits.trimmed, at, 1.0))
-        }
-        Measure::UntrimmedToSsfl | Measure::UntrimmedToSsflPgv => {
-            each(&|at| to_ssfl(at.fits.usfl, at, 1.0))
-        }
-        Measure::LowConstantGain => lowest(&|at| {
-            to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)
-        }),
-        Measure::ConstantSpread => lowest(&|at| {
-            let of = |c| usfl7(at.fits.trimmed, at.shift, c);
-            apart(of(0.25), of(1.0))
-        }),
-        Measure::TailInflation => {
-            let last = THRESHOLDS.len() - 1;
-            Some(source.value("demand 1.00", n, |draw| {
-                thresholds.at(draw.of(kind), last).map_or(f64::NAN, |at| {
-                    let of = |fit: Option<Lognormal>| {
-                        fit.map_or(f64::NAN, |f| f.dispersion())
-                    };
-                    of(at.fits.usfl)
-                        / of(at.fits.trimmed)
-                        / LOGNORMAL_INFLATION
-                })
-            }))
-        }
-        Measure::QuantileScatter => Some(scatter(source, &thresholds)),
-        _ => None,
+    })
+}
+
+pub(super) fn trimmed(source: &Source<'_>) -> Found {
+    let of = |at: &At| to_ssfl(at.fits.trimmed, at, 1.0);
+    each(source, Intensity::Pga, &of)
+}
+
+pub(super) fn untrimmed(source: &Source<'_>, intensity: Intensity) -> Found {
+    each(source, intensity, &|at| to_ssfl(at.fits.usfl, at, 1.0))
+}
+
+pub(super) fn low_constant(source: &Source<'_>) -> Found {
+    at_place(source, 0, |at| {
+        to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.usfl, at, 0.25)
+    })
+}
+
+pub(super) fn constant_spread(source: &Source<'_>) -> Found {
+    at_place(source, 0, |at| {
+        let of = |c| usfl7(at.fits.trimmed, at.shift, c);
+        apart(of(0.25), of(1.0))
+    })
+}
+
+pub(super) fn tail_inflation(source: &Source<'_>) -> Found {
+    at_place(source, THRESHOLDS.len() - 1, |at| {
+        let of =
+            |fit: Option<Lognormal>| fit.map_or(f64::NAN, |f| f.dispersion());
+        of(at.fits.usfl) / of(at.fits.trimmed) / LOGNORMAL_INFLATION
     })
 }
 
@@ -184,12 +197,10 @@ pub(super) fn prepare(
 /// the lognormal fitted to it: root of the ratio of the variances of their
 /// logarithms over halves of the drawn records, mean over both quantiles and
 /// the demands.
-fn scatter(source: &Source<'_>, thresholds: &Thresholds) -> Prepared {
+pub(super) fn scatter(source: &Source<'_>) -> Found {
     const HALVES: u64 = 40;
-    let kind = source.kind();
-    let n = source.results.suite(kind).records.len();
-    let of = |draw: Draw<'_>| {
-        let counts = draw.of(kind);
+    let over = "16 and 84 %, ";
+    mean_over(source, Intensity::Pga, over, |thresholds, counts| {
         let halves: Vec<Vec<u32>> =
             (0..HALVES).map(|index| half(counts, index)).collect();
         let mut ratios = Vec::new();
@@ -201,16 +212,8 @@ fn scatter(source: &Source<'_>, thresholds: &Thresholds) -> Prepared {
                 ratios.push((variance(&sample) / variance(&fit)).sqrt());
             }
         }
-        vec![mean(ratios)]
-    };
-    Prepared {
-        cells: vec![Cell {
-            at: "mean over 16 and 84 %, demands 0.15, 0.35 and 1.00".into(),
-            records: n,
-        }],
-        measured: source.draws.subsampled(source.tested, &of),
-        criterion: None,
-    }
+        ratios
+    })
 }
 
 /// Logarithms of a quantile: the sample's, and the fitted lognormal's.

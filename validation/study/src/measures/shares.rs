@@ -1,221 +1,14 @@
-//! Section 5, Figures 12 to 14: shares of demand levels at which Lilliefors'
-//! test accepts a lognormal.
-//!
-//! Levels of a block share records, and so do blocks. Shares are therefore
-//! inferred from subsamples of the records; a draw with replacement would tie
-//! values, and ties break the test.
+//! Section 5, Figures 12 to 14: measures of accepted shares.
 
-use libm::log;
-use rocking::statistics::acceptance::AcceptedShare;
-use rocking::statistics::lilliefors::Table;
+use super::source::{Found, Prepared, Source, block};
+use crate::estimates::mean;
+use crate::inference::Cell;
+use crate::shares::{SLENDER, Shares, Tests, WITHOUT_EARLIEST, blocks, place};
+use rocking_common::paper::{Intensity, SLENDERNESSES_RAD};
 
-use super::{Measure, Prepared, Source, block, mean};
-use crate::distributions::{BlockSamples, factors, scaled};
-use crate::figures::Results;
-use crate::inference::{Cell, Draw, Draws, Replicated};
-use crate::normality::{BAND_STRIDE, LEVEL, accepted_share, along, every};
-use rocking_common::paper::{
-    Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind,
-    position,
-};
-
-/// Blocks of a suite.
-const COUNT: usize = BLOCKS.len();
-
-/// The block of Figure 13 that the paper calls badly performing, and the one
-/// that it compares it with: p = 3, alpha = 0.05 and 0.20.
-const SLENDER: (usize, usize) = (1, 0);
+/// The block that the paper compares its badly performing one with: p = 3,
+/// alpha = 0.20.
 const LESS_SLENDER: (usize, usize) = (1, 3);
-
-/// Earliest overturnings that the paper's explanation of Figure 13 blames.
-const EARLIEST: usize = 3;
-
-/// What is tested of each block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(usize)]
-enum Tests {
-    OriginalPga,
-    ShiftedPga,
-    OriginalPgv,
-    ShiftedPgv,
-    ShiftedGeometricMean,
-}
-
-impl Tests {
-    const ALL: [Self; 5] = [
-        Self::OriginalPga,
-        Self::ShiftedPga,
-        Self::OriginalPgv,
-        Self::ShiftedPgv,
-        Self::ShiftedGeometricMean,
-    ];
-
-    fn is_shifted(self) -> bool {
-        !matches!(self, Self::OriginalPga | Self::OriginalPgv)
-    }
-}
-
-/// Place of the share without the earliest records.
-const WITHOUT_EARLIEST: usize = Tests::ALL.len() * COUNT;
-
-/// Accepted shares of all blocks of a suite in an arm, over all draws.
-pub struct Shares {
-    suite: SuiteKind,
-    arm: Arm,
-    /// [`Tests`] by block, then the share without the earliest records.
-    shares: Replicated,
-    /// Levels at which every record is finite, of all, by block.
-    levels: Vec<(usize, usize)>,
-}
-
-/// One block in one measure: the levels that enter a simulation, and the
-/// factors that the shift is the least of.
-struct Tested15 {
-    levels: Vec<Vec<f64>>,
-    factors: Vec<f64>,
-    shifted: bool,
-}
-
-impl Tested15 {
-    /// Accepted share of a draw.
-    fn share(&self, counts: &[u32], left_out: &[usize]) -> f64 {
-        let drawn: Vec<usize> = (0..counts.len())
-            .filter(|r| counts[*r] > 0 && !left_out.contains(r))
-            .collect();
-        let shift = if self.shifted {
-            drawn.iter().fold(f64::INFINITY, |least, r| {
-                if self.factors[*r] < least { self.factors[*r] } else { least }
-            })
-        } else {
-            0.0
-        };
-        let logs: Vec<Vec<f64>> = self
-            .levels
-            .iter()
-            .map(|level| {
-                drawn.iter().map(|r| log(level[*r] - shift)).collect()
-            })
-            .collect();
-        let table = Table::embedded();
-        table.critical_value(drawn.len(), LEVEL).map_or(f64::NAN, |(c, _)| {
-            let found = AcceptedShare::of_values(&logs, c);
-            found.share().unwrap_or(f64::NAN)
-        })
-    }
-
-    /// Positions of the records that overturn first.
-    fn earliest(&self, counts: &[u32]) -> Vec<usize> {
-        let Some(overturning) = self.levels.last() else { return Vec::new() };
-        let mut drawn: Vec<usize> =
-            (0..counts.len()).filter(|r| counts[*r] > 0).collect();
-        drawn.sort_by(|a, b| overturning[*a].total_cmp(&overturning[*b]));
-        drawn.truncate(EARLIEST);
-        drawn
-    }
-}
-
-impl Shares {
-    /// The shares of a suite in an arm; none if it was not run.
-    #[must_use]
-    pub fn new(
-        results: &Results,
-        draws: &Draws,
-        suite: SuiteKind,
-        arm: Arm,
-    ) -> Option<Self> {
-        let of = |intensity| results.distributions(suite, arm, intensity);
-        let (pga, pgv) = (of(Intensity::Pga)?, of(Intensity::Pgv)?);
-        let facts = results.suite(suite);
-        let n = facts.records.len();
-        let means: Option<Vec<f64>> =
-            facts.records.iter().map(|r| r.mean_over_study).collect();
-        let mut all: Vec<Option<Tested15>> = Vec::new();
-        // Of all levels, which are the values of the claims.
-        let mut whole: Vec<f64> = Vec::new();
-        for tests in Tests::ALL {
-            for at in 0..COUNT {
-                let p = FREQUENCIES_RAD_S[at / SLENDERNESSES_RAD.len()];
-                let (block, factors) = match tests {
-                    Tests::OriginalPga | Tests::ShiftedPga => {
-                        (&pga.blocks[at], Some(vec![1.0; n]))
-                    }
-                    Tests::OriginalPgv | Tests::ShiftedPgv => (
-                        &pgv.blocks[at],
-                        Some(factors(facts, Intensity::Pgv, p)),
-                    ),
-                    Tests::ShiftedGeometricMean => {
-                        (&pga.blocks[at], means.clone())
-                    }
-                };
-                whole.push(value(tests, block, factors.as_deref()));
-                all.push(factors.map(|factors| {
-                    Tested15 {
-                        levels: every(&block.samples, BAND_STRIDE)
-                            .map(|level| match tests {
-                                Tests::ShiftedGeometricMean => {
-                                    scaled(level, &factors)
-                                }
-                                _ => level.clone(),
-                            })
-                            .collect(),
-                        factors,
-                        shifted: tests.is_shifted(),
-                    }
-                }));
-            }
-        }
-        let slender = place(Tests::ShiftedPga, SLENDER);
-        let of = |draw: Draw<'_>| -> Vec<f64> {
-            let counts = draw.of(suite);
-            let mut out: Vec<f64> = all
-                .iter()
-                .map(|one| {
-                    one.as_ref().map_or(f64::NAN, |one| one.share(counts, &[]))
-                })
-                .collect();
-            out.push(all[slender].as_ref().map_or(f64::NAN, |one| {
-                one.share(counts, &one.earliest(counts))
-            }));
-            out
-        };
-        let shares = draws.subsampled(suite.into(), &of);
-        // Without the earliest records, the levels of a simulation do.
-        whole.push(shares.point(WITHOUT_EARLIEST));
-        let levels = pga
-            .blocks
-            .iter()
-            .map(|b| {
-                let finite =
-                    |level: &&Vec<f64>| level.iter().all(|x| x.is_finite());
-                (b.samples.iter().filter(finite).count(), b.samples.len())
-            })
-            .collect();
-        Some(Self { suite, arm, shares: shares.moved_to(&whole), levels })
-    }
-}
-
-/// The accepted share of all levels and all records.
-fn value(tests: Tests, block: &BlockSamples, factors: Option<&[f64]>) -> f64 {
-    match tests {
-        Tests::OriginalPga | Tests::OriginalPgv => block.shares().0,
-        Tests::ShiftedPga | Tests::ShiftedPgv => block.shares().1,
-        Tests::ShiftedGeometricMean => factors.map_or(f64::NAN, |factors| {
-            let least = crate::distributions::least(factors);
-            let samples: Vec<Vec<f64>> =
-                block.samples.iter().map(|s| scaled(s, factors)).collect();
-            along(&samples, least).map_or(f64::NAN, |t| accepted_share(&t))
-        }),
-    }
-}
-
-fn place(tests: Tests, (frequency, slenderness): (usize, usize)) -> usize {
-    tests as usize * COUNT + position(frequency, slenderness)
-}
-
-fn blocks(row: &[f64], tests: Tests) -> &[f64] {
-    let first = tests as usize * COUNT;
-    &row[first..first + COUNT]
-}
 
 /// Share of the blocks whose accepted share is above a limit.
 fn above(shares: &[f64], limit: f64) -> f64 {
@@ -229,14 +22,16 @@ fn apart(row: &[f64], a: Tests, b: Tests) -> f64 {
     mean(pairs.map(|(a, b)| a - b))
 }
 
-pub(super) fn prepare(
-    source: &Source<'_>,
-    measure: Measure,
-) -> Option<Prepared> {
+/// The shares of the source's suite and arm; none if it was not run.
+fn shares_of<'a>(source: &Source<'a>) -> Option<&'a Shares> {
     let kind = source.kind();
-    let of = |s: &&Shares| s.suite == kind && s.arm == source.arm;
-    let found = source.shares.iter().find(of)?;
-    let n = source.results.suite(kind).records.len();
+    let is = |s: &&Shares| s.suite == kind && s.arm == source.arm;
+    source.shares.iter().find(is)
+}
+
+/// One number of the shares of all blocks.
+fn of_blocks(source: &Source<'_>, f: impl Fn(&[f64]) -> f64) -> Found {
+    let Some(found) = shares_of(source) else { return Ok(None) };
     let untested = found.levels.iter().filter(|(a, b)| a < b).count();
     let mut at = String::from("all 15 blocks");
     if untested > 0 {
@@ -246,83 +41,81 @@ pub(super) fn prepare(
              reaches, and {least} or more of 200 levels are tested"
         );
     }
-    let one = |f: &dyn Fn(&[f64]) -> f64| {
-        Some(Prepared {
-            cells: vec![Cell { at: at.clone(), records: n }],
-            measured: found.shares.map(|row| vec![f(row)]),
-            criterion: None,
-        })
-    };
-    let single = |at: String, f: &dyn Fn(&[f64]) -> f64| {
-        Some(Prepared {
-            cells: vec![Cell { at, records: n }],
-            measured: found.shares.map(|row| vec![f(row)]),
-            criterion: None,
-        })
-    };
-    use Tests as T;
-    match measure {
-        Measure::GeometricMeanShares => {
-            one(&|row| apart(row, T::ShiftedGeometricMean, T::ShiftedPga))
-        }
-        Measure::ShareOriginalPga => {
-            one(&|row| mean(blocks(row, T::OriginalPga).iter().copied()))
-        }
-        Measure::ShareLargeMinusSmall => one(&|row| {
-            let shares = blocks(row, T::OriginalPga);
-            let (large, small) = shares.split_at(SLENDERNESSES_RAD.len());
-            mean(large.iter().copied()) - mean(small.iter().copied())
-        }),
-        Measure::ShareGainPga => {
-            one(&|row| apart(row, T::ShiftedPga, T::OriginalPga))
-        }
-        Measure::ShareGainPgv => {
-            one(&|row| apart(row, T::ShiftedPgv, T::OriginalPgv))
-        }
-        Measure::BlocksAbove70Pgv => {
-            one(&|row| above(blocks(row, T::OriginalPgv), 0.7))
-        }
-        Measure::BlocksAbove90Pgv => {
-            one(&|row| above(blocks(row, T::ShiftedPgv), 0.9))
-        }
-        Measure::ShareSlender => {
-            let name = block(SLENDER.0, SLENDER.1);
-            let tests = [T::OriginalPga, T::ShiftedPga];
-            let cell = |words: &str| Cell {
-                at: format!("{name}, {words}"),
-                records: n,
-            };
-            Some(Prepared {
-                cells: ["original", "shifted"].map(cell).into(),
-                measured: found.shares.map(|row| {
-                    tests.map(|tests| row[place(tests, SLENDER)]).into()
-                }),
-                criterion: None,
-            })
-        }
-        Measure::ShareLessSlenderGain => {
-            single("p = 3, alpha = 0.20 minus 0.05".into(), &|row| {
-                row[place(T::ShiftedPga, LESS_SLENDER)]
-                    - row[place(T::ShiftedPga, SLENDER)]
-            })
-        }
-        Measure::ShareEarliestRemoved => {
-            single(block(SLENDER.0, SLENDER.1), &|row| {
-                row[WITHOUT_EARLIEST] - row[place(T::ShiftedPga, SLENDER)]
-            })
-        }
-        _ => None,
-    }
+    of_cells(source, &[at], |row| vec![f(row)])
 }
 
-/// Suites whose shares are needed.
-#[must_use]
-pub fn all(results: &Results, draws: &Draws) -> Vec<Shares> {
-    let mut out = Vec::new();
-    for suite in SuiteKind::BOTH {
-        for arm in results.plan.drawn() {
-            out.extend(Shares::new(results, draws, suite, arm));
-        }
-    }
-    out
+/// Some numbers of the shares, by cell.
+fn of_cells(
+    source: &Source<'_>,
+    cells: &[String],
+    f: impl Fn(&[f64]) -> Vec<f64>,
+) -> Found {
+    let Some(found) = shares_of(source) else { return Ok(None) };
+    let records = source.results.suite(source.kind()).records.len();
+    let cell = |at: &String| Cell { at: at.clone(), records };
+    Ok(Some(Prepared {
+        cells: cells.iter().map(cell).collect(),
+        measured: found.shares.map(f),
+        criterion: None,
+    }))
+}
+
+pub(super) fn geometric_mean(source: &Source<'_>) -> Found {
+    let tests = [Tests::ShiftedGeometricMean, Tests::ShiftedPga];
+    of_blocks(source, |row| apart(row, tests[0], tests[1]))
+}
+
+pub(super) fn original_pga(source: &Source<'_>) -> Found {
+    of_blocks(source, |row| {
+        mean(blocks(row, Tests::OriginalPga).iter().copied())
+    })
+}
+
+pub(super) fn large_minus_small(source: &Source<'_>) -> Found {
+    of_blocks(source, |row| {
+        let shares = blocks(row, Tests::OriginalPga);
+        let (large, small) = shares.split_at(SLENDERNESSES_RAD.len());
+        mean(large.iter().copied()) - mean(small.iter().copied())
+    })
+}
+
+/// What shifting adds to the share.
+pub(super) fn gain(source: &Source<'_>, intensity: Intensity) -> Found {
+    let (shifted, original) = match intensity {
+        Intensity::Pga => (Tests::ShiftedPga, Tests::OriginalPga),
+        Intensity::Pgv => (Tests::ShiftedPgv, Tests::OriginalPgv),
+    };
+    of_blocks(source, |row| apart(row, shifted, original))
+}
+
+pub(super) fn above_70(source: &Source<'_>) -> Found {
+    of_blocks(source, |row| above(blocks(row, Tests::OriginalPgv), 0.7))
+}
+
+pub(super) fn above_90(source: &Source<'_>) -> Found {
+    of_blocks(source, |row| above(blocks(row, Tests::ShiftedPgv), 0.9))
+}
+
+pub(super) fn slender(source: &Source<'_>) -> Found {
+    let name = block(SLENDER.0, SLENDER.1);
+    let cells = ["original", "shifted"].map(|of| format!("{name}, {of}"));
+    let tests = [Tests::OriginalPga, Tests::ShiftedPga];
+    of_cells(source, &cells, |row| {
+        tests.map(|tests| row[place(tests, SLENDER)]).into()
+    })
+}
+
+pub(super) fn less_slender(source: &Source<'_>) -> Found {
+    let at = "p = 3, alpha = 0.20 minus 0.05".into();
+    let of = |block| place(Tests::ShiftedPga, block);
+    of_cells(source, &[at], |row| {
+        vec![row[of(LESS_SLENDER)] - row[of(SLENDER)]]
+    })
+}
+
+pub(super) fn earliest_removed(source: &Source<'_>) -> Found {
+    let whole = place(Tests::ShiftedPga, SLENDER);
+    of_cells(source, &[block(SLENDER.0, SLENDER.1)], |row| {
+        vec![row[WITHOUT_EARLIEST] - row[whole]]
+    })
 }

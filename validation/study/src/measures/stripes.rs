@@ -1,19 +1,19 @@
 //! Section 4, Figures 6, 7 and 9, and resurrections: measures on stripes of
 //! equal intensity.
 
-use libm::{atan, log, sin, tan};
+use libm::{atan, log, tan};
 
-use super::{Measure, Prepared, Source, block};
-use crate::StudyError;
+use super::source::{self, Found, Prepared, Source, block};
 use crate::analyses::StripeDemands;
-use crate::figures::{Results, of_arm};
 use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
+use crate::results::Results;
+use crate::stripes::of_arm;
 use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 use rocking_common::findings::Tested;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, STRIPES, SuiteKind,
-    position,
+    closed_form, position,
 };
 
 /// Ratios of one cell of Figure 6, 7 or 9, by record.
@@ -25,17 +25,7 @@ struct Ratios {
 impl Ratios {
     /// Of two lists of demands; where a block overturned there is none.
     fn new(at: String, a: &[f64], b: &[f64], scale: f64) -> Self {
-        let ratios: Vec<f64> = a
-            .iter()
-            .zip(b)
-            .map(|(a, b)| {
-                if a.is_finite() && b.is_finite() {
-                    scale * a / b
-                } else {
-                    f64::NAN
-                }
-            })
-            .collect();
+        let ratios = source::ratios(a, b, scale);
         Self { at, ranked: Ranked::new(&ratios) }
     }
 
@@ -127,14 +117,6 @@ fn medians(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
     }
 }
 
-/// What the small-rotation limit of Eq. 1 makes of a ratio to the reference
-/// slenderness: (sin alpha/alpha)/(sin 0.1/0.1).
-#[must_use]
-pub fn closed_form(alpha_rad: f64) -> f64 {
-    let of = |alpha: f64| sin(alpha) / alpha;
-    of(alpha_rad) / of(SLENDERNESSES_RAD[REFERENCE])
-}
-
 /// Cells of Figures 6, 7 and 9 by name, with the median ratio once what the
 /// small-rotation limit of Eq. 1 makes of it is divided out: of Figure 9
 /// record by record, since each has an adjusted slenderness of its own.
@@ -153,17 +135,7 @@ pub fn without_closed_form(
     let Some(stripes) = of_arm(suite, arm) else { return Vec::new() };
     let mut cells = Vec::new();
     for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
-        for (slenderness, alpha) in SLENDERNESSES_RAD.into_iter().enumerate() {
-            if slenderness != REFERENCE {
-                let scale = 1.0 / closed_form(alpha);
-                cells.extend(stripe_ratios(
-                    stripes,
-                    frequency,
-                    slenderness,
-                    scale,
-                ));
-            }
-        }
+        cells.extend(all_ratios(stripes, &[frequency], true));
         let scaled = &stripes.demands[position(frequency, REFERENCE)];
         let adjusted = &stripes.adjusted[frequency];
         for (im, (a, b)) in STRIPES.iter().zip(adjusted.iter().zip(scaled)) {
@@ -180,79 +152,74 @@ pub fn without_closed_form(
     cells.into_iter().map(median).collect()
 }
 
-pub(super) fn prepare(
-    source: &Source<'_>,
-    measure: Measure,
-) -> Result<Option<Prepared>, StudyError> {
-    let suite = source.results.suite(source.kind());
-    let Some(stripes) = of_arm(suite, source.arm) else { return Ok(None) };
-    let of = |frequencies: &[usize], corrected: bool| -> Vec<Ratios> {
-        let mut out = Vec::new();
-        for frequency in frequencies {
-            for (slenderness, alpha) in
-                SLENDERNESSES_RAD.into_iter().enumerate()
-            {
-                if slenderness != REFERENCE {
-                    let scale =
-                        if corrected { 1.0 / closed_form(alpha) } else { 1.0 };
-                    out.extend(stripe_ratios(
-                        stripes,
-                        *frequency,
-                        slenderness,
-                        scale,
-                    ));
-                }
+/// The stripes of the source's suite and arm; none where they were not run.
+fn stripes_of<'a>(source: &Source<'a>) -> Option<&'a StripeDemands> {
+    of_arm(source.results.suite(source.kind()), source.arm)
+}
+
+/// Cells of Figures 6 and 7, if asked with the closed form divided out.
+fn all_ratios(
+    stripes: &StripeDemands,
+    frequencies: &[usize],
+    corrected: bool,
+) -> Vec<Ratios> {
+    let mut out = Vec::new();
+    for frequency in frequencies {
+        for (slenderness, alpha) in SLENDERNESSES_RAD.into_iter().enumerate() {
+            if slenderness != REFERENCE {
+                let scale =
+                    if corrected { 1.0 / closed_form(alpha) } else { 1.0 };
+                let own =
+                    stripe_ratios(stripes, *frequency, slenderness, scale);
+                out.extend(own);
             }
         }
-        out
-    };
+    }
+    out
+}
+
+/// Medians of Figures 6 and 7: all cells, or the paper's exception alone, or
+/// all others.
+pub(super) fn ratios(
+    source: &Source<'_>,
+    frequencies: &[usize],
+    exception: Option<bool>,
+) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
     let stocky = SLENDERNESSES_RAD.len() - 1;
-    let exception =
-        |r: &Ratios| r.at == stripe_ratios(stripes, 0, stocky, 1.0)[0].at;
-    Ok(Some(match measure {
-        Measure::StripeRatiosLarge => {
-            let mut ratios = of(&[0], false);
-            ratios.retain(|r| !exception(r));
-            medians(source, &ratios)
-        }
-        Measure::StripeRatioException => {
-            let mut ratios = of(&[0], false);
-            ratios.retain(exception);
-            medians(source, &ratios)
-        }
-        Measure::StripeRatiosSmall => medians(source, &of(&[1, 2], false)),
-        Measure::StripeRatiosCorrected => {
-            medians(source, &of(&[0, 1, 2], true))
-        }
-        Measure::StripeOutliers => outliers(source, &of(&[0, 1, 2], false)),
-        Measure::AdjustmentRatios => {
-            medians(source, &adjusted_ratios(source, stripes, None))
-        }
-        Measure::AdjustmentRatiosSlender => {
-            let part = Some(true);
-            medians(source, &adjusted_ratios(source, stripes, part))
-        }
-        Measure::AdjustmentRatiosStocky => {
-            let part = Some(false);
-            medians(source, &adjusted_ratios(source, stripes, part))
-        }
-        Measure::ResurrectionProbability => probabilities(stripes)?,
-        Measure::ResurrectionMedian => median_again(source, stripes),
-        Measure::ResurrectionsBySize => {
-            let large = |f: usize, _: usize| Some(f == 0);
-            again_apart(source, stripes, "p = 1 minus p = 3 and 4", large)
-        }
-        Measure::ResurrectionsBySlenderness => {
-            let at = "alpha = 0.20 and 0.25 minus 0.05 and 0.10";
-            let stocky = |_: usize, s: usize| (s != 2).then_some(s > 2);
-            again_apart(source, stripes, at, stocky)
-        }
-        _ => return Ok(None),
-    }))
+    let at = format!("{}, intensity {}", block(0, stocky), STRIPES[0]);
+    let mut cells = all_ratios(stripes, frequencies, false);
+    cells.retain(|r| exception.is_none_or(|wanted| wanted == (r.at == at)));
+    Ok(Some(medians(source, &cells)))
+}
+
+/// Medians of Figures 6 and 7, the closed form divided out.
+pub(super) fn corrected(source: &Source<'_>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
+    Ok(Some(medians(source, &all_ratios(stripes, &[0, 1, 2], true))))
+}
+
+/// Medians of Figure 9: all records, or those of one side of the paper's
+/// largest slenderness.
+pub(super) fn adjusted(source: &Source<'_>, part: Option<bool>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
+    Ok(Some(medians(source, &adjusted_ratios(source, stripes, part))))
+}
+
+pub(super) fn again_by_size(source: &Source<'_>) -> Found {
+    let large = |f: usize, _: usize| Some(f == 0);
+    again_apart(source, "p = 1 minus p = 3 and 4", large)
+}
+
+pub(super) fn again_by_slenderness(source: &Source<'_>) -> Found {
+    let at = "alpha = 0.20 and 0.25 minus 0.05 and 0.10";
+    again_apart(source, at, |_, s| (s != 2).then_some(s > 2))
 }
 
 /// Share of the ratios of all cells that lie more than 10 % from 1.
-fn outliers(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
+pub(super) fn outliers(source: &Source<'_>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
+    let ratios = all_ratios(stripes, &[0, 1, 2], false);
     let kind = source.kind();
     let n = source.results.suite(kind).records.len();
     let mut far = vec![0_u32; n];
@@ -261,18 +228,17 @@ fn outliers(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
         all[record] += 1;
         far[record] += u32::from((x - 1.0).abs() > 0.10);
     }
-    source.value("ratios further than 10 % from 1", n, |draw| {
-        let sum = |of: &[u32]| -> f64 {
-            let each = of.iter().zip(draw.of(kind));
-            f64::from(each.map(|(x, count)| x * count).sum::<u32>())
-        };
-        sum(&far) / sum(&all)
-    })
+    let at = "ratios further than 10 % from 1";
+    Ok(Some(source.value(at, n, |draw| {
+        let counts = draw.of(kind);
+        counted(&far, counts) / counted(&all, counts)
+    })))
 }
 
 /// By block and stripe, the share of the records that overturned at or below
 /// and stand there again.
-fn probabilities(stripes: &StripeDemands) -> Result<Prepared, StudyError> {
+pub(super) fn probabilities(source: &Source<'_>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
     let (mut cells, mut counts) = (Vec::new(), Vec::new());
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         for slenderness in 0..SLENDERNESSES_RAD.len() {
@@ -288,13 +254,14 @@ fn probabilities(stripes: &StripeDemands) -> Result<Prepared, StudyError> {
         }
     }
     let measured = Replicated::counted(counts);
-    Ok(Prepared { cells, measured, criterion: None })
+    Ok(Some(Prepared { cells, measured, criterion: None }))
 }
 
 /// By block, the intensity at which half of the records lie overturned, with
 /// resurrections over without; by interpolation in the logarithm of the
 /// intensity between stripes.
-fn median_again(source: &Source<'_>, stripes: &StripeDemands) -> Prepared {
+pub(super) fn median_again(source: &Source<'_>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
     let kind = source.kind();
     let mut cells = Vec::new();
     let mut blocks = Vec::new();
@@ -342,21 +309,18 @@ fn median_again(source: &Source<'_>, stripes: &StripeDemands) -> Prepared {
         };
         blocks.iter().map(ratio).collect()
     };
-    Prepared {
-        cells,
-        measured: source.draws.smooth(source.tested, &of),
-        criterion: None,
-    }
+    let measured = source.draws.smooth(source.tested, &of);
+    Ok(Some(Prepared { cells, measured, criterion: None }))
 }
 
 /// Share of the overturned that stand again, of the blocks that are `first`
 /// minus that of those that are not.
 fn again_apart(
     source: &Source<'_>,
-    stripes: &StripeDemands,
     at: &str,
     first: impl Fn(usize, usize) -> Option<bool>,
-) -> Prepared {
+) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
     let kind = source.kind();
     let n = source.results.suite(kind).records.len();
     // By part, by record: overturned, and standing again.
@@ -379,31 +343,14 @@ fn again_apart(
             }
         }
     }
-    source.value(at, n, |draw| {
-        let sum = |of: &[u32]| -> f64 {
-            let each = of.iter().zip(draw.of(kind));
-            f64::from(each.map(|(x, count)| x * count).sum::<u32>())
-        };
+    Ok(Some(source.value(at, n, |draw| {
+        let sum = |of: &[u32]| counted(of, draw.of(kind));
         let share = |part: usize| sum(&sums[part][1]) / sum(&sums[part][0]);
         share(1) - share(0)
-    })
+    })))
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn closed_form_at_the_slendernesses_of_the_paper() {
-        // (sin a/a)/(sin 0.1/0.1) by Python's math.sin.
-        for (alpha, expected) in [
-            (0.05, 1.001_251_303_408_461_1),
-            (0.15, 0.997_916_579_390_467_9),
-            (0.20, 0.995_004_165_278_025_7),
-            (0.25, 0.991_267_123_030_526_1),
-        ] {
-            let off = (closed_form(alpha) - expected).abs();
-            assert!(off < 1e-15, "{alpha}: {off}");
-        }
-    }
+/// What the records drawn so often count together.
+fn counted(of: &[u32], counts: &[u32]) -> f64 {
+    f64::from(of.iter().zip(counts).map(|(x, n)| x * n).sum::<u32>())
 }

@@ -2,17 +2,17 @@
 //! of blocks of the same size?
 
 use libm::{exp, log};
-use rocking::statistics::lognormal::fit_intervals;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
+use super::answer::{Answer, Cell, Rows, both};
 use crate::analyses::SuiteResults;
 use crate::contents::{Item, items};
-use crate::figures::Results;
+use crate::error::StudyError;
+use crate::estimates::mean;
+use crate::fits::of_intervals;
 use crate::inference::{Draw, Draws, Replicated};
+use crate::results::Results;
 use crate::runs::overturning;
-use rocking_common::findings::Tested;
 use rocking_common::paper::SuiteKind;
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
@@ -47,25 +47,16 @@ impl Ours {
             };
             known.push(curves.iter().zip(&suite.records).map(of).collect());
         }
-        let (kind, tested) = match suite.kind {
-            SuiteKind::Ordinary => (suite.kind, Tested::Ordinary),
-            SuiteKind::PulseType => (suite.kind, Tested::PulseType),
-        };
+        let kind = suite.kind;
         let of = |draw: Draw<'_>| -> Vec<f64> {
             let counts = draw.of(kind);
             let fitted = |known: &Vec<(f64, f64)>| {
-                let times = known.iter().zip(counts);
-                let own: Vec<(f64, f64)> = times
-                    .flat_map(|(x, n)| std::iter::repeat_n(*x, *n as usize))
-                    .collect();
-                fit_intervals(&own, 0.0).map_or([f64::NAN; 2], |fit| {
-                    let fitted = fit.distribution;
-                    [fitted.median(), fitted.dispersion()]
-                })
+                of_intervals(known, counts, 0.0)
+                    .map_or([f64::NAN; 2], |f| [f.median(), f.dispersion()])
             };
             known.iter().flat_map(fitted).collect()
         };
-        let measured = draws.smooth(tested, &of);
+        let measured = draws.smooth(kind.into(), &of);
         let none = (f64::NAN, f64::NAN);
         let intervals = measured.percentiles();
         let intervals =
@@ -171,7 +162,7 @@ fn words(ours: &[Ours; 2]) -> String {
              mean of nine items; {least:.2} to {most:.2}); of the bookcases \
              {:.2} for the lowest and {:.2} for the highest",
             capital(one.suite.name()),
-            exp(mean(&logs)),
+            exp(mean(logs.iter().copied())),
             ratios[0],
             ratios[BOOKCASES - 1],
         )

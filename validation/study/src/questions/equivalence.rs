@@ -8,10 +8,11 @@ use rocking::statistics::paired::{
 };
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::{Answer, Cell, Rows};
-use crate::StudyError;
-use crate::figures::{Results, of_arm, pairs};
+use super::answer::{Answer, Cell, Rows};
+use crate::error::StudyError;
+use crate::results::Results;
 use crate::runs::capacities;
+use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
     position,

@@ -1,31 +1,21 @@
 //! How much of the rejections is the grid of 0.01 g?
 
-use libm::{exp, log, tan};
-use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
-use rocking::statistics::lilliefors::{
-    Assessment, Inapplicable, Null, Scale, Table,
-};
-use rocking::statistics::lognormal::{FitMethod, fit, fit_intervals};
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType, Sample};
-use rocking::streams::{Streams, standard_normal};
+use rocking::statistics::ExtendedSample;
+use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 
-use super::{Answer, Cell, Rows, both};
-use crate::StudyError;
-use crate::distributions::BlockSamples;
-use crate::figures::Results;
-use crate::normality::LEVEL;
+use super::answer::{Answer, Cell, Rows, both};
+use crate::error::StudyError;
+use crate::fits::{Fits, of_intervals};
+use crate::results::Results;
+use crate::ties::grid_alone;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, position,
 };
 use rocking_common::words::{capital, percent};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale as AxisScale,
-    Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
-
-/// Samples drawn for the grid's own share.
-const DRAWS: u64 = 1000;
 
 /// One block of a suite.
 struct Row {
@@ -176,22 +166,21 @@ fn rows(results: &Results, kind: SuiteKind) -> Result<Vec<Row>, StudyError> {
 /// Dispersion above a shift by maximum likelihood.
 fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
     let sample = ExtendedSample::try_new(values).ok()?;
-    let fit = fit(&sample, shift, FitMethod::MaximumLikelihood).ok()?;
-    Some(fit.distribution.dispersion())
+    Fits::new(&sample, shift).ssfl.map(|f| f.dispersion())
 }
 
 /// The same of first overturnings that are known by their brackets: above
 /// the last level that stood, up to the first that did not.
 fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
-    let intervals: Vec<(f64, f64)> = curves
+    let known: Vec<(f64, f64)> = curves
         .iter()
         .map(|curve| {
             let high = curve.overturning_im().unwrap_or(f64::INFINITY);
             (curve.last_im(), high)
         })
         .collect();
-    let fit = fit_intervals(&intervals, shift).ok()?;
-    Some(fit.distribution.dispersion())
+    let once = vec![1; known.len()];
+    of_intervals(&known, &once, shift).map(|f| f.dispersion())
 }
 
 fn tied(assessment: &Assessment) -> bool {
@@ -202,76 +191,6 @@ fn distinct(values: &[f64]) -> usize {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.chunk_by(|a, b| a == b).count()
-}
-
-/// Rejected share of samples that are lognormal above the shift like the
-/// block's first overturnings, each put on the next level of the 0.01 g
-/// grid; none where there is no such fit.
-fn grid_alone(block: &BlockSamples) -> Option<f64> {
-    let (truth, step, n) = overturnings(block)?;
-    Some(rejected_on_grid(&truth, step, n))
-}
-
-/// The lognormal above the shift of a block's first overturnings, the step of
-/// the 0.01 g grid, and how many they are.
-fn overturnings(block: &BlockSamples) -> Option<(Lognormal, f64, usize)> {
-    let sample = block.samples.last()?;
-    let extended = ExtendedSample::try_new(sample).ok()?;
-    let method = FitMethod::MaximumLikelihood;
-    let truth = fit(&extended, block.shift, method).ok()?.distribution;
-    Some((truth, 0.01 / tan(block.alpha_rad), sample.len()))
-}
-
-/// The 95 % quantile of D over the table's critical value for such samples
-/// on that grid; none where there is no fit.
-pub(crate) fn critical_on_grid(block: &BlockSamples) -> Option<f64> {
-    let (truth, step, n) = overturnings(block)?;
-    let ratios = on_grid(&truth, step, n, Assessment::ratio);
-    let ratios: Vec<f64> = ratios.into_iter().flatten().collect();
-    let sample = Sample::try_new(&ratios).ok()?;
-    QuantileType::default().of(&sample, 1.0 - LEVEL).ok()
-}
-
-/// Share of samples of `n` capacities of a shifted lognormal that the
-/// shifted test rejects after they were put on the next multiple of `step`.
-pub(super) fn rejected_on_grid(truth: &Lognormal, step: f64, n: usize) -> f64 {
-    let rejected = on_grid(truth, step, n, Assessment::exceeds);
-    let count = rejected.into_iter().filter(|r| r.unwrap_or(true)).count();
-    count as f64 / DRAWS as f64
-}
-
-/// What the shifted test says of samples of `n` capacities of a shifted
-/// lognormal, each put on the next multiple of `step`.
-fn on_grid<T: Send>(
-    truth: &Lognormal,
-    step: f64,
-    n: usize,
-    of: impl Fn(&Assessment) -> Option<T> + Sync,
-) -> Vec<Option<T>> {
-    let streams = Streams::new("study/grid alone", 0);
-    let shift = truth.shift();
-    let scale = Scale::Linear;
-    (0..DRAWS)
-        .into_par_iter()
-        .map(|index| {
-            let mut stream = streams.stream(index);
-            let logs: Vec<f64> = (0..n)
-                .map(|_| {
-                    let z = standard_normal(&mut stream);
-                    let x = shift
-                        + exp(f64::mul_add(
-                            truth.dispersion(),
-                            z,
-                            truth.log_mean(),
-                        ));
-                    log((x / step).ceil() * step - shift)
-                })
-                .collect();
-            let sample = ExtendedSample::try_new(&logs).ok()?;
-            let null = Null::Table(Table::embedded());
-            of(&Assessment::new(&sample, scale, LEVEL, null))
-        })
-        .collect()
 }
 
 /// A row of panels a suite.
@@ -330,32 +249,12 @@ fn panel(title: String, rows: &[Row]) -> ChartPanel {
         .collect();
     let words = "the grid alone, at overturning";
     series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
-    let axis = |label: &str, range| {
-        ChartAxis::new(label, AxisScale::Linear, Some(range))
-    };
+    let axis =
+        |label: &str, range| ChartAxis::new(label, Scale::Linear, Some(range));
     ChartPanel {
         title,
         x: axis("*α* (rad)", (0.03, 0.27)),
         y: axis("rejected levels (%)", (0.0, 100.0)),
         series,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_grid_alone_rejects_slender_blocks() {
-        // Excess median 0.9, dispersion 0.6, 86 values: 91, 30 and 8.8 % by
-        // an independent simulation of 4000 trials; four deviations.
-        let truth =
-            Lognormal::try_new(1.0, libm::log(0.9), 0.6).expect("truth");
-        for (alpha_rad, rate) in [(0.05, 0.91), (0.10, 0.30), (0.25, 0.088)] {
-            let ours = rejected_on_grid(&truth, 0.01 / tan(alpha_rad), 86);
-            let variance = rate * (1.0 - rate) * (1e-3 + 1.0 / 4000.0);
-            let bound = 4.0 * f64::sqrt(variance) + 0.005;
-            assert!((ours - rate).abs() < bound, "{alpha_rad}: {ours}");
-        }
     }
 }

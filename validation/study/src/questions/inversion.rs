@@ -2,9 +2,9 @@
 
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
-use super::{Answer, Cell, Rows, both};
-use crate::StudyError;
-use crate::figures::Results;
+use super::answer::{Answer, Cell, Rows, both};
+use crate::error::StudyError;
+use crate::results::Results;
 use crate::runs::capacities;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use rocking_common::words::capital;

@@ -6,12 +6,13 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
-use crate::figures::Results;
+use super::answer::{Answer, Cell, Rows, both};
+use crate::error::StudyError;
+use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
+use crate::results::Results;
 use rocking_common::paper::Intensity;
 use rocking_common::words::capital;
 
@@ -81,7 +82,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     table.row(shifted == 1, cells);
                 }
             }
-            let [d, a, w, s] = others.map(|o| mean(&o));
+            let [d, a, w, s] = others.map(|o| mean(o.iter().copied()));
             words.push(format!(
                 "{}, {}: the accepted share is lower than lognormal \
                  capacities with the same dependence between levels allow \
@@ -155,8 +156,9 @@ impl Row {
             share,
             band: limits.unwrap_or((f64::NAN, f64::NAN)),
             p_of_share: band.map_or(f64::NAN, |b| b.p_value(observed)),
-            p_of_mean: band
-                .map_or(f64::NAN, |b| b.p_value_of_mean_ratio(mean(&ratios))),
+            p_of_mean: band.map_or(f64::NAN, |b| {
+                b.p_value_of_mean_ratio(mean(ratios.iter().copied()))
+            }),
             effective: band.map_or(f64::NAN, |b| b.effective_levels),
             rejected: [
                 counts.tested - counts.accepted,

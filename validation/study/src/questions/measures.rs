@@ -3,15 +3,15 @@
 
 use libm::log;
 use rocking::intensity::IntensityMeasure;
-use rocking::statistics::lognormal::fit_intervals;
 
-use super::{Answer, Cell, Rows, both};
-use crate::StudyError;
+use super::answer::{Answer, Cell, Rows, both};
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
-use crate::figures::Results;
+use crate::error::StudyError;
+use crate::fits::of_intervals;
 use crate::inference::{Draw, Draws, Replicated, by_cell};
+use crate::results::Results;
 use crate::runs::overturning;
-use rocking_common::findings::{Measured, Region, Tested};
+use rocking_common::findings::{Measured, Region};
 use rocking_common::paper::{
     BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, Verdict, position,
 };
@@ -140,7 +140,7 @@ impl Dispersions {
                 .map(|(known, logs)| dispersion(known, logs, counts))
                 .collect()
         };
-        let measured = draws.smooth(tested(kind), &of);
+        let measured = draws.smooth(kind.into(), &of);
         Ok(Self { suite: kind, measured })
     }
 
@@ -175,11 +175,8 @@ impl Dispersions {
 fn dispersion(known: &[(f64, f64)], logs: &[f64], counts: &[u32]) -> f64 {
     let drawn = || counts.iter().enumerate().filter(|(_, n)| **n > 0);
     if drawn().any(|(i, _)| known[i].1.is_infinite()) {
-        let all: Vec<(f64, f64)> = drawn()
-            .flat_map(|(i, n)| std::iter::repeat_n(known[i], *n as usize))
-            .collect();
-        let fit = fit_intervals(&all, 0.0);
-        return fit.map_or(f64::NAN, |fit| fit.distribution.dispersion());
+        let fitted = of_intervals(known, counts, 0.0);
+        return fitted.map_or(f64::NAN, |f| f.dispersion());
     }
     let sum = |f: &dyn Fn(f64) -> f64| {
         drawn().fold(0.0, |sum, (i, n)| sum + f64::from(*n) * f(logs[i]))
@@ -187,13 +184,6 @@ fn dispersion(known: &[(f64, f64)], logs: &[f64], counts: &[u32]) -> f64 {
     let count = sum(&|_| 1.0);
     let centre = sum(&|y| y) / count;
     (sum(&|y| (y - centre) * (y - centre)) / count).sqrt()
-}
-
-fn tested(suite: SuiteKind) -> Tested {
-    match suite {
-        SuiteKind::Ordinary => Tested::Ordinary,
-        SuiteKind::PulseType => Tested::PulseType,
-    }
 }
 
 /// No interval.
@@ -257,7 +247,7 @@ fn words(found: &Dispersions, draws: &Draws) -> String {
     };
     let clause = |place: usize, limit: f64, less: &str, more: &str| {
         let ratios = found.ratios_of(place);
-        let cells = by_cell(draws, tested(found.suite), NOT_NEGATIVE, &ratios);
+        let cells = by_cell(draws, found.suite.into(), NOT_NEGATIVE, &ratios);
         let count = |verdict| {
             let is = |c: &&Measured| {
                 c.interval.is_some_and(|(low, high)| {
@@ -410,7 +400,7 @@ mod tests {
         let logs = known.map(|(x, _)| log(x));
         let counts = [2, 0, 1, 3, 1];
         let drawn = [1.0, 1.0, 2.0, 4.0, 4.0, 4.0, 7.0].map(|x| (x, x));
-        let fit = fit_intervals(&drawn, 0.0).unwrap().distribution;
+        let fit = of_intervals(&drawn, &[1; 7], 0.0).unwrap();
         let found = dispersion(&known, &logs, &counts);
         assert!((found / fit.dispersion() - 1.0).abs() < 1e-12, "{found}");
         // A censored record counts by what is known of it, not as reached.

@@ -2,13 +2,13 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::{Answer, Cell, Rows, both};
-use crate::StudyError;
+use super::answer::{Answer, Cell, Rows, both};
 use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
+use crate::error::StudyError;
 use crate::estimates::median;
-use crate::figures::Results;
 use crate::normality::{LEVEL, over_critical};
+use crate::results::Results;
 use rocking_common::paper::{Arm, Intensity, demand_index, demands};
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{

@@ -2,22 +2,25 @@
 //! threshold.
 
 mod drawing;
+mod summary;
+
+use summary::{MLE, Summary, trimmed};
 
 use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::fragility::options::{Centre, Recipe};
 use rocking::integrator::Model;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
-use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 
-use super::{Answer, Cell, Rows};
-use crate::StudyError;
+use super::answer::{Answer, Cell, Rows};
 use crate::distributions::BlockSamples;
+use crate::error::StudyError;
 use crate::estimates::median;
-use crate::figures::{BLOCK, Results, THRESHOLDS};
+use crate::fits::{BLOCK, THRESHOLDS};
+use crate::results::Results;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };
@@ -193,16 +196,6 @@ fn entries(
         .collect())
 }
 
-/// One recipe over all blocks and thresholds.
-struct Summary {
-    recipe: Recipe,
-    intensity: Intensity,
-    defined: f64,
-    ks: f64,
-    largest: f64,
-    area: f64,
-}
-
 fn summaries(entries: &[Entry]) -> Vec<Summary> {
     let recipes = Recipe::all(QuantileType::default());
     let mut out = Vec::new();
@@ -229,12 +222,6 @@ fn summaries(entries: &[Entry]) -> Vec<Summary> {
         }
     }
     out
-}
-
-const MLE: FitMethod = FitMethod::MaximumLikelihood;
-
-fn trimmed() -> FitMethod {
-    FitMethod::Trimmed(QuantileType::default())
 }
 
 fn words(summaries: &[Summary]) -> String {

@@ -9,10 +9,10 @@ use rocking::statistics::normality::{
 };
 use rocking::streams::{Streams, standard_normal};
 
-use super::{Answer, Cell, Rows};
-use crate::StudyError;
-use crate::figures::Results;
+use super::answer::{Answer, Cell, Rows};
+use crate::error::StudyError;
 use crate::normality::LEVEL;
+use crate::results::Results;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };

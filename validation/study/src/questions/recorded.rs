@@ -9,9 +9,9 @@ use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking::intensity::{Measures, Settings};
 use rocking::record::{Processing, ReadOptions, Suite};
 
-use super::{Answer, Cell, Rows};
-use crate::StudyError;
-use crate::figures::Results;
+use super::answer::{Answer, Cell, Rows};
+use crate::error::StudyError;
+use crate::results::Results;
 use rocking_common::suites::{StudySuiteError, inputs};
 
 /// Original files, as the PyPI package `gmprocess` 2.8.0 has them, zipped.

@@ -6,12 +6,13 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
-use super::{Answer, Cell, Rows, both, mean};
-use crate::StudyError;
+use super::answer::{Answer, Cell, Rows, both};
 use crate::distributions::BlockSamples;
+use crate::error::StudyError;
+use crate::estimates::mean;
 use crate::estimates::median;
-use crate::figures::Results;
 use crate::normality::{LEVEL, accepted_share, every};
+use crate::results::Results;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, range};
 
@@ -74,7 +75,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 });
                 let nine = share(&levels, &all, 0.9 * block.shift);
                 let ends = quantiles(&shares);
-                gains.push(mean(&shares) - whole);
+                gains.push(mean(shares.iter().copied()) - whole);
                 swings.push(high - low);
                 moves.push(nine - whole);
                 table.row(
@@ -85,7 +86,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                         Cell::Number(block.p_rad_s, 0),
                         Cell::Number(block.alpha_rad, 2),
                         Cell::Number(whole, 2),
-                        Cell::Number(mean(&shares), 2),
+                        Cell::Number(mean(shares.iter().copied()), 2),
                         Cell::Number(ends.0, 2),
                         Cell::Number(ends.1, 2),
                         Cell::Number(low, 2),

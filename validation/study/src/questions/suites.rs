@@ -6,12 +6,12 @@ mod compare;
 mod drawing;
 mod row;
 
-use row::{Group, Row, Shown};
+use row::{Group, MOTIONS, Row, Shown, of_motion};
 
-use super::Answer;
-use crate::StudyError;
+use super::answer::Answer;
+use crate::error::StudyError;
 use crate::estimates::median;
-use crate::figures::Results;
+use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind};
 use rocking_common::table::PlainTable;
 use rocking_common::words::{capital, range};
@@ -21,19 +21,6 @@ use rocking_draw::markup;
 /// medians, dispersions and intervals alone.
 const COMMITTED: &str =
     include_str!("../../../../fixtures/comparison/suites.csv");
-
-/// Measures of motions in words and figures, by their names in the CSV, with
-/// the labels of the figure.
-const MOTIONS: [(&str, &str); 8] = [
-    ("pga_g", "PGA"),
-    ("pgv_m_s", "PGV"),
-    ("pgv_over_pga_s", "PGV/PGA"),
-    ("arias_intensity_m_s", "Arias"),
-    ("cav_m_s", "CAV"),
-    ("significant_duration_5_75_s", "*D*_{5–75}"),
-    ("significant_duration_5_95_s", "*D*_{5–95}"),
-    ("mean_period_s", "*T*_{m}"),
-];
 
 const QUESTION: &str = "What can the embedded suites show, and what not?";
 
@@ -86,17 +73,6 @@ fn none() -> Answer {
          embedded suites are those of published models, no more."
             .into(),
     )
-}
-
-/// The row of a measure of the motions.
-fn of_motion<'a>(
-    rows: &'a [Row],
-    kind: &str,
-    quantity: &str,
-) -> Option<&'a Row> {
-    rows.iter().find(|r| {
-        r.group == Group::Motion && r.suite == kind && r.quantity == quantity
-    })
 }
 
 fn of_group<'a>(

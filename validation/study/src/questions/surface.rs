@@ -3,16 +3,16 @@
 
 use rocking::statistics::ExtendedSample;
 
-use super::{Answer, Cell, Rows};
-use crate::StudyError;
-use crate::figures::{Fits, Results};
+use super::answer::{Answer, Cell, Rows};
+use crate::error::StudyError;
+use crate::fits::Fits;
+use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
 use rocking_surrogate::{
     FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
-    apart,
 };
 
 const QUESTION: &str =
@@ -75,7 +75,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         for (model, _) in &surrogate.models {
             for block in of.iter().filter(|b| b.suite == model.suite) {
                 let found = model.at(block.alpha_rad, block.p_rad_s)?;
-                let off = apart(&found, &block.lognormal()?);
+                let off = found.distance(&block.lognormal()?);
                 table.row(
                     blocks == "study",
                     vec![
@@ -89,7 +89,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                         Cell::Number(found.median(), 3),
                         Cell::Number(block.dispersion, 3),
                         Cell::Number(found.dispersion(), 3),
-                        Cell::Number(off, 3),
+                        Cell::Number(off.unwrap_or(f64::NAN), 3),
                     ],
                 );
             }

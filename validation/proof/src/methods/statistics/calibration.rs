@@ -20,10 +20,11 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType, Sample};
 use serde::Deserialize;
 
-use super::refused;
+use super::cells::refused;
 use super::truths::Truth;
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 /// Deviation in standard errors, half a printed unit taken off.
 fn gap(difference: f64, rounding: f64, error: f64) -> f64 {

@@ -5,9 +5,10 @@ use rocking::statistics::choice::{Model, candidate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const CHOICE: &str = "fixtures/oracles/choice.csv";
 const CHOICE_CSV: &str =

@@ -4,9 +4,10 @@ use libm::{exp, log};
 use rocking::fragility::{c_max, eq5, eq6, eq7};
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const FILE: &str = "fixtures/oracles/fragility.csv";
 const CSV: &str =

@@ -12,9 +12,10 @@ use rocking::statistics::rivals::{self, Family};
 use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const LOGNORMAL: &str = "fixtures/oracles/lognormal.csv";
 const LOGNORMAL_CSV: &str =

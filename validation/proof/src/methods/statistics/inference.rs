@@ -15,9 +15,10 @@ use rocking::statistics::resampling::{
 use rocking::streams::{Streams, standard_normal};
 use serde::Deserialize;
 
-use super::refused;
+use super::cells::refused;
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;

@@ -3,9 +3,10 @@
 use rocking::capacity::{InversionRule, ResponseCurve};
 use serde::Deserialize;
 
-use super::refused;
+use super::cells::refused;
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -8,9 +8,10 @@ use rocking::statistics::{Sample, normal};
 use rocking::streams::{Streams, standard_normal};
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const EXACT: &str = "fixtures/oracles/lilliefors_exact.csv";
 const EXACT_CSV: &str =

@@ -3,9 +3,10 @@
 use rocking::statistics::Sample;
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const FILE: &str = "fixtures/nist/univariate.csv";
 const CSV: &str = include_str!("../../../../../fixtures/nist/univariate.csv");

@@ -8,9 +8,10 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
 use serde::Deserialize;
 
-use super::{number, refused, rows};
+use super::cells::{number, refused, rows};
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 const FILE: &str = "fixtures/oracles/risk.csv";
 const CSV: &str = include_str!("../../../../../fixtures/oracles/risk.csv");

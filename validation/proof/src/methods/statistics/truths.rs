@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use rocking::streams::{Streams, below, standard_normal};
 use serde::Deserialize;
 
-use super::refused;
-use crate::methods::MethodError;
+use super::cells::refused;
+use crate::error::MethodError;
 
 /// The law of the values that are tested or fitted, in logarithms where the
 /// study takes them.

@@ -4,9 +4,10 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 use serde::Deserialize;
 
-use super::refused;
+use super::cells::refused;
 use crate::cases::WrongModel;
-use crate::methods::{Answer, Context, MethodError};
+use crate::error::MethodError;
+use crate::methods::method::{Answer, Context};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -2,14 +2,16 @@
 
 use rocking::statistics::Lognormal;
 
-use super::super::{Figure, Results, name};
-use super::{THRESHOLDS, distance, usfl7};
-use crate::StudyError;
 use crate::claims::limit_of;
+use crate::error::StudyError;
+use crate::figures::stem::name;
+use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
+use crate::results::Results;
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
+use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
     BandOf, Estimator, Fitted, Fragilities, FragilityPanel, Heading, Limit,
 };
@@ -106,7 +108,7 @@ pub(in super::super) fn thresholds(
             by_cell(draws, source.tested, range, measured)
         };
         let decide = if pair == Pair::Shifted {
-            let prepared = source.prepare(measure)?;
+            let prepared = measure.prepare(&source)?;
             prepared.map_or(Vec::new(), |p| judged(&p.measured))
         } else {
             let apart = |at: &At| to_ssfl(pair.first(at), at, 1.0);

@@ -4,7 +4,7 @@ use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
 use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
-use super::{MLE, Summary, trimmed};
+use super::summary::{MLE, Summary, trimmed};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_common::words::range;
 use rocking_draw::figures::{

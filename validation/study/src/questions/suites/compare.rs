@@ -3,19 +3,21 @@
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
+use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::two_sample::kolmogorov_smirnov;
-use rocking::statistics::{ExtendedSample, QuantileType};
 
 use super::row::{Group, Interval, Row, Side};
-use crate::StudyError;
 use crate::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
 };
 use crate::certainty::Certainty;
 use crate::distributions::{BlockSamples, Distributions, of_suite};
-use crate::figures::{Results, THRESHOLDS};
+use crate::error::StudyError;
+use crate::estimates::three_quantiles;
+use crate::fits::THRESHOLDS;
 use crate::normality::ends;
+use crate::results::Results;
 use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
 use rocking_common::suites::StudySuite;
 
@@ -197,7 +199,7 @@ impl Pair {
         embedded: &[f64],
         recorded: &[f64],
     ) -> Result<Row, StudyError> {
-        let points = [quantiles(embedded)?, quantiles(recorded)?];
+        let points = [three_quantiles(embedded)?, three_quantiles(recorded)?];
         for (side, [low, middle, high]) in
             [&mut row.embedded, &mut row.recorded].into_iter().zip(points)
         {
@@ -205,7 +207,7 @@ impl Pair {
         }
         let drawn = |values: &[f64], draw: &[usize]| {
             let own: Vec<f64> = draw.iter().map(|i| values[*i]).collect();
-            quantiles(&own)
+            three_quantiles(&own)
         };
         let (mut ratios, mut spreads) = (Vec::new(), Vec::new());
         for (e, r) in self.draws[0].iter().zip(&self.draws[1]) {
@@ -261,13 +263,6 @@ fn measures(facts: &Facts) -> Vec<(String, f64)> {
     let spectrum = SPECTRUM_PERIODS_S.iter().zip(&m.spectral_acceleration_g);
     out.extend(spectrum.map(|(t, a)| (format!("sa_{t}_g"), *a)));
     out
-}
-
-/// 16, 50 and 84 % quantiles of the default type.
-fn quantiles(values: &[f64]) -> Result<[f64; 3], StudyError> {
-    let sample = ExtendedSample::try_new(values)?;
-    let at = |p| QuantileType::default().of_extended(&sample, p);
-    Ok([at(0.16)?, at(0.5)?, at(0.84)?])
 }
 
 fn dispersion([low, _, high]: [f64; 3]) -> f64 {

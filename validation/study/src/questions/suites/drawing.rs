@@ -1,7 +1,7 @@
 //! Figures of the comparison.
 
 use super::row::{Group, Row};
-use super::{MOTIONS, of_motion};
+use super::row::{MOTIONS, of_motion};
 use crate::analyses::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{

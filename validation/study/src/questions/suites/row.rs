@@ -226,3 +226,27 @@ pub(super) fn from_csv(text: &str) -> Vec<Row> {
     };
     text.lines().filter_map(line).collect()
 }
+
+/// Measures of motions in words and figures, by their names in the CSV, with
+/// the labels of the figure.
+pub(super) const MOTIONS: [(&str, &str); 8] = [
+    ("pga_g", "PGA"),
+    ("pgv_m_s", "PGV"),
+    ("pgv_over_pga_s", "PGV/PGA"),
+    ("arias_intensity_m_s", "Arias"),
+    ("cav_m_s", "CAV"),
+    ("significant_duration_5_75_s", "*D*_{5–75}"),
+    ("significant_duration_5_95_s", "*D*_{5–95}"),
+    ("mean_period_s", "*T*_{m}"),
+];
+
+/// The row of a measure of the motions.
+pub(super) fn of_motion<'a>(
+    rows: &'a [Row],
+    kind: &str,
+    quantity: &str,
+) -> Option<&'a Row> {
+    rows.iter().find(|r| {
+        r.group == Group::Motion && r.suite == kind && r.quantity == quantity
+    })
+}

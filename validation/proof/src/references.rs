@@ -8,12 +8,12 @@ use rocking::number::double::DoubleDouble;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::MethodError;
 use crate::arithmetic::decimal;
+use crate::error::MethodError;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene, rescaled};
 
 /// An embedded file.
-pub(super) struct Reference {
+pub(crate) struct Reference {
     pub file: &'static str,
     text: &'static str,
 }
@@ -23,19 +23,19 @@ macro_rules! reference {
         Reference {
             file: concat!("fixtures/references/", $name),
             text: include_str!(concat!(
-                "../../../../fixtures/references/",
+                "../../../fixtures/references/",
                 $name
             )),
         }
     };
 }
 
-pub(super) const TRAJECTORIES: Reference = reference!("trajectories.json");
-pub(super) const RECORDS: Reference = reference!("records.json");
-pub(super) const LINEAR_PULSES: Reference = reference!("linear_pulses.json");
-pub(super) const FREE_ROCKING: Reference = reference!("free_rocking.json");
-pub(super) const RECT_PULSE: Reference = reference!("rect_pulse.json");
-pub(super) const SPECTRUM: Reference =
+pub(crate) const TRAJECTORIES: Reference = reference!("trajectories.json");
+pub(crate) const RECORDS: Reference = reference!("records.json");
+pub(crate) const LINEAR_PULSES: Reference = reference!("linear_pulses.json");
+pub(crate) const FREE_ROCKING: Reference = reference!("free_rocking.json");
+pub(crate) const RECT_PULSE: Reference = reference!("rect_pulse.json");
+pub(crate) const SPECTRUM: Reference =
     reference!("linear_overturning_spectrum.json");
 
 impl Reference {
@@ -119,14 +119,14 @@ impl Reference {
 /// Input of a case: a named trajectory.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Named {
+pub(crate) struct Named {
     pub entry: String,
 }
 
 /// Input of a case: an entry by its place in the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Numbered {
+pub(crate) struct Numbered {
     pub entry: usize,
 }
 
@@ -134,13 +134,13 @@ pub(super) struct Numbered {
 /// alpha (rad), p (rad/s), g (m/s2).
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct PulseOnBlocks {
+pub(crate) struct PulseOnBlocks {
     pub entry: usize,
     pub blocks: Vec<[f64; 3]>,
 }
 
 /// The entry of this number among a file's cases.
-pub(super) fn entry(
+pub(crate) fn entry(
     file: &Reference,
     number: usize,
 ) -> Result<Value, MethodError> {
@@ -151,7 +151,7 @@ pub(super) fn entry(
 
 /// A block (alpha, p, g) in Eq. 2 under the pulse of a dimensionless case of
 /// `linear_pulses.json`.
-pub(super) fn linear_scene(
+pub(crate) fn linear_scene(
     case: &Value,
     [alpha, p, g]: [f64; 3],
     criterion: Overturning,
@@ -226,7 +226,7 @@ fn pulse(
 }
 
 /// The block and pulse of an entry of `rect_pulse.json`.
-pub(super) fn rectangular_scene(
+pub(crate) fn rectangular_scene(
     case: &Value,
     criterion: Overturning,
 ) -> Result<Scene, MethodError> {
@@ -253,7 +253,7 @@ static READ: LazyLock<Result<Value, MethodError>> =
     LazyLock::new(|| TRAJECTORIES.read());
 
 /// The trajectory of this name.
-pub(super) fn trajectory(name: &str) -> Result<&'static Value, MethodError> {
+pub(crate) fn trajectory(name: &str) -> Result<&'static Value, MethodError> {
     let file = READ.as_ref().map_err(Clone::clone)?;
     let named = |case: &&Value| case["name"] == name;
     TRAJECTORIES
@@ -272,7 +272,7 @@ pub(crate) fn attainable_float64(
 }
 
 /// The scene of a trajectory.
-pub(super) fn scene(
+pub(crate) fn scene(
     case: &Value,
     criterion: Overturning,
 ) -> Result<Scene, MethodError> {
@@ -330,7 +330,7 @@ fn samples(value: &Value) -> Result<Vec<f64>, MethodError> {
 }
 
 /// A synthetic record: interval in s and samples in m/s2.
-pub(super) fn record(name: &str) -> Result<(f64, Vec<f64>), MethodError> {
+pub(crate) fn record(name: &str) -> Result<(f64, Vec<f64>), MethodError> {
     let records = RECORDS.read()?;
     let record = RECORDS.get(&records, name)?;
     let list = RECORDS.list(record, "acc")?;

@@ -1,0 +1,240 @@
+//! A declared case.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::wrong::WrongModel;
+use rocking_common::words::named;
+
+named! {
+    /// The kind of evidence a family gives.
+    pub enum Kind {
+        /// The code does what the model says: closed forms, high precision.
+        CodeVerification = "code-verification",
+        /// The numerical error is what the method promises.
+        SolutionVerification = "solution-verification",
+        /// The model against measured or published results.
+        ModelValidation = "model-validation",
+        /// A statistical procedure keeps its stated error rates.
+        StatisticalCalibration = "statistical-calibration",
+        /// Our own number, pinned.
+        Regression = "regression",
+    }
+}
+
+/// A family: one file of cases.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Family {
+    /// One line for people.
+    pub title: String,
+    /// Kind of evidence.
+    pub kind: Kind,
+    /// What every case of the file inherits.
+    #[serde(default)]
+    pub default: toml::Table,
+    /// What the cases of a method inherit beside that.
+    #[serde(default)]
+    pub method: BTreeMap<String, toml::Table>,
+}
+
+/// Where a claim comes from.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// Author and year, or the document.
+    pub cite: String,
+    /// Equation, table or section.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Anything a reader must know.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// When a case is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cost {
+    /// In every `cargo test`.
+    Quick,
+    /// Only with `--full`.
+    Full,
+}
+
+named! {
+    /// Nature of the expected values.
+    pub enum OracleKind {
+        /// A formula, evaluated outside the code under test.
+        ClosedForm = "closed-form",
+        /// An independent computation in high precision.
+        HighPrecision = "high-precision",
+        /// A property that needs no outside number (symmetry, invariance).
+        Property = "property",
+        /// Refinement of the method itself.
+        SelfConvergence = "self-convergence",
+        /// Another program.
+        ExternalCode = "external-code",
+        /// Published numbers.
+        Published = "published",
+        /// Measurements.
+        Experiment = "experiment",
+        /// Simulation with known truth.
+        KnownTruthSimulation = "known-truth-simulation",
+        /// Our own earlier output.
+        OwnOutput = "own-output",
+    }
+}
+
+/// What is expected.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// Nature of the values.
+    pub oracle: OracleKind,
+    /// File or module the values come from.
+    pub origin: String,
+    /// Values written in the case itself, by quantity; quantities that the
+    /// method takes from its origin are absent here.
+    #[serde(default)]
+    pub values: BTreeMap<String, Values>,
+}
+
+/// One number or a list.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Values {
+    /// One number.
+    One(f64),
+    /// A list.
+    Many(Vec<f64>),
+}
+
+impl Values {
+    /// The numbers as a list.
+    #[must_use]
+    pub fn to_vec(&self) -> Vec<f64> {
+        match self {
+            Self::One(x) => vec![*x],
+            Self::Many(xs) => xs.clone(),
+        }
+    }
+}
+
+/// How far a quantity may be from what is expected.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bound {
+    /// Equal as numbers.
+    Exact,
+    /// |observed - expected| at most this.
+    Absolute(f64),
+    /// |observed - expected| at most this times |expected|.
+    Relative(f64),
+    /// Observed inside [low, high]; no expected value.
+    Interval(f64, f64),
+    /// Observed order of convergence at least the expected one less this.
+    Order(f64),
+    /// Observed share within the binomial bound of the expected one, for
+    /// this many trials and a false alarm of one in a million.
+    Coverage(u32),
+    /// Not demanded of this case, for this reason.
+    Waived(String),
+}
+
+impl Bound {
+    /// The name as it stands in case files.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Absolute(_) => "absolute",
+            Self::Relative(_) => "relative",
+            Self::Interval(..) => "interval",
+            Self::Order(_) => "order",
+            Self::Coverage(_) => "coverage",
+            Self::Waived(_) => "waived",
+        }
+    }
+}
+
+/// Why a bound is what it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Basis {
+    /// 100 times what a careful double-precision code reached, and never
+    /// less than 1e-13.
+    AttainableFloat64,
+    /// Rounding of the evaluated formula times its condition number.
+    Conditioning,
+    /// The same bits are due.
+    Identity,
+    /// Digits printed by the source.
+    ReferenceRounding,
+    /// Step size and order.
+    Discretisation,
+    /// Sampling error.
+    Sampling,
+    /// Digitising or measuring error.
+    Measurement,
+}
+
+/// Tolerances, their reason, and the wrong models that must break them.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tolerance {
+    /// Where the bounds come from.
+    pub basis: Basis,
+    /// Why they are right, in words.
+    pub because: String,
+    /// Bound of each quantity.
+    pub bounds: BTreeMap<String, Bound>,
+    /// Wrong models that must fail the case.
+    #[serde(default)]
+    pub reject: Vec<WrongModel>,
+    /// Bound, of the same kind, at which the naive integrator with right
+    /// rules passes; required where a wrong algorithm is rejected.
+    #[serde(default)]
+    pub naive: Option<f64>,
+}
+
+/// What is expected of the verdict.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, tag = "expect", rename_all = "kebab-case")]
+pub enum Status {
+    /// The case passes.
+    Pass,
+    /// The case is known to fail.
+    KnownFailure {
+        /// Where the failure is discussed.
+        issue: String,
+    },
+}
+
+/// One declared case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// `family/name`.
+    pub id: String,
+    /// Name of the family.
+    pub family: String,
+    /// Kind of evidence, from the family.
+    pub kind: Kind,
+    /// What is claimed.
+    pub claim: String,
+    /// Where it comes from.
+    pub source: Source,
+    /// Name of the registered method.
+    pub method: String,
+    /// When it is run.
+    pub cost: Cost,
+    /// Input of the method.
+    pub input: toml::Table,
+    /// What is expected.
+    pub expect: Expect,
+    /// Tolerances.
+    pub tolerance: Tolerance,
+    /// What is expected of the verdict.
+    pub status: Status,
+}

@@ -1,0 +1,12 @@
+//! A scene with its address.
+
+use crate::scene::Scene;
+
+/// A scene with its address.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    /// Stratum, index and kind of the excitation.
+    pub name: String,
+    /// The scene.
+    pub scene: Scene,
+}

@@ -1,0 +1,32 @@
+//! What a study runs.
+
+use crate::runs::Setup;
+use rocking_common::paper::Arm;
+
+/// What a study runs.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// What holds for every analysis.
+    pub setup: Setup,
+    /// Arms in the order A, B, C.
+    pub arms: Vec<Arm>,
+}
+
+impl Plan {
+    /// Arms from which figures are drawn: A and C, where they are run.
+    #[must_use]
+    pub fn drawn(&self) -> Vec<Arm> {
+        let drawn = |arm: &&Arm| **arm != Arm::B;
+        self.arms.iter().filter(drawn).copied().collect()
+    }
+
+    /// The arm whose grid the single-record figures use: C, else the first.
+    #[must_use]
+    pub fn common(&self) -> Arm {
+        if self.arms.contains(&Arm::C) {
+            Arm::C
+        } else {
+            self.arms.first().copied().unwrap_or(Arm::A)
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Answers, and the tables behind them.
+
+use crate::analyses::SuiteResults;
+use crate::results::Results;
+use rocking_common::table::{PlainTable, Table};
+use rocking_draw::figures::Figure;
+
+/// A question with its answer and the numbers behind it.
+pub struct Answer {
+    /// Short name, also of the CSV: `grid`.
+    pub id: &'static str,
+    /// What is asked.
+    pub question: &'static str,
+    /// What came out, in a sentence or two made from the numbers.
+    pub answer: String,
+    /// The numbers, full and as CSV.
+    pub csv: String,
+    /// What the page shows of them.
+    pub tables: Vec<PlainTable>,
+    /// Drawings.
+    pub figures: Vec<Figure>,
+    /// Other CSV files, by name.
+    pub files: Vec<(String, String)>,
+}
+
+impl Answer {
+    pub(super) fn new(
+        id: &'static str,
+        question: &'static str,
+        answer: String,
+    ) -> Self {
+        Self {
+            id,
+            question,
+            answer,
+            csv: String::new(),
+            tables: Vec::new(),
+            figures: Vec::new(),
+            files: Vec::new(),
+        }
+    }
+}
+
+/// Rows for a CSV and a table of the page at once.
+pub struct Rows {
+    csv: Table,
+    header: Vec<String>,
+    shown: Vec<Vec<String>>,
+}
+
+impl Rows {
+    pub fn new(header: &[&str]) -> Self {
+        Self {
+            csv: Table::new(header),
+            header: header.iter().map(|h| h.replace('_', " ")).collect(),
+            shown: Vec::new(),
+        }
+    }
+
+    /// A row of the CSV, and of the page if it is `shown` there.
+    pub fn row(&mut self, shown: bool, cells: Vec<Cell>) {
+        if shown {
+            self.shown.push(cells.iter().map(Cell::short).collect());
+        }
+        self.csv.row(cells.iter().map(Cell::full));
+    }
+
+    pub fn finish(self, answer: &mut Answer, title: &str, reading: &str) {
+        answer.csv = self.csv.finish();
+        answer.tables.push(PlainTable {
+            name: format!("table-{}", answer.id),
+            title: title.into(),
+            reading: format!(
+                "{} {reading} All rows: {}.csv.",
+                answer.answer, answer.id
+            ),
+            header: self.header,
+            rows: self.shown,
+        });
+    }
+}
+
+/// One cell.
+pub enum Cell {
+    Word(String),
+    Count(usize),
+    /// A number with so many decimals on the page.
+    Number(f64, usize),
+}
+
+impl Cell {
+    pub fn word(text: impl Into<String>) -> Self {
+        Self::Word(text.into())
+    }
+
+    fn full(&self) -> String {
+        match self {
+            Self::Word(text) => text.clone(),
+            Self::Count(count) => count.to_string(),
+            Self::Number(x, _) => rocking_common::table::number(*x),
+        }
+    }
+
+    fn short(&self) -> String {
+        match self {
+            Self::Number(x, _) if !x.is_finite() => {
+                if x.is_nan() {
+                    "–".into()
+                } else {
+                    self.full()
+                }
+            }
+            Self::Number(x, decimals) => format!("{x:.decimals$}"),
+            _ => self.full(),
+        }
+    }
+}
+
+pub fn both(results: &Results) -> [&SuiteResults; 2] {
+    [&results.ordinary, &results.pulse]
+}

@@ -13,6 +13,7 @@ pub mod comparison;
 pub mod counts;
 pub mod fit;
 pub mod normality;
+pub mod pivot;
 pub mod ranking;
 pub mod stripes;
 pub mod summary;
@@ -25,6 +26,7 @@ pub use fit::{
     fit_levels, fit_sample,
 };
 pub use normality::{Normality, NormalityOptions, test_normality};
+pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};

@@ -29,7 +29,17 @@ const CORE: Edges = &[
     ("intensity", &["names", "record", "stop", "units"]),
     ("names", &[]),
     ("number", &[]),
-    ("procedures", &["capacity", "fragility", "statistics"]),
+    (
+        "procedures",
+        &[
+            "capacity",
+            "excitation",
+            "fragility",
+            "ida",
+            "integrator",
+            "statistics",
+        ],
+    ),
     ("record", &["stop", "units"]),
     ("statistics", &["names", "number", "stop", "streams"]),
     ("stop", &[]),

@@ -5,6 +5,7 @@ mod validate;
 
 use std::io;
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, mpsc};
@@ -36,6 +37,7 @@ pub mod risk;
 pub mod sample;
 pub mod samples;
 pub mod scene;
+mod shared;
 pub mod show;
 pub mod speed;
 pub mod stripes;
@@ -101,6 +103,12 @@ impl Failure {
         Self { message: message.to_string(), status: 2 }
     }
 
+    /// The same failure, of this file or flag.
+    #[must_use]
+    pub fn at(self, place: impl std::fmt::Display) -> Self {
+        Self { message: format!("{place}: {}", self.message), ..self }
+    }
+
     /// A gate that failed: exit status 1.
     #[must_use]
     pub fn gate(message: impl std::fmt::Display) -> Self {
@@ -121,6 +129,16 @@ impl<E: std::error::Error> From<E> for Failure {
         }
         Self::input(message)
     }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Failure`] where it cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|error| {
+        Failure::input(format!("cannot read {}: {error}", path.display()))
+    })
 }
 
 /// Runs `work` on `threads` threads, or on as many as the machine has; more

@@ -17,6 +17,7 @@ mod fates;
 mod fragilities;
 mod histories;
 mod ida;
+pub mod of_result;
 mod quantiles;
 mod sketch;
 mod tests_along;

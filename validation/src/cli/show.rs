@@ -26,12 +26,20 @@ struct Envelope<'a, T> {
 /// # Errors
 /// As [`print()`].
 pub fn show<T: Serialize>(json: bool, result: &T) -> Result<(), Failure> {
-    if json {
-        let version = env!("CARGO_PKG_VERSION");
-        let all = Envelope { schema: SCHEMA, version, result };
-        return print(&(serde_json::to_string_pretty(&all)? + "\n"));
+    print(&shown(json, result)?)
+}
+
+/// What [`show`] prints.
+///
+/// # Errors
+/// [`Failure`] where the result cannot be serialized.
+pub fn shown<T: Serialize>(json: bool, result: &T) -> Result<String, Failure> {
+    if !json {
+        return text(result);
     }
-    print(&text(result)?)
+    let version = env!("CARGO_PKG_VERSION");
+    let all = Envelope { schema: SCHEMA, version, result };
+    Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 
 /// A result as text: a row for each field, a table for each list of structs.
@@ -158,6 +166,7 @@ fn rows(text: &mut String, fields: &[(String, Node)], depth: usize) {
                 *text += &format!("{:indent$}{name}\n", "");
                 rows(text, inner, depth + 1);
             }
+            Node::List(all) if all.is_empty() => {}
             Node::List(all)
                 if matches!(all.first(), Some(Node::Struct(_))) =>
             {

@@ -1,6 +1,6 @@
 //! What the curves of a suite come to.
 
-use crate::ida::{Certification, IdaCurve};
+use crate::ida::{Analysis, Certification, IdaCurve};
 use crate::statistics::{ExtendedSample, QuantileType};
 
 /// The curves of a suite, counted.
@@ -19,9 +19,9 @@ pub struct IdaSummary {
     pub median_overturning_im: Option<f64>,
     /// In which arithmetic the analyses were resolved.
     pub certification: Certification,
-    /// Levels above a first overturning at which the block stands again,
-    /// where they were sought.
-    pub resurrections: usize,
+    /// Levels above a first overturning at which the block stands again;
+    /// none where they were not sought.
+    pub resurrections: Option<usize>,
     /// The curves, in order.
     pub curves: Vec<CurveSummary>,
 }
@@ -40,10 +40,33 @@ pub struct CurveSummary {
     pub overturning_im: Option<f64>,
 }
 
-/// Counts the curves of a suite, and takes the median of their first
-/// overturning intensities, the curves that stand as infinite.
+/// Counts the curves of a suite under one analysis, and takes the median of
+/// their first overturning intensities, the curves that stand as infinite.
+///
+/// ```
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, Grid, curves};
+/// use rocking::procedures::summarise_ida;
+/// use rocking::record::Accelerogram;
+/// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
+/// let records = [NormalisedRecord::new(&record)];
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analysis = Analysis {
+///     grid: Grid::Im { step: 0.5 },
+///     ..Analysis::paper(block, Restitution::constant(0.92)?)
+/// };
+/// let found = curves(&records, &[analysis], &Batch::default())?;
+/// let summary = summarise_ida(&found[0], &analysis);
+/// assert_eq!((summary.records, summary.overturned_curves), (1, 1));
+/// let first = summary.curves[0].overturning_im;
+/// assert_eq!(summary.median_overturning_im, first);
+/// assert_eq!(summary.resurrections, None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
-pub fn summarise_ida(curves: &[IdaCurve]) -> IdaSummary {
+pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
     let mut certification = Certification::default();
     for curve in curves {
         certification.add(&curve.certification);
@@ -66,7 +89,9 @@ pub fn summarise_ida(curves: &[IdaCurve]) -> IdaSummary {
             .count(),
         median_overturning_im: ims.and_then(median),
         certification,
-        resurrections: curves.iter().map(IdaCurve::resurrections).sum(),
+        resurrections: analysis
+            .resurrections
+            .map(|_| curves.iter().map(IdaCurve::resurrections).sum()),
         curves: all,
     }
 }

@@ -90,7 +90,7 @@ pub fn pivot_forces(
         points.map(|point| forces_at(record, analysis, point.im)).collect()
     };
     let curves: Vec<Vec<Forces>> =
-        pairs.par_iter().map(of).collect::<Result<_, _>>()?;
+        pairs.par_iter().panic_fuse().map(of).collect::<Result<_, _>>()?;
     let all = || curves.iter().flatten();
     let analyses = all().count();
     let need = |&friction: &f64| {
@@ -107,4 +107,22 @@ pub fn pivot_forces(
         least_normal_over_weight: all().fold(1.0, least),
         curves,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::{Block, Restitution};
+
+    #[test]
+    fn a_coefficient_that_is_no_positive_number_is_refused() {
+        let block = Block::try_new(0.1, 3.0).unwrap();
+        let analysis =
+            Analysis::paper(block, Restitution::constant(0.92).unwrap());
+        for friction in [0.0, -0.3, f64::NAN] {
+            let found = pivot_forces(&[], &[], &analysis, &[0.3, friction]);
+            let error = found.unwrap_err().to_string();
+            assert!(error.contains("coefficient of friction"), "{error}");
+        }
+    }
 }

@@ -32,6 +32,7 @@ const CORE: Edges = &[
     (
         "procedures",
         &[
+            "block",
             "capacity",
             "excitation",
             "fragility",

@@ -103,12 +103,6 @@ impl Failure {
         Self { message: message.to_string(), status: 2 }
     }
 
-    /// The same failure, of this file or flag.
-    #[must_use]
-    pub fn at(self, place: impl std::fmt::Display) -> Self {
-        Self { message: format!("{place}: {}", self.message), ..self }
-    }
-
     /// A gate that failed: exit status 1.
     #[must_use]
     pub fn gate(message: impl std::fmt::Display) -> Self {
@@ -131,14 +125,31 @@ impl<E: std::error::Error> From<E> for Failure {
     }
 }
 
+/// Says of which file or flag a refusal is.
+pub trait At<T> {
+    /// The same, with the file or the flag before the message.
+    ///
+    /// # Errors
+    /// [`Failure`] where there was one.
+    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure>;
+}
+
+impl<T, E: Into<Failure>> At<T> for Result<T, E> {
+    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure> {
+        self.map_err(|error| {
+            let Failure { message, status } = error.into();
+            Failure { message: format!("{place}: {message}"), status }
+        })
+    }
+}
+
 /// The text of a file.
 ///
 /// # Errors
 /// [`Failure`] where it cannot be read.
 pub fn read_text(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|error| {
-        Failure::input(format!("cannot read {}: {error}", path.display()))
-    })
+    let place = format_args!("cannot read {}", path.display());
+    std::fs::read_to_string(path).at(place)
 }
 
 /// Runs `work` on `threads` threads, or on as many as the machine has; more

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use super::show::text;
-use super::{Failure, note, say, study, validate};
+use super::{At as _, Failure, note, say, study, validate};
 use rocking_common::files::{Folder, is_interrupted};
 use rocking_common::findings::Findings;
 use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
@@ -223,9 +223,7 @@ fn file(path: &str) -> Result<String, Failure> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Ok(String::new())
         }
-        read => {
-            read.map_err(|error| Failure::input(format!("{path}: {error}")))
-        }
+        read => read.at(path),
     }
 }
 
@@ -256,9 +254,7 @@ fn changed(files: Files, words: &mut String) -> Result<Files, Failure> {
     for (name, new) in files {
         let old = match fs::read(&name) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            read => Some(read.map_err(|error| {
-                Failure::input(format!("{name}: {error}"))
-            })?),
+            read => Some(read.at(&name)?),
         };
         if old.as_ref() == Some(&new) {
             continue;

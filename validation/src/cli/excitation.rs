@@ -12,6 +12,7 @@ use super::Failure;
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
+use super::shared::positive;
 use rocking_common::paper::Intensity;
 use rocking_common::suites::remarks::Remarks;
 
@@ -113,15 +114,8 @@ impl ExcitationArgs {
         p: f64,
     ) -> Result<Ground, Failure> {
         self.refuse_unused()?;
-        for (flag, value) in [("--pga", self.pga), ("--im", self.im)] {
-            if let Some(value) = value
-                && !(value > 0.0 && value.is_finite())
-            {
-                return Err(Failure::input(format!(
-                    "{flag} {value}: expected a positive number"
-                )));
-            }
-        }
+        self.pga.map(|pga| positive("--pga", pga)).transpose()?;
+        self.im.map(|im| positive("--im", im)).transpose()?;
         if let Some(scale) = self.scale
             && !scale.is_finite()
         {

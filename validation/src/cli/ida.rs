@@ -157,7 +157,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         out.write(forces::csv(pivot, &table))?;
     }
     let as_json = args.json.json && !is_standard;
-    let mut summary = summarise_ida(&table);
+    let mut summary = summarise_ida(&table, &analysis);
     if !as_json {
         summary.curves.clear();
     }

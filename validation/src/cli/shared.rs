@@ -6,6 +6,17 @@ use serde::Serialize;
 use super::show::show;
 use super::{Failure, with_threads};
 
+/// The value of a flag, where it is positive and finite.
+///
+/// # Errors
+/// [`Failure`] where it is not.
+pub fn positive(flag: &str, value: f64) -> Result<f64, Failure> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(Failure::input(format!("{flag} {value}: expected a positive number")))
+}
+
 /// How a result is shown.
 #[derive(clap::Args, Clone, Copy, Debug)]
 pub struct JsonArg {

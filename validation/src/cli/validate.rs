@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::show::shown;
-use super::{Failure, read_text, say};
+use super::{At as _, Failure, read_text, say};
 use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_proof::methods::{digits, digits_csv};
@@ -46,12 +46,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let outputs = match &args.out {
         Some(out) if !args.check => {
             let folder = out.join("data");
-            std::fs::create_dir_all(&folder).map_err(|e| {
-                Failure::input(format!(
-                    "cannot make {}: {e}",
-                    folder.display()
-                ))
-            })?;
+            let place = format_args!("cannot make {}", folder.display());
+            std::fs::create_dir_all(&folder).at(place)?;
             let mut outputs = Outputs::default();
             Some([
                 outputs.open(&folder.join("validation.json"))?,
@@ -175,7 +171,7 @@ impl<'a> Shown<'a> {
                 .count(),
         };
         let said = |outcome: &'a Outcome| {
-            let all = outcome.messages.iter();
+            let all = outcome.messages.iter().flat_map(|all| all.lines());
             all.map(|message| Said { case: &outcome.id, message })
         };
         let bounds = |outcome: &'a Outcome| {

@@ -63,6 +63,7 @@ pub enum IntensityError {
 /// The measures of one component, or one number for each from a pair.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Measures {
     /// Peak ground acceleration in multiples of gravity.
     pub pga_g: f64,
@@ -92,7 +93,18 @@ pub struct Measures {
     pub spectral_acceleration_g: Vec<f64>,
 }
 
+/// The largest PGD (m) of processed records of earthquakes, permanent
+/// offsets aside, is 4 m or so.
+const LARGEST_PGD_M: f64 = 5.0;
+
 impl Measures {
+    /// Whether a drifting baseline makes the displacement: PGD above 5 m,
+    /// which no processed record of an earthquake has.
+    #[must_use]
+    pub fn drifts(&self) -> bool {
+        !(self.pgd_m <= LARGEST_PGD_M)
+    }
+
     /// The measures of one component.
     ///
     /// # Errors

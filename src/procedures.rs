@@ -12,7 +12,9 @@ pub mod choice;
 pub mod comparison;
 pub mod counts;
 pub mod fit;
+pub mod ida_summary;
 pub mod normality;
+pub mod pivot;
 pub mod ranking;
 pub mod stripes;
 pub mod summary;
@@ -24,7 +26,9 @@ pub use fit::{
     Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Shift,
     fit_levels, fit_sample,
 };
+pub use ida_summary::{IdaSummary, summarise_ida};
 pub use normality::{Normality, NormalityOptions, test_normality};
+pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};

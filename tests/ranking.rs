@@ -99,12 +99,11 @@ fn capacities_in_any_measure_are_those_in_pga_scaled_by_record() {
     let records =
         json(&place, "records suite.csv --intensity --periods 0.5,1");
     let of = |record: usize, key: &str| {
-        let all = &records["records"][record]["intensity"];
-        all[key].as_f64().unwrap()
+        records["intensity"][record][key].as_f64().unwrap()
     };
     let spectrum = |record: usize, period: usize| {
-        let all = &records["records"][record]["intensity"]["spectrum"];
-        all[period]["spectral_acceleration_g"].as_f64().unwrap()
+        let all = &records["intensity"][record]["spectral_acceleration_g"];
+        all[period].as_f64().unwrap()
     };
     let uplift = tan(0.2);
     for (im, power, value) in [
@@ -146,6 +145,7 @@ fn a_ranking_tells_the_dispersion_of_the_fits_and_the_slopes() {
                  --bootstrap 200";
     let out = json(&place, words);
     assert_eq!((&out["n"], &out["censored"]), (&6.into(), &0.into()));
+    assert_eq!(out["set_aside"]["files"], 0);
     for (row, im) in ["pga", "pgv", "sa:1"].into_iter().enumerate() {
         let by = if row < 2 { "" } else { "--suite suite.csv" };
         let sample = text(

@@ -33,6 +33,7 @@ impl Told {
 
 /// How many analyses of a curve were told in which arithmetic.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certification {
     /// Analyses counted: levels, the refined end, and levels above.
     pub analyses: u64,

@@ -53,6 +53,7 @@ named!(Decision, "decision", {
 
 /// The least clear decision of a kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Clearance {
     /// Kind of the decision.
     pub decision: Decision,
@@ -77,6 +78,24 @@ impl Clearance {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     least: [Clearance; Decision::ALL.len()],
+}
+
+/// Whether it is clear, from which ratio on, the least clear decision, and the
+/// least clear one of each kind.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Certificate {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut fields = to.serialize_struct("Certificate", 4)?;
+        fields.serialize_field("clear", &self.is_clear())?;
+        fields.serialize_field("clear_from_ratio", &CLEARANCE)?;
+        fields.serialize_field("least", &self.least())?;
+        fields.serialize_field("decisions", &self.least)?;
+        fields.end()
+    }
 }
 
 impl Default for Certificate {

@@ -79,8 +79,10 @@ impl fmt::Debug for Certify<'_> {
 
 /// A fate and the evidence for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certified {
     /// What became of the block, by the engine named in `by`.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub outcome: Outcome,
     /// Distance from the other fate, in units of the slenderness angle.
     pub margin: f64,

@@ -3,6 +3,7 @@
 use crate::block::{Block, Restitution};
 use crate::excitation::Excitation;
 use crate::integrator::{Certificate, Forces, Model, Overturning, WorkLimit};
+use crate::names::named;
 
 /// A scene: what is integrated.
 #[derive(Clone, Copy, Debug)]
@@ -109,10 +110,50 @@ impl Outcome {
 }
 
 impl<N> Outcome<N> {
+    /// Its name: `no-uplift`, `rocked` or `overturned`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::NoUplift => "no-uplift",
+            Self::Rocked { .. } => "rocked",
+            Self::Overturned { .. } => "overturned",
+        }
+    }
+
     /// True when the block overturned.
     #[must_use]
     pub fn is_overturned(&self) -> bool {
         matches!(self, Self::Overturned { .. })
+    }
+}
+
+/// The outcome by its name as `counts_as` (what it counts as in statistics,
+/// whether or not its decisions are clear), the EDP, time and side.
+#[cfg(feature = "serde")]
+impl<N: serde::Serialize> serde::Serialize for Outcome<N> {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut fields = to.serialize_struct("Outcome", 4)?;
+        fields.serialize_field("counts_as", self.name())?;
+        match self {
+            Self::Rocked { peak_ratio } => {
+                fields.serialize_field("edp", peak_ratio)?;
+            }
+            Self::NoUplift => fields.serialize_field("edp", &0.0)?,
+            Self::Overturned { .. } => {
+                fields.serialize_field("edp", &f64::INFINITY)?;
+            }
+        }
+        let end = match self {
+            Self::Overturned { time_s, side } => Some((time_s, side)),
+            Self::NoUplift | Self::Rocked { .. } => None,
+        };
+        fields.serialize_field("overturning_time_s", &end.map(|end| end.0))?;
+        fields.serialize_field("overturning_side", &end.map(|end| end.1))?;
+        fields.end()
     }
 }
 
@@ -124,6 +165,8 @@ pub enum Side {
     /// theta < 0, the side to which a positive ground acceleration drives.
     Negative,
 }
+
+named!(Side, "side", { Positive = "positive", Negative = "negative" });
 
 impl Side {
     /// +1 or -1.
@@ -145,6 +188,7 @@ impl Side {
 
 /// An impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Impact<N = f64> {
     /// Time in s.
     pub time_s: N,
@@ -157,6 +201,7 @@ pub struct Impact<N = f64> {
 
 /// Bounds on the errors of an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ImpactError {
     /// Of its time, s.
     pub time_s: f64,
@@ -166,6 +211,7 @@ pub struct ImpactError {
 
 /// A point of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct HistoryPoint<N = f64> {
     /// Time in s.
     pub time_s: N,
@@ -177,6 +223,7 @@ pub struct HistoryPoint<N = f64> {
 
 /// How much was computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Work {
     /// Taylor polynomials expanded.
     pub steps: u64,
@@ -192,8 +239,10 @@ pub struct Work {
 
 /// The answer to a scene, in the numbers of the run.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Response<N = f64> {
     /// What became of the block, by this run.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub outcome: Outcome<N>,
     /// Largest |theta|/alpha reached before overturning, before the end of
     /// observation, or at all.
@@ -224,20 +273,42 @@ pub struct Response<N = f64> {
     pub certificate: Option<Certificate>,
     /// The same for all inputs that round to the doubles that were given;
     /// recorded with accuracy.
+    #[cfg_attr(
+        feature = "serde",
+        serde(skip_serializing_if = "Option::is_none")
+    )]
     pub input_certificate: Option<Certificate>,
     /// Estimated worst ratio of error to margin over all decisions. Only runs
     /// that observe the peak alone compute it; a large value means that the
     /// full certificate should be computed.
+    #[cfg_attr(
+        feature = "serde",
+        serde(skip_serializing_if = "Option::is_none")
+    )]
     pub doubt: Option<f64>,
     /// Work counters.
     pub work: Work,
     /// Signed rotation in time; recorded when asked for.
+    #[cfg_attr(
+        feature = "serde",
+        serde(skip_serializing_if = "Vec::is_empty")
+    )]
     pub history: Vec<HistoryPoint<N>>,
     /// What the motion asks of the pivot; recorded when asked for.
     pub forces: Option<Forces>,
 }
 
 impl<N> Response<N> {
+    /// The name of the outcome; `unresolved` where the error of the run may
+    /// have turned a decision, or nobody looked.
+    #[must_use]
+    pub fn outcome_name(&self) -> &'static str {
+        match self.assessment() {
+            Assessment::Clear => self.outcome.name(),
+            Assessment::Unresolved | Assessment::NotAssessed => "unresolved",
+        }
+    }
+
     /// Whether outcome and peak can be told in this precision.
     #[must_use]
     pub fn assessment(&self) -> Assessment {

@@ -148,6 +148,24 @@ impl Accelerogram {
         0.5 * self.dt_s * peak
     }
 
+    /// Velocity (m/s) and displacement (m) at the samples, from rest under
+    /// gravity `gravity_m_s2`, exact for an acceleration that is linear
+    /// between them.
+    #[must_use]
+    pub fn integrals(&self, gravity_m_s2: f64) -> (Vec<f64>, Vec<f64>) {
+        let dt_s = self.dt_s;
+        let (mut v, mut d) = (0.0, 0.0);
+        let (mut velocity, mut displacement) = (vec![v], vec![d]);
+        for pair in self.samples_g.windows(2) {
+            let (a, b) = (gravity_m_s2 * pair[0], gravity_m_s2 * pair[1]);
+            d += dt_s * (v + dt_s * (2.0 * a + b) / 6.0);
+            v += 0.5 * dt_s * (a + b);
+            velocity.push(v);
+            displacement.push(d);
+        }
+        (velocity, displacement)
+    }
+
     /// Peak ground velocity in m/s under gravity `gravity_m_s2`.
     #[must_use]
     pub fn pgv_m_s(&self, gravity_m_s2: f64) -> f64 {

@@ -322,9 +322,10 @@ fn forces_are_observed_without_a_change_of_the_motion() {
     let forces = seen.forces.take().unwrap();
     assert_eq!(seen, of(1.0, false));
     assert!(seen.work.impacts > 0 && forces.friction > libm::tan(0.2));
-    assert!(forces.normal < 1.0 && forces.normal > 0.0, "{forces:?}");
+    let least = forces.least_normal_over_weight;
+    assert!(least < 1.0 && least > 0.0, "{forces:?}");
     let rest = of(0.5, true).forces.unwrap();
-    assert_eq!((rest.friction_time_s, rest.normal_time_s), (None, None));
-    assert_eq!(rest.normal, 1.0);
+    assert_eq!((rest.friction_time_s, rest.least_normal_time_s), (None, None));
+    assert_eq!(rest.least_normal_over_weight, 1.0);
     near("friction at rest", rest.friction, 0.5 * record.pga_g(), 1e-16);
 }

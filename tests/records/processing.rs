@@ -96,7 +96,7 @@ fn a_drawing_and_the_words_go_with_the_processing() {
     let (status, out, error) =
         records(&folder, &[zip, "--demean", "--high-pass", "0.1"]);
     assert_eq!((status, error.as_str()), (0, ""));
-    assert!(out.contains("processed: mean removed; Butterworth high-pass"));
+    assert!(out.contains(" mean removed; Butterworth high-pass"));
     let (status, out, _) =
         records(&folder, &[zip, "--json", "--high-pass", "0.1"]);
     assert_eq!(status, 0);

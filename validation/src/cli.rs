@@ -5,6 +5,7 @@ mod validate;
 
 use std::io;
 use std::num::NonZeroUsize;
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, mpsc};
@@ -36,6 +37,7 @@ pub mod risk;
 pub mod sample;
 pub mod samples;
 pub mod scene;
+mod shared;
 pub mod show;
 pub mod speed;
 pub mod stripes;
@@ -121,6 +123,33 @@ impl<E: std::error::Error> From<E> for Failure {
         }
         Self::input(message)
     }
+}
+
+/// Says of which file or flag a refusal is.
+pub trait At<T> {
+    /// The same, with the file or the flag before the message.
+    ///
+    /// # Errors
+    /// [`Failure`] where there was one.
+    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure>;
+}
+
+impl<T, E: Into<Failure>> At<T> for Result<T, E> {
+    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure> {
+        self.map_err(|error| {
+            let Failure { message, status } = error.into();
+            Failure { message: format!("{place}: {message}"), status }
+        })
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Failure`] where it cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Failure> {
+    let place = format_args!("cannot read {}", path.display());
+    std::fs::read_to_string(path).at(place)
 }
 
 /// Runs `work` on `threads` threads, or on as many as the machine has; more

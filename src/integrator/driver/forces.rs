@@ -36,6 +36,7 @@ const NARROWINGS: usize = 40;
 /// Extremes over rest and flight; the impulses of impacts are not forces. They
 /// are found on the polynomials of the steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Forces {
     /// Largest |H|/N: the block does not slide where the coefficient of
     /// friction is above it. Infinite where N is not positive.
@@ -43,9 +44,9 @@ pub struct Forces {
     /// When it was reached, s; none at rest.
     pub friction_time_s: Option<f64>,
     /// Least N/(m g): the block leaves the ground where it is not positive.
-    pub normal: f64,
+    pub least_normal_over_weight: f64,
     /// When it was reached, s; none at rest.
-    pub normal_time_s: Option<f64>,
+    pub least_normal_time_s: Option<f64>,
 }
 
 impl Forces {
@@ -64,8 +65,8 @@ impl Forces {
         Self {
             friction: pga_g.min(uplift_threshold(&scene.block, scene.model)),
             friction_time_s: None,
-            normal: 1.0,
-            normal_time_s: None,
+            least_normal_over_weight: 1.0,
+            least_normal_time_s: None,
         }
     }
 
@@ -75,9 +76,9 @@ impl Forces {
             self.friction = friction;
             self.friction_time_s = Some(time_s);
         }
-        if normal < self.normal {
-            self.normal = normal;
-            self.normal_time_s = Some(time_s);
+        if normal < self.least_normal_over_weight {
+            self.least_normal_over_weight = normal;
+            self.least_normal_time_s = Some(time_s);
         }
     }
 }
@@ -141,7 +142,10 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             };
             for k in 1..PARTS {
                 let three = [k - 1, k, k + 1].map(|k| of(found[k]));
-                let best = if friction { seen.friction } else { -seen.normal };
+                let best = match friction {
+                    true => seen.friction,
+                    false => -seen.least_normal_over_weight,
+                };
                 if crest(three) > best {
                     let ends = (parts[k - 1], parts[k + 1]);
                     let top = highest(ends, |part| of(at(part)));

@@ -115,13 +115,26 @@ impl Aside {
 /// How many were set aside for one reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct AsideCount<'a> {
     /// The reason.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "code", serialize_with = "code")
+    )]
     pub reason: AsideReason,
     /// Number of files; of files with several channels, number of channels.
     pub files: usize,
     /// The first of them.
     pub first: &'a str,
+}
+
+#[cfg(feature = "serde")]
+fn code<S: serde::Serializer>(
+    reason: &AsideReason,
+    to: S,
+) -> Result<S::Ok, S::Error> {
+    to.serialize_str(reason.code())
 }
 
 /// All that was set aside when a suite was read; in words, the number for
@@ -188,6 +201,21 @@ impl SetAside {
 impl Extend<Aside> for SetAside {
     fn extend<T: IntoIterator<Item = Aside>>(&mut self, more: T) {
         self.0.extend(more);
+    }
+}
+
+/// The number of files, and for each reason its number and first file.
+#[cfg(feature = "serde")]
+impl serde::Serialize for SetAside {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct as _;
+        let mut fields = to.serialize_struct("SetAside", 2)?;
+        fields.serialize_field("files", &self.0.len())?;
+        fields.serialize_field("codes", &self.counts())?;
+        fields.end()
     }
 }
 

@@ -1,6 +1,5 @@
 //! The two suites of a study: embedded, or read from files.
 
-pub mod aside;
 pub mod export;
 pub mod inputs;
 pub mod remarks;

@@ -18,6 +18,7 @@ mod fragilities;
 mod heading;
 mod histories;
 mod ida;
+pub mod of_result;
 mod quantiles;
 mod sketch;
 mod tests_along;

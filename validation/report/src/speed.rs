@@ -11,7 +11,6 @@ pub mod export;
 pub mod many;
 pub mod measured;
 pub mod rest;
-pub mod scale;
 pub mod singles;
 pub mod throughput;
 
@@ -44,9 +43,6 @@ pub enum SpeedError {
     /// A simulation that cannot be done.
     #[error(transparent)]
     Lilliefors(#[from] LillieforsError),
-    /// A measurement in a process of its own that failed.
-    #[error("measuring in a process of its own: {0}")]
-    Child(String),
     /// A suite that cannot be made.
     #[error(transparent)]
     Suite(#[from] StudySuiteError),

@@ -8,7 +8,8 @@ use std::io;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::{Failure, note, say, study, validate};
+use super::show::text;
+use super::{At as _, Failure, note, say, study, validate};
 use rocking_common::files::{Folder, is_interrupted};
 use rocking_common::findings::Findings;
 use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
@@ -89,7 +90,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let (counters, results, precision) = cases()?;
     put(PINS, "work-counters.csv", counters.into_bytes());
-    let old = text(&format!("{REPORTS}/{CASES}"))?;
+    let old = file(&format!("{REPORTS}/{CASES}"))?;
     let mut words = compared(&old, &results);
     put(REPORTS, CASES, results.clone().into_bytes());
     put(REPORTS, DIGITS, precision.clone().into_bytes());
@@ -98,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let findings = report.get(FINDINGS).map(|f| String::from_utf8_lossy(f));
     let findings = Findings::parse(&findings.unwrap_or_default())
         .map_err(Failure::gate)?;
-    let readme = readme::renewed(&text(README)?, &findings, &proof)?;
+    let readme = readme::renewed(&file(README)?, &findings, &proof)?;
     match stale(Path::new(REPORTS), &report) {
         Ok(differs) => words += &differs.unwrap_or_default(),
         Err(StaleError::Diff(error)) => words += &not_compared(&error),
@@ -206,7 +207,7 @@ fn cases() -> Result<(String, String, String), Failure> {
         .filter(|outcome| !outcome.verdict.is_accepted())
         .collect();
     if !refused.is_empty() {
-        say(&validate::people(&refused))?;
+        say(&text(&validate::Shown::of(&refused))?)?;
         return Err(Failure::gate(format!(
             "{} of {} cases are not accepted: nothing is written",
             refused.len(),
@@ -217,14 +218,12 @@ fn cases() -> Result<(String, String, String), Failure> {
 }
 
 /// A file as it is; empty where there is none.
-fn text(path: &str) -> Result<String, Failure> {
+fn file(path: &str) -> Result<String, Failure> {
     match fs::read_to_string(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Ok(String::new())
         }
-        read => {
-            read.map_err(|error| Failure::input(format!("{path}: {error}")))
-        }
+        read => read.at(path),
     }
 }
 
@@ -255,9 +254,7 @@ fn changed(files: Files, words: &mut String) -> Result<Files, Failure> {
     for (name, new) in files {
         let old = match fs::read(&name) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            read => Some(read.map_err(|error| {
-                Failure::input(format!("{name}: {error}"))
-            })?),
+            read => Some(read.at(&name)?),
         };
         if old.as_ref() == Some(&new) {
             continue;

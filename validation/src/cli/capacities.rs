@@ -12,13 +12,14 @@ use rocking::intensity::IntensityMeasure;
 use rocking::procedures::capacities::{
     LevelCapacities, LevelCrossings, crossings, levels,
 };
+use rocking::record::SetAside;
 use serde::Serialize;
 
 use super::Failure;
 use super::measure::GroundArgs;
 use super::names;
 use super::samples::SAMPLE_OF;
-use super::show::show;
+use super::shared::JsonArg;
 use super::with_threads;
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
@@ -80,9 +81,8 @@ pub struct Args {
         conflicts_with = "curve"
     )]
     out: Option<PathBuf>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Vertices of a curve given by hand.
@@ -166,7 +166,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 fn by_hand(args: &Args, curve: &ResponseCurve) -> Result<(), Failure> {
     let levels = crossings(curve, &args.levels.0, |im| im)?;
-    show(args.json, &Crossed { im_r: curve.onset_im(), levels })
+    args.json.show(&Crossed { im_r: curve.onset_im(), levels })
 }
 
 /// Crossings of one curve.
@@ -185,6 +185,8 @@ struct Shown {
     point: String,
     quantile_type: u8,
     rows_after_overturning: usize,
+    /// What was set aside of the suite; none where none was read.
+    set_aside: Option<SetAside>,
     levels: Vec<LevelCapacities>,
     /// Each record alone: in JSON, since its crossings are many.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -205,7 +207,7 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
-    let suite = suite(args, path, measure)?;
+    let (suite, set_aside) = suite(args, path, measure)?;
     if let (Some(level), Some(out)) = (args.at, out) {
         let is_standard = out.is_standard();
         out.write(sample(&suite, measure, level, rule)?)?;
@@ -222,7 +224,7 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
             levels: crossings(curve, &args.levels.0, measured)?,
         })
     };
-    let records = args.json.then(|| suite.curves.iter().map(record));
+    let records = args.json.json.then(|| suite.curves.iter().map(record));
     let records = records.map(Iterator::collect::<Result<_, _>>);
     let records = records.transpose()?;
     let curves = suite.clone().into_curves();
@@ -234,10 +236,11 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
         point: rule.to_string(),
         quantile_type: 5,
         rows_after_overturning: suite.after_overturning,
+        set_aside,
         levels,
         records,
     };
-    show(args.json, &found)
+    args.json.show(&found)
 }
 
 /// The curves of a table against a measure.
@@ -245,7 +248,7 @@ fn suite(
     args: &Args,
     path: &Path,
     measure: &IntensityMeasure,
-) -> Result<ida::Suite, Failure> {
+) -> Result<(ida::Suite, Option<SetAside>), Failure> {
     if let Some(intensity) = measure.dimensionless() {
         if args.ground.is_given() {
             return Err(Failure::input(format!(
@@ -253,13 +256,14 @@ fn suite(
                 intensity.words()
             )));
         }
-        return Ok(ida::read(path, intensity)?);
+        return Ok((ida::read(path, intensity)?, None));
     }
     let suite = ida::read(path, Intensity::Pga)?;
     let measures = std::slice::from_ref(measure);
     let ground = with_threads(None, || args.ground.ground(&suite, measures))??;
     let factors = ground.at_uplift(measure)?;
-    Ok(suite.against(&factors, measure.is_squared())?)
+    let suite = suite.against(&factors, measure.is_squared())?;
+    Ok((suite, Some(ground.into_set_aside())))
 }
 
 /// The sample file of the records' capacities at a level.

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::Failure;
 use super::samples::SampleFile;
-use super::show::show;
+use super::shared::JsonArg;
 
 /// Paired ratios a/b of two samples: counts, boxplot, tests of a centre at 1
 /// and of equivalence to it. Values are paired by the names of their records,
@@ -29,9 +29,8 @@ pub struct Args {
     /// equivalent to 1.
     #[arg(long, value_name = "M", default_value_t = 0.05)]
     margin: f64,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 #[derive(Serialize)]
@@ -50,5 +49,5 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (a, b) = (SampleFile::read(&args.a)?, SampleFile::read(&args.b)?);
     let (a, b, paired_by_name) = a.pairs(&b)?;
     let found = compare(&a, &b, args.margin)?;
-    show(args.json, &Shown { paired_by_name, found })
+    args.json.show(&Shown { paired_by_name, found })
 }

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::shared::JsonArg;
 use super::study::REPORT;
-use super::{Failure, print, print_json, say};
+use super::{Failure, print, say};
 use rocking_report::diff::{Results, compare};
 
 /// What changed between two results, and whether it matters.
@@ -34,9 +35,8 @@ pub struct Args {
     /// Print Markdown for a pull request.
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -58,8 +58,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
     let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);
     let comparison = compare(&old, &new, args.relative)?;
-    if args.json {
-        print_json(comparison.json())?;
+    if args.json.json {
+        args.json.show(&comparison.json())?;
     } else if args.markdown {
         print(&comparison.markdown(args.all))?;
     } else {

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use rocking::excitation::{
-    NormalisedRecord, Pulse, PulseKind, PulseName, PulseParameter,
+    Excitation, NormalisedRecord, Pulse, PulseKind, PulseName, PulseParameter,
+    ScaledRecord,
 };
 use rocking::record::{Accelerogram, Record, Remarked, SetAside, read_file};
 
@@ -11,6 +12,7 @@ use super::Failure;
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
+use super::shared::positive;
 use rocking_common::paper::Intensity;
 use rocking_common::suites::remarks::Remarks;
 
@@ -112,15 +114,8 @@ impl ExcitationArgs {
         p: f64,
     ) -> Result<Ground, Failure> {
         self.refuse_unused()?;
-        for (flag, value) in [("--pga", self.pga), ("--im", self.im)] {
-            if let Some(value) = value
-                && !(value > 0.0 && value.is_finite())
-            {
-                return Err(Failure::input(format!(
-                    "{flag} {value}: expected a positive number"
-                )));
-            }
-        }
+        self.pga.map(|pga| positive("--pga", pga)).transpose()?;
+        self.im.map(|im| positive("--im", im)).transpose()?;
         if let Some(scale) = self.scale
             && !scale.is_finite()
         {
@@ -256,6 +251,51 @@ impl ExcitationArgs {
 }
 
 impl Ground {
+    /// What moves the ground.
+    #[must_use]
+    pub fn excitation(&self) -> Excitation<'_> {
+        match self {
+            Self::Factor(record, factor, _) => {
+                Excitation::Record(ScaledRecord::by_factor(record, *factor))
+            }
+            Self::Peak(unit, pga_g, _) => {
+                Excitation::Record(ScaledRecord::to_pga(unit, *pga_g))
+            }
+            Self::Pulse(pulse) => Excitation::Pulse(pulse),
+            Self::Free(_) => Excitation::Free,
+        }
+    }
+
+    /// Peak ground acceleration, g.
+    #[must_use]
+    pub fn pga_g(&self) -> f64 {
+        match self {
+            Self::Factor(record, factor, _) => record.pga_g() * factor.abs(),
+            Self::Peak(_, pga_g, _) => *pga_g,
+            Self::Pulse(pulse) => pulse.pga_g(),
+            Self::Free(_) => 0.0,
+        }
+    }
+
+    /// Sampling interval of a record, s.
+    #[must_use]
+    pub fn dt_s(&self) -> Option<f64> {
+        match self {
+            Self::Factor(record, ..) => Some(record.dt_s()),
+            Self::Peak(unit, ..) => Some(unit.dt_s()),
+            Self::Pulse(_) | Self::Free(_) => None,
+        }
+    }
+
+    /// Initial rotation over the slenderness angle.
+    #[must_use]
+    pub fn initial_ratio(&self) -> f64 {
+        match self {
+            Self::Free(ratio) => *ratio,
+            _ => 0.0,
+        }
+    }
+
     /// Remarks on the record, if it is one.
     #[must_use]
     pub fn remarks(&self) -> Option<&Remarks> {

@@ -1,7 +1,6 @@
 //! `rocking ida`: incremental dynamic analysis of a suite.
 
 mod forces;
-mod summary;
 
 use std::path::PathBuf;
 
@@ -13,20 +12,21 @@ use rocking::ida::{
     Resurrections,
 };
 use rocking::integrator::{Model, Order, WorkLimit};
-use rocking::record::{Remarked, Suite, SuiteMember};
+use rocking::procedures::{IdaSummary, PivotForces, summarise_ida};
+use rocking::record::{Remarked, SetAside, Suite, SuiteMember};
+use serde::Serialize;
 
-use self::forces::{Audit, ForcesArgs};
+use self::forces::ForcesArgs;
 use super::limit::{LimitArgs, curve_refused};
 use super::names;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
+use super::shared::{JsonArg, ThreadsArg};
+use super::show::shown;
 use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
-use super::{
-    Failure, SOFTWARE, logged, print_json, progress, say, with_threads,
-};
+use super::{Failure, SOFTWARE, logged, progress, say};
 use rocking_common::files::Outputs;
 use rocking_common::suites::inputs::{files, read_suite};
 use rocking_common::suites::remarks::Remarks;
@@ -85,9 +85,8 @@ pub struct Args {
     /// [default: as high as each step needs for double precision].
     #[arg(long, value_parser = names::order(), conflicts_with = "certify")]
     order: Option<Order>,
-    /// Threads [default: all].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     #[command(flatten)]
     forces: ForcesArgs,
     #[command(flatten)]
@@ -98,9 +97,8 @@ pub struct Args {
     /// goes to standard error.
     #[arg(long, value_name = "FILE.csv")]
     out: PathBuf,
-    /// JSON summary for machines.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -139,7 +137,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         .collect();
     let bar = progress(records.len() as u64);
     let curves = logged(&bar, || {
-        with_threads(args.threads, || {
+        args.threads.run(|| {
             let only = std::slice::from_ref(&analysis);
             way.curves(&records, only, &|| bar.inc(1))
         })
@@ -147,32 +145,28 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     .map_err(curve_refused)?;
     let table: Vec<IdaCurve> = curves.into_iter().flatten().collect();
     bar.finish_and_clear();
-    let audit = with_threads(args.threads, || {
-        args.forces.audit(&records, &table, &analysis)
-    })?
-    .map_err(curve_refused)?;
-    let job = Job {
-        args,
-        table: &table,
-        suite: &suite,
-        processing: words(&processing),
-        remarks,
-        audit,
-    };
+    let pivot = args
+        .threads
+        .run(|| args.forces.pivot(&records, &table, &analysis))?
+        .map_err(curve_refused)?;
+    let processing = words(&processing);
+    let job = Job { args, table: &table, processing, remarks };
     let is_standard = out.is_standard();
     out.write(job.csv(&analysis, gravity_m_s2))?;
-    if let (Some(out), Some(audit)) = (forces_out, &job.audit) {
-        out.write(audit.csv(&table))?;
+    if let (Some(out), Some(pivot)) = (forces_out, &pivot) {
+        out.write(forces::csv(pivot, &table))?;
     }
+    let as_json = args.json.json && !is_standard;
+    let mut summary = summarise_ida(&table, &analysis);
+    if !as_json {
+        summary.curves.clear();
+    }
+    let text = shown(as_json, &job.shown(&suite, summary, pivot))?;
     if is_standard {
-        eprint!("{}", printable(&job.summary()));
+        eprint!("{}", printable(&text));
         return Ok(());
     }
-    if args.json {
-        print_json(job.summary_json())
-    } else {
-        say(&job.summary())
-    }
+    say(&text)
 }
 
 fn remarks_on(chosen: &[&SuiteMember]) -> Remarks {
@@ -184,10 +178,23 @@ fn remarks_on(chosen: &[&SuiteMember]) -> Remarks {
 struct Job<'a> {
     args: &'a Args,
     table: &'a [IdaCurve],
-    suite: &'a Suite,
     processing: Option<String>,
     remarks: Remarks,
-    audit: Option<Audit>,
+}
+
+/// What is shown of it.
+#[derive(Serialize)]
+struct Shown<'a> {
+    suite: &'a str,
+    study_components: String,
+    processing: &'a Option<String>,
+    remarks: &'a Remarks,
+    set_aside: &'a SetAside,
+    highest_im: f64,
+    order: Option<Order>,
+    #[serde(flatten)]
+    summary: IdaSummary,
+    pivot: Option<PivotForces>,
 }
 
 impl Args {
@@ -277,6 +284,25 @@ impl Refine {
 }
 
 impl Job<'_> {
+    fn shown<'s>(
+        &'s self,
+        suite: &'s Suite,
+        summary: IdaSummary,
+        pivot: Option<PivotForces>,
+    ) -> Shown<'s> {
+        Shown {
+            suite: suite.name(),
+            study_components: suite.study_rule().to_string(),
+            processing: &self.processing,
+            remarks: &self.remarks,
+            set_aside: suite.set_aside(),
+            highest_im: HIGHEST_IM,
+            order: self.args.order,
+            summary,
+            pivot,
+        }
+    }
+
     /// The table: one row an analysis, by record, then level.
     fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
         let mut table = Table::new(&COLUMNS);
@@ -313,7 +339,11 @@ impl Job<'_> {
             };
             row(&curve.onset, "no-uplift");
             for point in curve.points.iter().chain(&curve.above) {
-                row(point, outcome_name(&point.outcome, point.told.resolved));
+                let name = match point.told.resolved {
+                    true => point.outcome.name(),
+                    false => "unresolved",
+                };
+                row(point, name);
             }
             let refined = curve.overturning.and_then(|first| first.refined);
             if let Some(point) = refined {

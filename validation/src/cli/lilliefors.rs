@@ -11,8 +11,8 @@ use rocking::statistics::lilliefors::{
 use serde::Serialize;
 
 use super::samples::SampleFile;
-use super::show::show;
-use super::{Failure, progress, with_threads};
+use super::shared::{JsonArg, ThreadsArg};
+use super::{Failure, progress};
 use rocking_common::files::Outputs;
 use rocking_common::table::Table as Csv;
 
@@ -69,16 +69,13 @@ pub struct Args {
     /// Repetition of the simulation.
     #[arg(long, value_name = "S", conflicts_with = "write_table")]
     seed: Option<u64>,
-    /// Threads of a simulation; the result doesn't depend on them [default:
-    /// as many as the machine has].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     /// Simulate the committed table anew and write it to this file.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
     write_table: Option<PathBuf>,
-    /// Print JSON.
-    #[arg(long, conflicts_with = "write_table")]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -87,7 +84,7 @@ pub struct Args {
 /// [`Failure`] for input that is refused; a test that does not apply is a
 /// result.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    with_threads(args.threads, || {
+    args.threads.run(|| {
         if let Some(path) = &args.write_table {
             write_table(path)
         } else if let Some(path) = &args.sample {
@@ -114,7 +111,7 @@ fn critical_value(args: &Args, n: usize) -> Result<(), Failure> {
     let null = NullDistribution::simulate(n, replicates, seed)?;
     let critical_value = null.critical_value(level)?;
     let found = Critical { n, level, replicates, seed, critical_value };
-    show(args.json, &found)
+    args.json.show(&found)
 }
 
 fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
@@ -126,13 +123,13 @@ fn test(args: &Args, file: &SampleFile) -> Result<(), Failure> {
     };
     let found = test_normality(&file.censored()?, &options)?;
     let is_tabled = found.method == Some(NullSource::Table);
-    if is_tabled && (args.seed.is_some() || args.threads.is_some()) {
+    if is_tabled && (args.seed.is_some() || args.threads.threads.is_some()) {
         return Err(Failure::input(
             "--seed and --threads are not used without --replicates: the \
              table answers",
         ));
     }
-    show(args.json, &found)
+    args.json.show(&found)
 }
 
 /// Simulates every size of `fixtures/lilliefors/table.csv` and writes it:

@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use rocking::integrator::Model;
 use rocking::intensity::{Intensity, IntensityMeasure, Measures, Settings};
 use rocking::procedures::ranking::Candidate;
-use rocking::record::SuiteMember;
+use rocking::record::{SetAside, SuiteMember};
 
 use super::capacities::ida;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
-use super::{Failure, SOFTWARE, note};
+use super::{Failure, SOFTWARE};
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 
@@ -42,6 +42,7 @@ pub struct Ground {
     /// p/(g tan alpha), in s/m.
     pgv_factor: f64,
     records: Vec<Unscaled>,
+    set_aside: SetAside,
 }
 
 struct Unscaled {
@@ -108,11 +109,8 @@ impl GroundArgs {
         }
         let options = self.reading.options(gravity);
         let suite = read_suite(path, options)?.processed(&processing)?;
-        let set_aside = suite.set_aside();
-        self.reading.judge(set_aside, &Remarks::on(&suite))?;
-        if !set_aside.is_empty() {
-            note(&format!("set aside: {set_aside}"));
-        }
+        let set_aside = suite.set_aside().clone();
+        self.reading.judge(&set_aside, &Remarks::on(&suite))?;
         let mut members: BTreeMap<&str, &SuiteMember> = BTreeMap::new();
         for member in suite.members() {
             let name = member.accelerogram.name();
@@ -154,7 +152,7 @@ impl GroundArgs {
         let place = self.attributes.as_ref().unwrap_or(path).clone();
         let periods_s = settings.periods_s().to_vec();
         let pgv_factor = frequency_rad_s / (gravity * uplift);
-        Ok(Ground { place, periods_s, pgv_factor, records })
+        Ok(Ground { place, periods_s, pgv_factor, records, set_aside })
     }
 }
 
@@ -179,6 +177,12 @@ fn uplift(table: &ida::Suite) -> Result<f64, Failure> {
 }
 
 impl Ground {
+    /// What was set aside of the suite.
+    #[must_use]
+    pub fn into_set_aside(self) -> SetAside {
+        self.set_aside
+    }
+
     /// The measures as candidates of a ranking.
     ///
     /// # Errors

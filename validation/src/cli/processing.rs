@@ -2,7 +2,7 @@
 
 use rocking::record::Processing;
 
-use super::Failure;
+use super::{At as _, Failure};
 
 /// What is done to records; nothing unless asked for.
 #[derive(clap::Args, Clone, Copy, Debug)]
@@ -22,8 +22,7 @@ impl ProcessingArgs {
     /// # Errors
     /// [`Failure`] for a corner that is none.
     pub fn processing(self) -> Result<Processing, Failure> {
-        Processing::try_new(self.demean, self.high_pass)
-            .map_err(|error| Failure::input(format!("--high-pass: {error}")))
+        Processing::try_new(self.demean, self.high_pass).at("--high-pass")
     }
 
     /// Whether slow drifts are filtered out.

@@ -6,20 +6,18 @@ use clap::Args as ClapArgs;
 use libm::log;
 use rocking::capacity::{Capacity, InversionRule};
 use rocking::intensity::{Intensity, IntensityMeasure as M};
-use rocking::procedures::ranking::{Covariate, Ranked};
-use rocking::procedures::{Draws, Ranking, rank};
+use rocking::procedures::ranking::Covariate;
+use rocking::procedures::{Ranking, rank};
+use rocking::record::SetAside;
 use serde::Serialize;
 
+use super::Failure;
 use super::capacities::ida;
 use super::measure::{Ground, GroundArgs};
 use super::names;
-use super::show::show;
-use super::{Failure, with_threads};
+use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
 use rocking_common::files::Outputs;
-use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Heading, Mark, Scale, Series,
-};
-use rocking_draw::markup;
+use rocking_draw::figures::of_result::ranking_svg;
 
 /// Efficiency and sufficiency of intensity measures for a block.
 ///
@@ -68,27 +66,23 @@ pub struct Args {
     /// Column of the distance, whose logarithm is taken.
     #[arg(long, value_name = "COLUMN")]
     distance: Option<String>,
-    /// Draws of the bootstrap.
-    #[arg(long, value_name = "N", default_value_t = 1000)]
-    bootstrap: usize,
-    /// Repetition of the bootstrap.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    seed: u64,
+    #[command(flatten)]
+    bootstrap: BootstrapArgs,
     /// Draw the dispersions with their intervals.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// Threads; the result doesn't depend on them.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    threads: ThreadsArg,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 #[derive(Serialize)]
 struct Shown {
     edp: f64,
     point: String,
+    /// What was set aside of the suite.
+    set_aside: SetAside,
     #[serde(flatten)]
     ranking: Ranking,
 }
@@ -119,35 +113,19 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             Capacity::Censored { above } => (above, f64::INFINITY),
         });
     }
-    let draws = Draws { replicates: args.bootstrap, seed: args.seed };
-    let ranking = with_threads(args.threads, || {
+    let draws = args.bootstrap.draws();
+    let (ranking, set_aside) = args.threads.run(|| {
         let ground = args.ground.ground(&table, &measures)?;
         let candidates = ground.candidates(&measures)?;
         let covariates = args.covariates(&ground)?;
-        Ok::<_, Failure>(rank(&capacities, &candidates, &covariates, draws)?)
+        let ranking = rank(&capacities, &candidates, &covariates, draws)?;
+        Ok::<_, Failure>((ranking, ground.into_set_aside()))
     })??;
     if let Some(out) = plot {
-        let chart = args.chart(&measures, &ranking.measures);
-        out.write(chart.figure(String::new()).svg())?;
+        out.write(ranking_svg(&ranking, &measures, args.at))?;
     }
     let point = args.point.to_string();
-    show(args.json, &Shown { edp: args.at, point, ranking })
-}
-
-/// A few letters, for the tick of an axis; Arias intensity by its root.
-fn short(measure: &M) -> String {
-    match measure {
-        M::Arias => "√Arias".into(),
-        M::PgvDuration => "PGV D".into(),
-        M::Sa(period_s) => format!("SA({period_s})"),
-        M::AverageSa(periods_s) => {
-            let (first, last) = (periods_s.first(), periods_s.last());
-            let of = |t: Option<&f64>| t.copied().unwrap_or(f64::NAN);
-            format!("SA({}–{})", of(first), of(last))
-        }
-        M::Column(name) => name.clone(),
-        word => word.to_string().to_uppercase(),
-    }
+    args.json.show(&Shown { edp: args.at, point, set_aside, ranking })
 }
 
 impl Args {
@@ -163,55 +141,5 @@ impl Args {
             all.push(Covariate { name: "ln distance".into(), values });
         }
         Ok(all)
-    }
-
-    /// The dispersions, side by side.
-    fn chart(&self, measures: &[M], rows: &[Ranked]) -> Chart {
-        let none = (f64::NAN, f64::NAN);
-        let beta = rows.iter().map(|row| row.dispersion.as_ref());
-        let x = ChartAxis {
-            label: String::new(),
-            scale: Scale::Linear,
-            range: None,
-            categories: measures
-                .iter()
-                .map(|measure| markup::escape(&short(measure)))
-                .collect(),
-            second: None,
-        };
-        let label = format!("dispersion at EDP {}", self.at);
-        let series = Series {
-            label: "95 % interval by the bootstrap of records".into(),
-            mark: Mark::Points,
-            x: (1..=rows.len()).map(|k| k as f64).collect(),
-            y: beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
-            interval: beta
-                .map(|b| b.map_or(none, |e| (e.low, e.high)))
-                .collect(),
-        };
-        let ends = series.interval.iter().map(|ends| ends.1);
-        let most = ends.fold(0.0, f64::max);
-        let top = if most > 0.0 { 1.1 * most } else { 1.0 };
-        let y = ChartAxis::new(label, Scale::Linear, Some((0.0, top)));
-        Chart {
-            heading: Heading::new(
-                "rank",
-                "Efficiency of intensity measures",
-                format!(
-                    "Dispersion of the intensity at EDP {} in {} intensity \
-                     measures, with 95 % intervals.",
-                    self.at,
-                    rows.len()
-                ),
-                None,
-            ),
-            panels: vec![ChartPanel {
-                title: String::new(),
-                x,
-                y,
-                series: vec![series],
-            }],
-            columns: 1,
-        }
     }
 }

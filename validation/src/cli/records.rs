@@ -1,25 +1,24 @@
 //! `rocking records`: what is in record files, and why one is refused.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use rocking::record::{
-    self, Aside, Format, ReadOptions, RecordError, Remark, Remarked, SetAside,
-    Suite, SuiteMember,
+    self, Format, ReadOptions, RecordError, Remark, Remarked, SetAside, Suite,
+    SuiteMember,
 };
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::{Failure, print, print_json};
-use measures::{Found, MeasureArgs};
+use super::shared::JsonArg;
+use super::{Failure, with_threads};
+use measures::{MeasureArgs, Measured};
 use rocking_common::files::Outputs;
 use rocking_common::suites::inputs;
 use rocking_common::suites::remarks::Remarks;
 
 mod measures;
-mod plot;
 
 /// List record files: format, interval, length, PGA, PGV; say why one is
 /// refused.
@@ -45,9 +44,8 @@ pub struct Args {
     /// response spectrum.
     #[arg(long, value_name = "FILE.svg")]
     plot: Option<PathBuf>,
-    /// JSON for machines.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// One record in the list.
@@ -56,19 +54,16 @@ struct Listed {
     format: Format,
     unit: AccelerationUnit,
     motion: record::Accelerogram,
-    /// Pair and whether the study uses this component, in a suite.
-    place: Option<(Option<String>, bool)>,
+    pair: Option<String>,
+    /// Whether the study uses it, in a suite.
+    study_component: Option<bool>,
     /// What reading found; with what the samples show, once all are read.
     remarks: Vec<Remark>,
 }
 
 impl Listed {
-    fn pair(&self) -> Option<&str> {
-        self.place.as_ref().and_then(|(pair, _)| pair.as_deref())
-    }
-
     fn remarked(&self) -> Remarked<'_> {
-        let (record, pair) = (&self.motion, self.pair());
+        let (record, pair) = (&self.motion, self.pair.as_deref());
         Remarked { record, pair, read: &self.remarks }
     }
 
@@ -78,20 +73,80 @@ impl Listed {
             format: member.format,
             unit: member.unit,
             motion: member.accelerogram.clone(),
-            place: in_suite
-                .then(|| (member.pair.clone(), member.study_component)),
+            pair: member.pair.clone().filter(|_| in_suite),
+            study_component: in_suite.then_some(member.study_component),
             remarks: member.remarks.clone(),
+        }
+    }
+
+    fn row(&self, gravity_m_s2: f64) -> Row<'_> {
+        Row {
+            file: &self.file,
+            format: self.format.to_string(),
+            units: self.unit.to_string(),
+            dt_s: self.motion.dt_s(),
+            npts: self.motion.samples_g().len(),
+            duration_s: self.motion.duration_s(),
+            pga_g: self.motion.pga_g(),
+            pgv_m_s: self.motion.pgv_m_s(gravity_m_s2),
+            pair: self.pair.as_deref(),
+            study_component: self.study_component,
         }
     }
 }
 
+#[derive(Serialize)]
+struct Row<'a> {
+    file: &'a str,
+    format: String,
+    units: String,
+    dt_s: f64,
+    npts: usize,
+    duration_s: f64,
+    pga_g: f64,
+    pgv_m_s: f64,
+    pair: Option<&'a str>,
+    study_component: Option<bool>,
+}
+
+#[derive(Serialize)]
+struct SuiteRow {
+    suite: String,
+    records: usize,
+    pairs: usize,
+    study_components: usize,
+    study_rule: String,
+}
+
+/// What is said of a file: why it was refused or set aside, or a remark.
+#[derive(Serialize)]
+struct Finding {
+    file: String,
+    code: &'static str,
+    line: Option<usize>,
+    message: String,
+}
+
+#[derive(Serialize)]
+struct Shown<'a> {
+    gravity_m_s2: f64,
+    processing: Option<&'a str>,
+    suites: &'a [SuiteRow],
+    records: Vec<Row<'a>>,
+    #[serde(flatten)]
+    measured: Option<Measured>,
+    remarks: Vec<Finding>,
+    set_aside: Vec<Finding>,
+    refused: &'a [Finding],
+}
+
 /// Why files were refused: one line a cause, with the number of its files.
-fn causes(refused: &[Refused]) -> String {
-    let cause = |r: &Refused| {
+fn causes(refused: &[Finding]) -> String {
+    let cause = |r: &Finding| {
         let place = format!("{}: ", r.file);
-        r.reason.strip_prefix(&place).map(str::to_owned)
+        r.message.strip_prefix(&place).map(str::to_owned)
     };
-    let mut causes: Vec<(Option<String>, &Refused, usize)> = Vec::new();
+    let mut causes: Vec<(Option<String>, &Finding, usize)> = Vec::new();
     for refused in refused {
         let cause = cause(refused);
         let known =
@@ -101,35 +156,25 @@ fn causes(refused: &[Refused]) -> String {
             None => causes.push((cause, refused, 1)),
         }
     }
-    let line = |(_, refused, count): (Option<String>, &Refused, usize)| {
+    let line = |(_, refused, count): (Option<String>, &Finding, usize)| {
         let others = match count {
             1 => String::new(),
             2 => " (and 1 more file)".to_owned(),
             n => format!(" (and {} more files)", n - 1),
         };
-        format!("{}{others}", refused.reason)
+        format!("{}{others}", refused.message)
     };
     causes.into_iter().map(line).collect::<Vec<_>>().join("\nrocking: ")
-}
-
-/// One file that was refused.
-struct Refused {
-    file: String,
-    code: &'static str,
-    line: Option<usize>,
-    reason: String,
 }
 
 #[derive(Default)]
 struct Listing {
     records: Vec<Listed>,
-    refused: Vec<Refused>,
+    refused: Vec<Finding>,
     set_aside: SetAside,
-    suites: Vec<String>,
+    suites: Vec<SuiteRow>,
     /// The files that were read.
     inputs: Vec<PathBuf>,
-    /// What was done to the records.
-    processing: Option<String>,
 }
 
 /// Runs the command.
@@ -147,43 +192,73 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     for listed in &mut listing.records {
         listed.motion = processing.apply(&listed.motion)?;
     }
-    listing.processing = words(&processing);
+    let processing = words(&processing);
     listing.remark();
     let mut outputs = Outputs::of(listing.inputs.clone());
     let plot = outputs.open_some(args.plot.as_ref())?;
+    let (records, done) = (&listing.records, processing.as_deref());
     if let Some(out) = plot
         && listing.refused.is_empty()
     {
-        let done = listing.processing.as_deref();
-        out.write(plot::svg(&listing.records, done, args.gravity)?)?;
+        out.write(measures::svg(records, done, args.gravity)?)?;
     }
-    let baseline = (!args.processing.passes_high()).then(|| {
-        let done = listing.processing.as_deref();
-        done.unwrap_or("no baseline correction").to_owned()
-    });
-    let found = args.measures.run(&listing.records, args.gravity, baseline)?;
-    if args.json {
-        print_json(listing.json(args.gravity, &found))?;
-    } else {
-        print(&listing.table(args.gravity))?;
-        print(&found.table(&listing.records))?;
+    let measured =
+        with_threads(None, || args.measures.run(records, args.gravity))??;
+    let mut remarks: Vec<Finding> =
+        records.iter().flat_map(Finding::remarks).collect();
+    if let Some(measured) = &measured
+        && !args.processing.passes_high()
+    {
+        let baseline = done.unwrap_or("no baseline correction");
+        remarks.extend(measured.drifts(baseline));
+    }
+    if args.json.json || !(records.is_empty() && listing.set_aside.is_empty())
+    {
+        let rows = records.iter().map(|listed| listed.row(args.gravity));
+        let set_aside = listing.set_aside.all().iter();
+        args.json.show(&Shown {
+            gravity_m_s2: args.gravity,
+            processing: done,
+            suites: &listing.suites,
+            records: rows.collect(),
+            measured,
+            remarks,
+            set_aside: set_aside
+                .map(|aside| Finding {
+                    code: aside.reason.code(),
+                    ..Finding::from(&aside.error)
+                })
+                .collect(),
+            refused: &listing.refused,
+        })?;
     }
     if !listing.refused.is_empty() {
         return Err(Failure::input(causes(&listing.refused)));
     }
-    let all = listing.records.iter().map(Listed::remarked);
+    let all = records.iter().map(Listed::remarked);
     let remarks = Remarks::of(&all.collect::<Vec<_>>());
     args.reading.judge(&listing.set_aside, &remarks)
 }
 
-impl From<&RecordError> for Refused {
+impl From<&RecordError> for Finding {
     fn from(error: &RecordError) -> Self {
         Self {
             file: error.file().to_owned(),
             code: error.fault().code(),
             line: error.line(),
-            reason: error.to_string(),
+            message: error.to_string(),
         }
+    }
+}
+
+impl Finding {
+    fn remarks(listed: &Listed) -> impl Iterator<Item = Self> {
+        listed.remarks.iter().map(|remark| Self {
+            file: listed.file.clone(),
+            code: remark.code(),
+            line: None,
+            message: remark.to_string(),
+        })
     }
 }
 
@@ -196,13 +271,13 @@ impl Listing {
         let file = path.display().to_string();
         let bytes = match record::file_bytes(path) {
             Ok(bytes) => bytes,
-            Err(error) => return self.refused.push(Refused::from(&error)),
+            Err(error) => return self.refused.push(Finding::from(&error)),
         };
         if record::is_index(&bytes) {
             return self.add_survey(path, options);
         }
         match record::read_all(&file, &bytes, &options) {
-            Err(error) => self.refused.push(Refused::from(&error)),
+            Err(error) => self.refused.push(Finding::from(&error)),
             Ok(records) => {
                 let several = records.len() > 1;
                 self.records.extend(records.into_iter().map(|record| Listed {
@@ -213,7 +288,8 @@ impl Listing {
                     format: record.format,
                     unit: record.unit,
                     motion: record.accelerogram,
-                    place: None,
+                    pair: None,
+                    study_component: None,
                     remarks: record.remarks,
                 }))
             }
@@ -221,11 +297,11 @@ impl Listing {
     }
 
     fn add_survey(&mut self, path: &Path, options: ReadOptions) {
-        let refused = |error: &record::SuiteError| Refused {
+        let refused = |error: &record::SuiteError| Finding {
             file: error.file().to_owned(),
             code: error.code(),
             line: error.line(),
-            reason: error.to_string(),
+            message: error.to_string(),
         };
         let survey = match inputs::survey(path, options) {
             Ok(survey) => survey,
@@ -251,18 +327,13 @@ impl Listing {
 
     fn add_suite(&mut self, path: &Path, suite: &Suite) {
         self.inputs.extend(inputs::files(path, suite));
-        self.suites.push(format!(
-            "suite {}: {} records, {} pairs, {} study components by {}{}",
-            suite.name(),
-            suite.members().len(),
-            suite.both().len(),
-            suite.study_components().count(),
-            suite.study_rule(),
-            match suite.set_aside() {
-                none if none.is_empty() => String::new(),
-                some => format!("; set aside: {some}"),
-            },
-        ));
+        self.suites.push(SuiteRow {
+            suite: suite.name().to_owned(),
+            records: suite.members().len(),
+            pairs: suite.both().len(),
+            study_components: suite.study_components().count(),
+            study_rule: suite.study_rule().to_string(),
+        });
         let members = suite.members().iter();
         self.records.extend(members.map(|m| Listed::member(m, true)));
     }
@@ -275,121 +346,4 @@ impl Listing {
             listed.remarks = remarks;
         }
     }
-
-    fn json(&self, gravity_m_s2: f64, found: &Found) -> Value {
-        let record = |(position, listed): (usize, &Listed)| {
-            let motion = &listed.motion;
-            let (pair, study) = match &listed.place {
-                Some((pair, study)) => (pair.as_deref(), Some(*study)),
-                None => (None, None),
-            };
-            let remark = |remark: &Remark| {
-                json!({
-                    "code": remark.code(),
-                    "message": remark.to_string(),
-                })
-            };
-            let remarks = listed.remarks.iter().map(remark);
-            let mut value = json!({
-                "file": listed.file,
-                "format": listed.format.to_string(),
-                "units": listed.unit.to_string(),
-                "dt_s": motion.dt_s(),
-                "npts": motion.samples_g().len(),
-                "duration_s": motion.duration_s(),
-                "pga_g": motion.pga_g(),
-                "pgv_m_s": motion.pgv_m_s(gravity_m_s2),
-                "pair": pair,
-                "study_component": study,
-                "remarks": remarks.collect::<Vec<_>>(),
-            });
-            found.add_to(position, &mut value);
-            value
-        };
-        let refused = |list: &[Refused]| -> Vec<Value> {
-            let one = |refused: &Refused| {
-                json!({
-                    "file": refused.file,
-                    "code": refused.code,
-                    "line": refused.line,
-                    "reason": refused.reason,
-                })
-            };
-            list.iter().map(one).collect()
-        };
-        let records = self.records.iter().enumerate().map(record);
-        let mut all = json!({
-            "gravity_m_s2": gravity_m_s2,
-            "processing": self.processing,
-            "records": records.collect::<Vec<_>>(),
-            "refused": refused(&self.refused),
-            "set_aside": self.set_aside.all().iter().map(|aside| json!({
-                "file": aside.error.file(),
-                "code": aside.reason.code(),
-                "line": aside.error.line(),
-                "reason": aside.error.to_string(),
-            })).collect::<Vec<_>>(),
-        });
-        if let (Some(pairs), Some(map)) =
-            (found.pairs_json(), all.as_object_mut())
-        {
-            map.insert("pairs".into(), pairs);
-        }
-        all
-    }
-
-    fn table(&self, gravity_m_s2: f64) -> String {
-        let mut text = String::new();
-        let names = self.records.iter().map(|r| r.file.chars().count());
-        let width = names.max().unwrap_or(0).max(4);
-        if !self.records.is_empty() {
-            line(
-                &mut text,
-                format_args!(
-                    "{:width$}  format    units     dt (s)       n \
-                     duration(s)   PGA (g)  PGV (m/s)",
-                    "file",
-                ),
-            );
-        }
-        for listed in &self.records {
-            let motion = &listed.motion;
-            line(
-                &mut text,
-                format_args!(
-                    "{:width$}  {:8} {:>6} {:>10} {:>7} {:>11.3} {:>9.5} {:>10.5}",
-                    listed.file,
-                    listed.format.to_string(),
-                    listed.unit.to_string(),
-                    motion.dt_s(),
-                    motion.samples_g().len(),
-                    motion.duration_s(),
-                    motion.pga_g(),
-                    motion.pgv_m_s(gravity_m_s2),
-                ),
-            );
-        }
-        if let Some(words) = &self.processing {
-            line(&mut text, format_args!("processed: {words}"));
-        }
-        for listed in &self.records {
-            for remark in &listed.remarks {
-                let (file, code) = (&listed.file, remark.code());
-                line(&mut text, format_args!("{file}: {code}: {remark}"));
-            }
-        }
-        for Aside { error, .. } in self.set_aside.all() {
-            line(&mut text, format_args!("set aside: {error}"));
-        }
-        for suite in &self.suites {
-            line(&mut text, format_args!("{suite}"));
-        }
-        text
-    }
-}
-
-fn line(text: &mut String, arguments: std::fmt::Arguments<'_>) {
-    // Writing to a string cannot fail.
-    let _ = text.write_fmt(arguments);
-    text.push('\n');
 }

@@ -8,7 +8,7 @@ use rocking::statistics::QuantileType;
 
 use super::Failure;
 use super::samples::SampleFile;
-use super::show::show;
+use super::shared::JsonArg;
 
 /// Quantiles of a sample by named type (Hyndman and Fan 1996), its quartiles,
 /// whiskers, outliers and McGill's notch, and the exact order-statistic
@@ -30,9 +30,8 @@ pub struct Args {
     /// Type of the quantiles, 1 to 9: 5 is MATLAB's, 7 that of R and NumPy.
     #[arg(long, value_name = "TYPE", default_value_t = 5)]
     quantile_type: u8,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -42,5 +41,5 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let quantile_type = QuantileType::try_new(args.quantile_type)?;
     let sample = SampleFile::read(&args.sample)?.extended()?;
-    show(args.json, &summarise(&sample, &args.at, quantile_type)?)
+    args.json.show(&summarise(&sample, &args.at, quantile_type)?)
 }

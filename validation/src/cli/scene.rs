@@ -7,6 +7,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use super::Failure;
 use super::names;
+use super::shared::positive;
 
 /// The block, by its parameters or by its size.
 #[derive(clap::Args, Clone, Debug)]
@@ -135,14 +136,7 @@ impl ModelArgs {
     /// # Errors
     /// [`Failure`] unless it is positive and finite.
     pub fn gravity_m_s2(&self) -> Result<f64, Failure> {
-        if self.gravity > 0.0 && self.gravity.is_finite() {
-            Ok(self.gravity)
-        } else {
-            Err(Failure::input(format!(
-                "--gravity {}: expected a positive number",
-                self.gravity
-            )))
-        }
+        positive("--gravity", self.gravity)
     }
 
     /// Restitution of a block.

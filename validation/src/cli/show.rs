@@ -26,12 +26,20 @@ struct Envelope<'a, T> {
 /// # Errors
 /// As [`print()`].
 pub fn show<T: Serialize>(json: bool, result: &T) -> Result<(), Failure> {
-    if json {
-        let version = env!("CARGO_PKG_VERSION");
-        let all = Envelope { schema: SCHEMA, version, result };
-        return print(&(serde_json::to_string_pretty(&all)? + "\n"));
+    print(&shown(json, result)?)
+}
+
+/// What [`show`] prints.
+///
+/// # Errors
+/// [`Failure`] where the result cannot be serialized.
+pub fn shown<T: Serialize>(json: bool, result: &T) -> Result<String, Failure> {
+    if !json {
+        return text(result);
     }
-    print(&text(result)?)
+    let version = env!("CARGO_PKG_VERSION");
+    let all = Envelope { schema: SCHEMA, version, result };
+    Ok(serde_json::to_string_pretty(&all)? + "\n")
 }
 
 /// A result as text: a row for each field, a table for each list of structs.
@@ -81,7 +89,8 @@ impl<'de> Visitor<'de> for NodeVisitor {
     }
 
     fn visit_str<E>(self, value: &str) -> Result<Node, E> {
-        Ok(Node::Text(value.into()))
+        // A name with a line break stays in its row.
+        Ok(Node::Text(value.replace('\n', "\\u000a")))
     }
 
     fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
@@ -158,6 +167,7 @@ fn rows(text: &mut String, fields: &[(String, Node)], depth: usize) {
                 *text += &format!("{:indent$}{name}\n", "");
                 rows(text, inner, depth + 1);
             }
+            Node::List(all) if all.is_empty() => {}
             Node::List(all)
                 if matches!(all.first(), Some(Node::Struct(_))) =>
             {
@@ -193,11 +203,19 @@ fn table(text: &mut String, all: &[Node], indent: usize) {
     };
     let columns = lines.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns).map(width).collect();
+    let is_word = |cell: &String| {
+        cell.parse::<f64>().is_err() && cell != "none" && !cell.ends_with(']')
+    };
+    let is_left = |column: usize| {
+        let body = lines.iter().skip(1);
+        body.filter_map(|line| line.get(column)).any(is_word)
+    };
+    let left: Vec<bool> = (0..columns).map(is_left).collect();
     for line in &lines {
-        let cells = line.iter().zip(&widths).enumerate();
-        let cells = cells.map(|(k, (cell, width))| match k {
-            0 => format!("{cell:<width$}"),
-            _ => format!("  {cell:>width$}"),
+        let cells = line.iter().zip(&widths).zip(&left);
+        let cells = cells.map(|((cell, width), left)| match left {
+            true => format!("{cell:<width$}  "),
+            false => format!("{cell:>width$}  "),
         });
         let line: String = cells.collect();
         *text += &format!("{:indent$}{}\n", "", line.trim_end());

@@ -1,15 +1,15 @@
 //! `rocking speed`: error against processor time, on this machine.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use rocking::excitation::NormalisedRecord;
 use rocking::integrator::Model;
 use rocking::number::dispatch::Isa;
-use rocking::record::{Accelerogram, ReadOptions};
-use serde_json::{Value, json};
+use rocking::record::{ReadOptions, SetAside};
+use serde::Serialize;
 
-use super::{Failure, note, print, print_json, progress};
+use super::shared::JsonArg;
+use super::{Failure, progress};
 use rocking_common::curves::Execution;
 use rocking_common::files::Outputs;
 use rocking_common::paper::BLOCKS;
@@ -19,7 +19,6 @@ use rocking_report::speed::answers::Answer;
 use rocking_report::speed::cases::{self, Case};
 use rocking_report::speed::clock::peak_memory_mib;
 use rocking_report::speed::measured::{Total, read_answers, text, totals};
-use rocking_report::speed::scale::{self, Axis, growth};
 use rocking_report::speed::singles::{self, BASE, ORDERS};
 use rocking_report::speed::throughput::{
     self, Job, Throughput, analyses, on_threads,
@@ -41,9 +40,6 @@ pub struct Args {
     /// The single analyses alone.
     #[arg(long, conflicts_with = "suite")]
     singles: bool,
-    /// How time and memory grow with records, samples and blocks, alone.
-    #[arg(long, conflicts_with_all = ["suite", "singles"])]
-    scale: bool,
     /// Write one row for each method and case.
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
@@ -61,15 +57,8 @@ pub struct Args {
     /// Judge the answers of other tools beside our own.
     #[arg(long, value_name = "FILE.csv", hide = true)]
     answers: Vec<PathBuf>,
-    /// One size of one axis of `--scale`, as JSON.
-    #[arg(long, value_name = "AXIS", hide = true, requires = "size")]
-    scale_point: Option<Axis>,
-    /// The size of it.
-    #[arg(long, value_name = "N", hide = true)]
-    size: Option<usize>,
-    /// JSON for machines.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -78,17 +67,10 @@ pub struct Args {
 /// [`Failure`] for a suite or an answer that is refused, or a file that
 /// cannot be written.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    if let (Some(axis), Some(size)) = (args.scale_point, args.size) {
-        let point = scale::point(axis, size, &motions()?)?;
-        return print(&format!("{}\n", serde_json::to_value(point)?));
-    }
-    if args.scale {
-        return scaled(args.json);
-    }
     let cases = cases::all()?;
     if let Some(folder) = &args.export {
         export::singles(&folder.join("singles"), &cases)?;
-        let records = records(args)?;
+        let (records, _) = records(args)?;
         let analyses = analyses(&BLOCKS, Model::Nonlinear, None)?;
         let threads = rayon::current_num_threads();
         let way = Execution::default();
@@ -118,10 +100,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         out.write(text(&rows)?)?;
     }
     let singles = totals(&rows, BASE);
+    let mut set_aside = SetAside::default();
     let many = if args.singles {
         Vec::new()
     } else {
-        let records = records(args)?;
+        let (records, aside) = records(args)?;
+        set_aside = aside;
         let bar = progress(many::STEPS);
         let all = many::measure(&records, &|| bar.inc(1))?;
         bar.finish_and_clear();
@@ -130,12 +114,14 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(out) = table {
         out.write(throughput::text(&many)?)?;
     }
-    let memory = peak_memory_mib();
-    if args.json {
-        print_json(machine(&singles, &many, memory))
-    } else {
-        print(&people(&singles, &many, memory))
-    }
+    args.json.show(&Shown {
+        isa: Isa::best().name(),
+        ratios_to: BASE.join(", "),
+        set_aside,
+        singles: &singles,
+        throughput: many.iter().map(Rate::from).collect(),
+        peak_memory_mib: peak_memory_mib(),
+    })
 }
 
 fn with_references(cases: Vec<Case>) -> Result<Vec<(Case, Answer)>, Failure> {
@@ -148,187 +134,49 @@ fn with_references(cases: Vec<Case>) -> Result<Vec<(Case, Answer)>, Failure> {
         .collect()
 }
 
-fn records(args: &Args) -> Result<Vec<NormalisedRecord>, Failure> {
-    if !args.suite.is_empty() {
-        let mut records = Vec::new();
-        for path in &args.suite {
-            let suite = read_suite(path, ReadOptions::default())?;
-            if !suite.set_aside().is_empty() {
-                note(&format!("set aside: {}", suite.set_aside()));
-            }
-            records.extend(
-                suite
-                    .study_components()
-                    .map(|member| NormalisedRecord::new(&member.accelerogram)),
-            );
-        }
-        return Ok(records);
+/// The records that are analysed, and what was set aside beside them.
+fn records(args: &Args) -> Result<(Vec<NormalisedRecord>, SetAside), Failure> {
+    let mut set_aside = SetAside::default();
+    if args.suite.is_empty() {
+        let suites = StudySuite::embedded()?;
+        let motions = suites.iter().flat_map(|suite| &suite.motions);
+        let records = motions.map(|m| NormalisedRecord::new(&m.study));
+        return Ok((records.collect(), set_aside));
     }
-    Ok(motions()?.iter().map(NormalisedRecord::new).collect())
+    let mut records = Vec::new();
+    for path in &args.suite {
+        let suite = read_suite(path, ReadOptions::default())?;
+        set_aside.extend(suite.set_aside().all().iter().cloned());
+        let members = suite.study_components();
+        records
+            .extend(members.map(|m| NormalisedRecord::new(&m.accelerogram)));
+    }
+    Ok((records, set_aside))
 }
 
-/// The embedded motions that the study uses.
-fn motions() -> Result<Vec<Accelerogram>, Failure> {
-    let suites = StudySuite::embedded()?;
-    let motions = suites.into_iter().flat_map(|suite| suite.motions);
-    Ok(motions.map(|motion| motion.study).collect())
+/// What was measured.
+#[derive(Serialize)]
+struct Shown<'a> {
+    isa: &'static str,
+    ratios_to: String,
+    set_aside: SetAside,
+    /// Medians over the cases.
+    singles: &'a [Total],
+    throughput: Vec<Rate<'a>>,
+    peak_memory_mib: Option<f64>,
 }
 
-/// Measures, and prints, how time and memory grow.
-fn scaled(json: bool) -> Result<(), Failure> {
-    let sizes = Axis::ALL.map(|axis| axis.sizes().len());
-    let bar = progress(sizes.iter().sum::<usize>() as u64);
-    let points = scale::measure(&|| bar.inc(1))?;
-    bar.finish_and_clear();
-    let mut rows = Vec::new();
-    for own in points.chunk_by(|a, b| a.axis == b.axis) {
-        for (k, point) in own.iter().enumerate() {
-            let grown = (k > 1).then(|| growth(&own[0], &own[k - 1], point));
-            rows.push((point, grown));
-        }
-    }
-    if json {
-        return print_json(json!({
-            "isa": Isa::best().name(),
-            "threads": rayon::current_num_threads(),
-            "scale": rows.iter().map(|(point, grown)| json!({
-                "axis": point.axis,
-                "size": point.size,
-                "analyses": point.analyses,
-                "cpu_s": point.cpu_s,
-                "peak_memory_mib": point.peak_memory_mib,
-                "time_exponent": grown.map(|g| g.time),
-                "memory_exponent": grown.and_then(|g| g.memory),
-            })).collect::<Vec<_>>(),
-        }));
-    }
-    let mut out = format!(
-        "Growth with records (p = 3, alpha = 0.15), samples (15 blocks, \
-          whole runs) and blocks (8 records), {}, {} threads\n\n\
-         axis          size  analyses     CPU s  peak MiB    time ~  \
-         memory ~\n",
-        Isa::best().name(),
-        rayon::current_num_threads(),
-    );
-    let two = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.2}"));
-    for (point, grown) in rows {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            out,
-            "{:<8} {:>9} {:>9} {:>9.3} {:>9} {:>9} {:>9}",
-            point.axis.to_string(),
-            point.size,
-            point.analyses,
-            point.cpu_s,
-            point.peak_memory_mib.map_or(String::new(), |m| format!("{m:.0}")),
-            two(grown.map(|g| g.time)),
-            two(grown.and_then(|g| g.memory)),
-        );
-    }
-    out.push_str(
-        "\n~: exponent between this size and the one before; of memory, \
-         beyond that of size 0\n",
-    );
-    print(&out)
+#[derive(Serialize)]
+struct Rate<'a> {
+    #[serde(flatten)]
+    of: &'a Throughput,
+    rate_per_cpu_s: f64,
+    sample_ns: Option<f64>,
 }
 
-fn machine(
-    singles: &[Total],
-    many: &[Throughput],
-    memory: Option<f64>,
-) -> Value {
-    json!({
-        "isa": Isa::best().name(),
-        "ratios_to": BASE.join(", "),
-        "singles": singles.iter().map(|t| json!({
-            "tool": t.label[0],
-            "version": t.label[1],
-            "method": t.label[2],
-            "setting": t.label[3],
-            "cases": t.cases,
-            "median_ratio": t.ratio,
-            "median_cpu_s": t.cpu_s,
-            "mean_cpu_s": t.mean_cpu_s,
-            "median_work": t.work,
-            "median_peak_error": t.peak_error,
-            "peak_error_90": t.peak_error_90,
-            "median_impact_error_s": t.impact_error_s,
-            "wrong_fates": t.wrong_fates,
-            "other_impacts": t.other_impacts,
-        })).collect::<Vec<_>>(),
-        "throughput": many.iter().map(|t| json!({
-            "work": t.work,
-            "threads": t.threads,
-            "cpu_s": t.cpu_s,
-            "count": t.count,
-            "rate_per_cpu_s": t.rate_per_s(),
-            "samples": t.samples,
-            "sample_ns": t.sample_ns(),
-            "moved_chains": t.moved,
-        })).collect::<Vec<_>>(),
-        "peak_memory_mib": memory,
-    })
-}
-
-fn people(
-    singles: &[Total],
-    many: &[Throughput],
-    memory: Option<f64>,
-) -> String {
-    let mut out = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        out,
-        "Single analyses, {}: medians over {} cases\n\n\
-         method                                           ratio      \
-         CPU s     work peak error       90 %   impact s  fates impacts",
-        Isa::best().name(),
-        singles.first().map_or(0, |t| t.cases),
-    );
-    for t in singles {
-        let [tool, version, method, setting] = &t.label;
-        let _ = writeln!(
-            out,
-            "{:<44} {:>9.3} {:>10.2e} {:>8} {:>10.1e} {:>10.1e} {:>10.1e} \
-             {:>6} {:>7}",
-            format!("{tool} {version}, {method}, {setting}"),
-            t.ratio,
-            t.cpu_s,
-            t.work,
-            t.peak_error,
-            t.peak_error_90,
-            t.impact_error_s,
-            t.wrong_fates,
-            t.other_impacts
-        );
+impl<'a> From<&'a Throughput> for Rate<'a> {
+    fn from(of: &'a Throughput) -> Self {
+        let (rate_per_cpu_s, sample_ns) = (of.rate_per_s(), of.sample_ns());
+        Self { of, rate_per_cpu_s, sample_ns }
     }
-    let _ = writeln!(
-        out,
-        "\nfates: wrong ones; impacts: cases with another number of them; \
-         moved: chains\nwith another first overturning level"
-    );
-    if !many.is_empty() {
-        let _ = writeln!(
-            out,
-            "\nwork                                         threads     \
-             CPU s    number    per CPU s ns/sample  moved"
-        );
-    }
-    for t in many {
-        let _ = writeln!(
-            out,
-            "{:<44} {:>7} {:>9.3} {:>9} {:>12.0} {:>9} {:>6}",
-            t.work,
-            t.threads,
-            t.cpu_s,
-            t.count,
-            t.rate_per_s(),
-            t.sample_ns().map_or(String::new(), |ns| format!("{ns:.2}")),
-            t.moved.map_or(String::new(), |n| n.to_string())
-        );
-    }
-    if let Some(memory) = memory {
-        let _ = writeln!(out, "\npeak memory {memory:.0} MiB");
-    }
-    out
 }

@@ -10,7 +10,7 @@ use super::Failure;
 use super::capacities::{Levels, ida};
 use super::fragility::COUNTS;
 use super::names;
-use super::show::show;
+use super::shared::JsonArg;
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
 use rocking_common::table::Table;
@@ -48,9 +48,8 @@ pub struct Args {
     /// printed then.
     #[arg(long, value_name = "OUT.csv", requires = "at")]
     counts: Option<PathBuf>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 #[derive(Serialize)]
@@ -83,5 +82,5 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             return Ok(());
         }
     }
-    show(args.json, &Shown { n: curves.len(), edp: args.at, stripes })
+    args.json.show(&Shown { n: curves.len(), edp: args.at, stripes })
 }

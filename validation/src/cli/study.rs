@@ -11,8 +11,9 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::names;
 use super::processing::ProcessingArgs;
 use super::reading::ReadArgs;
+use super::shared::{ThreadsArg, positive};
 use super::way::WayArgs;
-use super::{Failure, logged, note, print, say, with_threads};
+use super::{At as _, Failure, logged, note, print, say};
 use rocking_common::files::{Folder, is_interrupted};
 use rocking_common::paper::{Arm, RESTITUTION, SuiteKind};
 use rocking_common::suites::StudySuite;
@@ -72,10 +73,8 @@ pub struct Args {
     /// Other choices (restitution, criterion, component) on all 15 blocks.
     #[arg(long)]
     full: bool,
-    /// Number of threads; all processors by default. Results do not depend
-    /// on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: ThreadsArg,
     #[command(flatten)]
     way: WayArgs,
     /// Folder into which `rocking validate --out` wrote validation.json and
@@ -105,7 +104,7 @@ pub struct Args {
 /// folder that cannot be written.
 pub fn run(args: &Args) -> Result<(), Failure> {
     // All of it: whatever runs in parallel finds these threads.
-    with_threads(args.threads, || in_threads(args))?
+    args.threads.run(|| in_threads(args))?
 }
 
 /// The files of the report that the command writes without options.
@@ -171,12 +170,9 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     let suites = suites(args)?;
     if args.check {
         // Refused before minutes are spent.
-        std::fs::read_dir(&args.out).map_err(|e| {
-            Failure::input(format!(
-                "{}: {e}; expected the folder of a report",
-                args.out.display()
-            ))
-        })?;
+        let place = args.out.display();
+        let place = format_args!("no folder of a report at {place}");
+        std::fs::read_dir(&args.out).at(place)?;
     }
     let folder = match args.check {
         true => None,
@@ -254,12 +250,6 @@ fn check(out: &Path, files: &Files) -> Result<(), Failure> {
 }
 
 fn plan(args: &Args) -> Result<Plan, Failure> {
-    if !(args.refine > 0.0 && args.refine.is_finite()) {
-        return Err(Failure::input(format!(
-            "--refine {}: expected a positive number",
-            args.refine
-        )));
-    }
     let mut arms = args.arms.clone();
     arms.sort();
     arms.dedup();
@@ -272,7 +262,7 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
     let setup = Setup {
         restitution: Restitution::constant(args.eta)?,
         overturning: args.overturn,
-        tolerance: args.refine,
+        tolerance: positive("--refine", args.refine)?,
         way: args.way.way()?,
     };
     Ok(Plan { setup, arms })

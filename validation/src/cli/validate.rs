@@ -1,12 +1,13 @@
 //! `rocking validate`: the declared cases, judged.
 
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use serde::Serialize;
 
-use super::{Failure, print_json, say};
+use super::shared::JsonArg;
+use super::show::shown;
+use super::{At as _, Failure, read_text, say};
 use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_proof::methods::{digits, digits_csv};
@@ -31,9 +32,8 @@ pub struct Args {
     /// Folder of the reports; without it nothing is written.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -46,12 +46,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let outputs = match &args.out {
         Some(out) if !args.check => {
             let folder = out.join("data");
-            std::fs::create_dir_all(&folder).map_err(|e| {
-                Failure::input(format!(
-                    "cannot make {}: {e}",
-                    folder.display()
-                ))
-            })?;
+            let place = format_args!("cannot make {}", folder.display());
+            std::fs::create_dir_all(&folder).at(place)?;
             let mut outputs = Outputs::default();
             Some([
                 outputs.open(&folder.join("validation.json"))?,
@@ -61,11 +57,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         _ => None,
     };
     let outcomes = run_all(&cases);
-    if args.json {
-        print_json(machine(&outcomes))?;
-    } else {
-        say(&people(&outcomes))?;
-    }
+    say(&shown(args.json.json, &Shown::of(&outcomes))?)?;
     let refused = outcomes.iter().filter(|o| !o.verdict.is_accepted()).count();
     if refused > 0 {
         return Err(Failure::gate(format!(
@@ -84,16 +76,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Ok(precision.write(digits)?);
     }
     compare(&path, &text)?;
-    if digits == read(&digits_path)? {
+    if digits == read_text(&digits_path)? {
         return Ok(());
     }
     Err(stale(&digits_path))
-}
-
-fn read(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|e| {
-        Failure::input(format!("cannot read {}: {e}", path.display()))
-    })
 }
 
 fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
@@ -114,7 +100,7 @@ fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
 }
 
 fn compare(path: &Path, text: &str) -> Result<(), Failure> {
-    let found = read(path)?;
+    let found = read_text(path)?;
     if found == text {
         return Ok(());
     }
@@ -132,76 +118,86 @@ fn stale(path: &Path) -> Failure {
     ))
 }
 
-fn machine(outcomes: &[Outcome]) -> serde_json::Value {
-    let cases: Vec<serde_json::Value> = outcomes
-        .iter()
-        .map(|outcome| {
-            json!({
-                "id": outcome.id,
-                "kind": outcome.kind.name(),
-                "verdict": outcome.verdict.name(),
-                "margin": outcome.worst_margin(),
-                "quantities": outcome.checks.iter().map(|c| json!({
-                    "quantity": c.quantity,
-                    "observed": &c.observed,
-                    "expected": &c.expected,
-                    "error": c.error,
-                    "margin": c.margin,
-                })).collect::<Vec<_>>(),
-                "rejected": outcome.rejections.iter().map(|r| json!({
-                    "model": r.model,
-                    "margin": r.margin,
-                    "quantity": r.quantity,
-                })).collect::<Vec<_>>(),
-                "messages": outcome.messages,
-            })
-        })
-        .collect();
-    json!({ "cases": cases })
+/// What the cases came to.
+#[derive(Serialize)]
+pub(super) struct Shown<'a> {
+    cases: Vec<Judged<'a>>,
+    messages: Vec<Said<'a>>,
+    /// Checks whose margin is below 1e-3 or above 0.9.
+    bounds_to_look_at: Vec<Bound<'a>>,
+    kinds: Vec<Count<'a>>,
+    passed: usize,
+    of: usize,
 }
 
-pub(super) fn people(outcomes: &[Outcome]) -> String {
-    let mut text = String::new();
-    for outcome in outcomes {
-        let _ = writeln!(
-            text,
-            "{:<15} {:>9.1e}  {} ({} wrong models rejected)",
-            outcome.verdict.name(),
-            outcome.worst_margin(),
-            outcome.id,
-            outcome.rejections.iter().filter(|r| r.margin > 1.0).count()
-        );
-        for message in &outcome.messages {
-            let _ = writeln!(text, "    {}", message.replace('\n', "\n    "));
+#[derive(Serialize)]
+struct Judged<'a> {
+    case: &'a str,
+    verdict: &'static str,
+    margin: f64,
+    wrong_models_rejected: usize,
+}
+
+#[derive(Serialize)]
+struct Said<'a> {
+    case: &'a str,
+    message: &'a str,
+}
+
+#[derive(Serialize)]
+struct Bound<'a> {
+    case: &'a str,
+    quantity: &'a str,
+    margin: f64,
+}
+
+#[derive(Serialize)]
+struct Count<'a> {
+    kind: &'a str,
+    verdict: &'a str,
+    cases: usize,
+}
+
+impl<'a> Shown<'a> {
+    pub(super) fn of(outcomes: &'a [Outcome]) -> Self {
+        let judged = |outcome: &'a Outcome| Judged {
+            case: &outcome.id,
+            verdict: outcome.verdict.name(),
+            margin: outcome.worst_margin(),
+            wrong_models_rejected: outcome
+                .rejections
+                .iter()
+                .filter(|r| r.margin > 1.0)
+                .count(),
+        };
+        let said = |outcome: &'a Outcome| {
+            let all = outcome.messages.iter().flat_map(|all| all.lines());
+            all.map(|message| Said { case: &outcome.id, message })
+        };
+        let bounds = |outcome: &'a Outcome| {
+            let all = outcome.bounds_to_look_at().into_iter();
+            all.map(|check| Bound {
+                case: &outcome.id,
+                quantity: &check.quantity,
+                margin: check.margin,
+            })
+        };
+        let mut kinds: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+        for outcome in outcomes {
+            let key = (outcome.kind.name(), outcome.verdict.name());
+            *kinds.entry(key).or_default() += 1;
+        }
+        let kinds = kinds.into_iter();
+        let passed = |o: &&Outcome| o.verdict == Verdict::Pass;
+        Self {
+            cases: outcomes.iter().map(judged).collect(),
+            messages: outcomes.iter().flat_map(said).collect(),
+            bounds_to_look_at: outcomes.iter().flat_map(bounds).collect(),
+            kinds: kinds
+                .map(|((kind, verdict), cases)| Count { kind, verdict, cases })
+                .collect(),
+            passed: outcomes.iter().filter(passed).count(),
+            of: outcomes.len(),
         }
     }
-    let odd: Vec<String> = outcomes
-        .iter()
-        .flat_map(|outcome| {
-            outcome.bounds_to_look_at().into_iter().map(|check| {
-                let id = &outcome.id;
-                format!("  {:.0e}  {id} {}", check.margin, check.quantity)
-            })
-        })
-        .collect();
-    if !odd.is_empty() {
-        let _ = writeln!(
-            text,
-            "\nBounds to be looked at (margin below 1e-3 or above 0.9):\n{}",
-            odd.join("\n")
-        );
-    }
-    let mut kinds: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    for outcome in outcomes {
-        let key = (outcome.kind.name(), outcome.verdict.name());
-        *kinds.entry(key).or_default() += 1;
-    }
-    let _ = writeln!(text);
-    for ((kind, verdict), count) in kinds {
-        let _ = writeln!(text, "{count:>5} {kind}: {verdict}");
-    }
-    let passed =
-        outcomes.iter().filter(|o| o.verdict == Verdict::Pass).count();
-    let _ = writeln!(text, "{passed} of {} cases pass", outcomes.len());
-    text
 }

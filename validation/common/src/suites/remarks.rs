@@ -2,7 +2,7 @@
 //! results are.
 
 use rocking::record::{Remark, Remarked, Suite, remarks_together};
-use serde_json::{Value, json};
+use serde::{Serialize, Serializer};
 
 /// Codes of remarks, the gravest first.
 const GRAVEST: [&str; 15] = [
@@ -97,20 +97,35 @@ impl Remarks {
             counts.join(", ")
         ))
     }
+}
 
-    /// The same for machines.
-    #[must_use]
-    pub fn json(&self) -> Value {
-        let code = |(code, count, record, remark): (_, _, _, &Remark)| {
-            json!({
-                "code": code,
-                "records": count,
-                "first": record,
-                "message": remark.to_string(),
-            })
+/// The number of records with remarks, and for each code its number, its
+/// first record and the remark on that.
+impl Serialize for Remarks {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Code<'a> {
+            code: &'a str,
+            records: usize,
+            first: &'a str,
+            message: String,
+        }
+        #[derive(Serialize)]
+        struct All<'a> {
+            records: usize,
+            of: usize,
+            codes: Vec<Code<'a>>,
+        }
+        let code = |(code, records, first, remark): (_, _, _, &Remark)| {
+            let message = remark.to_string();
+            Code { code, records, first, message }
         };
-        let all: Vec<Value> = self.by_code().into_iter().map(code).collect();
-        json!({ "records": self.found.len(), "of": self.records, "codes": all })
+        All {
+            records: self.found.len(),
+            of: self.records,
+            codes: self.by_code().into_iter().map(code).collect(),
+        }
+        .serialize(to)
     }
 }
 
@@ -148,6 +163,7 @@ mod tests {
         assert!(words.contains("; y: units: PGA 3.000e2 g"), "{words}");
         assert_eq!(found.codes("x"), "end-velocity offset duplicate");
         assert_eq!(found.codes("nobody"), "");
-        assert_eq!(found.json()["codes"][1]["first"], "x");
+        let json = serde_json::to_value(&found).unwrap();
+        assert_eq!(json["codes"][1]["first"], "x");
     }
 }

@@ -52,7 +52,11 @@ pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
         let expected = threshold * input.intensity.min(1.0);
         answer.put("friction", [found.friction], [expected]);
         if input.intensity < 1.0 {
-            answer.put("least-normal", [found.normal], [1.0]);
+            answer.put(
+                "least-normal",
+                [found.least_normal_over_weight],
+                [1.0],
+            );
         }
     }
     Ok(answer)
@@ -110,7 +114,11 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
                 normal = normal.min(n);
             }
             answer.put("friction", [found.friction], [friction]);
-            answer.put("least-normal", [found.normal], [normal]);
+            answer.put(
+                "least-normal",
+                [found.least_normal_over_weight],
+                [normal],
+            );
         }
     }
     Ok(answer)
@@ -152,7 +160,7 @@ pub(super) fn momentum(context: &Context) -> Result<Answer, MethodError> {
         let (friction, normal) =
             differences(context, &scene, &samples, input.interval_p / p)?;
         answer.put("friction", [found.friction], [friction]);
-        answer.put("least-normal", [found.normal], [normal]);
+        answer.put("least-normal", [found.least_normal_over_weight], [normal]);
     }
     Ok(answer)
 }

@@ -179,7 +179,7 @@ pub fn text(rows: &[Row]) -> Result<Vec<u8>, csv::Error> {
 }
 
 /// What a tool with its setting came to over the cases.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Total {
     /// Tool, version, method, setting.
     pub label: [String; 4],

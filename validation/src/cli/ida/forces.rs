@@ -3,11 +3,9 @@
 
 use std::path::PathBuf;
 
-use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, IdaCurve, IdaError, forces_at};
-use rocking::integrator::Forces;
-use serde_json::{Value, json};
+use rocking::ida::{Analysis, IdaCurve, IdaError};
+use rocking::procedures::{PivotForces, pivot_forces};
 
 use rocking_common::table::Table;
 
@@ -37,107 +35,41 @@ fn coefficient(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The forces of every level of every curve up to its first overturning.
-pub(super) struct Audit {
-    friction: Vec<f64>,
-    found: Vec<Vec<Forces>>,
-}
-
 impl ForcesArgs {
     /// Runs what is asked for: nothing, if nothing is.
-    pub(super) fn audit(
+    pub(super) fn pivot(
         &self,
         records: &[NormalisedRecord],
         table: &[IdaCurve],
         analysis: &Analysis,
-    ) -> Result<Option<Audit>, IdaError> {
+    ) -> Result<Option<PivotForces>, IdaError> {
         if self.friction.is_empty() && self.forces.is_none() {
             return Ok(None);
         }
-        let pairs: Vec<_> = records.iter().zip(table).collect();
-        let of = |(record, curve): &(&NormalisedRecord, &IdaCurve)| {
-            let points = curve.points.iter();
-            points.map(|point| forces_at(record, analysis, point.im)).collect()
-        };
-        let found = pairs.par_iter().map(of).collect::<Result<_, _>>()?;
-        Ok(Some(Audit { friction: self.friction.clone(), found }))
+        pivot_forces(records, table, analysis, &self.friction).map(Some)
     }
 }
 
-impl Audit {
-    fn all(&self) -> impl Iterator<Item = &Forces> {
-        self.found.iter().flatten()
-    }
-
-    fn count(&self) -> usize {
-        self.all().count()
-    }
-
-    fn above(&self, mu: f64) -> usize {
-        self.all().filter(|forces| forces.friction > mu).count()
-    }
-
-    fn friction(&self) -> f64 {
-        self.all().fold(0.0, |most: f64, forces| most.max(forces.friction))
-    }
-
-    fn normal(&self) -> f64 {
-        self.all().fold(1.0, |least: f64, forces| least.min(forces.normal))
-    }
-
-    /// Rows of the summary.
-    pub(super) fn rows(&self) -> Vec<(String, String)> {
-        let n = self.count();
-        let share = |&mu: &f64| {
-            let k = self.above(mu);
-            let percent = 100.0 * k as f64 / n as f64;
-            let words = format!("{percent:.2} % ({k} of {n} analyses)");
-            (format!("need friction > {mu}"), words)
-        };
-        let mut rows: Vec<_> = self.friction.iter().map(share).collect();
-        let most = format!("{:.4}", self.friction());
-        rows.push(("largest friction".to_owned(), most));
-        let least = format!("{:.4}", self.normal());
-        rows.push(("least N/(m g)".to_owned(), least));
-        rows
-    }
-
-    pub(super) fn json(&self) -> Value {
-        let n = self.count();
-        let shares = self.friction.iter().map(|&mu| {
-            let k = self.above(mu);
-            json!({ "friction": mu, "need_more": k,
-                    "share": k as f64 / n as f64 })
-        });
-        json!({
-            "analyses": n,
-            "need": shares.collect::<Vec<_>>(),
-            "largest_friction": self.friction(),
-            "least_normal_over_weight": self.normal(),
-        })
-    }
-
-    /// One row an analysis, by record, then level.
-    pub(super) fn csv(&self, table: &[IdaCurve]) -> String {
-        let mut out = Table::headed(
-            "record,im_pga,pga_g,edp,friction,friction_time_s,\
-             least_normal_over_weight,least_normal_time_s",
-        );
-        let time = |t: Option<f64>| t.map_or(String::new(), |t| t.to_string());
-        for (curve, found) in table.iter().zip(&self.found) {
-            for (point, forces) in curve.points.iter().zip(found) {
-                out.row([
-                    curve.record.clone(),
-                    point.im.to_string(),
-                    point.pga_g.to_string(),
-                    point.edp().to_string(),
-                    forces.friction.to_string(),
-                    time(forces.friction_time_s),
-                    forces.normal.to_string(),
-                    time(forces.normal_time_s),
-                ]);
-            }
+/// One row an analysis, by record, then level.
+pub(super) fn csv(pivot: &PivotForces, table: &[IdaCurve]) -> String {
+    let mut out = Table::headed(
+        "record,im_pga,pga_g,edp,friction,friction_time_s,\
+         least_normal_over_weight,least_normal_time_s",
+    );
+    let time = |t: Option<f64>| t.map_or(String::new(), |t| t.to_string());
+    for (curve, found) in table.iter().zip(&pivot.curves) {
+        for (point, forces) in curve.points.iter().zip(found) {
+            out.row([
+                curve.record.clone(),
+                point.im.to_string(),
+                point.pga_g.to_string(),
+                point.edp().to_string(),
+                forces.friction.to_string(),
+                time(forces.friction_time_s),
+                forces.least_normal_over_weight.to_string(),
+                time(forces.least_normal_time_s),
+            ]);
         }
-        out.finish()
     }
+    out.finish()
 }

@@ -1,0 +1,97 @@
+//! What the curves of a suite come to.
+
+use crate::ida::{Analysis, Certification, IdaCurve};
+use crate::statistics::{ExtendedSample, QuantileType};
+
+/// The curves of a suite, counted.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct IdaSummary {
+    /// Number of curves.
+    pub records: usize,
+    /// Analyses made, bisection included.
+    pub analyses: u64,
+    /// Curves that end in an overturning.
+    pub overturned_curves: usize,
+    /// Median first overturning intensity PGA/(g tan alpha), infinite where
+    /// half of the curves stand; none for no curve.
+    pub median_overturning_im: Option<f64>,
+    /// In which arithmetic the analyses were resolved.
+    pub certification: Certification,
+    /// Levels above a first overturning at which the block stands again;
+    /// none where they were not sought.
+    pub resurrections: Option<usize>,
+    /// The curves, in order.
+    pub curves: Vec<CurveSummary>,
+}
+
+/// One curve, counted.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct CurveSummary {
+    /// The record.
+    pub record: String,
+    /// Levels that were run.
+    pub levels: usize,
+    /// First overturning intensity PGA/(g tan alpha); none where the block
+    /// stands at every level.
+    pub overturning_im: Option<f64>,
+}
+
+/// Counts the curves of a suite under one analysis, and takes the median of
+/// their first overturning intensities, the curves that stand as infinite.
+///
+/// ```
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, Grid, curves};
+/// use rocking::procedures::summarise_ida;
+/// use rocking::record::Accelerogram;
+/// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
+/// let records = [NormalisedRecord::new(&record)];
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analysis = Analysis {
+///     grid: Grid::Im { step: 0.5 },
+///     ..Analysis::paper(block, Restitution::constant(0.92)?)
+/// };
+/// let found = curves(&records, &[analysis], &Batch::default())?;
+/// let summary = summarise_ida(&found[0], &analysis);
+/// assert_eq!((summary.records, summary.overturned_curves), (1, 1));
+/// let first = summary.curves[0].overturning_im;
+/// assert_eq!(summary.median_overturning_im, first);
+/// assert_eq!(summary.resurrections, None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
+    let mut certification = Certification::default();
+    for curve in curves {
+        certification.add(&curve.certification);
+    }
+    let one = |curve: &IdaCurve| CurveSummary {
+        record: curve.record.clone(),
+        levels: curve.points.len(),
+        overturning_im: curve.overturning.map(|first| first.im()),
+    };
+    let all: Vec<CurveSummary> = curves.iter().map(one).collect();
+    let ims = all.iter().map(|c| c.overturning_im.unwrap_or(f64::INFINITY));
+    let ims = ExtendedSample::try_new(&ims.collect::<Vec<_>>()).ok();
+    let median = |ims| QuantileType::default().of_extended(&ims, 0.5).ok();
+    IdaSummary {
+        records: curves.len(),
+        analyses: curves.iter().map(|curve| curve.analyses).sum(),
+        overturned_curves: curves
+            .iter()
+            .filter(|curve| curve.overturning.is_some())
+            .count(),
+        median_overturning_im: ims.and_then(median),
+        certification,
+        resurrections: analysis
+            .resurrections
+            .map(|_| curves.iter().map(IdaCurve::resurrections).sum()),
+        curves: all,
+    }
+}

@@ -1,0 +1,128 @@
+//! What the motions of a suite ask of the pivot: friction and normal force.
+
+use rayon::prelude::*;
+
+use crate::excitation::NormalisedRecord;
+use crate::ida::{Analysis, IdaCurve, IdaError, forces_at};
+use crate::integrator::Forces;
+
+/// Friction and normal force that the analyses of a suite need at the pivot.
+///
+/// The model does not slide: where many analyses need more friction than the
+/// ground gives, it says more than it knows.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct PivotForces {
+    /// Number of analyses.
+    pub analyses: usize,
+    /// The share that needs more than each coefficient of friction, in the
+    /// order of the coefficients.
+    pub needs: Vec<FrictionNeed>,
+    /// Largest |H|/N of all analyses; infinite where N is not positive.
+    pub largest_friction: f64,
+    /// Least N/(m g) of all analyses.
+    pub least_normal_over_weight: f64,
+    /// The forces of each analysis of each curve: of `points`, in order.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub curves: Vec<Vec<Forces>>,
+}
+
+/// How many analyses need more friction than there is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FrictionNeed {
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Analyses that need more.
+    pub need_more: usize,
+    /// Their share of all analyses, in [0, 1].
+    pub share: f64,
+}
+
+/// Finds the forces at the pivot of every analysis of `curves`, which
+/// `analysis` made of `records`, and the share of the analyses that need
+/// more friction |H|/N than each coefficient in `friction`.
+///
+/// Each analysis is run once more, whole, on the threads of the caller's
+/// pool.
+///
+/// ```
+/// use rocking::{Block, Restitution};
+/// use rocking::excitation::NormalisedRecord;
+/// use rocking::ida::{Analysis, Batch, Grid, curves};
+/// use rocking::procedures::pivot_forces;
+/// use rocking::record::Accelerogram;
+/// let rise = (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
+/// let record = Accelerogram::try_new("lobe", 0.01, rise.collect())?;
+/// let records = [NormalisedRecord::new(&record)];
+/// let block = Block::try_new(0.1, 3.0)?;
+/// let analysis = Analysis {
+///     grid: Grid::Im { step: 0.5 },
+///     ..Analysis::paper(block, Restitution::constant(0.92)?)
+/// };
+/// let found = curves(&records, &[analysis], &Batch::default())?;
+/// // Uplift needs the friction tan(alpha) at least.
+/// let enough = [0.9 * libm::tan(0.1), 1.0];
+/// let pivot = pivot_forces(&records, &found[0], &analysis, &enough)?;
+/// assert_eq!(pivot.needs[0].share, 1.0);
+/// assert_eq!(pivot.needs[1].need_more, 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`IdaError::NotPositive`] for a coefficient that is not positive; as
+/// [`forces_at`].
+pub fn pivot_forces(
+    records: &[NormalisedRecord],
+    curves: &[IdaCurve],
+    analysis: &Analysis,
+    friction: &[f64],
+) -> Result<PivotForces, IdaError> {
+    if let Some(&found) = friction.iter().find(|mu| !(**mu > 0.0)) {
+        let what = "coefficient of friction";
+        return Err(IdaError::NotPositive { what, found });
+    }
+    let pairs: Vec<_> = records.iter().zip(curves).collect();
+    let of = |(record, curve): &(&NormalisedRecord, &IdaCurve)| {
+        let points = curve.points.iter();
+        points.map(|point| forces_at(record, analysis, point.im)).collect()
+    };
+    let curves: Vec<Vec<Forces>> =
+        pairs.par_iter().panic_fuse().map(of).collect::<Result<_, _>>()?;
+    let all = || curves.iter().flatten();
+    let analyses = all().count();
+    let need = |&friction: &f64| {
+        let need_more = all().filter(|f| !(f.friction <= friction)).count();
+        let share = need_more as f64 / analyses as f64;
+        FrictionNeed { friction, need_more, share }
+    };
+    let most = |most: f64, forces: &Forces| most.max(forces.friction);
+    let least = |least: f64, f: &Forces| least.min(f.least_normal_over_weight);
+    Ok(PivotForces {
+        analyses,
+        needs: friction.iter().map(need).collect(),
+        largest_friction: all().fold(0.0, most),
+        least_normal_over_weight: all().fold(1.0, least),
+        curves,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::block::{Block, Restitution};
+
+    #[test]
+    fn a_coefficient_that_is_no_positive_number_is_refused() {
+        let block = Block::try_new(0.1, 3.0).unwrap();
+        let analysis =
+            Analysis::paper(block, Restitution::constant(0.92).unwrap());
+        for friction in [0.0, -0.3, f64::NAN] {
+            let found = pivot_forces(&[], &[], &analysis, &[0.3, friction]);
+            let error = found.unwrap_err().to_string();
+            assert!(error.contains("coefficient of friction"), "{error}");
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Charts of the result of one command, each a function of that result.
+
+use rocking::integrator::{HistoryPoint, Response, Scene, uplift_threshold};
+use rocking::intensity::{IntensityMeasure, Measures};
+use rocking::procedures::Ranking;
+use rocking::record::Accelerogram;
+
+use super::{
+    Chart, ChartAxis, ChartPanel, Heading, Histories, History, HistoryPanel,
+    Mark, Scale, Series,
+};
+use crate::markup;
+use rocking_common::paper::Intensity;
+
+/// Rotation over slenderness against time, of a response with its history,
+/// as SVG.
+#[must_use]
+pub fn response_svg(
+    scene: &Scene<'_>,
+    response: &Response,
+    excitation: &str,
+    pga_g: f64,
+) -> String {
+    let alpha_rad = scene.block.slenderness_rad();
+    let of = |f: fn(&HistoryPoint) -> f64| {
+        response.history.iter().map(f).collect::<Vec<f64>>()
+    };
+    let rotation = of(|point| point.rotation_rad);
+    let history = History {
+        alpha_rad,
+        time_s: of(|point| point.time_s),
+        ratio: rotation.iter().map(|theta| theta / alpha_rad).collect(),
+        overturned: response.outcome.is_overturned(),
+    };
+    let panel = HistoryPanel {
+        p_rad_s: scene.block.frequency_rad_s(),
+        record: excitation.to_owned(),
+        intensity: Intensity::Pga,
+        im: pga_g / uplift_threshold(&scene.block, scene.model),
+        until_s: f64::NAN,
+        curves: vec![history],
+    };
+    let heading = Heading::new(
+        "history",
+        "Response history",
+        "Rotation over slenderness against time.",
+        None,
+    );
+    let figure = Histories { heading, panels: vec![panel], columns: 1 };
+    figure.thinned().figure(String::new()).svg()
+}
+
+/// Acceleration, velocity, displacement and response spectrum (at
+/// `periods_s`, 5 % damping) of a record, as SVG; `done` is what was done to
+/// it.
+#[must_use]
+pub fn record_svg(
+    motion: &Accelerogram,
+    (measures, periods_s): (&Measures, &[f64]),
+    gravity_m_s2: f64,
+    done: Option<&str>,
+) -> String {
+    let dt_s = motion.dt_s();
+    let samples = motion.samples_g();
+    let time_s: Vec<f64> =
+        (0..samples.len()).map(|i| i as f64 * dt_s).collect();
+    let shown_s = strong(motion);
+    let label = markup::escape(&motion.name().replace('_', " "));
+    let series = |x, y| Series::new(label.clone(), Mark::Line, x, y);
+    let (velocity, displacement) = motion.integrals(gravity_m_s2);
+    let history =
+        |name: &str, symbol: &str, y: Vec<f64>, peak: String| ChartPanel {
+            title: format!("{name}, peak {peak}"),
+            x: ChartAxis::new("*t* (s)", Scale::Linear, Some(shown_s)),
+            y: ChartAxis::new(symbol, Scale::Linear, None),
+            series: vec![series(time_s.clone(), y)],
+        };
+    let spectrum = measures.spectral_acceleration_g.clone();
+    let most = spectrum.iter().fold(0.0, |most: f64, s| most.max(*s));
+    let ends = (periods_s.first(), periods_s.last());
+    let ends = ends.0.copied().zip(ends.1.copied());
+    let panels = vec![
+        history(
+            "Acceleration",
+            "*a* / *g*",
+            samples.to_vec(),
+            format!("{:.3} *g*", measures.pga_g),
+        ),
+        history(
+            "Velocity",
+            "*v* (m/s)",
+            velocity,
+            format!("{:.3} m/s", measures.pgv_m_s),
+        ),
+        history(
+            "Displacement",
+            "*d* (m)",
+            displacement,
+            format!("{:.3} m", measures.pgd_m),
+        ),
+        ChartPanel {
+            title: "Response spectrum, 5 % damping".to_owned(),
+            x: ChartAxis::new("*T* (s)", Scale::Logarithmic, ends),
+            y: ChartAxis::new(
+                "*S*_{a} / *g*",
+                Scale::Linear,
+                Some((0.0, 1.05 * most)),
+            ),
+            series: vec![series(periods_s.to_vec(), spectrum)],
+        },
+    ];
+    let name = motion.name();
+    let done = done.map_or_else(
+        || "as given".to_owned(),
+        |words| format!("processed: {words}"),
+    );
+    let heading = Heading::new(
+        "record",
+        format!("Record {name}"),
+        format!(
+            "Acceleration, velocity and displacement of {name} against time \
+             ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
+             response spectrum."
+        ),
+        None,
+    );
+    let chart = Chart { heading, panels, columns: 2 };
+    chart.thinned().figure(String::new()).svg()
+}
+
+/// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a
+/// tenth more either way, within the record.
+fn strong(motion: &Accelerogram) -> (f64, f64) {
+    let mut sum = 0.0;
+    let energy: Vec<f64> = motion
+        .samples_g()
+        .iter()
+        .map(|a| {
+            sum += a * a;
+            sum
+        })
+        .collect();
+    let at = |share: f64| {
+        let place = energy.iter().position(|e| *e >= share * sum);
+        place.unwrap_or(0) as f64 * motion.dt_s()
+    };
+    let (first, last) = (at(0.001), at(0.995));
+    let margin = 0.1 * (last - first) + motion.dt_s();
+    ((first - margin).max(0.0), (last + margin).min(motion.duration_s()))
+}
+
+/// The dispersions of a ranking of `measures` at an EDP level, side by side
+/// with their intervals, as SVG.
+#[must_use]
+pub fn ranking_svg(
+    ranking: &Ranking,
+    measures: &[IntensityMeasure],
+    edp: f64,
+) -> String {
+    let rows = &ranking.measures;
+    let none = (f64::NAN, f64::NAN);
+    let beta = rows.iter().map(|row| row.dispersion.as_ref());
+    let x = ChartAxis {
+        label: String::new(),
+        scale: Scale::Linear,
+        range: None,
+        categories: measures
+            .iter()
+            .map(|measure| markup::escape(&short(measure)))
+            .collect(),
+        second: None,
+    };
+    let label = format!("dispersion at EDP {}", edp);
+    let series = Series {
+        label: "95 % interval by the bootstrap of records".into(),
+        mark: Mark::Points,
+        x: (1..=rows.len()).map(|k| k as f64).collect(),
+        y: beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
+        interval: beta.map(|b| b.map_or(none, |e| (e.low, e.high))).collect(),
+    };
+    let ends = series.interval.iter().map(|ends| ends.1);
+    let most = ends.fold(0.0, f64::max);
+    let top = if most > 0.0 { 1.1 * most } else { 1.0 };
+    let y = ChartAxis::new(label, Scale::Linear, Some((0.0, top)));
+    let chart = Chart {
+        heading: Heading::new(
+            "rank",
+            "Efficiency of intensity measures",
+            format!(
+                "Dispersion of the intensity at EDP {} in {} intensity \
+                 measures, with 95 % intervals.",
+                edp,
+                rows.len()
+            ),
+            None,
+        ),
+        panels: vec![ChartPanel {
+            title: String::new(),
+            x,
+            y,
+            series: vec![series],
+        }],
+        columns: 1,
+    };
+    chart.figure(String::new()).svg()
+}
+
+/// A few letters, for the tick of an axis; Arias intensity by its root.
+fn short(measure: &IntensityMeasure) -> String {
+    use IntensityMeasure as M;
+    match measure {
+        M::Arias => "√Arias".into(),
+        M::PgvDuration => "PGV D".into(),
+        M::Sa(period_s) => format!("SA({period_s})"),
+        M::AverageSa(periods_s) => {
+            let (first, last) = (periods_s.first(), periods_s.last());
+            let of = |t: Option<&f64>| t.copied().unwrap_or(f64::NAN);
+            format!("SA({}–{})", of(first), of(last))
+        }
+        M::Column(name) => name.clone(),
+        word => word.to_string().to_uppercase(),
+    }
+}

@@ -1,0 +1,76 @@
+//! Flags that many commands share: each is declared here, once.
+
+use rocking::procedures::Draws;
+use serde::Serialize;
+
+use super::show::show;
+use super::{Failure, with_threads};
+
+/// The value of a flag, where it is positive and finite.
+///
+/// # Errors
+/// [`Failure`] where it is not.
+pub fn positive(flag: &str, value: f64) -> Result<f64, Failure> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(Failure::input(format!("{flag} {value}: expected a positive number")))
+}
+
+/// How a result is shown.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct JsonArg {
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl JsonArg {
+    /// Prints a result.
+    ///
+    /// # Errors
+    /// As [`show()`].
+    pub fn show<T: Serialize>(self, result: &T) -> Result<(), Failure> {
+        show(self.json, result)
+    }
+}
+
+/// On how many threads a command works.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct ThreadsArg {
+    /// Threads; the result does not depend on them [default: all].
+    #[arg(long, value_name = "N")]
+    pub threads: Option<usize>,
+}
+
+impl ThreadsArg {
+    /// Does `work` on these threads.
+    ///
+    /// # Errors
+    /// As [`with_threads`].
+    pub fn run<T: Send>(
+        self,
+        work: impl FnOnce() -> T + Send,
+    ) -> Result<T, Failure> {
+        with_threads(self.threads, work)
+    }
+}
+
+/// The bootstrap of a command that always takes one.
+#[derive(clap::Args, Clone, Copy, Debug)]
+pub struct BootstrapArgs {
+    /// Draws of the bootstrap.
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    bootstrap: usize,
+    /// Repetition of the bootstrap.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    seed: u64,
+}
+
+impl BootstrapArgs {
+    /// The draws.
+    #[must_use]
+    pub fn draws(self) -> Draws {
+        Draws { replicates: self.bootstrap, seed: self.seed }
+    }
+}

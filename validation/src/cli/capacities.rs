@@ -12,6 +12,7 @@ use rocking::intensity::IntensityMeasure;
 use rocking::procedures::capacities::{
     LevelCapacities, LevelCrossings, crossings, levels,
 };
+use rocking_exchange::ida::{Curves, IdaTable};
 use serde::Serialize;
 
 use super::Failure;
@@ -205,15 +206,15 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
-    let suite = suite(args, path, measure)?;
+    let (table, suite) = suite(args, path, measure)?;
     if let (Some(level), Some(out)) = (args.at, out) {
         let is_standard = out.is_standard();
-        out.write(sample(&suite, measure, level, rule)?)?;
+        out.write(sample(&table, &suite, measure, level, rule)?)?;
         if is_standard {
             return Ok(());
         }
     }
-    let measured = |im: f64| suite.told(im);
+    let measured = |im: f64| suite.measured(im);
     let record = |(record, curve): &(String, ResponseCurve)| {
         Ok::<_, Failure>(Record {
             record: record.clone(),
@@ -245,7 +246,7 @@ fn suite(
     args: &Args,
     path: &Path,
     measure: &IntensityMeasure,
-) -> Result<ida::Suite, Failure> {
+) -> Result<(IdaTable, Curves), Failure> {
     if let Some(intensity) = measure.dimensionless() {
         if args.ground.is_given() {
             return Err(Failure::input(format!(
@@ -255,28 +256,30 @@ fn suite(
         }
         return Ok(ida::read(path, intensity)?);
     }
-    let suite = ida::read(path, Intensity::Pga)?;
+    let (table, curves) = ida::read(path, Intensity::Pga)?;
     let measures = std::slice::from_ref(measure);
-    let ground = with_threads(None, || args.ground.ground(&suite, measures))??;
+    let ground = with_threads(None, || args.ground.ground(&table, measures))??;
     let factors = ground.at_uplift(measure)?;
-    Ok(suite.against(&factors, measure.is_squared())?)
+    Ok((table, curves.against(&factors, measure.is_squared())?))
 }
 
 /// The sample file of the records' capacities at a level.
 fn sample(
-    suite: &ida::Suite,
+    table: &IdaTable,
+    suite: &Curves,
     measure: &IntensityMeasure,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
-    let (alpha_rad, p_rad_s) = &suite.block;
-    let setting = &suite.setting;
+    let setting = &table.setting;
+    let alpha_rad = table.alpha_rad().map(|alpha| alpha.to_string());
     let mut text = format!(
         "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
-         # alpha {} rad, p {p_rad_s} rad/s, eta {}, {}, overturned at {}, \
+         # alpha {} rad, p {} rad/s, eta {}, {}, overturned at {}, \
          {}, g {} m/s2, processing: {}, {}\n",
         measure.words(),
         alpha_rad.as_deref().unwrap_or("adjusted"),
+        setting.p_rad_s,
         setting.eta,
         setting.model,
         setting.overturn,
@@ -288,10 +291,10 @@ fn sample(
     for (record, curve) in &suite.curves {
         match curve.capacity(level, rule)? {
             Capacity::Reached(im) => {
-                writeln!(text, "{} # {record}", suite.told(im))?;
+                writeln!(text, "{} # {record}", suite.measured(im))?;
             }
             Capacity::Censored { above } => {
-                let above = suite.told(above);
+                let above = suite.measured(above);
                 writeln!(text, ">{above} # {record}")?;
             }
         }

@@ -63,6 +63,7 @@ pub enum IntensityError {
 /// The measures of one component, or one number for each from a pair.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Measures {
     /// Peak ground acceleration in multiples of gravity.
     pub pga_g: f64,

@@ -51,6 +51,7 @@ const NEIGHBOURHOOD: f64 = 0.4;
 /// A candidate for a pulse.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Candidate {
     /// Direction from the first component towards the second, in -pi/2 to
     /// pi/2.

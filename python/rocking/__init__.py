@@ -51,6 +51,7 @@ from ._inputs import (
 )
 from ._measures import intensity_measures, rotd50, velocity_pulse
 from ._results import (
+    Boxplot,
     Choice,
     Comparison,
     LevelCapacities,
@@ -81,8 +82,10 @@ from ._statistics import (
 )
 
 __all__ = [
+    "STANDARD_GRAVITY",
     "Block",
     "BlockFragility",
+    "Boxplot",
     "Choice",
     "Comparison",
     "CountsFragility",
@@ -99,7 +102,6 @@ __all__ = [
     "Reason",
     "Record",
     "Response",
-    "STANDARD_GRAVITY",
     "Sample",
     "StripeResponses",
     "Suite",

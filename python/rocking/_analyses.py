@@ -28,9 +28,7 @@ from ._results import axes
 Progress = Callable[[int, int], object]
 
 
-def physics(
-    eta: Eta, model: Model, overturn: Overturn
-) -> _rocking.Physics:
+def physics(eta: Eta, model: Model, overturn: Overturn) -> _rocking.Physics:
     """Coefficient, equation and criterion, as the native half takes them."""
     if isinstance(eta, str):
         if eta != "housner":

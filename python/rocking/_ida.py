@@ -316,7 +316,9 @@ class Ida:
         """
         import xarray
 
-        kept = [np.flatnonzero(self._scanned[c]) + c.start for c in self._curves]
+        kept = [
+            np.flatnonzero(self._scanned[c]) + c.start for c in self._curves
+        ]
         shape = len(kept), max(map(len, kept))
         outcomes = np.asarray(self._columns["outcome"])
         words = np.full(shape, "", dtype=outcomes.dtype)

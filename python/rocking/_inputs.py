@@ -455,7 +455,8 @@ def read_suite(
 
 
 def embedded_suite(
-    name: Literal["ordinary", "pulse"], *, component: Component = "study") -> Suite:
+    name: Literal["ordinary", "pulse"], *, component: Component = "study"
+) -> Suite:
     """A suite of synthetic motions that needs no file.
 
     "ordinary" has 86 pairs whose PGA, PGV, duration and response spectra

@@ -31,7 +31,8 @@ def _made(kind: Any, value: Any) -> Any:
     if is_dataclass(kind):
         hints = get_type_hints(kind)
         made = {key: _made(hints[key], one) for key, one in value.items()}
-        return kind(**made)
+        make: Any = kind
+        return make(**made)
     return value
 
 

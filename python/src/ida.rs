@@ -331,14 +331,20 @@ impl IdaTable {
         im: &str,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let curves = self.curves(py, im, None)?.into_curves();
-        let mut values = Vec::with_capacity(ims.len() * curves.len());
-        for &im in &ims {
-            for (i, curve) in curves.iter().enumerate() {
-                let beyond = CapacityError::Beyond { number: i + 1, im };
-                values.push(curve.edp_at(im).ok_or(beyond).map_err(refuse)?);
+        let shape = (ims.len(), curves.len());
+        let cells = || {
+            let mut values = Vec::with_capacity(shape.0 * shape.1);
+            for &im in &ims {
+                stop::point();
+                for (i, curve) in curves.iter().enumerate() {
+                    let beyond = CapacityError::Beyond { number: i + 1, im };
+                    values.push(curve.edp_at(im).ok_or(beyond)?);
+                }
             }
-        }
-        table(py, (ims.len(), curves.len()), values)
+            Ok::<_, CapacityError>(values)
+        };
+        let values = work::on_numbers(py, shape.0 * shape.1, cells)?;
+        table(py, shape, values.map_err(refuse)?)
     }
 
     /// Quantiles of the capacities at each level.

@@ -85,7 +85,7 @@ def fit_above_the_smallest(house: House) -> Pair:
 
 @pair("fit_sample")
 def fit_of_a_free_shift(house: House) -> Pair:
-    values = [1.02, 1.05, 1.11, 1.2, 1.35, 1.6, 2.0, 2.7, 3.9, 6.0]
+    values = [2.0, 2.2, 2.3, 2.5, 2.6, 3.0, 3.3, 4.0, 5.0, 8.0]
     sample = house.file("free.txt", [repr(x) for x in values])
     words = ["fragility", "fit", "--sample", sample, "--shift", "free"]
     found = rk.fit_fragility(values, shift="free")
@@ -97,9 +97,7 @@ def fit_of_a_free_shift(house: House) -> Pair:
 def fit_at_levels(house: House) -> Pair:
     words = ["fragility", "fit", "--ida", house.table, "--at", "0.3,0.5"]
     words += ["--im", "pgv", "--point", "first", "--bootstrap", 20]
-    found = house.ida.fit(
-        [0.3, 0.5], im="pgv", rule="first", n_resamples=20
-    )
+    found = house.ida.fit([0.3, 0.5], im="pgv", rule="first", n_resamples=20)
     return Pair(found, words, ("levels",))
 
 
@@ -251,9 +249,13 @@ def test_both_doors_give_the_same_digits(
             del said[key]
     for step in asked.place:
         said = said[step]
-    # As text: the same keys in the same order, and no digit of difference.
-    assert json.dumps(own, indent=1) == json.dumps(said, indent=1)
+    # As text: a digit of difference is one.
+    assert text(own) == text(said)
     assert len(own) > 0
+
+
+def text(found: object) -> str:
+    return json.dumps(found, indent=1, sort_keys=True)
 
 
 def test_every_procedure_of_the_core_has_a_pair() -> None:
@@ -280,7 +282,9 @@ def test_a_sample_is_the_file_of_the_command_line(
     values = zip(found.values.tolist(), found.limits.tolist())
     own = [f">{b!r}" if a == np.inf else repr(a) for a, b in values]
     assert own == [line.split(" #")[0] for line in lines]
-    assert found.values.tolist() == house.ida.capacities(np.inf, im=im).tolist()
+    assert (
+        found.values.tolist() == house.ida.capacities(np.inf, im=im).tolist()
+    )
 
 
 def test_an_ida_has_the_bytes_of_the_command_line(

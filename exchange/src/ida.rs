@@ -40,13 +40,8 @@ pub const COLUMNS: [&str; 18] = [
 const SETTING: usize = 11;
 
 /// Names of what became of an analysis.
-const OUTCOMES: [&str; 5] = [
-    "no-uplift",
-    "rocked",
-    "overturned",
-    "overturned-refined",
-    "unresolved",
-];
+const OUTCOMES: [&str; 5] =
+    ["no-uplift", "rocked", "overturned", "overturned-refined", "unresolved"];
 
 /// The place of [`OUTCOMES`] that the refined end of a bracket has.
 const REFINED: &str = OUTCOMES[3];
@@ -541,3 +536,6 @@ impl Cells<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

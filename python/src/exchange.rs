@@ -47,7 +47,9 @@ impl Wanted {
             eta: self.eta,
             intensity,
             fragility: law.and_then(|f| f.scaled(factor)).map_err(refuse)?,
-            origin: self.origin.unwrap_or_else(|| unstated_origin(n, intensity)),
+            origin: self
+                .origin
+                .unwrap_or_else(|| unstated_origin(n, intensity)),
         })
     }
 }

@@ -244,10 +244,7 @@ impl IdaTable {
     }
 
     /// The columns that differ by row.
-    fn columns<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.0.rows;
         let out = PyDict::new(py);
         let texts = |text: fn(&Row) -> &str| {
@@ -270,10 +267,7 @@ impl IdaTable {
     }
 
     /// What all rows share; no alpha where the slenderness is adjusted.
-    fn setting<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    fn setting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let setting = &self.0.setting;
         let out = PyDict::new(py);
         out.set_item("alpha_rad", self.0.alpha_rad())?;

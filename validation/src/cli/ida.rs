@@ -9,8 +9,7 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, REFINEMENT,
-    Resurrections,
+    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, REFINEMENT, Resurrections,
 };
 use rocking::integrator::{Model, Order, WorkLimit};
 use rocking::record::{Remarked, Suite, SuiteMember};
@@ -28,8 +27,8 @@ use super::{
 use rocking_common::files::Outputs;
 use rocking_common::suites::inputs::{files, read_suite};
 use rocking_common::suites::remarks::Remarks;
-use rocking_exchange::ida::IdaTable;
 use rocking_common::words::printable;
+use rocking_exchange::ida::IdaTable;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]

@@ -132,11 +132,7 @@ impl GroundArgs {
             let measures = Measures::of(&member.accelerogram, &settings)?;
             let mut attributes = member.attributes.clone();
             attributes.extend(own.get(name).into_iter().flatten().cloned());
-            Ok(Unscaled {
-                name: name.to_owned(),
-                measures,
-                attributes,
-            })
+            Ok(Unscaled { name: name.to_owned(), measures, attributes })
         });
         let records = measured.collect::<Result<Vec<_>, Failure>>()?;
         let place = self.attributes.as_ref().unwrap_or(path).clone();

@@ -17,7 +17,7 @@ mod rotation;
 mod settings;
 pub mod velocity_pulse;
 
-pub use measure::{Intensity, IntensityMeasure};
+pub use measure::{AtUplift, Intensity, IntensityMeasure};
 pub use settings::{DEFAULT_PERIODS_S, Settings};
 
 use thiserror::Error;

@@ -32,6 +32,7 @@
 
 mod format;
 mod fragility;
+pub mod ida;
 pub mod table;
 
 pub use format::{ExchangeError, Format, Pact, Texts};

@@ -39,7 +39,7 @@ suite.to_pandas()[["record", "dt", "samples", "pga_g"]].head()
 
 # %%
 ida = rk.ida(block, suite)
-print(f"{len(suite)} records, {ida.analyses} analyses")
+print(f"{len(suite)} records, {sum(map(len, ida.im))} levels")
 figure, axes = plt.subplots(figsize=(6, 4))
 for im, edp in zip(ida.im, ida.edp):
     axes.plot(edp, im, color="0.7", linewidth=0.6)
@@ -57,34 +57,39 @@ plt.show()
 
 # %%
 capacities = ida.capacities(np.inf)
-fragility = rk.fit_fragility(capacities, shift=1.0, n_resamples=1000)
-low, high = fragility.confidence_interval("median")
-test = rk.lilliefors(capacities, shift=1.0)
-print(f"median {fragility.median:.4f} ({low:.4f} to {high:.4f})")
-print(f"beta {fragility.beta:.4f} above the shift {fragility.shift}")
-print(f"lognormal: {test.verdict}, p {test.pvalue:.4f}")
+fit = rk.fit_fragility(capacities, shift=1.0, n_resamples=1000)
+fragility, interval = fit.fitted, fit.bootstrap.median.bca
+test = rk.test_normality(capacities, shift=1.0)
+ends = f"{interval.low:.4f} to {interval.high:.4f}"
+print(f"median {fragility.median:.4f} ({ends})")
+dispersion = f"dispersion {fragility.dispersion:.4f}"
+print(f"{dispersion} above the shift {fragility.shift}")
+print(f"lognormal: {test.verdict}, p {test.p_value.value:.4f}")
 
 # %% [markdown]
 # The test's answer is no: at the level of 5 %, the lognormal does not fit
 # these capacities in PGA. The last figure shows where it departs from them.
 #
 # Another intensity may predict overturning better. The smaller the dispersion
-# `beta` of the capacities, the fewer records are needed.
+# of the capacities, the fewer records are needed.
 
 # %%
-for im in rk.rank_ims(ida, suite)[:4]:
-    print(f"{im.name:>12}: beta {im.beta:.3f}")
+for measure in rk.rank_ims(ida, suite).measures:
+    interval = measure.dispersion
+    ends = f"{interval.low:.3f} to {interval.high:.3f}"
+    print(f"{measure.im:>28}: {interval.point:.3f} ({ends})")
 
 # %% [markdown]
 # ## The file
 #
 # OpenQuake reads fragilities in its format NRML. A fit is dimensionless; the
-# file has this block's own PGA in g. `to_pelicun` writes a library of pelicun
-# in the same way.
+# file has this block's own PGA in g. `format="pelicun"` writes a library of
+# pelicun in the same way.
 
 # %%
-nrml = fragility.to_nrml(
-    block, "block.xml", im="pga", limit_state="overturning"
+one = rk.BlockFragility(block=block, fit=fit, im="pga")
+nrml = rk.export(
+    [one], "block.xml", format="nrml", limit_state="overturning"
 )
 print(nrml[:500], "...")
 

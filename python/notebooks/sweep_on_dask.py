@@ -82,10 +82,7 @@ cluster.close()
 
 # %%
 same = all(a.tobytes() == b.tobytes() for a, b in zip(alone, swept))
-same = same and all(
-    (a.median, a.beta) == (b.median, b.beta)
-    for a, b in zip(fits_alone, fits_swept)
-)
+same = same and fits_alone == fits_swept
 print("same bits" if same else "DIFFERENT")
 assert same
 
@@ -99,7 +96,7 @@ assert same
 figure, axes = plt.subplots(figsize=(6, 4))
 for alpha in alphas:
     medians = [
-        fit.median * np.tan(alpha)
+        fit.fitted.median * np.tan(alpha)
         for block, fit in zip(blocks, fits_swept)
         if block.alpha == alpha
     ]

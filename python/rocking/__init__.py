@@ -17,12 +17,14 @@ none of these             `embedded_suite`
 a block and a motion      `respond`: what the block does
 many of both              `peak`, `spectrum`
 a suite                   `ida`, then `Ida.capacities` and `Ida.demands`
-capacities                `fit_fragility`, `lilliefors`, `quantile`,
-                          `boxplot_stats`, `paired_ratios`
-a record                  `intensity_measures`, `rotd50`
-an IDA                    `rank_ims`
-a result                  its `to_pandas` or `to_xarray`
-a fragility               its `to_nrml` or `to_pelicun`
+capacities                `fit_fragility`, `choose`, `test_normality`,
+                          `summarise`, `compare`
+counts of stripes         `fit_stripes`
+a record                  `intensity_measures`, `rotd50`, `velocity_pulse`
+an IDA                    its `fit`, `levels`, `stripes`; `rank_ims`
+a table of `rocking ida`  `read_ida`
+a result                  its `to_json`, `to_pandas`, `plot`
+fragilities of blocks     `export`
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
@@ -36,7 +38,7 @@ command line `rocking`, for any number of threads.
 """
 
 from ._analyses import Response, peak, respond, spectrum
-from ._ida import Ida, ida
+from ._ida import Ida, ida, rank_ims, read_ida
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
@@ -47,47 +49,82 @@ from ._inputs import (
     read_record,
     read_suite,
 )
-from ._measures import RankedIm, intensity_measures, rank_ims, rotd50
+from ._measures import intensity_measures, rotd50, velocity_pulse
+from ._results import (
+    Boxplot,
+    Choice,
+    Comparison,
+    LevelCapacities,
+    LevelCrossings,
+    Measures,
+    Normality,
+    Ranking,
+    Reason,
+    StripeResponses,
+    Summary,
+    VelocityPulse,
+)
 from ._rocking import __version__
 from ._statistics import (
-    ConfidenceInterval,
+    BlockFragility,
+    CountsFragility,
     Fragility,
-    PairedResult,
-    TestResult,
-    boxplot_stats,
+    FragilityFit,
+    LevelFit,
+    Sample,
+    choose,
+    compare,
+    export,
     fit_fragility,
-    lilliefors,
-    paired_ratios,
-    quantile,
+    fit_stripes,
+    summarise,
+    test_normality,
 )
 
 __all__ = [
     "STANDARD_GRAVITY",
     "Block",
-    "ConfidenceInterval",
+    "BlockFragility",
+    "Boxplot",
+    "Choice",
+    "Comparison",
+    "CountsFragility",
     "Fragility",
+    "FragilityFit",
     "Ida",
-    "PairedResult",
+    "LevelCapacities",
+    "LevelCrossings",
+    "LevelFit",
+    "Measures",
+    "Normality",
     "Pulse",
-    "RankedIm",
+    "Ranking",
+    "Reason",
     "Record",
     "Response",
+    "Sample",
+    "StripeResponses",
     "Suite",
-    "TestResult",
+    "Summary",
+    "VelocityPulse",
     "__version__",
-    "boxplot_stats",
+    "choose",
+    "compare",
     "embedded_suite",
+    "export",
     "fit_fragility",
+    "fit_stripes",
     "ida",
     "intensity_measures",
-    "lilliefors",
-    "paired_ratios",
     "peak",
-    "quantile",
     "rank_ims",
+    "read_ida",
     "read_record",
     "read_suite",
     "respond",
     "rotd50",
     "spectrum",
+    "summarise",
+    "test_normality",
+    "velocity_pulse",
 ]

@@ -12,21 +12,23 @@ from numpy.typing import ArrayLike
 from . import _draw, _rocking
 from ._inputs import (
     Block,
+    Eta,
     Floats,
     Frozen,
+    Model,
+    Overturn,
     Pulse,
     Record,
     floats,
     frozen,
     given,
 )
+from ._results import axes
 
 Progress = Callable[[int, int], object]
 
 
-def physics(
-    eta: float | Literal["housner"], model: str, overturn: str
-) -> _rocking.Physics:
+def physics(eta: Eta, model: Model, overturn: Overturn) -> _rocking.Physics:
     """Coefficient, equation and criterion, as the native half takes them."""
     if isinstance(eta, str):
         if eta != "housner":
@@ -44,8 +46,7 @@ class Response(Frozen):
     Times are in s. `repr` leaves the arrays out.
     """
 
-    outcome: str
-    """"no-uplift", "rocked" or "overturned"."""
+    outcome: Literal["no-uplift", "rocked", "overturned"]
     peak_ratio: float
     """Peak |theta|/alpha, infinite where it overturned."""
     resolved: bool
@@ -103,6 +104,13 @@ class Response(Frozen):
             {"outcome": self.outcome, "peak_ratio": self.peak_ratio},
         )
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the history; gives the matplotlib axes."""
+        ax = axes(ax)
+        ax.plot(self.history[:, 0], self.history[:, 1])
+        ax.set(xlabel="t, s", ylabel="theta, rad")
+        return ax
+
     def _repr_html_(self) -> str:
         words = f"{self.outcome}, peak |theta|/alpha {self.peak_ratio:.6g}"
         if not self.resolved:
@@ -115,9 +123,9 @@ def respond(
     block: Block,
     excitation: Record | Pulse,
     *,
-    eta: float | Literal["housner"] = 0.92,
-    model: str = "nonlinear",
-    overturn: str = "alpha",
+    eta: Eta = 0.92,
+    model: Model = "nonlinear",
+    overturn: Overturn = "alpha",
     im: float | None = None,
     pga_g: float | None = None,
     scale: float | None = None,
@@ -172,10 +180,10 @@ def peak(
     excitations: Record | Pulse | Sequence[Record | Pulse],
     *,
     levels: ArrayLike,
-    by: str = "im",
-    eta: float | Literal["housner"] = 0.92,
-    model: str = "nonlinear",
-    overturn: str = "alpha",
+    by: Literal["im", "pga_g", "scale"] = "im",
+    eta: Eta = 0.92,
+    model: Model = "nonlinear",
+    overturn: Overturn = "alpha",
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Floats:
@@ -240,8 +248,8 @@ def spectrum(
     alpha: float,
     p: ArrayLike,
     level: float = 1.0,
-    eta: float | Literal["housner"] = 0.92,
-    model: str = "nonlinear",
+    eta: Eta = 0.92,
+    model: Model = "nonlinear",
     threads: int | None = None,
 ) -> Floats:
     """Rocking spectrum: peak |theta|/alpha of blocks of one slenderness and

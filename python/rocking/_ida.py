@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _draw, _rocking
 from ._analyses import Progress, physics
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
+    Eta,
     Floats,
-    Frozen,
+    Given,
+    Model,
+    Overturn,
     Record,
     floats,
+    frozen,
     given,
 )
-
-OUTCOMES = (
-    "no-uplift",
-    "rocked",
-    "overturned",
-    "unresolved",
-    "overturned-refined",
+from ._outputs import replace
+from ._results import (
+    LevelCapacities,
+    LevelCrossings,
+    Ranking,
+    StripeResponses,
+    axes,
 )
+from ._statistics import LevelFit, Method, Sample, Shift, options, seed
+
+By = Literal["record-scaling", "slenderness-adjustment"]
+Rule = Literal["median", "first", "last", "monotone"]
+Members = Sequence[tuple[Given, dict[str, str]]]
 
 # Numbers of each analysis that differ by level.
 _UNITS = {
@@ -41,99 +53,126 @@ _UNITS = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class Ida(Frozen):
+def _members(suite: Sequence[Record] | None) -> Members | None:
+    if suite is None:
+        return None
+    return [(given(record), dict(record.attributes)) for record in suite]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Ida:
     """Incremental dynamic analysis of one block over a suite.
 
     `im[i]` and `edp[i]` are the curve of record i: PGA/(g tan alpha) from the
     onset of rocking (1, 0) to the first overturned level, whose EDP is
-    infinite. `to_pandas` has one row an analysis.
+    infinite. `to_pandas` has one row an analysis, `to_csv` is the table of
+    `rocking ida`.
+
+    An intensity measure (`im`) has the name that the command line gives it:
+    "pga", which is PGA/(g tan alpha), "pgv", which is p PGV/(g tan alpha);
+    and with the records of the analysis in `suite` "pgd", "arias", "cav",
+    "pgv-d575" (PGV D5-75^(1/4)), "sa:T", "avgsa:T1,T2,..", periods in s, or
+    "column:NAME" of the records' attributes, proportional to the
+    acceleration.
     """
 
-    block: Block
-    records: tuple[str, ...] = field(repr=False)
-    eta: float | Literal["housner"]
-    model: str
-    overturn: str
-    by: str
-    gravity: float = field(repr=False)
-    analyses: int
-    record_pga_g: Floats = field(repr=False)
-    """PGA of each record as given, g."""
-    velocity_ratio_s: Floats = field(repr=False)
-    """PGV/PGA of each record, s."""
-    sizes: NDArray[np.int64] = field(repr=False)
-    """Rows of each record in the columns below."""
-    row_im: Floats = field(repr=False)
-    row_pga_g: Floats = field(repr=False)
-    row_alpha: Floats = field(repr=False)
-    row_edp: Floats = field(repr=False)
-    row_fate_margin: Floats = field(repr=False)
-    row_outcome: NDArray[np.uint8] = field(repr=False)
+    _table: _rocking.IdaTable
 
-    def _scanned(self, rows: Floats) -> tuple[Floats, ...]:
-        ends = np.cumsum(self.sizes)
-        starts = ends - self.sizes
-        refined = OUTCOMES.index("overturned-refined")
-        return tuple(
-            rows[a:b][self.row_outcome[a:b] != refined]
-            for a, b in zip(starts, ends)
-        )
+    @cached_property
+    def setting(self) -> dict[str, Any]:
+        """What was analysed, with the names of the table's columns;
+        `alpha_rad` is None where slenderness was adjusted."""
+        return self._table.setting()
+
+    @cached_property
+    def _columns(self) -> dict[str, Any]:
+        columns = self._table.columns()
+        for values in columns.values():
+            if isinstance(values, np.ndarray):
+                frozen(values)
+        return columns
+
+    @cached_property
+    def _curves(self) -> list[slice]:
+        """Rows of each record."""
+        names = self._columns["record"]
+        ends = [i for i, name in enumerate(names) if name != names[i - 1]]
+        starts = ends or [0]
+        return [slice(a, b) for a, b in zip(starts, [*starts[1:], None])]
+
+    @cached_property
+    def _scanned(self) -> Any:
+        outcomes = np.asarray(self._columns["outcome"])
+        return outcomes != "overturned-refined"
+
+    def _each(self, column: str) -> tuple[Floats, ...]:
+        values = self._columns[column]
+        return tuple(values[c][self._scanned[c]] for c in self._curves)
+
+    @property
+    def records(self) -> tuple[str, ...]:
+        """The names of the records."""
+        names = self._columns["record"]
+        return tuple(names[curve.start] for curve in self._curves)
+
+    @property
+    def block(self) -> Block | None:
+        """The block; None where its slenderness was adjusted."""
+        alpha, p = self.setting["alpha_rad"], self.setting["p_rad_s"]
+        return None if alpha is None else Block(alpha=alpha, p=p)
 
     @property
     def im(self) -> tuple[Floats, ...]:
         """PGA/(g tan alpha) of each record's curve."""
-        return self._scanned(self.row_im)
+        return self._each("im_pga")
 
     @property
     def edp(self) -> tuple[Floats, ...]:
         """Peak |theta|/alpha of each record's curve."""
-        return self._scanned(self.row_edp)
+        return self._each("edp")
 
     @property
     def unresolved(self) -> int:
         """Analyses whose peak or fate rounding may have changed."""
-        code = OUTCOMES.index("unresolved")
-        return int(np.count_nonzero(self.row_outcome == code))
+        return sum(o == "unresolved" for o in self._columns["outcome"])
 
-    def _factor(self, im: str | ArrayLike) -> Floats:
-        if isinstance(im, str):
-            if im == "pga":
-                return np.ones(len(self.records))
-            if im == "pgv":
-                return self.block.p * self.velocity_ratio_s
-            raise ValueError(
-                f"im {im!r}: expected 'pga', 'pgv', or an array of each "
-                "record's own intensity"
-            )
-        own = floats(im, "intensities")
-        if len(own) != len(self.records):
-            raise ValueError(
-                f"{len(own)} intensities: expected {len(self.records)}, one "
-                "a record"
-            )
-        if self.by != "record-scaling":
-            raise ValueError(f"by {self.by!r}: the records are not scaled")
-        found = physics(self.eta, self.model, self.overturn)
-        block = self.block
-        uplift = _rocking.uplift_threshold(block.alpha, block.p, found)
-        return own * uplift / self.record_pga_g
+    def __repr__(self) -> str:
+        return (
+            f"Ida(records={len(self.records)}, "
+            f"analyses={len(self._columns['record'])}, {self.setting})"
+        )
 
-    def _rows(self, im: str | ArrayLike) -> _rocking.Rows:
-        return {
-            "sizes": self.sizes,
-            "im": self.row_im,
-            "edp": self.row_edp,
-            "outcome": self.row_outcome,
-            "factor": np.ascontiguousarray(self._factor(im)),
-        }
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Ida):
+            return NotImplemented
+        return self._table.csv() == other._table.csv()
+
+    def __hash__(self) -> int:
+        return hash(self._table.csv())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (self._table.csv(),)
+
+    def sample(
+        self,
+        edp: float,
+        *,
+        im: str = "pga",
+        rule: Rule = "median",
+        suite: Sequence[Record] | None = None,
+    ) -> Sample:
+        """Capacities at one EDP level with the limits of censored ones."""
+        levels = [float(edp)]
+        found = self._table.capacities(levels, rule, im, _members(suite))
+        return Sample(*(frozen(table[0]) for table in found))
 
     def capacities(
         self,
         edp: ArrayLike,
         *,
-        im: str | ArrayLike = "pga",
-        rule: str = "median",
+        im: str = "pga",
+        rule: Rule = "median",
+        suite: Sequence[Record] | None = None,
     ) -> Floats:
         """Intensity at which each record reaches a response.
 
@@ -141,16 +180,16 @@ class Ida(Frozen):
         ----------
         edp : float or array_like
             Peak |theta|/alpha; infinite for the first overturning.
-        im : "pga", "pgv" or array_like
-            PGA/(g tan alpha), p PGV/(g tan alpha), or any intensity that
-            scales with the record, given for each record as recorded.
+        im : str
+            Intensity measure; all but "pga" and "pgv" need `suite`.
         rule : "median", "first", "last" or "monotone"
             Which of several crossings counts.
 
         Returns
         -------
         ndarray of shape (edp, record), or (record,) for a single edp
-            Infinite (censored) where the record never got there.
+            Infinite (censored) where the record never got there; `sample`
+            has the intensity up to which it was run.
 
         >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
         >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
@@ -161,17 +200,19 @@ class Ida(Frozen):
         """
         levels = np.asarray(edp, dtype=np.float64)
         flat = np.ravel(levels).tolist()
-        found = _rocking.capacities(self._rows(im), flat, rule)
+        found = self._table.capacities(flat, rule, im, _members(suite))[0]
         return found.reshape(*levels.shape, len(self.records))
 
-    def demands(self, im: ArrayLike, *, kind: str = "pga") -> Floats:
-        """Response of each record at an intensity, a stripe.
+    def demands(
+        self, im: ArrayLike, *, kind: Literal["pga", "pgv"] = "pga"
+    ) -> Floats:
+        """Response of each record at an intensity.
 
         Linear between the levels that stand, infinite from the first
         overturning on. Between the last level that stands and overturning a
         curve says nothing, which is refused: ask at the levels, which
-        `step_im` makes the same for every record. `kind` is "pga" or "pgv" as
-        in `capacities`.
+        `step_im` makes the same for every record. `stripes` counts such
+        records instead.
 
         Returns
         -------
@@ -183,66 +224,115 @@ class Ida(Frozen):
         [[0.066], [inf]]
         """
         levels = np.asarray(im, dtype=np.float64)
-        flat = np.ravel(levels).tolist()
-        found = _rocking.demands(self._rows(kind), flat)
+        found = self._table.demands(np.ravel(levels).tolist(), kind)
         return found.reshape(*levels.shape, len(self.records))
 
-    def _columns(self) -> dict[str, Any]:
-        """The columns that the command line writes, one row an analysis."""
+    def levels(
+        self,
+        edp: ArrayLike,
+        *,
+        im: str = "pga",
+        rule: Rule = "median",
+        suite: Sequence[Record] | None = None,
+    ) -> tuple[LevelCapacities, ...]:
+        """Quantiles over the records of the capacities at EDP levels."""
+        levels = floats(edp, "EDP levels").tolist()
+        found = self._table.levels(levels, rule, im, _members(suite))
+        return LevelCapacities._all(found)
 
-        def each(values: Any) -> Any:
-            return np.repeat(np.asarray(values), self.sizes)
+    def crossings(
+        self,
+        record: str,
+        edp: ArrayLike,
+        *,
+        im: str = "pga",
+        suite: Sequence[Record] | None = None,
+    ) -> tuple[LevelCrossings, ...]:
+        """All crossings of EDP levels by the curve of one record."""
+        levels = floats(edp, "EDP levels").tolist()
+        found = self._table.crossings(record, levels, im, _members(suite))
+        return LevelCrossings._all(found)
 
-        ratio = each(self.velocity_ratio_s)
-        names = np.asarray(OUTCOMES, dtype=object)
-        return {
-            "record": each(np.asarray(self.records, dtype=object)),
-            "alpha_rad": self.row_alpha,
-            "p_rad_s": self.block.p,
-            "pga_g": self.row_pga_g,
-            "pgv_m_s": self.row_pga_g * ratio * self.gravity,
-            "im_pga": self.row_im,
-            "im_pgv": self.row_im * (self.block.p * ratio),
-            "edp": self.row_edp,
-            "outcome": names[self.row_outcome],
-            "margin": self.row_fate_margin,
-        }
+    def stripes(
+        self,
+        ims: ArrayLike,
+        *,
+        edp: float | None = None,
+        im: Literal["pga", "pgv"] = "pga",
+    ) -> tuple[StripeResponses, ...]:
+        """Responses of the records at given intensities; `edp` is the level
+        whose exceedances are counted, which `fit_stripes` takes."""
+        levels = floats(ims, "intensities").tolist()
+        return StripeResponses._all(self._table.stripes(levels, edp, im))
+
+    def fit(
+        self,
+        edp: ArrayLike,
+        *,
+        im: Literal["pga", "pgv"] = "pga",
+        rule: Rule = "median",
+        shift: Shift = 0.0,
+        method: Method = "mle",
+        quantile_type: int = 5,
+        c: float = 1.0,
+        n_resamples: int = 0,
+        rng: int = 0,
+        band: ArrayLike = (),
+    ) -> tuple[LevelFit, ...]:
+        """Fits a fragility to the capacities at each EDP level, a record that
+        does not reach it by the intensity up to which it was run; parameters
+        are as in `fit_fragility`."""
+        asked = options(
+            shift, method, quantile_type, c, n_resamples, rng, band
+        )
+        levels = floats(edp, "EDP levels").tolist()
+        return LevelFit._all(self._table.fit(levels, rule, im, asked))
+
+    def to_csv(self, path: str | os.PathLike[str]) -> None:
+        """Writes the table that `rocking ida` writes and other commands and
+        `read_ida` read."""
+        replace(Path(path), self._table.csv())
 
     def to_pandas(self) -> Any:
-        """One row an analysis, as a `pandas.DataFrame` with the columns that
-        the command line writes."""
+        """One row an analysis, as a `pandas.DataFrame` with all columns of
+        `to_csv`."""
         import pandas
 
-        return pandas.DataFrame(self._columns())
+        own = self._columns
+        rest = {k: v for k, v in self.setting.items() if k != "alpha_rad"}
+        order = ["record", "alpha_rad", "p_rad_s"]
+        frame = pandas.DataFrame({**own, **rest})
+        return frame[order + [k for k in frame.columns if k not in order]]
 
     def to_xarray(self) -> Any:
         """The curves as an `xarray.Dataset` over (record, level).
 
         Level 0 is the onset of rocking, the last level of a record its first
         overturned one. Curves end at different levels: beyond its end a row
-        holds NaN, and the outcome "". The variables are the columns of
+        holds NaN, and the outcome "". The variables are columns of
         `to_pandas`. `overturning_im_pga` has the first overturning of each
         record as `capacities` gives it, refined, and infinite where the
         record never overturned the block.
         """
         import xarray
 
-        columns = self._columns()
-        scanned = self.row_outcome != OUTCOMES.index("overturned-refined")
-        curve = np.repeat(np.arange(len(self.records)), self.sizes)[scanned]
-        lengths = np.bincount(curve, minlength=len(self.records))
-        starts = np.cumsum(lengths) - lengths
-        level = np.arange(len(curve)) - np.repeat(starts, lengths)
-        shape = len(self.records), int(lengths.max())
-        variables: dict[str, Any] = {}
-        for name, unit in _UNITS.items():
-            table = np.full(shape, np.nan)
-            table[curve, level] = columns[name][scanned]
-            known = {"units": unit}
-            variables[name] = ("record", "level"), table, known
-        words = np.full(shape, "", dtype=f"<U{max(map(len, OUTCOMES))}")
-        words[curve, level] = columns["outcome"][scanned]
-        variables["outcome"] = ("record", "level"), words
+        kept = [
+            np.flatnonzero(self._scanned[c]) + c.start for c in self._curves
+        ]
+        shape = len(kept), max(map(len, kept))
+        outcomes = np.asarray(self._columns["outcome"])
+        words = np.full(shape, "", dtype=outcomes.dtype)
+        tables = {name: np.full(shape, np.nan) for name in _UNITS}
+        for i, rows in enumerate(kept):
+            words[i, : len(rows)] = outcomes[rows]
+            for name, table in tables.items():
+                table[i, : len(rows)] = self._columns[name][rows]
+        over = ("record", "level")
+        variables: dict[str, Any] = {
+            name: (over, table, {"units": _UNITS[name]})
+            for name, table in tables.items()
+        }
+        variables["outcome"] = over, words
         overturning = self.capacities(np.inf)
         known = {"units": "1"}
         variables["overturning_im_pga"] = "record", overturning, known
@@ -250,24 +340,45 @@ class Ida(Frozen):
             "record": np.asarray(self.records),
             "level": np.arange(shape[1]),
         }
-        about = {
-            "block_alpha_rad": self.block.alpha,
-            "block_p_rad_s": self.block.p,
-            "eta": self.eta,
-            "model": self.model,
-            "overturn": self.overturn,
-            "by": self.by,
-        }
+        about = {k: v for k, v in self.setting.items() if v is not None}
         return xarray.Dataset(variables, places, about)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the curves; gives the matplotlib axes."""
+        ax = axes(ax)
+        for im, edp in zip(self.im, self.edp):
+            ax.plot(edp, im, color="tab:blue", alpha=0.4)
+        ax.set(xlabel="peak |theta|/alpha", ylabel="PGA/(g tan alpha)")
+        return ax
 
     def _repr_html_(self) -> str:
         words = (
             f"IDA of {self.block!r} under {len(self.records)} records: "
-            f"{self.analyses} analyses, {self.unresolved} unresolved"
+            f"{len(self._columns['record'])} analyses, {self.unresolved} "
+            "unresolved"
         )
         curves = list(zip(self.edp, self.im))
         names = ("peak |theta|/alpha", "PGA/(g tan alpha)")
         return _draw.lines(curves, *names, words)
+
+
+def _unpickled(csv: str) -> Ida:
+    return Ida(_rocking.ida_of_csv(csv))
+
+
+def read_ida(path: str | os.PathLike[str]) -> Ida:
+    """Reads the table of `rocking ida`, or of `Ida.to_csv`.
+
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+    >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
+    >>> with TemporaryDirectory() as folder:
+    ...     found.to_csv(Path(folder, "ida.csv"))
+    ...     read_ida(Path(folder, "ida.csv")) == found
+    True
+    """
+    return Ida(_rocking.read_ida(path))
 
 
 def ida(
@@ -277,10 +388,10 @@ def ida(
     step_g: float | None = None,
     step_im: float | None = None,
     refine: float | None = 1e-4,
-    by: str = "scaling",
-    eta: float | Literal["housner"] = 0.92,
-    model: str = "nonlinear",
-    overturn: str = "alpha",
+    by: By = "record-scaling",
+    eta: Eta = 0.92,
+    model: Model = "nonlinear",
+    overturn: Overturn = "alpha",
     certify: bool = False,
     highest_im: float = 100.0,
     gravity: float = STANDARD_GRAVITY,
@@ -296,15 +407,15 @@ def ida(
         PGA/(g tan alpha) from 1.
     refine : float or None
         Width in PGA/(g tan alpha) to which the first overturning is bisected.
-    by : "scaling" or "slenderness"
+    by : "record-scaling" or "slenderness-adjustment"
         Scale the record, or keep it and adjust alpha.
     certify : bool
-        Tell each analysis in the precision that it needs, instead of
+        Decide each analysis in the precision that it needs, instead of
         counting it as unresolved.
     highest_im : float
         Where curves end that never overturn.
     gravity : float
-        In m/s2, for the column `pgv_m_s` of `Ida.to_pandas`.
+        In m/s2, for velocities and for intensity measures.
     threads : int
         All processors unless given. The result does not depend on it.
     progress : callable
@@ -322,12 +433,6 @@ def ida(
         raise ValueError("step_g and step_im: expected at most one of them")
     if step_g is None and step_im is None:
         step_g = 0.01
-    names = {
-        "scaling": "record-scaling",
-        "slenderness": "slenderness-adjustment",
-    }
-    if by not in names:
-        raise ValueError(f"by {by!r}: expected one of {', '.join(names)}")
     records = [suite] if isinstance(suite, Record) else list(suite)
     if not records:
         raise ValueError("no record: expected at least one")
@@ -335,7 +440,7 @@ def ida(
         "step_g": step_g,
         "step_im": step_im,
         "refine": refine,
-        "by": names[by],
+        "by": by,
         "certify": certify,
         "highest_im": float(highest_im),
     }
@@ -344,28 +449,65 @@ def ida(
         [given(record) for record in records],
         physics(eta, model, overturn),
         scan,
+        float(gravity),
         threads,
         progress,
     )
-    for value in found.values():
-        if isinstance(value, np.ndarray):
-            value.setflags(write=False)
-    return Ida(
-        block=block,
-        records=tuple(record.name for record in records),
-        eta=eta,
-        model=model,
-        overturn=overturn,
-        by=names[by],
-        gravity=gravity,
-        analyses=found["analyses"],
-        record_pga_g=found["record_pga_g"],
-        velocity_ratio_s=found["velocity_ratio_s"],
-        sizes=found["sizes"],
-        row_im=found["im"],
-        row_pga_g=found["pga_g"],
-        row_alpha=found["alpha"],
-        row_edp=found["edp"],
-        row_fate_margin=found["fate_margin"],
-        row_outcome=found["outcome"],
+    return Ida(found)
+
+
+def rank_ims(
+    ida: Ida,
+    suite: Sequence[Record],
+    *,
+    ims: Sequence[str] = (),
+    edp: float = float("inf"),
+    rule: Rule = "median",
+    magnitude: str | None = None,
+    distance: str | None = None,
+    n_resamples: int = 1000,
+    rng: int = 0,
+) -> Ranking:
+    """Intensity measures by their efficiency and their sufficiency.
+
+    Efficiency is the dispersion of the capacities in a measure, by maximum
+    likelihood, records that do not reach the response by the intensity up to
+    which they were run. Sufficiency is the slope of ln(capacity) on magnitude
+    and on the logarithm of distance.
+
+    Parameters
+    ----------
+    ida : Ida
+        Of the records of `suite`, in their order.
+    ims : sequence of str
+        Names as in `Ida`; those of `rocking rank` unless given. Ratios are
+        to the first one.
+    edp : float
+        Response whose capacities are compared; infinite for overturning.
+    magnitude, distance : str
+        Names of the records' attributes.
+    n_resamples, rng : int
+        Bootstrap samples of records, and their repetition.
+
+    >>> from rocking import Block, ida
+    >>> suite = [
+    ...     Record([0.0, 0.2, 0.0], dt, units="g", name=f"{dt} s")
+    ...     for dt in (0.2, 0.25, 0.3, 0.4)
+    ... ]
+    >>> analysed = ida(Block(alpha=0.1, p=3.0), suite)
+    >>> found = rank_ims(analysed, suite, ims=["pga", "sa:1"], n_resamples=99)
+    >>> [measure.im for measure in found.measures]
+    ['PGA/(g tan alpha)', 'SA(1 s) (g)']
+    """
+    members = _members(suite) or []
+    found = ida._table.rank(
+        members,
+        list(ims),
+        float(edp),
+        rule,
+        magnitude,
+        distance,
+        n_resamples,
+        seed(rng),
     )
+    return Ranking._of(found)

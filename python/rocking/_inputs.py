@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,11 @@ from ._rocking import STANDARD_GRAVITY as STANDARD_GRAVITY
 
 Floats = NDArray[np.float64]
 Given = tuple[str, Floats | None, float, dict[str, float]]
+Eta = float | Literal["housner"]
+Model = Literal["nonlinear", "linearized"]
+Overturn = Literal["alpha", "half-pi"]
+Units = Literal["g", "m/s2", "cm/s2"]
+Component = Literal["study", "both"]
 
 
 def floats(values: ArrayLike, what: str) -> Floats:
@@ -40,8 +45,26 @@ def frozen(array: Floats) -> Floats:
     return array
 
 
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return a.shape == b.shape and a.tobytes() == b.tobytes()
+    return bool(a == b)
+
+
 class Frozen:
-    """What is pickled comes back with its arrays read-only."""
+    """What is equal has the same bits; what is pickled comes back with its
+    arrays read-only."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        pairs = zip(vars(self).values(), vars(other).values())
+        return all(_same(a, b) for a, b in pairs)
+
+    def __hash__(self) -> int:
+        values = vars(self).values()
+        arrays = (v.tobytes() for v in values if isinstance(v, np.ndarray))
+        return hash((type(self), *arrays))
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         for value in state.values():
@@ -179,7 +202,7 @@ class Record(Frozen):
         acc: ArrayLike,
         dt: float,
         *,
-        units: str,
+        units: Units,
         name: str = "",
         gravity: float = STANDARD_GRAVITY,
         attributes: Mapping[str, str] | None = None,
@@ -209,25 +232,12 @@ class Record(Frozen):
         known = dict(self.attributes)
         return _unpickled, (self.name, self.acc_g, self.dt, known)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Record):
-            return NotImplemented
-        return (
-            self.name == other.name
-            and self.dt == other.dt
-            and np.array_equal(self.acc_g, other.acc_g)
-            and self.attributes == other.attributes
-        )
-
-    def __hash__(self) -> int:
-        return hash((self.name, self.dt, self.acc_g.tobytes()))
-
     @classmethod
     def of(
         cls,
         trace: Any,
         *,
-        units: str,
+        units: Units,
         name: str | None = None,
         gravity: float = STANDARD_GRAVITY,
     ) -> Record:
@@ -374,7 +384,7 @@ def read_record(
     path: str | os.PathLike[str],
     *,
     dt: float | None = None,
-    units: str | None = None,
+    units: Units | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Record:
     """Reads one record file; its format is told by its content.
@@ -409,9 +419,9 @@ def read_suite(
     path: str | os.PathLike[str],
     *,
     dt: float | None = None,
-    units: str | None = None,
+    units: Units | None = None,
     gravity: float = STANDARD_GRAVITY,
-    component: str = "study",
+    component: Component = "study",
 ) -> Suite:
     """Reads a folder of record files, or an index (CSV, one row a file).
 
@@ -444,7 +454,9 @@ def read_suite(
     return Suite(name, tuple(Record._read(*record) for record in records))
 
 
-def embedded_suite(name: str, *, component: str = "study") -> Suite:
+def embedded_suite(
+    name: Literal["ordinary", "pulse"], *, component: Component = "study"
+) -> Suite:
     """A suite of synthetic motions that needs no file.
 
     "ordinary" has 86 pairs whose PGA, PGV, duration and response spectra
@@ -461,7 +473,7 @@ def embedded_suite(name: str, *, component: str = "study") -> Suite:
     return Suite(name, tuple(Record._read(*record) for record in records))
 
 
-def _both(component: str) -> bool:
+def _both(component: Component) -> bool:
     if component not in ("study", "both"):
         raise ValueError(
             f"component {component!r}: expected one of study, both"

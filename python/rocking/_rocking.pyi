@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 _Floats = NDArray[np.float64]
-_Given = tuple[str, _Floats | None, float, dict[str, float]]
+Given = tuple[str, _Floats | None, float, dict[str, float]]
 _Block = tuple[float, float]
 _Law = tuple[float, float, float]
+Sample = tuple[_Floats, Sequence[float | None]]
+Member = tuple[Given, dict[str, str]]
 _Read = tuple[str, _Floats, float, dict[str, str]]
 _Progress = Callable[[int, int], object] | None
 
@@ -27,21 +29,68 @@ class Scan(TypedDict):
     certify: bool
     highest_im: float
 
+class Fit(TypedDict):
+    shift: str
+    method: str
+    quantile_type: int
+    c: float
+    n_resamples: int
+    seed: int
+    band: Sequence[float]
+
 class Wanted(TypedDict):
     block: _Block
+    law: _Law
+    n: int
     im: str
     id: str | None
-    limit_state: str
+    eta: float | None
     model: str
-    gravity: float
     origin: str | None
 
-class Rows(TypedDict):
-    sizes: NDArray[np.int64]
-    im: _Floats
-    edp: _Floats
-    outcome: NDArray[np.uint8]
-    factor: _Floats
+class IdaTable:
+    def csv(self) -> str: ...
+    def columns(self) -> dict[str, Any]: ...
+    def setting(self) -> dict[str, Any]: ...
+    def capacities(
+        self,
+        levels: Sequence[float],
+        rule: str,
+        im: str,
+        suite: Sequence[Member] | None,
+    ) -> tuple[_Floats, _Floats]: ...
+    def demands(self, ims: Sequence[float], im: str) -> _Floats: ...
+    def levels(
+        self,
+        levels: Sequence[float],
+        rule: str,
+        im: str,
+        suite: Sequence[Member] | None,
+    ) -> str: ...
+    def crossings(
+        self,
+        record: str,
+        levels: Sequence[float],
+        im: str,
+        suite: Sequence[Member] | None,
+    ) -> str: ...
+    def fit(
+        self, levels: Sequence[float], rule: str, im: str, options: Fit
+    ) -> str: ...
+    def stripes(
+        self, ims: Sequence[float], edp: float | None, im: str
+    ) -> str: ...
+    def rank(
+        self,
+        suite: Sequence[Member],
+        ims: Sequence[str],
+        edp: float,
+        rule: str,
+        magnitude: str | None,
+        distance: str | None,
+        replicates: int,
+        seed: int,
+    ) -> str: ...
 
 __version__: str
 STANDARD_GRAVITY: float
@@ -74,7 +123,7 @@ def read_suite(
 def embedded_suite(name: str, both: bool) -> list[_Read]: ...
 def respond(
     block: _Block,
-    excitation: _Given,
+    excitation: Given,
     physics: Physics,
     by: str,
     level: float,
@@ -83,7 +132,7 @@ def respond(
 ) -> dict[str, Any]: ...
 def peak(
     blocks: Sequence[_Block],
-    excitations: Sequence[_Given],
+    excitations: Sequence[Given],
     levels: Sequence[float],
     by: str,
     physics: Physics,
@@ -92,52 +141,45 @@ def peak(
 ) -> _Floats: ...
 def ida(
     block: _Block,
-    records: Sequence[_Given],
+    records: Sequence[Given],
     physics: Physics,
     scan: Scan,
+    gravity: float,
     threads: int | None,
     progress: _Progress,
-) -> dict[str, Any]: ...
-def capacities(rows: Rows, levels: Sequence[float], rule: str) -> _Floats: ...
-def demands(rows: Rows, ims: Sequence[float]) -> _Floats: ...
+) -> IdaTable: ...
+def read_ida(path: str | os.PathLike[str]) -> IdaTable: ...
+def ida_of_csv(text: str) -> IdaTable: ...
 def intensity_measures(
-    record: _Given, periods: Sequence[float], damping: float, gravity: float
-) -> dict[str, Any]: ...
-def rotd50(
-    first: _Given,
-    second: _Given,
+    record: Given,
+    second: Given | None,
     periods: Sequence[float],
     damping: float,
     gravity: float,
-) -> dict[str, Any]: ...
-def fit_fragility(
-    values: _Floats,
-    shift: float | None,
-    method: str,
-    quantile_type: int,
-    n_resamples: int,
-    seed: int,
-) -> dict[str, Any]: ...
-def interval(
-    point: float,
-    replicates: Sequence[float],
-    jackknife: Sequence[float] | None,
+) -> str: ...
+def velocity_pulse(first: Given, second: Given, gravity: float) -> str: ...
+def fit(sample: Sample, options: Fit) -> str: ...
+def fit_stripes(
+    stripes: Sequence[tuple[float, int, int]], shift: float
+) -> str: ...
+def choose_distribution(
+    sample: Sample, shift: float, replicates: int, seed: int
+) -> str: ...
+def test_normality(
+    sample: Sample,
+    shift: str | None,
     level: float,
-) -> tuple[float, float, float]: ...
-def cdf(parameters: _Law, x: _Floats) -> _Floats: ...
-def ppf(parameters: _Law, q: _Floats) -> _Floats: ...
+    replicates: int | None,
+    seed: int,
+) -> str: ...
+def summarise(
+    values: _Floats, probabilities: Sequence[float], quantile_type: int
+) -> str: ...
+def compare(a: _Floats, b: _Floats, margin: float) -> str: ...
+def lognormal(law: _Law, function: str, numbers: _Floats) -> _Floats: ...
 def exchange(
-    format: str, law: _Law, n: int, wanted: Wanted
-) -> tuple[str, str | None]: ...
-def lilliefors(
-    values: _Floats,
-    log: bool,
-    shift: float | None,
-    n_mc: int | None,
-    seed: int,
-    level: float,
-) -> dict[str, Any]: ...
-def quantile(values: _Floats, q: _Floats, quantile_type: int) -> _Floats: ...
-def boxplot(values: _Floats, quantile_type: int) -> dict[str, Any]: ...
-def paired(a: _Floats, b: _Floats, margin: float) -> dict[str, Any]: ...
-def slope(x: Sequence[float], y: Sequence[float]) -> tuple[float, float]: ...
+    format: str,
+    blocks: Sequence[Wanted],
+    limit_state: str,
+    gravity: float,
+) -> tuple[str, tuple[str, str] | None]: ...

@@ -9,52 +9,66 @@ use rocking_exchange::{
 
 use crate::given::{block_of, choose, positive_gravity, refuse};
 
-/// What a fragility does not say of itself.
+/// The dimensionless fragility of a block: `law` is (shift, log_mean,
+/// dispersion) of a sample of `n`.
 #[derive(FromPyObject)]
 pub struct Wanted {
     #[pyo3(item)]
     block: (f64, f64),
     #[pyo3(item)]
+    law: (f64, f64, f64),
+    #[pyo3(item)]
+    n: usize,
+    #[pyo3(item)]
     im: String,
     #[pyo3(item)]
     id: Option<String>,
     #[pyo3(item)]
-    limit_state: String,
+    eta: Option<f64>,
     #[pyo3(item)]
     model: String,
-    #[pyo3(item)]
-    gravity: f64,
     #[pyo3(item)]
     origin: Option<String>,
 }
 
-/// The text of a format, and that of a second file beside it, where the
-/// format has one. `law` is (shift, log_mean, beta) of a sample of `n`.
+impl Wanted {
+    fn fragility(self, gravity_m_s2: f64) -> PyResult<BlockFragility> {
+        let intensity: Intensity = self.im.parse().map_err(refuse)?;
+        let block = block_of(self.block)?;
+        let model = self.model.parse().map_err(refuse)?;
+        let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
+        let (shift, log_mean, dispersion) = self.law;
+        let law = Lognormal::try_new(shift, log_mean, dispersion);
+        let id = self.id.map_or_else(|| Id::of(&block), |id| id.parse());
+        let n = self.n;
+        Ok(BlockFragility {
+            id: id.map_err(refuse)?,
+            block,
+            eta: self.eta,
+            intensity,
+            fragility: law.and_then(|f| f.scaled(factor)).map_err(refuse)?,
+            origin: self
+                .origin
+                .unwrap_or_else(|| unstated_origin(n, intensity)),
+        })
+    }
+}
+
+/// The text of a format, and where it has one that of a second file beside
+/// it, with its extension.
 #[pyfunction]
 pub fn exchange(
     format: &str,
-    law: (f64, f64, f64),
-    n: usize,
-    wanted: Wanted,
-) -> PyResult<(String, Option<String>)> {
-    let formats = [Format::Nrml, Format::Pelicun].map(|f| (f.name(), f));
+    blocks: Vec<Wanted>,
+    limit_state: &str,
+    gravity: f64,
+) -> PyResult<(String, Option<(&'static str, String)>)> {
+    let formats = Format::ALL.map(|f| (f.name(), f));
     let format = choose("format", format, &formats)?;
-    let intensity: Intensity = wanted.im.parse().map_err(refuse)?;
-    let block = block_of(wanted.block)?;
-    let gravity_m_s2 = positive_gravity(wanted.gravity)?;
-    let model = wanted.model.parse().map_err(refuse)?;
-    let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
-    let fragility = Lognormal::try_new(law.0, law.1, law.2).map_err(refuse)?;
-    let id = wanted.id.map_or_else(|| Id::of(&block), |id| id.parse());
-    let limit_state: Id = wanted.limit_state.parse().map_err(refuse)?;
-    let one = BlockFragility {
-        id: id.map_err(refuse)?,
-        block,
-        eta: None,
-        intensity,
-        fragility: fragility.scaled(factor).map_err(refuse)?,
-        origin: wanted.origin.unwrap_or_else(|| unstated_origin(n, intensity)),
-    };
-    let texts = format.texts(&[one], &limit_state).map_err(refuse)?;
-    Ok((texts.main, texts.beside.map(|(_, text)| text)))
+    let gravity_m_s2 = positive_gravity(gravity)?;
+    let limit_state: Id = limit_state.parse().map_err(refuse)?;
+    let all = blocks.into_iter().map(|one| one.fragility(gravity_m_s2));
+    let all = all.collect::<PyResult<Vec<_>>>()?;
+    let texts = format.texts(&all, &limit_state).map_err(refuse)?;
+    Ok((texts.main, texts.beside))
 }

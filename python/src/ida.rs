@@ -1,17 +1,31 @@
-//! Incremental dynamic analysis of a suite, and its inversion.
+//! Incremental dynamic analysis of a suite, and what one asks of its table.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray2};
+use pyo3::exceptions::PyFileNotFoundError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
+use rocking::block::Block;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Batch, Grid, IdaCurve, IdaPoint, curves};
-use rocking::integrator::Outcome;
+use rocking::ida::{Analysis, Batch, Grid, curves};
+use rocking::integrator::uplift_threshold;
+use rocking::intensity::{
+    AtUplift, Intensity, IntensityMeasure, Measures, Settings,
+};
+use rocking::procedures::ranking::{Candidate, Covariate};
+use rocking::procedures::{Draws, capacities, fit_levels, rank, stripes};
+use rocking::record::Accelerogram;
 use rocking::stop;
+use rocking_exchange::ida::{self as tables, Curves, Row};
 
-use crate::given::{Given, Physics, block_of, records_of, refuse};
+use crate::given::{Given, Physics, block_of, record_of, records_of, refuse};
+use crate::procedures::{Fit, answer};
 use crate::work;
 
 /// Levels and how they are reached.
@@ -31,18 +45,11 @@ pub struct Scan {
     highest_im: f64,
 }
 
-/// Place of a row's outcome among the names that the Python half has.
-fn outcome(point: &IdaPoint, refined: bool) -> u8 {
-    match point.outcome {
-        _ if refined => 4,
-        _ if !point.told.resolved => 3,
-        Outcome::Overturned { .. } => 2,
-        Outcome::Rocked { .. } => 1,
-        Outcome::NoUplift => 0,
-    }
-}
+/// The table of an IDA.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct IdaTable(tables::IdaTable);
 
-/// IDA of every record: columns of all rows, and columns of all records.
+/// IDA of every record.
 #[pyfunction]
 pub fn ida<'py>(
     py: Python<'py>,
@@ -50,9 +57,10 @@ pub fn ida<'py>(
     records: Vec<Given<'py>>,
     physics: Physics,
     scan: Scan,
+    gravity: f64,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<IdaTable> {
     let block = block_of(block)?;
     let grid = match (scan.step_im, scan.step_g) {
         (Some(step), None) => Grid::Im { step },
@@ -81,151 +89,373 @@ pub fn ida<'py>(
         curves(&units, &[analysis], &batch)
     })?
     .map_err(refuse)?;
-    to_python(py, &found[0])
+    let about = ("none", concat!("rocking ", env!("CARGO_PKG_VERSION")));
+    let none = |_: &str| String::new();
+    let table =
+        tables::IdaTable::of(&found[0], &analysis, gravity, about, none);
+    Ok(IdaTable(table))
 }
 
-fn to_python<'py>(
-    py: Python<'py>,
-    curves: &[IdaCurve],
-) -> PyResult<Bound<'py, PyDict>> {
-    let mut rows: Vec<(&IdaPoint, bool)> = Vec::new();
-    let mut sizes: Vec<i64> = Vec::new();
-    for curve in curves {
-        let before = rows.len();
-        let scanned = std::iter::once(&curve.onset).chain(&curve.points);
-        rows.extend(scanned.map(|point| (point, false)));
-        let first = curve.overturning.as_ref();
-        let refined = first.and_then(|first| first.refined.as_ref());
-        rows.extend(refined.map(|point| (point, true)));
-        sizes.push((rows.len() - before) as i64);
-    }
-    let out = PyDict::new(py);
-    let column = |value: fn(&IdaPoint) -> f64| {
-        let values = rows.iter().map(|(point, _)| value(point));
-        values.collect::<Vec<f64>>().into_pyarray(py)
-    };
-    out.set_item("im", column(|point| point.im))?;
-    out.set_item("pga_g", column(|point| point.pga_g))?;
-    out.set_item("alpha", column(|point| point.slenderness_rad))?;
-    out.set_item("edp", column(IdaPoint::edp))?;
-    out.set_item("fate_margin", column(|point| point.fate_margin))?;
-    let outcomes =
-        rows.iter().map(|(point, refined)| outcome(point, *refined));
-    out.set_item("outcome", outcomes.collect::<Vec<u8>>().into_pyarray(py))?;
-    out.set_item("sizes", sizes.into_pyarray(py))?;
-    let each = |value: fn(&IdaCurve) -> f64| {
-        curves.iter().map(value).collect::<Vec<f64>>().into_pyarray(py)
-    };
-    out.set_item("record_pga_g", each(|curve| curve.record_pga_g))?;
-    out.set_item("velocity_ratio_s", each(|curve| curve.velocity_ratio_s))?;
-    let analyses: u64 = curves.iter().map(|curve| curve.analyses).sum();
-    out.set_item("analyses", analyses)?;
-    Ok(out)
-}
-
-/// The rows of an IDA, as Python hands them back.
-#[derive(FromPyObject)]
-pub struct Rows<'py> {
-    #[pyo3(item)]
-    sizes: PyReadonlyArray1<'py, i64>,
-    #[pyo3(item)]
-    im: PyReadonlyArray1<'py, f64>,
-    #[pyo3(item)]
-    edp: PyReadonlyArray1<'py, f64>,
-    #[pyo3(item)]
-    outcome: PyReadonlyArray1<'py, u8>,
-    /// Factor from PGA/(g tan alpha) to the intensity asked for.
-    #[pyo3(item)]
-    factor: PyReadonlyArray1<'py, f64>,
-}
-
-impl Rows<'_> {
-    /// The curves: first overturning is the refined end of its bracket where
-    /// there is one, else the first level that overturned.
-    fn curves(&self) -> PyResult<Vec<ResponseCurve>> {
-        let (im, edp) = (self.im.as_slice()?, self.edp.as_slice()?);
-        let outcome = self.outcome.as_slice()?;
-        let mut start = 0;
-        let sizes = self.sizes.as_slice()?.iter().zip(self.factor.as_slice()?);
-        sizes
-            .map(|(size, factor)| {
-                let end = start + *size as usize;
-                let range = start..end;
-                start = end;
-                let rows = im.get(range.clone()).zip(edp.get(range.clone()));
-                let ((im, edp), outcome) = rows
-                    .zip(outcome.get(range))
-                    .ok_or_else(|| refuse("sizes beyond the rows"))?;
-                let fall = edp.iter().position(|x| x.is_infinite());
-                let vertices = im.iter().copied().zip(edp.iter().copied());
-                let vertices: Vec<(f64, f64)> =
-                    vertices.take(fall.unwrap_or(im.len())).collect();
-                let refined = outcome.iter().position(|code| *code == 4);
-                let overturning = refined.or(fall).map(|i| im[i]);
-                ResponseCurve::try_new(&vertices, overturning)
-                    .and_then(|curve| curve.scaled(*factor))
-                    .map_err(refuse)
-            })
-            .collect()
-    }
-}
-
-/// Capacity of each record (column) at each level (row); infinite where the
-/// record did not reach it.
+/// Reads the table of an IDA.
 #[pyfunction]
-pub fn capacities<'py>(
-    py: Python<'py>,
-    rows: Rows<'py>,
-    levels: Vec<f64>,
-    rule: &str,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let rule: InversionRule = rule.parse().map_err(refuse)?;
-    let curves = rows.curves()?;
-    let at = |level: f64, curve: &ResponseCurve| {
-        if level == f64::INFINITY {
-            return Ok(curve.overturning_im().unwrap_or(f64::INFINITY));
+pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<IdaTable> {
+    let file = File::open(&path).map_err(|error| {
+        let text = format!("{}: {error}", path.display());
+        if path.exists() {
+            refuse(text)
+        } else {
+            PyFileNotFoundError::new_err(text)
         }
-        Ok(curve.crossings(level)?.capacity(rule).im())
-    };
-    table(py, &levels, &curves, at)
+    })?;
+    let read = || tables::IdaTable::read(file, &path);
+    Ok(IdaTable(work::alone(py, read)?.map_err(refuse)?))
 }
 
-/// Demand of each record (column) at each intensity (row); infinite where it
-/// overturned.
+/// The table of a CSV text, for pickles.
 #[pyfunction]
-pub fn demands<'py>(
-    py: Python<'py>,
-    rows: Rows<'py>,
-    ims: Vec<f64>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let curves = rows.curves()?;
-    let numbered: Vec<_> = curves.iter().enumerate().collect();
-    let at = |im: f64, (i, curve): &(usize, &ResponseCurve)| {
-        let beyond = CapacityError::Beyond { number: i + 1, im };
-        curve.edp_at(im).ok_or(beyond)
-    };
-    table(py, &ims, &numbered, at)
+pub fn ida_of_csv(text: &str) -> PyResult<IdaTable> {
+    let read = tables::IdaTable::read(text.as_bytes(), Path::new("CSV"));
+    read.map(IdaTable).map_err(refuse)
 }
 
-fn table<'py, T: Sync>(
-    py: Python<'py>,
-    rows: &[f64],
-    columns: &[T],
-    at: impl Fn(f64, &T) -> Result<f64, CapacityError> + Sync,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
-    let cells = || {
-        let mut values = Vec::with_capacity(rows.len() * columns.len());
-        for row in rows {
-            for column in columns {
-                stop::point();
-                values.push(at(*row, column)?);
+/// A record of a suite, and what else is known of it.
+type Member<'py> = (Given<'py>, BTreeMap<String, String>);
+
+/// The records of a table, unscaled and measured.
+struct Ground {
+    uplift: AtUplift,
+    periods_s: Vec<f64>,
+    members: Vec<(String, Measures, BTreeMap<String, String>)>,
+}
+
+impl Ground {
+    fn at_uplift(&self, measure: &IntensityMeasure) -> PyResult<Vec<f64>> {
+        let of = |(name, measures, known): &(String, _, _)| {
+            let attribute = match measure {
+                IntensityMeasure::Column(column) => cell(name, known, column)?,
+                _ => f64::NAN,
+            };
+            let periods_s = &self.periods_s;
+            Ok(self.uplift.value(measure, measures, periods_s, attribute))
+        };
+        self.members.iter().map(of).collect()
+    }
+
+    fn column(&self, column: &str) -> PyResult<Vec<f64>> {
+        let members = self.members.iter();
+        members.map(|(name, _, known)| cell(name, known, column)).collect()
+    }
+}
+
+/// The positive number that an attribute of a record is.
+fn cell(
+    record: &str,
+    known: &BTreeMap<String, String>,
+    column: &str,
+) -> PyResult<f64> {
+    let found = known.get(column);
+    let value = found.and_then(|text| text.trim().parse::<f64>().ok());
+    value.filter(|x| *x > 0.0 && x.is_finite()).ok_or_else(|| {
+        refuse(format!(
+            "record {record}, attribute {column}: found {}: expected a \
+             positive number",
+            found.map_or("none".to_owned(), |text| format!("`{text}`"))
+        ))
+    })
+}
+
+impl IdaTable {
+    fn ground(
+        &self,
+        py: Python<'_>,
+        suite: Vec<Member<'_>>,
+        ims: &[IntensityMeasure],
+    ) -> PyResult<Ground> {
+        let setting = &self.0.setting;
+        let Some(alpha_rad) = self.0.alpha_rad() else {
+            return Err(refuse("the records are not scaled: no measure"));
+        };
+        let block = Block::try_new(alpha_rad, setting.p_rad_s);
+        let pga_g = uplift_threshold(&block.map_err(refuse)?, setting.model);
+        let (p_rad_s, gravity_m_s2) = (setting.p_rad_s, setting.gravity_m_s2);
+        let mut periods_s: Vec<f64> = Vec::new();
+        for period in ims.iter().flat_map(IntensityMeasure::periods_s) {
+            if !periods_s.contains(period) {
+                periods_s.push(*period);
             }
         }
-        Ok(values)
-    };
-    let values = work::on_numbers(py, rows.len() * columns.len(), cells)?;
-    let values = values.map_err(|error: CapacityError| refuse(error))?;
-    Array2::from_shape_vec((rows.len(), columns.len()), values)
+        let damping = Settings::default().damping_ratio();
+        let settings =
+            Settings::try_new(gravity_m_s2, damping, periods_s.clone());
+        let settings = settings.map_err(refuse)?;
+        let members = suite.into_iter().map(|(record, known)| {
+            record_of(record).map(|record| (record, known))
+        });
+        let members = members.collect::<PyResult<Vec<_>>>()?;
+        let records = members.iter().map(|(record, _)| record.name());
+        if !records.eq(self.0.records()) {
+            return Err(refuse(
+                "records of another suite than those of the IDA",
+            ));
+        }
+        let measured = || {
+            let one = |(record, known): (Accelerogram, _)| {
+                let measures = Measures::of(&record, &settings)?;
+                Ok((record.name().to_owned(), measures, known))
+            };
+            let all = members.into_par_iter().panic_fuse().map(one);
+            all.collect::<Result<Vec<_>, rocking::intensity::IntensityError>>()
+        };
+        let members = work::on_all(py, measured)?.map_err(refuse)?;
+        let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
+        Ok(Ground { uplift, periods_s, members })
+    }
+
+    /// The curves against a measure; all but pga and pgv need the suite.
+    fn curves(
+        &self,
+        py: Python<'_>,
+        im: &str,
+        suite: Option<Vec<Member<'_>>>,
+    ) -> PyResult<Curves> {
+        let measure: IntensityMeasure = im.parse().map_err(refuse)?;
+        let refused = |(record, error): (String, CapacityError)| {
+            refuse(format!("record {record}: {error}"))
+        };
+        if let Some(own) = measure.dimensionless() {
+            return self.0.curves(own).map_err(refused);
+        }
+        let Some(suite) = suite else {
+            let words = measure.words();
+            return Err(refuse(format!("{words}: expected the suite")));
+        };
+        let ims = std::slice::from_ref(&measure);
+        let factors = self.ground(py, suite, ims)?.at_uplift(&measure)?;
+        let curves = self.0.curves(Intensity::Pga).map_err(refused)?;
+        curves.against(&factors, measure.is_squared()).map_err(refuse)
+    }
+}
+
+#[pymethods]
+impl IdaTable {
+    /// The CSV text, with the bytes of `rocking ida`.
+    fn csv(&self) -> String {
+        self.0.csv()
+    }
+
+    /// The columns that differ by row.
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let rows = &self.0.rows;
+        let out = PyDict::new(py);
+        let texts = |text: fn(&Row) -> &str| {
+            rows.iter().map(text).collect::<Vec<&str>>()
+        };
+        let numbers = |value: fn(&Row) -> f64| {
+            rows.iter().map(value).collect::<Vec<f64>>().into_pyarray(py)
+        };
+        out.set_item("record", texts(|row| &row.record))?;
+        out.set_item("alpha_rad", numbers(|row| row.alpha_rad))?;
+        out.set_item("pga_g", numbers(|row| row.pga_g))?;
+        out.set_item("pgv_m_s", numbers(|row| row.pgv_m_s))?;
+        out.set_item("im_pga", numbers(|row| row.im_pga))?;
+        out.set_item("im_pgv", numbers(|row| row.im_pgv))?;
+        out.set_item("edp", numbers(|row| row.edp))?;
+        out.set_item("outcome", texts(|row| row.outcome))?;
+        out.set_item("margin", numbers(|row| row.margin))?;
+        out.set_item("remarks", texts(|row| &row.remarks))?;
+        Ok(out)
+    }
+
+    /// What all rows share; no alpha where the slenderness is adjusted.
+    fn setting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let setting = &self.0.setting;
+        let out = PyDict::new(py);
+        out.set_item("alpha_rad", self.0.alpha_rad())?;
+        out.set_item("p_rad_s", setting.p_rad_s)?;
+        out.set_item("eta", setting.eta)?;
+        out.set_item("model", setting.model.name())?;
+        out.set_item("overturn", setting.overturn.name())?;
+        out.set_item("by", setting.by.name())?;
+        out.set_item("gravity_m_s2", setting.gravity_m_s2)?;
+        out.set_item("processing", &setting.processing)?;
+        out.set_item("software", &setting.software)?;
+        Ok(out)
+    }
+
+    /// Capacity of each record (column) at each level (row), infinite where
+    /// the record did not reach it, and the limits of those.
+    fn capacities<'py>(
+        &self,
+        py: Python<'py>,
+        levels: Vec<f64>,
+        rule: &str,
+        im: &str,
+        suite: Option<Vec<Member<'py>>>,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let found = self.curves(py, im, suite)?;
+        let all: Vec<ResponseCurve> =
+            found.curves.iter().map(|(_, curve)| curve.clone()).collect();
+        let cells = || {
+            let (mut values, mut limits) = (Vec::new(), Vec::new());
+            for level in &levels {
+                stop::point();
+                let intervals = capacities::intervals(&all, *level, rule)?;
+                for (low, high) in intervals {
+                    let reached = high.is_finite();
+                    values.push(found.measured(high));
+                    let limit = found.measured(low);
+                    limits.push(if reached { f64::NAN } else { limit });
+                }
+            }
+            Ok::<_, rocking::procedures::ProcedureError>([values, limits])
+        };
+        let found = work::on_numbers(py, levels.len() * all.len(), cells)?;
+        let [values, limits] = found.map_err(refuse)?;
+        let shape = (levels.len(), all.len());
+        Ok([table(py, shape, values)?, table(py, shape, limits)?])
+    }
+
+    /// Demand of each record (column) at each intensity (row); infinite
+    /// where it overturned.
+    fn demands<'py>(
+        &self,
+        py: Python<'py>,
+        ims: Vec<f64>,
+        im: &str,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let curves = self.curves(py, im, None)?.into_curves();
+        let shape = (ims.len(), curves.len());
+        let cells = || {
+            let mut values = Vec::with_capacity(shape.0 * shape.1);
+            for &im in &ims {
+                stop::point();
+                for (i, curve) in curves.iter().enumerate() {
+                    let beyond = CapacityError::Beyond { number: i + 1, im };
+                    values.push(curve.edp_at(im).ok_or(beyond)?);
+                }
+            }
+            Ok::<_, CapacityError>(values)
+        };
+        let values = work::on_numbers(py, shape.0 * shape.1, cells)?;
+        table(py, shape, values.map_err(refuse)?)
+    }
+
+    /// Quantiles of the capacities at each level.
+    fn levels(
+        &self,
+        py: Python<'_>,
+        levels: Vec<f64>,
+        rule: &str,
+        im: &str,
+        suite: Option<Vec<Member<'_>>>,
+    ) -> PyResult<String> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let found = self.curves(py, im, suite)?;
+        let curves = found.clone().into_curves();
+        answer(py, || {
+            capacities::levels(&curves, &levels, rule, |im| found.measured(im))
+        })
+    }
+
+    /// The crossings of one record at each level.
+    fn crossings(
+        &self,
+        py: Python<'_>,
+        record: &str,
+        levels: Vec<f64>,
+        im: &str,
+        suite: Option<Vec<Member<'_>>>,
+    ) -> PyResult<String> {
+        let found = self.curves(py, im, suite)?;
+        let own = found.curves.iter().find(|(name, _)| name == record);
+        let (_, curve) = own.ok_or_else(|| {
+            refuse(format!("record {record}: expected one of the IDA"))
+        })?;
+        answer(py, || {
+            capacities::crossings(curve, &levels, |im| found.measured(im))
+        })
+    }
+
+    /// A fit of the capacities at each level.
+    fn fit(
+        &self,
+        py: Python<'_>,
+        levels: Vec<f64>,
+        rule: &str,
+        im: &str,
+        options: Fit,
+    ) -> PyResult<String> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let curves = self.curves(py, im, None)?.into_curves();
+        let options = options.options()?;
+        answer(py, || fit_levels(&curves, &levels, rule, &options))
+    }
+
+    /// Responses at given intensities.
+    fn stripes(
+        &self,
+        py: Python<'_>,
+        ims: Vec<f64>,
+        edp: Option<f64>,
+        im: &str,
+    ) -> PyResult<String> {
+        let curves = self.curves(py, im, None)?.into_curves();
+        answer(py, || stripes(&curves, &ims, edp))
+    }
+
+    /// Intensity measures side by side; the usual ones where none is named.
+    fn rank(
+        &self,
+        py: Python<'_>,
+        suite: Vec<Member<'_>>,
+        ims: Vec<String>,
+        edp: f64,
+        rule: &str,
+        magnitude: Option<&str>,
+        distance: Option<&str>,
+        replicates: usize,
+        seed: u64,
+    ) -> PyResult<String> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let ims = match ims.as_slice() {
+            [] => IntensityMeasure::usual(),
+            some => some
+                .iter()
+                .map(|im| im.parse().map_err(refuse))
+                .collect::<PyResult<_>>()?,
+        };
+        let curves = self.curves(py, "pga", None)?.into_curves();
+        let found = capacities::intervals(&curves, edp, rule);
+        let found = found.map_err(refuse)?;
+        let ground = self.ground(py, suite, &ims)?;
+        let candidate = |measure: &IntensityMeasure| {
+            Ok(Candidate {
+                im: measure.words(),
+                at_uplift: ground.at_uplift(measure)?,
+                squared: measure.is_squared(),
+            })
+        };
+        let all = ims.iter().map(candidate).collect::<PyResult<Vec<_>>>()?;
+        let column = |name: &str| ground.column(name);
+        let magnitude = magnitude.map(column).transpose()?;
+        let distance = distance.map(column).transpose()?;
+        let covariates: Vec<Covariate> = magnitude
+            .map(Covariate::magnitude)
+            .into_iter()
+            .chain(distance.map(Covariate::ln_distance))
+            .collect();
+        let draws = Draws { replicates, seed };
+        answer(py, || rank(&found, &all, &covariates, draws))
+    }
+}
+
+fn table(
+    py: Python<'_>,
+    shape: (usize, usize),
+    values: Vec<f64>,
+) -> PyResult<Bound<'_, PyArray2<f64>>> {
+    Array2::from_shape_vec(shape, values)
         .map(|table| PyArray2::from_owned_array(py, table))
         .map_err(refuse)
 }

@@ -10,7 +10,7 @@ mod ida;
 mod measures;
 mod mechanics;
 mod peak;
-mod statistics;
+mod procedures;
 mod work;
 
 use pyo3::prelude::*;
@@ -33,19 +33,18 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(mechanics::respond, m)?)?;
     m.add_function(wrap_pyfunction!(peak::peak, m)?)?;
     m.add_function(wrap_pyfunction!(ida::ida, m)?)?;
-    m.add_function(wrap_pyfunction!(ida::capacities, m)?)?;
-    m.add_function(wrap_pyfunction!(ida::demands, m)?)?;
+    m.add_function(wrap_pyfunction!(ida::read_ida, m)?)?;
+    m.add_function(wrap_pyfunction!(ida::ida_of_csv, m)?)?;
+    m.add_class::<ida::IdaTable>()?;
     m.add_function(wrap_pyfunction!(measures::intensity_measures, m)?)?;
-    m.add_function(wrap_pyfunction!(measures::rotd50, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::fit_fragility, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::interval, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::cdf, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::ppf, m)?)?;
+    m.add_function(wrap_pyfunction!(measures::velocity_pulse, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::fit, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::fit_stripes, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::choose_distribution, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::test_normality, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::summarise, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::compare, m)?)?;
+    m.add_function(wrap_pyfunction!(procedures::lognormal, m)?)?;
     m.add_function(wrap_pyfunction!(exchange::exchange, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::lilliefors, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::quantile, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::boxplot, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::paired, m)?)?;
-    m.add_function(wrap_pyfunction!(statistics::slope, m)?)?;
     Ok(())
 }

@@ -12,7 +12,7 @@ import rocking as rk
 
 distributed: Any = pytest.importorskip("distributed")
 
-Content = list[list[tuple[str, str | bytes]]]
+Content = tuple[list[str], list[str]]
 
 BLOCKS = [
     rk.Block(alpha=alpha, p=p)
@@ -48,19 +48,11 @@ def alone(suites: Path) -> Content:
 
 
 def content(
-    idas: Sequence[rk.Ida], fits: Sequence[rk.Fragility]
+    idas: Sequence[rk.Ida], fits: Sequence[rk.FragilityFit]
 ) -> Content:
     """Every bit of the results, in the order of the blocks."""
-
-    def bits(value: object) -> str | bytes:
-        if isinstance(value, np.ndarray):
-            return value.tobytes()
-        return repr(value)
-
-    return [
-        [(name, bits(value)) for name, value in vars(one).items()]
-        for one in (*idas, *fits)
-    ]
+    tables = [ida.to_pandas().to_csv() for ida in idas]
+    return tables, [fit.to_json() for fit in fits]
 
 
 def every_second(suite: rk.Suite) -> rk.Suite:

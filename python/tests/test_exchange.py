@@ -13,12 +13,31 @@ from conftest import Command
 
 SAMPLE = [1.32, 1.41, 1.56, 1.77, 2.04, 2.31, 2.64, 3.1, 3.6, 4.2, 5.3, 7.2]
 SHIFTS = {"pga": (0.0, 1.0), "pgv": (0.0, 0.4)}
+BLOCK = rk.Block(alpha=0.2, p=3.0)
+
+
+def nrml(
+    fit: rk.FragilityFit,
+    path: Path | None = None,
+    limit_state: str = "exceeded",
+    gravity: float = 9.80665,
+    format: Any = "nrml",
+    **about: Any,
+) -> str:
+    """The file of one block."""
+    known: Any = {"block": BLOCK, "im": "pga", **about}
+    one = rk.BlockFragility(fit=fit, **known)
+    return rk.export(
+        [one], path, format=format, limit_state=limit_state, gravity=gravity
+    )
+
+
 CASES = [(im, shift) for im, both in SHIFTS.items() for shift in both]
 
 
 @pytest.mark.parametrize(("im", "shift"), CASES)
 def test_a_text_has_the_bytes_of_the_command_line(
-    im: str, shift: float, command: Command, tmp_path: Path
+    im: Any, shift: float, command: Command, tmp_path: Path
 ) -> None:
     block = rk.Block.from_dimensions(width_m=0.45, height_m=1.6)
     sample = tmp_path / "sample.txt"
@@ -31,29 +50,26 @@ def test_a_text_has_the_bytes_of_the_command_line(
         command("fragility", "export", *flags, "--format", name, "--out", out)
         said[name] = out.read_bytes()
     fit = rk.fit_fragility(SAMPLE, shift=shift)
-    text = fit.to_nrml(block, tmp_path / "own.xml", im=im, gravity=9.81)
+    one = rk.BlockFragility(block=block, fit=fit, im=im)
+    text = rk.export([one], tmp_path / "own.xml", format="nrml", gravity=9.81)
     assert text.encode() == said["nrml"]
     assert (tmp_path / "own.xml").read_bytes() == said["nrml"]
     own = tmp_path / "own.csv"
-    table, about = fit.to_pelicun(block, own, im=im, gravity=9.81)
+    table = rk.export([one], own, format="pelicun", gravity=9.81)
     assert table.encode() == said["pelicun"] == own.read_bytes()
     expected = (tmp_path / "pelicun.json").read_bytes()
-    assert about.encode() == expected
     assert own.with_suffix(".json").read_bytes() == expected
 
 
 def test_names_and_origin_are_those_given() -> None:
-    block = rk.Block(alpha=0.2, p=3.0)
     fit = rk.fit_fragility(SAMPLE)
-    text = fit.to_nrml(
-        block, im="pga", id="statue", limit_state="fallen", origin="A & B"
-    )
+    text = nrml(fit, limit_state="fallen", id="statue", origin="A & B")
     assert '<fragilityFunction id="statue" ' in text
     assert "<limitStates>fallen</limitStates>" in text
     assert "<description>A &amp; B</description>" in text
-    own = fit.to_nrml(block, im="pga")
+    own = nrml(fit)
     assert "12 capacities in PGA/(g tan alpha), response level" in own
-    linearized = fit.to_nrml(block, im="pga", model="linearized")
+    linearized = nrml(fit, model="linearized")
     mean = [
         float(re.findall(r' mean="([^"]+)"', one)[0])
         for one in (own, linearized)
@@ -67,23 +83,22 @@ def test_what_no_reader_takes_is_refused_as_the_command_line_says(
 ) -> None:
     sample = tmp_path / "sample.txt"
     sample.write_text("\n".join(map(repr, SAMPLE)) + "\n")
-    fit: Any = rk.fit_fragility(SAMPLE, shift=1.0)
-    tiny: Any = rk.fit_fragility([1e-9, 1.1e-9, 1.2e-9], shift=9e-10)
-    block = rk.Block(alpha=0.2, p=3.0)
+    fit = rk.fit_fragility(SAMPLE, shift=1.0)
+    tiny = rk.fit_fragility([1e-9, 1.1e-9, 1.2e-9], shift=9e-10)
     small = tmp_path / "small.txt"
     small.write_text("1e-9\n1.1e-9\n1.2e-9\n")
     out = tmp_path / "out.csv"
     calls: list[tuple[Any, list[object]]] = [
         (
-            lambda: fit.to_nrml(block, out, im="pga", id="a.b"),
+            lambda: nrml(fit, out, id="a.b"),
             ["--sample", sample, "--shift", 1, "--id", "a.b"],
         ),
         (
-            lambda: fit.to_nrml(block, out, im="pga", limit_state="x" * 76),
+            lambda: nrml(fit, out, limit_state="x" * 76),
             ["--sample", sample, "--shift", 1, "--limit-state", "x" * 76],
         ),
         (
-            lambda: tiny.to_pelicun(block, out, im="pga"),
+            lambda: nrml(tiny, out, format="pelicun"),
             ["--sample", small, "--shift", 9e-10, "--format", "pelicun"],
         ),
     ]
@@ -104,13 +119,11 @@ def test_what_no_reader_takes_is_refused_as_the_command_line_says(
     ]
     for wrong, text in wrongs:
         with pytest.raises(ValueError, match=re.escape(text)):
-            fit.to_nrml(block, out, **wrong)
-    with pytest.raises(TypeError, match="im"):
-        fit.to_nrml(block)
+            nrml(fit, out, **wrong)
     with pytest.raises(ValueError, match="beside which a file"):
-        fit.to_pelicun(block, tmp_path / "out.json", im="pga")
+        nrml(fit, tmp_path / "out.json", format="pelicun")
     with pytest.raises(FileNotFoundError, match="nowhere"):
-        fit.to_nrml(block, tmp_path / "nowhere" / "out.xml", im="pga")
+        nrml(fit, tmp_path / "nowhere" / "out.xml")
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {"sample.txt", "small.txt"}
 
@@ -119,45 +132,45 @@ def test_a_file_that_is_there_keeps_its_mode_and_its_link(
     tmp_path: Path,
 ) -> None:
     fit = rk.fit_fragility(SAMPLE)
-    block = rk.Block(alpha=0.2, p=3.0)
     file, link = tmp_path / "file.xml", tmp_path / "link.xml"
     file.write_text("old")
     file.chmod(0o640)
     link.symlink_to("file.xml")
-    text = fit.to_nrml(block, link, im="pga")
+    text = nrml(fit, link)
     assert link.is_symlink() and file.read_text() == text
     assert file.stat().st_mode & 0o777 == 0o640
 
 
 @pytest.mark.parametrize(("im", "shift"), CASES)
 def test_openquake_reads_the_probabilities(
-    im: str, shift: float, tmp_path: Path
+    im: Any, shift: float, tmp_path: Path
 ) -> None:
-    nrml: Any = pytest.importorskip("openquake.hazardlib.nrml")
+    reader: Any = pytest.importorskip("openquake.hazardlib.nrml")
     pytest.importorskip("openquake.risklib.read_nrml")
     fit = rk.fit_fragility(SAMPLE, shift=shift)
     block = rk.Block(alpha=0.15, p=3.0)
     path = tmp_path / "block.xml"
-    fit.to_nrml(block, path, im=im)
-    model = nrml.to_python(str(path))
+    nrml(fit, path, block=block, im=im)
+    model = reader.to_python(str(path))
     [((measure, _), functions)] = model.items()
     [function] = functions.build(model.limitStates)
     assert measure == im.upper()
     x = np.linspace(0.05, 12.0, 40)
     # OpenQuake's PGV is in cm/s.
     unit = np.tan(0.15) * (1.0 if im == "pga" else 100 * 9.80665 / 3.0)
-    assert abs(function(x * unit) - fit.cdf(x)).max() < 5e-4
+    assert abs(function(x * unit) - fit.fitted.cdf(x)).max() < 5e-4
 
 
 @pytest.mark.parametrize(("im", "shift"), CASES)
 def test_pelicun_reads_the_probabilities(
-    im: str, shift: float, tmp_path: Path
+    im: Any, shift: float, tmp_path: Path
 ) -> None:
     uq: Any = pytest.importorskip("pelicun.uq")
     pandas: Any = pytest.importorskip("pandas")
     fit = rk.fit_fragility(SAMPLE, shift=shift)
     path = tmp_path / "block.csv"
-    fit.to_pelicun(rk.Block(alpha=0.15, p=3.0), path, im=im)
+    block = rk.Block(alpha=0.15, p=3.0)
+    nrml(fit, path, format="pelicun", block=block, im=im)
     row = pandas.read_csv(path, index_col=0).iloc[0]
     theta = row["LS1-Theta_0"]
     if shift > 0.0:
@@ -170,4 +183,25 @@ def test_pelicun_reads_the_probabilities(
     assert row["Demand-Unit"] == ("g" if im == "pga" else "mps")
     x = np.linspace(0.05, 12.0, 40)
     unit = np.tan(0.15) * (1.0 if im == "pga" else 9.80665 / 3.0)
-    assert abs(law.cdf(x * unit) - fit.cdf(x)).max() < 5e-4
+    assert abs(law.cdf(x * unit) - fit.fitted.cdf(x)).max() < 5e-4
+
+
+def test_blocks_share_a_file(command: Command, tmp_path: Path) -> None:
+    sample, table = tmp_path / "sample.txt", tmp_path / "blocks.csv"
+    sample.write_text("\n".join(map(repr, SAMPLE)) + "\n")
+    table.write_text("id,alpha,p\nfirst,0.2,3\nsecond,0.15,2.5\n")
+    fit = rk.fit_fragility(SAMPLE)
+    blocks = [
+        rk.BlockFragility(block=block, fit=fit, im="pga", id=name)
+        for name, block in (
+            ("first", BLOCK),
+            ("second", rk.Block(alpha=0.15, p=2.5)),
+        )
+    ]
+    formats: list[Any] = ["nrml", "pelicun", "pact", "csv"]
+    for format in formats:
+        out = tmp_path / f"{format}.csv"
+        words = ["--sample", sample, "--im", "pga", "--blocks", table]
+        words += ["--format", format, "--out", out]
+        command("fragility", "export", *words)
+        assert rk.export(blocks, format=format).encode() == out.read_bytes()

@@ -55,7 +55,7 @@ def test_a_signal_of_eqsig_itself_is_a_record() -> None:
     record = rk.Record.of(signal, units="m/s2")
     assert record == SAME
     # eqsig integrates from rest by the same trapezoid.
-    pgv_m_s = rk.intensity_measures(record)["pgv_m_s"]
+    pgv_m_s = rk.intensity_measures(record).pgv_m_s
     assert pgv_m_s == pytest.approx(abs(signal.velocity).max(), rel=1e-12)
 
 
@@ -87,21 +87,60 @@ def test_something_else_is_refused() -> None:
         rk.Record.of(ACC.tolist(), units="g")
 
 
-def test_right_censored_data_are_infinite_values() -> None:
+def test_right_censored_data_keep_their_limits() -> None:
     # The fields of scipy.stats.CensoredData.
-    data = SimpleNamespace(
+    data: Any = SimpleNamespace(
         _uncensored=np.array([1.5, 2.0, 3.0]),
         _left=np.array([]),
         _right=np.array([4.0]),
         _interval=np.empty((0, 2)),
     )
-    plain = [1.5, 2.0, 3.0, np.inf]
-    quantiles = [0.1, 0.5, 0.9]
-    found = rk.quantile(data, quantiles)
-    assert found.tolist() == rk.quantile(plain, quantiles).tolist()
+    found = rk.fit_fragility(data)
+    assert (found.n, found.n_limited) == (4, 1)
+    nan, inf = np.nan, np.inf
+    own = rk.Sample(
+        np.array([1.5, 2.0, 3.0, inf]), np.array([nan, nan, nan, 4.0])
+    )
+    assert rk.fit_fragility(own) == found
+    assert np.quantile(own, 0.0) == 1.5
     data._left = np.array([1.0])
     with pytest.raises(ValueError, match="left- or interval-censored"):
-        rk.quantile(data, 0.5)
+        rk.summarise(data)
+
+
+def test_scipy_agrees_with_a_fragility_and_takes_a_sample() -> None:
+    stats: Any = pytest.importorskip("scipy.stats")
+    law = rk.fit_fragility([1.5, 2.0, 3.0, 5.0], shift=1.0).fitted
+    own = law.to_scipy()
+    x, q = [0.5, 1.2, 2.0, 9.0], [0.01, 0.5, 0.9]
+    for name, at in (("cdf", x), ("sf", x), ("pdf", x), ("ppf", q)):
+        found = getattr(law, name)(at)
+        np.testing.assert_allclose(found, getattr(own, name)(at), rtol=1e-9)
+    drawn = law.rvs(20_000, rng=1)
+    assert stats.kstest(drawn, own.cdf).pvalue > 1e-3
+    assert law.rvs(3, rng=1).tolist() == drawn[:3].tolist()
+    sample = rk.Sample(np.array([1.5, np.inf]), np.array([np.nan, 4.0]))
+    assert sample.to_scipy()._right.tolist() == [4.0]
+
+
+def test_results_are_drawn_on_axes_of_matplotlib(
+    ida: rk.Ida, suite: rk.Suite, packet: rk.Record
+) -> None:
+    pyplot: Any = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("agg")
+    fit = rk.fit_fragility(
+        ida.sample(0.5), shift=1.0, n_resamples=20, band=[1.5, 2.0]
+    )
+    ranking = rk.rank_ims(ida, suite, ims=["pga", "pgv"], n_resamples=20)
+    box = rk.summarise(ida.sample(0.5)).boxplot
+    assert isinstance(box, rk.Boxplot)
+    response = rk.respond(rk.Block(alpha=0.2, p=3.0), packet, history_dt=0.1)
+    for one in (fit, fit.fitted, ida, ranking, box, response):
+        figure, given = pyplot.subplots()
+        assert one.plot(given) is given and given.has_data()
+        pyplot.close(figure)
+    assert fit.fitted.plot().has_data()
+    pyplot.close("all")
 
 
 def test_curves_are_an_xarray_dataset_by_record_and_level(
@@ -132,7 +171,7 @@ def test_curves_are_an_xarray_dataset_by_record_and_level(
     # Refinement lies within the last step, whose end is the curve's.
     ends = found.im_pga.max("level")
     assert bool((last <= ends).all()) and not bool((last == ends).all())
-    assert found.attrs["block_p_rad_s"] == 3.0
+    assert found.attrs["p_rad_s"] == 3.0
     assert found.edp.attrs["units"] == "1"
 
 

@@ -40,9 +40,7 @@ def test_a_notebook_runs_and_draws(
     )
     runner.execute()
     outputs = [
-        output
-        for cell in notebook.cells
-        for output in cell.get("outputs", [])
+        output for cell in notebook.cells for output in cell.get("outputs", [])
     ]
     said = "".join(output.get("text", "") for output in outputs)
     figures = [one for one in outputs if "image/png" in one.get("data", {})]

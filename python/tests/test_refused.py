@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,6 +11,9 @@ import rocking as rk
 PULSE = rk.Pulse("one-sine", amplitude_g=0.3, omega=6.0)
 BLOCK = rk.Block(alpha=0.2, p=3.0)
 LOBE = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="lobe")
+PACKET = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="packet")
+# What a type checker refuses, too.
+WRONG: Any = "neither"
 
 REFUSED: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.Block(alpha=0.0, p=1.0), "slenderness angle 0 rad: expected"),
@@ -23,8 +27,8 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.Record([0.0, np.inf], 0.1, units="g"), "finite"),
     (lambda: rk.Record([[0.0, 1.0]], 0.1, units="g"), "2 dimensions"),
     (
-        lambda: rk.Record([0.0, 1.0], 0.1, units="furlong"),
-        'units "furlong": expected g, m/s2 or cm/s2',
+        lambda: rk.Record([0.0, 1.0], 0.1, units=WRONG),
+        'units "neither": expected g, m/s2 or cm/s2',
     ),
     (
         lambda: rk.Record([0.0, 1.0], 0.1, units="g", name="=1+1"),
@@ -37,24 +41,33 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
         "has no use for gamma",
     ),
     (
-        lambda: rk.embedded_suite("near"),
-        'suite "near": expected one of ordinary, pulse',
+        lambda: rk.embedded_suite(WRONG),
+        'suite "neither": expected one of ordinary, pulse',
     ),
     (
-        lambda: rk.embedded_suite("pulse", component="b"),
-        "component 'b': expected one of study, both",
+        lambda: rk.embedded_suite("pulse", component=WRONG),
+        "component 'neither': expected one of study, both",
     ),
     (lambda: rk.respond(BLOCK, PULSE, eta=1.1), "restitution 1.1"),
     (lambda: rk.respond(BLOCK, PULSE, im=1.0, scale=1.0), "at most one"),
     (lambda: rk.respond(BLOCK, PULSE, im=-1.0), "im -1: expected"),
-    (lambda: rk.respond(BLOCK, PULSE, model="both"), "expected one of non"),
+    (lambda: rk.respond(BLOCK, PULSE, model=WRONG), "expected one of non"),
     (lambda: rk.peak(BLOCK, PULSE, levels=[np.nan]), "im NaN: expected"),
     (lambda: rk.ida(BLOCK, LOBE, step_g=0.0), "expected a positive number"),
     (lambda: rk.ida(BLOCK, LOBE, step_g=0.1, step_im=0.1), "at most one"),
     (lambda: rk.ida(BLOCK, LOBE, threads=0), "threads 0"),
     (lambda: rk.ida(BLOCK, []), "at least one"),
     (lambda: rk.ida(BLOCK, LOBE).capacities(-1.0), "EDP level -1"),
-    (lambda: rk.ida(BLOCK, LOBE).capacities(1.0, im=[1.0, 2.0]), "one a rec"),
+    (lambda: rk.ida(BLOCK, LOBE).capacities(1.0, im="sa:1"), "the suite"),
+    (lambda: rk.ida(BLOCK, LOBE).capacities(1.0, im="sa"), "expected one of"),
+    (
+        lambda: rk.rank_ims(rk.ida(BLOCK, LOBE), [PACKET]),
+        "records of another suite",
+    ),
+    (
+        lambda: rk.rank_ims(rk.ida(BLOCK, LOBE), [LOBE], ims=["column:mw"]),
+        "record lobe, attribute mw: found none: expected a positive",
+    ),
     (lambda: rk.fit_fragility([0.5, 2.0], shift=1.0), "above the shift"),
     (lambda: rk.fit_fragility([2.0, np.inf]), "1 of 2 values are infinite"),
     (
@@ -62,10 +75,10 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
         "bootstrap of the smallest value",
     ),
     (lambda: rk.fit_fragility([1.0, 2.0], rng=-1), "rng -1"),
-    (lambda: rk.lilliefors([1.0, 2.0], log=False, shift=1.0), "without log"),
-    (lambda: rk.quantile([1.0], 1.5), "probability 1.5"),
-    (lambda: rk.quantile([], 0.5), "empty sample"),
-    (lambda: rk.paired_ratios([1.0], [1.0, 2.0]), "as many on either side"),
+    (lambda: rk.test_normality([1.0, 2.0], level=2.0), "level 2: expected"),
+    (lambda: rk.summarise([1.0], [1.5]), "probability 1.5"),
+    (lambda: rk.summarise([]), "empty sample"),
+    (lambda: rk.compare([1.0], [1.0, 2.0]), "as many on either side"),
     (
         lambda: rk.intensity_measures(LOBE, periods=[-1.0]),
         "period -1 s: expected at least 0.001 s",

@@ -104,8 +104,8 @@ def rotd50(given: Given) -> Call:
 
 @long
 def rank_ims(given: Given) -> Call:
-    periods = np.linspace(0.05, 10.0, 2000)
-    return lambda: rk.rank_ims(given.ida, given.suite, periods=periods)
+    ims = [f"sa:{period}" for period in np.linspace(0.05, 10.0, 2000)]
+    return lambda: rk.rank_ims(given.ida, given.suite, ims=ims)
 
 
 @long
@@ -121,45 +121,61 @@ def jackknife(given: Given) -> Call:
 
 
 @long
-def lilliefors(given: Given) -> Call:
+def normality(given: Given) -> Call:
     sample = given.ida.capacities(0.5)
-    return lambda: rk.lilliefors(sample, n_mc=50_000_000)
+    return lambda: rk.test_normality(sample, shift=0.0, n_mc=50_000_000)
 
 
 @long
-def lilliefors_above_the_smallest(given: Given) -> Call:
+def normality_above_the_smallest(given: Given) -> Call:
     sample = given.ida.capacities(0.5)
-    return lambda: rk.lilliefors(sample, shift="min", n_mc=50_000_000)
+    return lambda: rk.test_normality(sample, shift="min", n_mc=50_000_000)
 
 
 @long
-def paired_ratios(given: Given) -> Call:
+def compare(given: Given) -> Call:
     a, b = np.exp(np.random.default_rng(0).standard_normal((2, 9000)))
-    return lambda: rk.paired_ratios(a, b)
+    return lambda: rk.compare(a, b)
 
 
 @long
-def quantile(given: Given) -> Call:
+def summarise(given: Given) -> Call:
     sample = np.random.default_rng(0).random(2 * MANY)
-    return lambda: rk.quantile(sample, 0.5)
+    return lambda: rk.summarise(sample)
 
 
 @long
-def boxplot_stats(given: Given) -> Call:
-    sample = np.random.default_rng(0).random(2 * MANY)
-    return lambda: rk.boxplot_stats(sample)
+def choose(given: Given) -> Call:
+    sample = given.ida.capacities(0.5)
+    return lambda: rk.choose(sample, n_resamples=1_000_000)
+
+
+@long
+def read_ida(given: Given) -> Call:
+    path = given.folder / "ida.csv"
+    given.ida.to_csv(path)
+    head, *rows = path.read_text().splitlines()
+    rows = [row.replace(",", f"-{k},", 1) for k in range(500) for row in rows]
+    path.write_text("\n".join([head, *rows]) + "\n")
+    return lambda: rk.read_ida(path)
 
 
 @long
 def cdf(given: Given) -> Call:
-    fit, x = rk.fit_fragility([1.5, 2.0, 3.0]), np.linspace(0.1, 9.0, MANY)
-    return lambda: fit.cdf(x)
+    law, x = (
+        rk.fit_fragility([1.5, 2.0, 3.0]).fitted,
+        np.linspace(0.1, 9.0, MANY),
+    )
+    return lambda: law.cdf(x)
 
 
 @long
 def ppf(given: Given) -> Call:
-    fit, q = rk.fit_fragility([1.5, 2.0, 3.0]), np.linspace(0.1, 0.9, MANY)
-    return lambda: fit.ppf(q)
+    law, q = (
+        rk.fit_fragility([1.5, 2.0, 3.0]).fitted,
+        np.linspace(0.1, 0.9, MANY),
+    )
+    return lambda: law.ppf(q)
 
 
 @long

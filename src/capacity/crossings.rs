@@ -101,12 +101,13 @@ impl Crossings {
 }
 
 impl ResponseCurve {
-    /// All crossings of an EDP level.
+    /// All crossings of an EDP level; an infinite one is crossed by the first
+    /// overturning alone.
     ///
     /// # Errors
-    /// [`CapacityError::Level`] unless the level is positive and finite.
+    /// [`CapacityError::Level`] unless the level is positive.
     pub fn crossings(&self, level: f64) -> Result<Crossings, CapacityError> {
-        if !(level > 0.0 && level.is_finite()) {
+        if !(level > 0.0) {
             return Err(CapacityError::Level(level));
         }
         let mut crossings = Vec::new();
@@ -130,10 +131,10 @@ impl ResponseCurve {
         Ok(Crossings { crossings, last_im: self.last_im() })
     }
 
-    /// The capacity at an EDP level by a rule.
+    /// The capacity at an EDP level, infinite for overturning, by a rule.
     ///
     /// # Errors
-    /// [`CapacityError::Level`] unless the level is positive and finite.
+    /// [`CapacityError::Level`] unless the level is positive.
     pub fn capacity(
         &self,
         level: f64,

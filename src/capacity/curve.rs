@@ -55,7 +55,7 @@ pub enum CapacityError {
         im: f64,
     },
     /// Levels are positive.
-    #[error("EDP level {0}: expected a positive finite number")]
+    #[error("EDP level {0}: expected a positive number, or inf")]
     Level(f64),
     /// Scale factors are positive.
     #[error("scale factor {0}: expected a positive finite number")]

@@ -145,7 +145,70 @@ fn listed(periods_s: &[f64], separator: &str) -> String {
     texts.join(separator)
 }
 
+/// A block at its uplift, where PGA/(g tan alpha) is 1: the intensity at
+/// which a suite's measures are compared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AtUplift {
+    /// PGA at which the block lifts off, in g.
+    pub pga_g: f64,
+    /// Frequency parameter of the block, in rad/s.
+    pub p_rad_s: f64,
+    /// Gravity in m/s2.
+    pub gravity_m_s2: f64,
+}
+
+impl AtUplift {
+    /// The measure of a record that is scaled to the uplift of the block,
+    /// dimensionless for PGA and PGV; `attribute` is that of the unscaled
+    /// record for [`IntensityMeasure::Column`], and NaN comes of a period
+    /// that was not measured.
+    ///
+    /// ```
+    /// use rocking::intensity::{
+    ///     AtUplift, IntensityMeasure, Measures, Settings,
+    /// };
+    /// use rocking::record::Accelerogram;
+    /// let record = Accelerogram::try_new("step", 0.5, vec![0.1; 5])?;
+    /// let measures = Measures::of(&record, &Settings::default())?;
+    /// let uplift =
+    ///     AtUplift { pga_g: 0.2, p_rad_s: 3.0, gravity_m_s2: 9.81 };
+    /// let cav = IntensityMeasure::Cav;
+    /// let found = uplift.value(&cav, &measures, &[], f64::NAN);
+    /// assert!((found / measures.cav_m_s - 2.0).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn value(
+        &self,
+        measure: &IntensityMeasure,
+        of: &Measures,
+        periods_s: &[f64],
+        attribute: f64,
+    ) -> f64 {
+        let factor = self.pga_g / of.pga_g;
+        let velocity = self.p_rad_s / (self.gravity_m_s2 * self.pga_g);
+        let value = || measure.value(of, periods_s).unwrap_or(f64::NAN);
+        match measure {
+            IntensityMeasure::Column(_) => factor * attribute,
+            IntensityMeasure::Pga => 1.0,
+            IntensityMeasure::Pgv => velocity * factor * of.pgv_m_s,
+            squared if squared.is_squared() => factor * factor * value(),
+            _ => factor * value(),
+        }
+    }
+}
+
 impl IntensityMeasure {
+    /// The measures that a ranking compares where none are named.
+    #[must_use]
+    pub fn usual() -> Vec<Self> {
+        let mut all: Vec<Self> =
+            WORDS.iter().map(|(_, measure)| measure.clone()).collect();
+        all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(Self::Sa));
+        all.push(Self::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
+        all
+    }
+
     /// Unit of its [`value`](Self::value); empty for a column.
     #[must_use]
     pub fn unit(&self) -> &'static str {

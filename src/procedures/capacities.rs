@@ -32,6 +32,26 @@ pub fn sample(
     Ok(CensoredSample::try_new(&values, &limits)?)
 }
 
+/// The capacities of all curves at one EDP level as intervals, which
+/// [`rank`](super::rank) takes: (capacity, capacity), or (limit, infinity)
+/// where a record does not reach the level.
+///
+/// # Errors
+/// [`ProcedureError::Capacity`] for a level that is no positive number.
+pub fn intervals(
+    curves: &[ResponseCurve],
+    edp: f64,
+    rule: InversionRule,
+) -> Result<Vec<(f64, f64)>, ProcedureError> {
+    let interval = |curve: &ResponseCurve| {
+        Ok(match curve.capacity(edp, rule)? {
+            Capacity::Reached(im) => (im, im),
+            Capacity::Censored { above } => (above, f64::INFINITY),
+        })
+    };
+    curves.iter().map(interval).collect()
+}
+
 /// Capacities of a suite at one EDP level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]

@@ -31,6 +31,21 @@ pub struct Covariate {
     pub values: Vec<f64>,
 }
 
+impl Covariate {
+    /// Magnitudes.
+    #[must_use]
+    pub fn magnitude(values: Vec<f64>) -> Self {
+        Self { name: "magnitude".into(), values }
+    }
+
+    /// The logarithms of distances.
+    #[must_use]
+    pub fn ln_distance(distances: Vec<f64>) -> Self {
+        let values = distances.into_iter().map(log).collect();
+        Self { name: "ln distance".into(), values }
+    }
+}
+
 /// Intensity measures in the order in which they were asked for.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -49,8 +49,12 @@ const CORE: Edges = &[
 ];
 
 /// The modules of the texts that other programs read.
-const EXCHANGE: Edges =
-    &[("format", &["fragility", "table"]), ("fragility", &[]), ("table", &[])];
+const EXCHANGE: Edges = &[
+    ("format", &["fragility", "table"]),
+    ("fragility", &[]),
+    ("ida", &["table"]),
+    ("table", &[]),
+];
 
 /// The modules of the embedded suites.
 const SYNTHESIS: Edges = &[

@@ -44,7 +44,6 @@ pub mod stripes;
 pub mod study;
 pub mod suite;
 pub mod sweep;
-pub mod table;
 pub mod terminal;
 pub mod way;
 

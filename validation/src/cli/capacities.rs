@@ -13,6 +13,7 @@ use rocking::procedures::capacities::{
     LevelCapacities, LevelCrossings, crossings, levels,
 };
 use rocking::record::SetAside;
+use rocking_exchange::ida::{Curves, IdaTable};
 use serde::Serialize;
 
 use super::Failure;
@@ -207,15 +208,15 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let rule = args.point.unwrap_or(InversionRule::Median);
     let inputs = [vec![path.to_owned()], args.ground.inputs()].concat();
     let out = Outputs::of(inputs).open_some(args.out.as_ref())?;
-    let (suite, set_aside) = suite(args, path, measure)?;
+    let (table, suite, set_aside) = suite(args, path, measure)?;
     if let (Some(level), Some(out)) = (args.at, out) {
         let is_standard = out.is_standard();
-        out.write(sample(&suite, measure, level, rule)?)?;
+        out.write(sample(&table, &suite, measure, level, rule)?)?;
         if is_standard {
             return Ok(());
         }
     }
-    let measured = |im: f64| suite.told(im);
+    let measured = |im: f64| suite.measured(im);
     let record = |(record, curve): &(String, ResponseCurve)| {
         Ok::<_, Failure>(Record {
             record: record.clone(),
@@ -248,7 +249,7 @@ fn suite(
     args: &Args,
     path: &Path,
     measure: &IntensityMeasure,
-) -> Result<(ida::Suite, Option<SetAside>), Failure> {
+) -> Result<(IdaTable, Curves, Option<SetAside>), Failure> {
     if let Some(intensity) = measure.dimensionless() {
         if args.ground.is_given() {
             return Err(Failure::input(format!(
@@ -256,31 +257,34 @@ fn suite(
                 intensity.words()
             )));
         }
-        return Ok((ida::read(path, intensity)?, None));
+        let (table, curves) = ida::read(path, intensity)?;
+        return Ok((table, curves, None));
     }
-    let suite = ida::read(path, Intensity::Pga)?;
+    let (table, curves) = ida::read(path, Intensity::Pga)?;
     let measures = std::slice::from_ref(measure);
-    let ground = with_threads(None, || args.ground.ground(&suite, measures))??;
+    let ground = with_threads(None, || args.ground.ground(&table, measures))??;
     let factors = ground.at_uplift(measure)?;
-    let suite = suite.against(&factors, measure.is_squared())?;
-    Ok((suite, Some(ground.into_set_aside())))
+    let curves = curves.against(&factors, measure.is_squared())?;
+    Ok((table, curves, Some(ground.into_set_aside())))
 }
 
 /// The sample file of the records' capacities at a level.
 fn sample(
-    suite: &ida::Suite,
+    table: &IdaTable,
+    suite: &Curves,
     measure: &IntensityMeasure,
     level: f64,
     rule: InversionRule,
 ) -> Result<String, Failure> {
-    let (alpha_rad, p_rad_s) = &suite.block;
-    let setting = &suite.setting;
+    let setting = &table.setting;
+    let alpha_rad = table.alpha_rad().map(|alpha| alpha.to_string());
     let mut text = format!(
         "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
-         # alpha {} rad, p {p_rad_s} rad/s, eta {}, {}, overturned at {}, \
+         # alpha {} rad, p {} rad/s, eta {}, {}, overturned at {}, \
          {}, g {} m/s2, processing: {}, {}\n",
         measure.words(),
         alpha_rad.as_deref().unwrap_or("adjusted"),
+        setting.p_rad_s,
         setting.eta,
         setting.model,
         setting.overturn,
@@ -292,10 +296,10 @@ fn sample(
     for (record, curve) in &suite.curves {
         match curve.capacity(level, rule)? {
             Capacity::Reached(im) => {
-                writeln!(text, "{} # {record}", suite.told(im))?;
+                writeln!(text, "{} # {record}", suite.measured(im))?;
             }
             Capacity::Censored { above } => {
-                let above = suite.told(above);
+                let above = suite.measured(above);
                 writeln!(text, ">{above} # {record}")?;
             }
         }

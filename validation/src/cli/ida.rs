@@ -8,8 +8,7 @@ use clap::ValueEnum;
 use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{
-    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, IdaPoint, REFINEMENT,
-    Resurrections,
+    Adjust, Analysis, Grid, HIGHEST_IM, IdaCurve, REFINEMENT, Resurrections,
 };
 use rocking::integrator::{Model, Order, WorkLimit};
 use rocking::procedures::{IdaSummary, PivotForces, summarise_ida};
@@ -24,14 +23,13 @@ use super::reading::ReadArgs;
 use super::scene::{BlockArgs, ModelArgs};
 use super::shared::{JsonArg, ThreadsArg};
 use super::show::shown;
-use super::table::{COLUMNS, Setting};
 use super::way::WayArgs;
 use super::{Failure, SOFTWARE, logged, progress, say};
 use rocking_common::files::Outputs;
 use rocking_common::suites::inputs::{files, read_suite};
 use rocking_common::suites::remarks::Remarks;
-use rocking_common::table::Table;
 use rocking_common::words::printable;
+use rocking_exchange::ida::IdaTable;
 
 /// Incremental dynamic analysis of every record of a suite.
 #[derive(clap::Args)]
@@ -305,51 +303,9 @@ impl Job<'_> {
 
     /// The table: one row an analysis, by record, then level.
     fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
-        let mut table = Table::new(&COLUMNS);
-        let p = analysis.block.frequency_rad_s();
-        let setting = Setting {
-            eta: analysis.restitution.velocity_ratio().to_string(),
-            model: self.args.model.model().to_string(),
-            overturn: self.args.model.overturning().to_string(),
-            by: self.args.by.to_string(),
-            gravity_m_s2: gravity_m_s2.to_string(),
-            processing: self.processing.clone().unwrap_or("none".into()),
-            software: SOFTWARE.to_owned(),
-        };
-        for curve in self.table {
-            let remarks = self.remarks.codes(&curve.record);
-            let mut row = |point: &IdaPoint, outcome: &str| {
-                let pgv_m_s =
-                    point.pga_g * curve.velocity_ratio_s * gravity_m_s2;
-                let numbers = [
-                    point.slenderness_rad,
-                    p,
-                    point.pga_g,
-                    pgv_m_s,
-                    point.im,
-                    point.im * curve.velocity_factor(p),
-                    point.edp(),
-                ];
-                let own = [curve.record.clone()].into_iter();
-                let own = own.chain(numbers.map(|x| x.to_string()));
-                let margin = point.fate_margin.to_string();
-                let last = [outcome.into(), margin, remarks.clone()];
-                let setting = setting.cells().map(String::from);
-                table.row(own.chain(last).chain(setting));
-            };
-            row(&curve.onset, "no-uplift");
-            for point in curve.points.iter().chain(&curve.above) {
-                let name = match point.told.resolved {
-                    true => point.outcome.name(),
-                    false => "unresolved",
-                };
-                row(point, name);
-            }
-            let refined = curve.overturning.and_then(|first| first.refined);
-            if let Some(point) = refined {
-                row(&point, "overturned-refined");
-            }
-        }
-        table.finish()
+        let processing = self.processing.as_deref().unwrap_or("none");
+        let about = (processing, SOFTWARE);
+        let remarks = |record: &str| self.remarks.codes(record);
+        IdaTable::of(self.table, analysis, gravity_m_s2, about, remarks).csv()
     }
 }

@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use rocking::integrator::Model;
-use rocking::intensity::{Intensity, IntensityMeasure, Measures, Settings};
+use rocking::block::Block;
+use rocking::integrator::uplift_threshold;
+use rocking::intensity::{AtUplift, IntensityMeasure, Measures, Settings};
 use rocking::procedures::ranking::Candidate;
 use rocking::record::{SetAside, SuiteMember};
+use rocking_exchange::ida::IdaTable;
 
-use super::capacities::ida;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
-use super::{Failure, SOFTWARE};
+use super::Failure;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 
@@ -39,16 +40,13 @@ pub struct Ground {
     /// Where the attributes come from.
     place: PathBuf,
     periods_s: Vec<f64>,
-    /// p/(g tan alpha), in s/m.
-    pgv_factor: f64,
+    uplift: AtUplift,
     records: Vec<Unscaled>,
     set_aside: SetAside,
 }
 
 struct Unscaled {
     name: String,
-    /// Scale factor of the record at PGA/(g tan alpha) = 1.
-    factor: f64,
     measures: Measures,
     attributes: BTreeMap<String, String>,
 }
@@ -73,7 +71,7 @@ impl GroundArgs {
     /// or a table whose intensities are no scale factors.
     pub fn ground(
         &self,
-        table: &ida::Suite,
+        table: &IdaTable,
         measures: &[IntensityMeasure],
     ) -> Result<Ground, Failure> {
         let Some(path) = &self.suite else {
@@ -86,17 +84,7 @@ impl GroundArgs {
             )));
         };
         let setting = &table.setting;
-        let number = |text: &str| {
-            let value = text.parse::<f64>().ok().filter(|x| *x > 0.0);
-            value.ok_or_else(|| {
-                Failure::input(format!(
-                    "found `{text}` as gravity or p of the table: expected a \
-                     positive number"
-                ))
-            })
-        };
-        let gravity = number(&setting.gravity_m_s2)?;
-        let frequency_rad_s = number(&table.block.1)?;
+        let gravity = setting.gravity_m_s2;
         let uplift = uplift(table)?;
         let processing = self.processing.processing()?;
         let done = words(&processing).unwrap_or("none".into());
@@ -131,8 +119,9 @@ impl GroundArgs {
         }
         let damping = Settings::default().damping_ratio();
         let settings = Settings::try_new(gravity, damping, periods)?;
-        let measured = table.curves.par_iter().map(|(name, _)| {
-            let member = members.get(name.as_str()).ok_or_else(|| {
+        let names: Vec<&str> = table.records().collect();
+        let measured = names.par_iter().map(|&name| {
+            let member = members.get(name).ok_or_else(|| {
                 Failure::input(format!(
                     "{}: no record {name}: expected the suite of the table",
                     path.display()
@@ -141,39 +130,30 @@ impl GroundArgs {
             let measures = Measures::of(&member.accelerogram, &settings)?;
             let mut attributes = member.attributes.clone();
             attributes.extend(own.get(name).into_iter().flatten().cloned());
-            Ok(Unscaled {
-                name: name.clone(),
-                factor: uplift / measures.pga_g,
-                measures,
-                attributes,
-            })
+            Ok(Unscaled { name: name.to_owned(), measures, attributes })
         });
         let records = measured.collect::<Result<Vec<_>, Failure>>()?;
         let place = self.attributes.as_ref().unwrap_or(path).clone();
         let periods_s = settings.periods_s().to_vec();
-        let pgv_factor = frequency_rad_s / (gravity * uplift);
-        Ok(Ground { place, periods_s, pgv_factor, records, set_aside })
+        let uplift = AtUplift {
+            pga_g: uplift,
+            p_rad_s: setting.p_rad_s,
+            gravity_m_s2: gravity,
+        };
+        Ok(Ground { place, periods_s, uplift, records, set_aside })
     }
 }
 
 /// PGA in g at which the block of the table lifts off.
-fn uplift(table: &ida::Suite) -> Result<f64, Failure> {
-    let (Some(alpha), _) = &table.block else {
+fn uplift(table: &IdaTable) -> Result<f64, Failure> {
+    let Some(alpha_rad) = table.alpha_rad() else {
         return Err(Failure::input(
             "the table adjusts slenderness: expected one of record-scaling, \
              whose intensities are scale factors",
         ));
     };
-    let alpha_rad = alpha.parse::<f64>().ok().filter(|a| *a > 0.0);
-    match (alpha_rad, table.setting.model.parse()) {
-        (Some(alpha_rad), Ok(Model::Linearized)) => Ok(alpha_rad),
-        (Some(alpha_rad), Ok(Model::Nonlinear)) => Ok(libm::tan(alpha_rad)),
-        _ => Err(Failure::input(format!(
-            "alpha `{alpha}`, model `{}` of the table: expected what \
-             {SOFTWARE} writes",
-            table.setting.model
-        ))),
-    }
+    let block = Block::try_new(alpha_rad, table.setting.p_rad_s)?;
+    Ok(uplift_threshold(&block, table.setting.model))
 }
 
 impl Ground {
@@ -211,18 +191,12 @@ impl Ground {
         measure: &IntensityMeasure,
     ) -> Result<Vec<f64>, Failure> {
         let of = |record: &Unscaled| {
-            let (m, factor) = (&record.measures, record.factor);
-            if let IntensityMeasure::Column(name) = measure {
-                return Ok(factor * self.cell(record, name)?);
-            }
-            let power = if measure.is_squared() { 2 } else { 1 };
-            let scaled = (0..power).fold(1.0, |all, _| all * factor);
-            let value = || measure.value(m, &self.periods_s);
-            Ok(match measure.dimensionless() {
-                Some(Intensity::Pga) => 1.0,
-                Some(Intensity::Pgv) => self.pgv_factor * factor * m.pgv_m_s,
-                None => scaled * value().unwrap_or(f64::NAN),
-            })
+            let (measures, periods_s) = (&record.measures, &self.periods_s);
+            let cell = match measure {
+                IntensityMeasure::Column(name) => self.cell(record, name)?,
+                _ => f64::NAN,
+            };
+            Ok(self.uplift.value(measure, measures, periods_s, cell))
         };
         self.records.iter().map(of).collect()
     }

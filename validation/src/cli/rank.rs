@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use libm::log;
-use rocking::capacity::{Capacity, InversionRule};
+use rocking::capacity::InversionRule;
 use rocking::intensity::{Intensity, IntensityMeasure as M};
+use rocking::procedures::capacities::intervals;
 use rocking::procedures::ranking::Covariate;
 use rocking::procedures::{Ranking, rank};
 use rocking::record::SetAside;
@@ -92,27 +92,16 @@ struct Shown {
 /// # Errors
 /// [`Failure`] for files that are refused, or capacities that make no fit.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let measures = if args.im.is_empty() {
-        let mut all = vec![M::Pga, M::Pgv, M::Pgd, M::Arias, M::Cav];
-        all.push(M::PgvDuration);
-        all.extend([0.5, 1.0, 2.0, 3.0, 4.0].map(M::Sa));
-        all.push(M::AverageSa(vec![0.5, 1.0, 1.5, 2.0, 3.0]));
-        all
-    } else {
-        args.im.clone()
+    let measures = match args.im.as_slice() {
+        [] => M::usual(),
+        some => some.to_vec(),
     };
     let mut inputs = args.ground.inputs();
     inputs.push(args.ida.clone());
     let mut outputs = Outputs::of(inputs);
     let plot = outputs.open_some(args.plot.as_ref())?;
-    let table = ida::read(&args.ida, Intensity::Pga)?;
-    let mut capacities = Vec::new();
-    for (_, curve) in &table.curves {
-        capacities.push(match curve.capacity(args.at, args.point)? {
-            Capacity::Reached(im) => (im, im),
-            Capacity::Censored { above } => (above, f64::INFINITY),
-        });
-    }
+    let (table, curves) = ida::read(&args.ida, Intensity::Pga)?;
+    let capacities = intervals(&curves.into_curves(), args.at, args.point)?;
     let draws = args.bootstrap.draws();
     let (ranking, set_aside) = args.threads.run(|| {
         let ground = args.ground.ground(&table, &measures)?;
@@ -134,11 +123,10 @@ impl Args {
         let mut all = Vec::new();
         if let Some(column) = &self.magnitude {
             let values = ground.column(column)?;
-            all.push(Covariate { name: "magnitude".into(), values });
+            all.push(Covariate::magnitude(values));
         }
         if let Some(column) = &self.distance {
-            let values = ground.column(column)?.into_iter().map(log).collect();
-            all.push(Covariate { name: "ln distance".into(), values });
+            all.push(Covariate::ln_distance(ground.column(column)?));
         }
         Ok(all)
     }

@@ -68,7 +68,7 @@ struct Shown {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![args.ida.clone()]);
     let counts = outputs.open_some(args.counts.as_ref())?;
-    let curves = ida::read(&args.ida, args.im)?.into_curves();
+    let curves = ida::read(&args.ida, args.im)?.1.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
     if let Some(out) = counts {
         let is_standard = out.is_standard();

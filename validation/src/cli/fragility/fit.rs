@@ -188,7 +188,7 @@ fn of_levels(
     options: &FitOptions,
 ) -> Result<(), Failure> {
     let measure = args.im.unwrap_or(Intensity::Pga);
-    let curves = ida::read(path, measure)?.into_curves();
+    let curves = ida::read(path, measure)?.1.into_curves();
     let rule = args.point.unwrap_or(InversionRule::Median);
     let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
     let found =

@@ -1,0 +1,541 @@
+//! The table of an incremental dynamic analysis as CSV: one row an analysis.
+
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use rocking::capacity::{CapacityError, ResponseCurve};
+use rocking::ida::{Adjust, Analysis, IdaCurve, IdaPoint};
+use rocking::integrator::{Model, Outcome, Overturning};
+use rocking::intensity::Intensity;
+use rocking::record::result_name;
+use thiserror::Error;
+
+use crate::table::Table;
+
+/// The columns, in order.
+pub const COLUMNS: [&str; 18] = [
+    "record",
+    "alpha_rad",
+    "p_rad_s",
+    "pga_g",
+    "pgv_m_s",
+    "im_pga",
+    "im_pgv",
+    "edp",
+    "outcome",
+    "margin",
+    "remarks",
+    "eta",
+    "model",
+    "overturn",
+    "by",
+    "gravity_m_s2",
+    "processing",
+    "software",
+];
+
+/// Place of the first column of a [`Setting`].
+const SETTING: usize = 11;
+
+/// Names of what became of an analysis.
+const OUTCOMES: [&str; 5] =
+    ["no-uplift", "rocked", "overturned", "overturned-refined", "unresolved"];
+
+/// The place of [`OUTCOMES`] that the refined end of a bracket has.
+const REFINED: &str = OUTCOMES[3];
+
+/// Why an IDA file was refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum IdaFileError {
+    /// The file could not be read as CSV.
+    #[error("{}: {source}", path.display())]
+    Csv {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said, with the line where there is one.
+        #[source]
+        source: csv::Error,
+    },
+    /// Not the columns of an IDA file.
+    #[error(
+        "{}:1: found columns `{found}`: expected `{}`",
+        path.display(), COLUMNS.join(",")
+    )]
+    Header {
+        /// The file.
+        path: PathBuf,
+        /// The first line.
+        found: String,
+    },
+    /// A field that is not what its column holds.
+    #[error(
+        "{}:{line}: found `{found}` in column {column}: expected {expected}",
+        path.display()
+    )]
+    Field {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: u64,
+        /// The column's name.
+        column: &'static str,
+        /// The field's text.
+        found: String,
+        /// What the column holds.
+        expected: &'static str,
+    },
+    /// Rows of one record stand together.
+    #[error(
+        "{}:{line}: record {record} comes again: expected its rows together",
+        path.display()
+    )]
+    Scattered {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: u64,
+        /// The record.
+        record: String,
+    },
+    /// A row of another analysis than the first.
+    #[error(
+        "{}:{line}: {column} is {found}: expected {expected}, as on the first row: a table of one analysis",
+        path.display()
+    )]
+    Mixed {
+        /// The file.
+        path: PathBuf,
+        /// Line number from 1.
+        line: u64,
+        /// The column's name.
+        column: &'static str,
+        /// The field's text.
+        found: String,
+        /// The first row's.
+        expected: String,
+    },
+    /// The rows of a record make no curve.
+    #[error("{}: record {record}: {source}", path.display())]
+    Curve {
+        /// The file.
+        path: PathBuf,
+        /// The record.
+        record: String,
+        /// What is wrong with it.
+        #[source]
+        source: CapacityError,
+    },
+    /// No row at all.
+    #[error("{}: no analysis in the file", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// What all rows of a table share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Frequency parameter in rad/s.
+    pub p_rad_s: f64,
+    /// Coefficient of restitution.
+    pub eta: f64,
+    /// Equation of motion.
+    pub model: Model,
+    /// Overturning criterion.
+    pub overturn: Overturning,
+    /// How intensity is reached.
+    pub by: Adjust,
+    /// Gravity in m/s2.
+    pub gravity_m_s2: f64,
+    /// What was done to the records.
+    pub processing: String,
+    /// Program and version.
+    pub software: String,
+}
+
+/// One analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The record.
+    pub record: String,
+    /// Slenderness angle in rad.
+    pub alpha_rad: f64,
+    /// PGA in g.
+    pub pga_g: f64,
+    /// PGV in m/s.
+    pub pgv_m_s: f64,
+    /// PGA/(g tan alpha).
+    pub im_pga: f64,
+    /// p PGV/(g tan alpha).
+    pub im_pgv: f64,
+    /// Peak |theta|/alpha; infinite where overturned.
+    pub edp: f64,
+    /// `no-uplift`, `rocked`, `overturned`, `overturned-refined` or
+    /// `unresolved`.
+    pub outcome: &'static str,
+    /// Margin to the other fate, in units of alpha.
+    pub margin: f64,
+    /// What reading the record found suspicious.
+    pub remarks: String,
+}
+
+/// The table of one analysis of a suite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IdaTable {
+    /// What all rows share.
+    pub setting: Setting,
+    /// The rows, by record, then level.
+    pub rows: Vec<Row>,
+}
+
+/// The response curves of a table against an intensity measure.
+#[derive(Clone, Debug)]
+pub struct Curves {
+    /// Records and their curves, in the order of the table.
+    pub curves: Vec<(String, ResponseCurve)>,
+    /// IM_R: 1 for PGA, the lowest onset for another measure.
+    pub im_r: f64,
+    /// Rows past their record's first overturning, not used.
+    pub after_overturning: usize,
+    /// Whether the measure is the square of the curves' intensity, so that
+    /// the curves stay linear in the acceleration.
+    pub squared: bool,
+}
+
+impl Curves {
+    /// The curves alone, in the order of the table.
+    #[must_use]
+    pub fn into_curves(self) -> Vec<ResponseCurve> {
+        self.curves.into_iter().map(|(_, curve)| curve).collect()
+    }
+
+    /// The curves against a measure whose values at intensity 1 are these:
+    /// proportional to the intensity, or to its square.
+    ///
+    /// # Errors
+    /// [`CapacityError::Factor`] for a value that is not positive.
+    pub fn against(
+        mut self,
+        at_one: &[f64],
+        squared: bool,
+    ) -> Result<Self, CapacityError> {
+        for ((_, curve), &factor) in self.curves.iter_mut().zip(at_one) {
+            let factor = if squared { factor.sqrt() } else { factor };
+            *curve = curve.scaled(factor)?;
+        }
+        let onsets = self.curves.iter().map(|(_, curve)| curve.onset_im());
+        self.im_r = onsets.fold(f64::INFINITY, f64::min);
+        self.squared = squared;
+        Ok(self)
+    }
+
+    /// The measure at an intensity of the curves.
+    #[must_use]
+    pub fn measured(&self, im: f64) -> f64 {
+        if self.squared { im * im } else { im }
+    }
+}
+
+impl IdaTable {
+    /// The table of these curves of an analysis; `about` is what was done to
+    /// the records, and the program, `remarks` what is remarked on a record.
+    #[must_use]
+    pub fn of(
+        curves: &[IdaCurve],
+        analysis: &Analysis,
+        gravity_m_s2: f64,
+        (processing, software): (&str, &str),
+        remarks: impl Fn(&str) -> String,
+    ) -> Self {
+        let p_rad_s = analysis.block.frequency_rad_s();
+        let setting = Setting {
+            p_rad_s,
+            eta: analysis.restitution.velocity_ratio(),
+            model: analysis.model,
+            overturn: analysis.overturning,
+            by: analysis.adjust,
+            gravity_m_s2,
+            processing: processing.to_owned(),
+            software: software.to_owned(),
+        };
+        let mut rows = Vec::new();
+        for curve in curves {
+            let remarks = remarks(&curve.record);
+            let factor = curve.velocity_factor(p_rad_s);
+            let mut row = |point: &IdaPoint, outcome| {
+                rows.push(Row {
+                    record: curve.record.clone(),
+                    alpha_rad: point.slenderness_rad,
+                    pga_g: point.pga_g,
+                    pgv_m_s: point.pga_g
+                        * curve.velocity_ratio_s
+                        * gravity_m_s2,
+                    im_pga: point.im,
+                    im_pgv: point.im * factor,
+                    edp: point.edp(),
+                    outcome,
+                    margin: point.fate_margin,
+                    remarks: remarks.clone(),
+                });
+            };
+            row(&curve.onset, OUTCOMES[0]);
+            for point in curve.points.iter().chain(&curve.above) {
+                row(point, outcome(point));
+            }
+            let refined = curve.overturning.and_then(|first| first.refined);
+            if let Some(point) = refined {
+                row(&point, REFINED);
+            }
+        }
+        Self { setting, rows }
+    }
+
+    /// The CSV text.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut table = Table::new(&COLUMNS);
+        let s = &self.setting;
+        let setting = [
+            s.eta.to_string(),
+            s.model.to_string(),
+            s.overturn.to_string(),
+            s.by.to_string(),
+            s.gravity_m_s2.to_string(),
+            s.processing.clone(),
+            s.software.clone(),
+        ];
+        for row in &self.rows {
+            let numbers = [
+                row.alpha_rad,
+                s.p_rad_s,
+                row.pga_g,
+                row.pgv_m_s,
+                row.im_pga,
+                row.im_pgv,
+                row.edp,
+            ];
+            let own = std::iter::once(row.record.clone());
+            let own = own.chain(numbers.map(|x| x.to_string()));
+            let margin = row.margin.to_string();
+            let last = [row.outcome.to_owned(), margin, row.remarks.clone()];
+            table.row(own.chain(last).chain(setting.clone()));
+        }
+        table.finish()
+    }
+
+    /// Reads a table; `path` is its name in messages.
+    ///
+    /// # Errors
+    /// [`IdaFileError`] with file and line.
+    pub fn read(from: impl Read, path: &Path) -> Result<Self, IdaFileError> {
+        let csv_error =
+            |source| IdaFileError::Csv { path: path.to_owned(), source };
+        let mut reader = csv::Reader::from_reader(from);
+        let header = reader.headers().map_err(csv_error)?;
+        if header.iter().ne(COLUMNS) {
+            return Err(IdaFileError::Header {
+                path: path.to_owned(),
+                found: header.iter().collect::<Vec<_>>().join(","),
+            });
+        }
+        let mut first: Option<(csv::StringRecord, Setting)> = None;
+        let mut rows: Vec<Row> = Vec::new();
+        let mut seen = BTreeSet::new();
+        for fields in reader.records() {
+            let fields = fields.map_err(csv_error)?;
+            let line = fields.position().map_or(0, csv::Position::line);
+            let cells = Cells { path, line, fields: &fields };
+            match &first {
+                None => first = Some((fields.clone(), cells.setting()?)),
+                Some((first, setting)) => cells.as_first(first, setting)?,
+            }
+            let row = cells.row()?;
+            let starts = rows.last().is_none_or(|b| b.record != row.record);
+            if starts && !seen.insert(row.record.clone()) {
+                let (path, record) = (path.to_owned(), row.record);
+                return Err(IdaFileError::Scattered { path, line, record });
+            }
+            rows.push(row);
+        }
+        let path = path.to_owned();
+        let (_, setting) = first.ok_or(IdaFileError::Empty { path })?;
+        Ok(Self { setting, rows })
+    }
+
+    /// The records, in the order of the table.
+    pub fn records(&self) -> impl Iterator<Item = &str> {
+        let records = self.rows.chunk_by(|a, b| a.record == b.record);
+        records.map(|rows| rows[0].record.as_str())
+    }
+
+    /// Slenderness angle in rad of the block; none where it is adjusted.
+    #[must_use]
+    pub fn alpha_rad(&self) -> Option<f64> {
+        let first = self.rows.first().map(|row| row.alpha_rad);
+        first.filter(|_| self.setting.by == Adjust::RecordScaling)
+    }
+
+    /// The curves against a measure; the error names the record.
+    ///
+    /// First overturning is the refined end of its bracket if there is one,
+    /// else the first overturned row of the scan.
+    ///
+    /// # Errors
+    /// [`CapacityError`] where the rows of a record make no curve.
+    pub fn curves(
+        &self,
+        measure: Intensity,
+    ) -> Result<Curves, (String, CapacityError)> {
+        let im = |row: &Row| match measure {
+            Intensity::Pga => row.im_pga,
+            Intensity::Pgv => row.im_pgv,
+        };
+        let (mut curves, mut after_overturning) = (Vec::new(), 0);
+        for rows in self.rows.chunk_by(|a, b| a.record == b.record) {
+            let end = rows.iter().position(|row| row.edp == f64::INFINITY);
+            let standing = &rows[..end.unwrap_or(rows.len())];
+            let vertices: Vec<(f64, f64)> =
+                standing.iter().map(|row| (im(row), row.edp)).collect();
+            let is_refined = |row: &Row| row.outcome == REFINED;
+            let refined = rows.iter().find(|row| is_refined(row));
+            let overturning = refined.or(end.map(|i| &rows[i])).map(im);
+            after_overturning += end.map_or(0, |i| {
+                rows[i + 1..].iter().filter(|row| !is_refined(row)).count()
+            });
+            let record = rows[0].record.clone();
+            match ResponseCurve::try_new(&vertices, overturning) {
+                Ok(curve) => curves.push((record, curve)),
+                Err(error) => return Err((record, error)),
+            }
+        }
+        let onsets = curves.iter().map(|(_, curve)| curve.onset_im());
+        let im_r = match measure {
+            Intensity::Pga => 1.0,
+            Intensity::Pgv => onsets.fold(f64::INFINITY, f64::min),
+        };
+        Ok(Curves { curves, im_r, after_overturning, squared: false })
+    }
+}
+
+/// The name of what became of an analysis.
+fn outcome(point: &IdaPoint) -> &'static str {
+    match point.outcome {
+        _ if !point.told.resolved => OUTCOMES[4],
+        Outcome::NoUplift => OUTCOMES[0],
+        Outcome::Rocked { .. } => OUTCOMES[1],
+        Outcome::Overturned { .. } => OUTCOMES[2],
+    }
+}
+
+/// The cells of one line.
+struct Cells<'a> {
+    path: &'a Path,
+    line: u64,
+    fields: &'a csv::StringRecord,
+}
+
+impl Cells<'_> {
+    fn refuse(&self, column: usize, expected: &'static str) -> IdaFileError {
+        IdaFileError::Field {
+            path: self.path.to_owned(),
+            line: self.line,
+            column: COLUMNS[column],
+            found: self.fields[column].to_owned(),
+            expected,
+        }
+    }
+
+    fn parsed<T: FromStr>(
+        &self,
+        column: usize,
+        fits: impl Fn(&T) -> bool,
+        expected: &'static str,
+    ) -> Result<T, IdaFileError> {
+        let value = self.fields[column].parse().ok().filter(fits);
+        value.ok_or_else(|| self.refuse(column, expected))
+    }
+
+    fn positive(&self, column: usize) -> Result<f64, IdaFileError> {
+        let fits = |x: &f64| *x > 0.0 && x.is_finite();
+        self.parsed(column, fits, "a positive number")
+    }
+
+    fn setting(&self) -> Result<Setting, IdaFileError> {
+        let of = "one that this program writes";
+        Ok(Setting {
+            p_rad_s: self.positive(2)?,
+            eta: self.parsed(
+                SETTING,
+                |x: &f64| (0.0..=1.0).contains(x),
+                "a number from 0 to 1",
+            )?,
+            model: self.parsed(SETTING + 1, |_| true, of)?,
+            overturn: self.parsed(SETTING + 2, |_| true, of)?,
+            by: self.parsed(SETTING + 3, |_| true, of)?,
+            gravity_m_s2: self.positive(SETTING + 4)?,
+            processing: self.fields[SETTING + 5].to_owned(),
+            software: self.fields[SETTING + 6].to_owned(),
+        })
+    }
+
+    /// Refuses a row of another analysis than the first.
+    fn as_first(
+        &self,
+        first: &csv::StringRecord,
+        setting: &Setting,
+    ) -> Result<(), IdaFileError> {
+        let alpha = (setting.by == Adjust::RecordScaling).then_some(1);
+        let mut shared = alpha.into_iter().chain([2]).chain(SETTING..18);
+        match shared.find(|&column| self.fields[column] != first[column]) {
+            None => Ok(()),
+            Some(column) => Err(IdaFileError::Mixed {
+                path: self.path.to_owned(),
+                line: self.line,
+                column: COLUMNS[column],
+                found: self.fields[column].to_owned(),
+                expected: first[column].to_owned(),
+            }),
+        }
+    }
+
+    fn row(&self) -> Result<Row, IdaFileError> {
+        let name = result_name(&self.fields[0]);
+        let name = name.map_err(|_| self.refuse(0, "a name of a record"))?;
+        let not_negative = |column| {
+            let expected = "a number, not negative, or inf";
+            self.parsed(column, |x: &f64| *x >= 0.0, expected)
+        };
+        let outcome = OUTCOMES.into_iter().find(|o| *o == &self.fields[8]);
+        let outcome = outcome.ok_or_else(|| {
+            let outcomes = "no-uplift, rocked, overturned, \
+                            overturned-refined or unresolved";
+            self.refuse(8, outcomes)
+        })?;
+        let edp = not_negative(7)?;
+        if outcome.starts_with("overturned") != edp.is_infinite()
+            && outcome != OUTCOMES[4]
+        {
+            let expected = "inf where overturned, and only there";
+            return Err(self.refuse(7, expected));
+        }
+        Ok(Row {
+            record: name.to_owned(),
+            alpha_rad: self.positive(1)?,
+            pga_g: not_negative(3)?,
+            pgv_m_s: not_negative(4)?,
+            im_pga: not_negative(5)?,
+            im_pgv: not_negative(6)?,
+            edp,
+            outcome,
+            margin: self.parsed(9, |_| true, "a number")?,
+            remarks: self.fields[10].to_owned(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

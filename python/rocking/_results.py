@@ -1,0 +1,514 @@
+"""Results of the procedures: what the command line prints as JSON.
+
+Each class has the fields of that JSON, in its order. A field that may be
+None is a number that is infinite or not known.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, is_dataclass
+from types import NoneType, UnionType
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
+
+
+R = TypeVar("R", bound="Result")
+Verdict = Literal["rejected", "not-rejected", "indeterminate"]
+
+
+def _made(kind: Any, value: Any) -> Any:
+    """A value of this type, made from parsed JSON."""
+    if value is None:
+        return None
+    if get_origin(kind) is tuple:
+        return tuple(_made(get_args(kind)[0], one) for one in value)
+    if get_origin(kind) is UnionType:
+        kinds = [one for one in get_args(kind) if one is not NoneType]
+        if Reason in kinds:
+            is_reason = isinstance(value, dict) and [*value] == ["reason"]
+            kinds = [k for k in kinds if (k is Reason) == is_reason]
+        return _made(kinds[0], value)
+    if is_dataclass(kind):
+        hints = get_type_hints(kind)
+        made = {key: _made(hints[key], one) for key, one in value.items()}
+        make: Any = kind
+        return make(**made)
+    return value
+
+
+class Result:
+    """A result of a procedure."""
+
+    @classmethod
+    def _of(cls: type[R], text: str) -> R:
+        found: R = _made(cls, json.loads(text))
+        return found
+
+    @classmethod
+    def _all(cls: type[R], text: str) -> tuple[R, ...]:
+        return tuple(_made(cls, one) for one in json.loads(text))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields by their names, results within it too."""
+        assert is_dataclass(self)
+        return asdict(self)
+
+    def to_json(self) -> str:
+        """The JSON that the command line prints, on one line."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+
+@dataclass(frozen=True)
+class Reason(Result):
+    """Why there is no result."""
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Estimate(Result):
+    """A number with its bootstrap interval."""
+
+    point: float
+    standard_error: float
+    low: float
+    high: float
+    level: float
+    used: int
+    """Samples drawn that gave a finite value."""
+    replicates: int
+
+
+@dataclass(frozen=True)
+class Intervals(Result):
+    """Percentile, and bias-corrected and accelerated bootstrap interval."""
+
+    percentile: Estimate | None
+    bca: Estimate | None
+
+
+@dataclass(frozen=True)
+class FitIntervals(Result):
+    """Bootstrap intervals of the numbers of a fit."""
+
+    replicates: int
+    seed: int
+    level: float
+    log_mean: Intervals
+    dispersion: Intervals
+    median: Intervals
+    eq5: Intervals
+    eq6: Intervals
+    eq7: Intervals
+
+
+@dataclass(frozen=True)
+class BandPoint(Result):
+    """A probability with its band, by the bootstrap and by the delta
+    method."""
+
+    intensity: float
+    probability: float
+    low: float | None
+    high: float | None
+    delta_low: float | None
+    delta_high: float | None
+
+
+@dataclass(frozen=True)
+class Band(Result):
+    """Bands of a fragility, of one intensity at a time."""
+
+    replicates: int
+    seed: int
+    level: float
+    points: tuple[BandPoint, ...]
+
+
+@dataclass(frozen=True)
+class ShiftInterval(Result):
+    """Likelihood interval of a free shift."""
+
+    low: float
+    high: float | None
+    level: float
+
+
+@dataclass(frozen=True)
+class Transformed(Result):
+    """What Eqs. 5 to 7 make of the unshifted statistics."""
+
+    shift: float
+    c: float
+    c_max: float | None
+    eq5: float | Reason | None
+    eq6: float | Reason | None
+    eq7: float | Reason | None
+
+
+@dataclass(frozen=True)
+class LikelihoodInterval(Result):
+    """A number with the ends of its likelihood interval."""
+
+    point: float
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True)
+class FamilyFit(Result):
+    """A fitted family of distributions."""
+
+    aic: float
+    delta_aic: float
+    bic: float
+    log_likelihood: float
+    ks_distance: float
+    ks_p: float
+    a2: float
+    a2_p: float
+    used: int
+    shape: float
+    scale: float
+    location: float
+
+
+@dataclass(frozen=True)
+class Family(Result):
+    """A family of distributions, and its fit."""
+
+    family: str
+    parameters: int
+    fit: FamilyFit | Reason
+
+
+@dataclass(frozen=True)
+class Choice(Result):
+    """Families of distributions fitted to one sample."""
+
+    n: int
+    shift_given: float
+    replicates: int
+    seed: int
+    families: tuple[Family, ...]
+
+
+@dataclass(frozen=True)
+class Statistic(Result):
+    """Lilliefors' D and its one-sided parts."""
+
+    n: int
+    d: float
+    d_plus: float
+    d_minus: float
+
+
+@dataclass(frozen=True)
+class PValue(Result):
+    """A p-value with the interval (95 %) of its Monte Carlo error."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class OtherTest(Result):
+    """A test beside Lilliefors'."""
+
+    statistic: float
+    p_value: float
+    p_low: float | None
+    p_high: float | None
+    verdict: Verdict | None
+
+
+@dataclass(frozen=True)
+class Normality(Result):
+    """Tests of (log)normality; `reason` says why one does not apply."""
+
+    n: int
+    distinct: int | None
+    largest_tie: int | None
+    statistic: Statistic | None
+    p_value: PValue | None
+    method: str | None
+    replicates: int | None
+    critical_value: float | None
+    level: float
+    verdict: Verdict | None
+    reason: str | None
+    anderson_darling: OtherTest | None
+    cramer_von_mises: OtherTest | None
+    shapiro_wilk: OtherTest | None
+
+
+@dataclass(frozen=True)
+class Quantile(Result):
+    """A quantile of a sample; None where it is censored."""
+
+    probability: float
+    value: float | None
+
+
+@dataclass(frozen=True)
+class MedianInterval(Result):
+    """Exact order-statistic interval of a median."""
+
+    low: float
+    high: float | None
+    rank: int
+    coverage: float
+
+
+@dataclass(frozen=True)
+class Boxplot(Result):
+    """Box, McGill's notch, whiskers and outliers."""
+
+    n: int
+    q1: float
+    median: float
+    q3: float
+    notch_low: float
+    notch_high: float
+    whisker_low: float
+    whisker_high: float
+    outliers: tuple[float | None, ...]
+    median_interval: MedianInterval | None
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the notched box; gives the matplotlib axes."""
+        ax = axes(ax)
+        box = {
+            "q1": self.q1,
+            "med": self.median,
+            "q3": self.q3,
+            "cilo": self.notch_low,
+            "cihi": self.notch_high,
+            "whislo": self.whisker_low,
+            "whishi": self.whisker_high,
+            "fliers": [x for x in self.outliers if x is not None],
+        }
+        ax.bxp([box], shownotches=True)
+        return ax
+
+
+@dataclass(frozen=True)
+class Summary(Result):
+    """A sample in a few numbers."""
+
+    n: int
+    censored: int
+    quantile_type: int
+    quantiles: tuple[Quantile, ...]
+    boxplot: Boxplot | Reason
+
+
+@dataclass(frozen=True)
+class SignTest(Result):
+    """Exact two-sided binomial test with probability 1/2."""
+
+    above: int
+    below: int
+    equal: int
+    p_value: float
+
+
+@dataclass(frozen=True)
+class HodgesLehmann(Result):
+    """Centre of the ratios with its interval."""
+
+    ratio: float
+    low: float
+    high: float
+    level: float
+
+
+@dataclass(frozen=True)
+class SignEquivalence(Result):
+    """Two one-sided sign tests of the median ratio."""
+
+    margin: float
+    p_lower: float
+    p_upper: float
+    p_value: float
+
+
+@dataclass(frozen=True)
+class Equivalence(Result):
+    """Two one-sided t tests of the geometric mean, with its 90 %
+    interval."""
+
+    margin: float
+    geometric_mean: float
+    low: float
+    high: float
+    p_lower: float
+    p_upper: float
+    p_value: float
+
+
+@dataclass(frozen=True)
+class Comparison(Result):
+    """Two samples over the same records, by their ratios a/b."""
+
+    n: int
+    only_a_infinite: int
+    only_b_infinite: int
+    both_infinite: int
+    both_zero: int
+    only_a_zero: int
+    only_b_zero: int
+    usable: int
+    share: float
+    boxplot: Boxplot | None
+    sign_test: SignTest
+    mcnemar: SignTest
+    hodges_lehmann: HodgesLehmann | Reason
+    mean_equivalence: Equivalence | Reason
+    median_equivalence: SignEquivalence | Reason
+
+
+@dataclass(frozen=True)
+class Slope(Result):
+    """Least-squares line of ln(capacity) on a property of the records."""
+
+    on: str
+    intercept: float
+    slope: float
+    standard_error: float
+    residual_deviation: float
+    p_value: float
+    n: int
+
+
+@dataclass(frozen=True)
+class Ranked(Result):
+    """What was found of one intensity measure.
+
+    `dispersion` is the efficiency, small is good; a small p-value among
+    `slopes` says that the measure is not sufficient.
+    """
+
+    im: str
+    median: float
+    dispersion: Estimate | None
+    ratio_to_first: Estimate | None
+    slopes: tuple[Slope, ...]
+
+
+@dataclass(frozen=True)
+class Ranking(Result):
+    """Intensity measures in the order in which they were asked for.
+
+    Records that do not reach the response are `censored`: they enter by the
+    intensity up to which they were run.
+    """
+
+    n: int
+    censored: int
+    level: float
+    replicates: int
+    seed: int
+    remark: str | None
+    measures: tuple[Ranked, ...]
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the dispersions with their intervals; gives the matplotlib
+        axes."""
+        ax = axes(ax)
+        shown = [(m.im, m.dispersion) for m in self.measures if m.dispersion]
+        ax.errorbar(
+            [im for im, _ in shown],
+            [e.point for _, e in shown],
+            [
+                [e.point - e.low for _, e in shown],
+                [e.high - e.point for _, e in shown],
+            ],
+            fmt="o",
+        )
+        ax.set_ylabel("dispersion")
+        ax.tick_params("x", rotation=90)
+        return ax
+
+
+@dataclass(frozen=True)
+class StripeResponses(Result):
+    """The responses at one intensity; quantiles are None where the block
+    overturned, and `open` records were not run so far."""
+
+    im: float
+    n: int
+    edp16: float | None
+    edp50: float | None
+    edp84: float | None
+    overturned: int
+    open: int
+    exceeded: int | None
+
+
+@dataclass(frozen=True)
+class LevelCapacities(Result):
+    """Quantiles of the capacities at one EDP level; None where censored."""
+
+    edp: float | None
+    im16: float | None
+    im50: float | None
+    im84: float | None
+    censored: int
+    stripe_discrepancy: float
+
+
+@dataclass(frozen=True)
+class LevelCrossings(Result):
+    """All crossings of one EDP level by one curve, and the capacities made
+    of them; None where the level is not reached."""
+
+    edp: float | None
+    median: float | None
+    first: float | None
+    last: float | None
+    monotone: float | None
+    crossings: tuple[float | None, ...]
+
+
+@dataclass(frozen=True)
+class Measures(Result):
+    """Intensity measures of a record, or of a pair.
+
+    `spectral_acceleration_g` is at the periods asked for;
+    `significant_duration_5_75_s` is from 5 to 75 % of the Arias intensity.
+    """
+
+    pga_g: float
+    pgv_m_s: float
+    pgd_m: float
+    arias_intensity_m_s: float
+    cav_m_s: float
+    significant_duration_5_75_s: float
+    significant_duration_5_95_s: float
+    mean_period_s: float | None
+    spectral_acceleration_g: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class VelocityPulse(Result):
+    """A velocity pulse, after Shahi and Baker (2014)."""
+
+    direction_rad: float
+    period_s: float
+    time_s: float
+    pgv_m_s: float
+    pgv_ratio: float
+    energy_ratio: float
+    indicator: float
+    late: bool
+
+
+def axes(ax: Any) -> Any:
+    """The axes given, or new ones."""
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+
+    return pyplot.subplots()[1]

@@ -1,0 +1,181 @@
+//! The procedures of the core: each gives the JSON that the command prints.
+
+use std::fmt::Display;
+
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use rocking::procedures::{
+    Draws, FitOptions, NormalityOptions, choose as choose_family,
+    compare as compare_pairs, fit_sample, fit_stripes as fit_counts,
+    summarise as summarise_sample, test_normality as test,
+};
+use rocking::statistics::lognormal::{FitMethod, Stripe};
+use rocking::statistics::{
+    CensoredSample, ExtendedSample, Lognormal, QuantileType,
+};
+use rocking::stop;
+use serde::Serialize;
+
+use crate::given::{choose, refuse};
+use crate::work;
+
+/// The JSON of what a procedure finds on all processors.
+pub fn answer<T: Serialize + Send, E: Display + Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, E> + Send,
+) -> PyResult<String> {
+    let found = work::on_all(py, work)?.map_err(refuse)?;
+    serde_json::to_string(&found).map_err(refuse)
+}
+
+/// A sample as Python gives it: values, infinite where censored, and the
+/// limits of those that are censored at a known one.
+pub type GivenSample<'py> = (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>);
+
+fn sample_of((values, limits): &GivenSample<'_>) -> PyResult<CensoredSample> {
+    CensoredSample::try_new(values.as_slice()?, limits).map_err(refuse)
+}
+
+/// The options of a fit.
+#[derive(FromPyObject)]
+pub struct Fit {
+    #[pyo3(item)]
+    shift: String,
+    #[pyo3(item)]
+    method: String,
+    #[pyo3(item)]
+    quantile_type: u8,
+    #[pyo3(item)]
+    c: f64,
+    #[pyo3(item)]
+    n_resamples: usize,
+    #[pyo3(item)]
+    seed: u64,
+    #[pyo3(item)]
+    band: Vec<f64>,
+}
+
+impl Fit {
+    pub fn options(self) -> PyResult<FitOptions> {
+        let t = QuantileType::try_new(self.quantile_type).map_err(refuse)?;
+        let methods = FitMethod::all(t).map(|m| (m.name(), m));
+        let (replicates, seed) = (self.n_resamples, self.seed);
+        Ok(FitOptions {
+            method: choose("method", &self.method, &methods)?,
+            shift: self.shift.parse().map_err(refuse)?,
+            quantile_type: t,
+            c: self.c,
+            draws: (replicates > 0).then_some(Draws { replicates, seed }),
+            band: self.band,
+        })
+    }
+}
+
+/// A fit of a sample.
+#[pyfunction]
+pub fn fit(
+    py: Python<'_>,
+    sample: GivenSample<'_>,
+    options: Fit,
+) -> PyResult<String> {
+    let (sample, options) = (sample_of(&sample)?, options.options()?);
+    answer(py, || fit_sample(&sample, &options))
+}
+
+/// A fit of counts: (intensity, exceeded, n) of each stripe.
+#[pyfunction]
+pub fn fit_stripes(
+    py: Python<'_>,
+    stripes: Vec<(f64, u32, u32)>,
+    shift: f64,
+) -> PyResult<String> {
+    let stripes: Vec<Stripe> = stripes
+        .into_iter()
+        .map(|(im, exceeded, n)| Stripe { im, exceeded, n })
+        .collect();
+    answer(py, || fit_counts(&stripes, shift))
+}
+
+/// Families of distributions side by side.
+#[pyfunction]
+pub fn choose_distribution(
+    py: Python<'_>,
+    sample: GivenSample<'_>,
+    shift: f64,
+    replicates: usize,
+    seed: u64,
+) -> PyResult<String> {
+    let sample = sample_of(&sample)?;
+    answer(py, || choose_family(&sample, shift, Draws { replicates, seed }))
+}
+
+/// Tests of normality, of the logarithms above a shift where one is given.
+#[pyfunction]
+pub fn test_normality(
+    py: Python<'_>,
+    sample: GivenSample<'_>,
+    shift: Option<String>,
+    level: f64,
+    replicates: Option<u64>,
+    seed: u64,
+) -> PyResult<String> {
+    let sample = sample_of(&sample)?;
+    let log_above = shift.map(|shift| shift.parse()).transpose();
+    let log_above = log_above.map_err(refuse)?;
+    let options = NormalityOptions { log_above, level, replicates, seed };
+    answer(py, || test(&sample, &options))
+}
+
+/// Quantiles and boxplot of a sample.
+#[pyfunction]
+pub fn summarise(
+    py: Python<'_>,
+    values: PyReadonlyArray1<'_, f64>,
+    probabilities: Vec<f64>,
+    quantile_type: u8,
+) -> PyResult<String> {
+    let t = QuantileType::try_new(quantile_type).map_err(refuse)?;
+    let values = values.as_slice()?;
+    let sorted = || ExtendedSample::try_new(values);
+    let sample = work::on_numbers(py, values.len(), sorted)?;
+    let sample = sample.map_err(refuse)?;
+    answer(py, || summarise_sample(&sample, &probabilities, t))
+}
+
+/// Two samples over the same records.
+#[pyfunction]
+pub fn compare(
+    py: Python<'_>,
+    a: PyReadonlyArray1<'_, f64>,
+    b: PyReadonlyArray1<'_, f64>,
+    margin: f64,
+) -> PyResult<String> {
+    let (a, b) = (a.as_slice()?, b.as_slice()?);
+    answer(py, || compare_pairs(a, b, margin))
+}
+
+/// A function of the lognormal (shift, log_mean, dispersion) at each number.
+#[pyfunction]
+pub fn lognormal<'py>(
+    py: Python<'py>,
+    law: (f64, f64, f64),
+    function: &str,
+    numbers: PyReadonlyArray1<'py, f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    type Function = fn(&Lognormal, f64) -> f64;
+    let functions: [(&str, Function); 4] = [
+        ("cdf", Lognormal::cdf),
+        ("sf", Lognormal::survival),
+        ("ppf", Lognormal::quantile),
+        ("logpdf", Lognormal::ln_pdf),
+    ];
+    let of = choose("function", function, &functions)?;
+    let law = Lognormal::try_new(law.0, law.1, law.2).map_err(refuse)?;
+    let numbers = numbers.as_slice()?;
+    let value = |x: &f64| {
+        stop::point();
+        of(&law, *x)
+    };
+    let values = || numbers.iter().map(value).collect::<Vec<f64>>();
+    Ok(work::on_numbers(py, numbers.len(), values)?.into_pyarray(py))
+}

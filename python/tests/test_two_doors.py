@@ -1,0 +1,299 @@
+"""Two doors, one answer: each procedure of the core gives Python what the
+command line prints, digit for digit."""
+
+import json
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import rocking as rk
+from conftest import ROOT, Command
+
+PROCEDURES = ROOT / "src" / "procedures"
+
+
+@dataclass
+class House:
+    """What both doors open on: an IDA, its suite, and their files."""
+
+    ida: rk.Ida
+    suite: rk.Suite
+    index: Path
+    table: Path
+    sample: Path
+    folder: Path
+
+    def file(self, name: str, lines: Sequence[str]) -> Path:
+        path = self.folder / name
+        path.write_text("\n".join(lines) + "\n")
+        return path
+
+
+@dataclass
+class Pair:
+    """What Python found, and how the command line is asked."""
+
+    found: Any
+    words: list[object]
+    place: tuple[str | int, ...] = ()
+    """Where in the JSON it stands."""
+    extra: tuple[str, ...] = ()
+    """Keys that tell what was asked, and come of no procedure."""
+
+
+Prepare = Callable[[House], Pair]
+PAIRS: list[tuple[str, Prepare]] = []
+
+
+def pair(procedure: str) -> Callable[[Prepare], Prepare]:
+    def keep(prepare: Prepare) -> Prepare:
+        PAIRS.append((procedure, prepare))
+        return prepare
+
+    return keep
+
+
+@pair("fit_sample")
+def fit_with_intervals(house: House) -> Pair:
+    words = ["fragility", "fit", "--sample", house.sample, "--shift", 1]
+    words += ["--bootstrap", 99, "--seed", 3, "--band", "1.5,2.5"]
+    found = rk.fit_fragility(
+        house.ida.sample(0.5),
+        shift=1.0,
+        n_resamples=99,
+        rng=3,
+        band=[1.5, 2.5],
+    )
+    return Pair(found, words, extra=("sample_of", "unit"))
+
+
+@pair("fit_sample")
+def fit_above_the_smallest(house: House) -> Pair:
+    values = [1.32, 1.41, 1.56, 1.77, 2.04, 2.31, 2.64, 3.1, 3.6, 4.2]
+    sample = house.file("plain.txt", [repr(x) for x in values])
+    words = ["fragility", "fit", "--sample", sample, "--shift", "min"]
+    words += ["--method", "trimmed", "--quantile-type", 7, "--c", 0.9]
+    found = rk.fit_fragility(
+        values, shift="min", method="trimmed", quantile_type=7, c=0.9
+    )
+    return Pair(found, words, extra=("sample_of", "unit"))
+
+
+@pair("fit_sample")
+def fit_of_a_free_shift(house: House) -> Pair:
+    values = [2.0, 2.2, 2.3, 2.5, 2.6, 3.0, 3.3, 4.0, 5.0, 8.0]
+    sample = house.file("free.txt", [repr(x) for x in values])
+    words = ["fragility", "fit", "--sample", sample, "--shift", "free"]
+    found = rk.fit_fragility(values, shift="free")
+    assert found.shift_interval is not None
+    return Pair(found, words, extra=("sample_of", "unit"))
+
+
+@pair("fit_levels")
+def fit_at_levels(house: House) -> Pair:
+    words = ["fragility", "fit", "--ida", house.table, "--at", "0.3,0.5"]
+    words += ["--im", "pgv", "--point", "first", "--bootstrap", 20]
+    found = house.ida.fit([0.3, 0.5], im="pgv", rule="first", n_resamples=20)
+    return Pair(found, words, ("levels",))
+
+
+@pair("fit_stripes")
+def fit_of_counts(house: House) -> Pair:
+    counts = [(1.0, 1, 10), (2.0, 4, 10), (4.0, 9, 10)]
+    lines = ["im,exceeded,n", *(f"{x},{k},{n}" for x, k, n in counts)]
+    table = house.file("counts.csv", lines)
+    words = ["fragility", "counts", "--counts", table, "--shift", 0.5]
+    return Pair(rk.fit_stripes(counts, shift=0.5), words)
+
+
+@pair("choose")
+def choice(house: House) -> Pair:
+    values = [1.2, 1.5, 1.9, 2.4, 3.8, 5.0, 6.5, 9.0]
+    sample = house.file("choice.txt", [repr(x) for x in values])
+    words = ["fragility", "choose", "--sample", sample, "--shift", 1]
+    words += ["--bootstrap", 30]
+    return Pair(rk.choose(values, shift=1.0, n_resamples=30), words)
+
+
+@pair("test_normality")
+def normality_by_the_table(house: House) -> Pair:
+    words = ["lilliefors", "--sample", house.sample, "--shift", 1]
+    return Pair(rk.test_normality(house.ida.sample(0.5), shift=1.0), words)
+
+
+@pair("test_normality")
+def normality_by_simulation(house: House) -> Pair:
+    values = [1.2, 1.5, 1.9, 2.4, 3.8, 5.0, 6.5, 9.0]
+    sample = house.file("normal.txt", [repr(x) for x in values])
+    words = ["lilliefors", "--sample", sample, "--shift", "min"]
+    words += ["--replicates", 999, "--level", 0.1]
+    found = rk.test_normality(values, shift="min", n_mc=999, level=0.1)
+    return Pair(found, words)
+
+
+@pair("compare")
+def comparison(house: House) -> Pair:
+    a, b = [1.0, 2.1, 3.0, np.inf, 0.0], [1.0, 2.0, 3.1, 4.0, 0.0]
+    files = [
+        house.file(name, [str(x) for x in values])
+        for name, values in (("a.txt", a), ("b.txt", b))
+    ]
+    words = ["compare", "--a", files[0], "--b", files[1], "--margin", 0.1]
+    return Pair(rk.compare(a, b, margin=0.1), words, (), ("paired_by_name",))
+
+
+@pair("rank")
+def ranking(house: House) -> Pair:
+    ims = ["pga", "pgv", "arias", "pgv-d575", "sa:1", "avgsa:0.5,1,2"]
+    ims += ["column:mw"]
+    words = ["rank", "--ida", house.table, "--suite", house.index]
+    words += ["--at", 0.5, "--magnitude", "mw", "--distance", "rrup_km"]
+    words += ["--bootstrap", 10, *(w for im in ims for w in ("--im", im))]
+    found = rk.rank_ims(
+        house.ida,
+        house.suite,
+        ims=ims,
+        edp=0.5,
+        magnitude="mw",
+        distance="rrup_km",
+        n_resamples=10,
+    )
+    return Pair(found, words, extra=("edp", "point"))
+
+
+@pair("rank")
+def ranking_of_survivors(house: House) -> Pair:
+    # Survivors of the highest intensity enter by it.
+    ida = rk.ida(rk.Block(alpha=0.2, p=3.0), house.suite, highest_im=5.0)
+    table = house.folder / "low.csv"
+    ida.to_csv(table)
+    words = ["rank", "--ida", table, "--suite", house.index, "--at", "inf"]
+    found = rk.rank_ims(ida, house.suite, n_resamples=10)
+    assert found.censored > 0
+    words += ["--bootstrap", 10]
+    return Pair(found, words, extra=("edp", "point"))
+
+
+@pair("stripes")
+def responses_at_intensities(house: House) -> Pair:
+    words = ["stripes", "--ida", house.table, "--levels", "1.5,2,40"]
+    words += ["--at", 0.5, "--counts", house.folder / "stripes.csv"]
+    found = house.ida.stripes([1.5, 2.0, 40.0], edp=0.5)
+    return Pair(found, words, ("stripes",))
+
+
+@pair("summarise")
+def summary(house: House) -> Pair:
+    words = ["sample", "--sample", house.sample, "--at", "0.1,0.5,0.99"]
+    words += ["--quantile-type", 7]
+    found = rk.summarise(
+        house.ida.sample(0.5), [0.1, 0.5, 0.99], quantile_type=7
+    )
+    return Pair(found, words)
+
+
+@pair("capacities::levels")
+def capacities(house: House) -> Pair:
+    words = ["capacities", "--ida", house.table, "--levels", "0.3,0.9"]
+    words += ["--point", "last", "--im", "sa:1", "--suite", house.index]
+    found = house.ida.levels(
+        [0.3, 0.9], rule="last", im="sa:1", suite=house.suite
+    )
+    return Pair(found, words, ("levels",))
+
+
+@pair("capacities::crossings")
+def crossings(house: House) -> Pair:
+    words = ["capacities", "--ida", house.table, "--levels", "0.3,0.9"]
+    words += ["--im", "arias", "--suite", house.index]
+    name = house.ida.records[2]
+    found = house.ida.crossings(
+        name, [0.3, 0.9], im="arias", suite=house.suite
+    )
+    return Pair(found, words, ("records", 2, "levels"))
+
+
+@pytest.fixture(scope="module")
+def house(
+    ida: rk.Ida,
+    suite: rk.Suite,
+    suites: Path,
+    command: Command,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> House:
+    folder = tmp_path_factory.mktemp("doors")
+    table, sample = folder / "ida.csv", folder / "sample.txt"
+    ida.to_csv(table)
+    command("capacities", "--ida", table, "--at", 0.5, "--out", sample)
+    index = suites / "ordinary.csv"
+    return House(ida, suite, index, table, sample, folder)
+
+
+@pytest.mark.parametrize(
+    ("procedure", "prepare"), PAIRS, ids=[p.__name__ for _, p in PAIRS]
+)
+def test_both_doors_give_the_same_digits(
+    procedure: str, prepare: Prepare, house: House, command: Command
+) -> None:
+    asked = prepare(house)
+    said = json.loads(command(*asked.words, "--json"))
+    if isinstance(asked.found, tuple):
+        own: Any = [json.loads(one.to_json()) for one in asked.found]
+    else:
+        own = json.loads(asked.found.to_json())
+        for key in ("schema", "version", *asked.extra):
+            del said[key]
+    for step in asked.place:
+        said = said[step]
+    # As text: a digit of difference is one.
+    assert text(own) == text(said)
+    assert len(own) > 0
+
+
+def text(found: object) -> str:
+    return json.dumps(found, indent=1, sort_keys=True)
+
+
+def test_every_procedure_of_the_core_has_a_pair() -> None:
+    paired = {name.split("::")[-1] for name, _ in PAIRS}
+    # The sample is the file that the command writes, the next test.
+    paired |= {"sample", "intervals"}
+    known = set()
+    for source in PROCEDURES.rglob("*.rs"):
+        if source.stem != "tests":
+            text = source.read_text()
+            known |= set(re.findall(r"^pub fn (\w+)", text, re.MULTILINE))
+    assert known == paired
+
+
+@pytest.mark.parametrize("im", ["pga", "pgv"])
+def test_a_sample_is_the_file_of_the_command_line(
+    im: str, house: House, command: Command
+) -> None:
+    out = house.folder / f"{im}.txt"
+    words = ["--ida", house.table, "--im", im, "--at", "inf", "--out", out]
+    command("capacities", *words)
+    lines = [x for x in out.read_text().splitlines() if x[0] != "#"]
+    found = house.ida.sample(np.inf, im=im)
+    values = zip(found.values.tolist(), found.limits.tolist())
+    own = [f">{b!r}" if a == np.inf else repr(a) for a, b in values]
+    assert own == [line.split(" #")[0] for line in lines]
+    assert (
+        found.values.tolist() == house.ida.capacities(np.inf, im=im).tolist()
+    )
+
+
+def test_an_ida_has_the_bytes_of_the_command_line(
+    house: House, command: Command
+) -> None:
+    table = house.folder / "said.csv"
+    words = ["--alpha", 0.2, "--p", 3, "--suite", house.index]
+    command("ida", *words, "--out", table)
+    assert table.read_bytes() == house.table.read_bytes()
+    read = rk.read_ida(table)
+    assert read == house.ida and hash(read) == hash(house.ida)
+    assert rk.ida(rk.Block(alpha=0.2, p=3.1), house.suite[:1]) != read

@@ -1,7 +1,7 @@
 use rocking::statistics::{Lognormal, normal};
 
 use super::*;
-use rocking_common::paper::SuiteKind;
+use rocking_synthesis::SuiteKind;
 
 const DESIGN: &str = include_str!("../../fixtures/surrogate/design.csv");
 const COEFFICIENTS: &str =

@@ -221,16 +221,16 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
         let pga_g = own["median_pga_g"].as_f64().unwrap();
         assert!((pga_g / median - libm::tan(0.15)).abs() < 1e-12);
         assert!(median > 1.0);
-        // Three errors, of which that of the surface is the least.
-        let of = |what: &str, key: &str| found[what][suite][key].as_f64();
-        let surface = of("surface", "median_rms").unwrap();
-        let records = of("records", "median_half").unwrap();
-        let recorded = of("recorded", "prob_max").unwrap();
+        // The error of the surface is the least of the three.
+        let of = |path: &str| own.pointer(path).unwrap().as_f64().unwrap();
+        let surface = of("/surface_to_analyses/median_relative/rms");
+        let records = of("/half_95_of_records/median_relative");
+        let recorded = of("/surface_to_recorded/probability/largest");
         assert!(surface < 0.02 && (0.05..0.15).contains(&records));
-        assert!(of("surface", "prob_max").unwrap() < recorded);
+        assert!(of("/surface_to_analyses/probability/largest") < recorded);
         assert!((0.05..0.2).contains(&recorded), "{recorded}");
-        assert_eq!(found["surface"][suite]["blocks"], 100);
-        assert_eq!(found["recorded"][suite]["blocks"], 15);
+        assert_eq!(own["surface_to_analyses"]["blocks"], 100);
+        assert_eq!(own["surface_to_recorded"]["blocks"], 15);
     }
     for (arguments, names) in [
         ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),

@@ -133,7 +133,10 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
     assert!(last.contains("large"), "{error}");
     assert!(tiles(&place).iter().all(|name| name.ends_with(".csv")));
     let status = answer(&place, "sweep status plan");
-    assert!(status.contains("done     0"), "{status}");
+    assert!(
+        status.contains("\ndone                            0\n"),
+        "{status}"
+    );
     run(&place);
     // Neither does a merge.
     let old = "an older table\n";
@@ -193,21 +196,6 @@ fn a_merge_replaces_no_file_of_its_plan_and_a_plan_has_an_end() {
                    --step-pga-g 1e-14";
     refused_for(&place, endless, &["expected at most 1e12"]);
     assert!(!place.join("more/plan.json").exists());
-}
-
-#[test]
-fn a_study_takes_no_curves_of_a_sweep_that_lacks_some() {
-    let place = planned("sweep-study", 2);
-    let names = ["plan: this sweep keeps no rows", "--rows"];
-    refused_for(&place, "study --sweep plan --out report", &names);
-    answer(
-        &place,
-        "sweep plan --blocks blocks.csv --suite records --out kept --rows \
-         --tile-minutes 1e-9",
-    );
-    let names = ["kept/tiles/rows-00000.csv: missing", "run the sweep again"];
-    refused_for(&place, "study --sweep kept --out report", &names);
-    assert!(!place.join("report").exists());
 }
 
 #[test]

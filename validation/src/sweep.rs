@@ -63,7 +63,7 @@ pub enum SweepError {
         second: Id,
     },
     /// A demand at which the plan has no capacities.
-    #[error("demand {found}: expected some of {expected}, those of the plan")]
+    #[error("demand {found}: expected some of {expected}, as planned")]
     Demand {
         /// The demand.
         found: f64,
@@ -85,9 +85,6 @@ pub enum SweepError {
         /// The demand.
         demand: f64,
     },
-    /// A limit state that has no name.
-    #[error("{0}")]
-    Name(String),
     /// A fragility that is no distribution.
     #[error(transparent)]
     Lognormal(#[from] LognormalError),

@@ -5,13 +5,27 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::{Block, Restitution};
 use rocking_exchange::Id;
+use serde::Deserialize;
 
 use super::Failure;
 use super::samples::Opened;
 
-/// Columns that a table of blocks may have.
-const COLUMNS: [&str; 7] =
-    ["id", "alpha", "p", "width_m", "height_m", "eta", "sample"];
+/// The columns that a table of blocks has.
+const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
+                        height_m, and where wanted id, eta and sample";
+
+/// The cells of a row; an empty one is none.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Cells {
+    id: Option<Id>,
+    alpha: Option<f64>,
+    p: Option<f64>,
+    width_m: Option<f64>,
+    height_m: Option<f64>,
+    eta: Option<f64>,
+    sample: Option<String>,
+}
 
 /// A row of the table.
 #[derive(Clone, Debug)]
@@ -43,65 +57,39 @@ pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let header = reader.headers().map_err(broken)?.clone();
-    for (k, name) in header.iter().enumerate() {
-        let again = header.iter().take(k).any(|before| before == name);
-        if again || !COLUMNS.contains(&name) {
-            return Err(Failure::input(format!(
-                "{place}:1: column `{name}`: expected some of {}, each once",
-                COLUMNS.join(", ")
-            )));
-        }
-    }
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut rows: Vec<Row> = Vec::new();
-    let mut lines = BTreeMap::new();
+    let mut ids = BTreeMap::new();
     for record in reader.records() {
         let record = record.map_err(broken)?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));
-        let cells: BTreeMap<&str, &str> = header
-            .iter()
-            .zip(&record)
-            .filter(|(_, cell)| !cell.is_empty())
-            .collect();
-        let number = |name: &str| {
-            let Some(text) = cells.get(name) else { return Ok(None) };
-            let value = text.parse().ok().filter(|x: &f64| x.is_finite());
-            value.map(Some).ok_or_else(|| {
-                at(format!("{name}: found `{text}`: expected a number"))
-            })
-        };
-        let size = ["alpha", "p", "width_m", "height_m"].map(number);
-        let [alpha, p, width_m, height_m] = size;
-        let block = match (alpha?, p?, width_m?, height_m?) {
+        let cells: Cells = record
+            .deserialize(Some(&header))
+            .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
+        let block = match (cells.alpha, cells.p, cells.width_m, cells.height_m)
+        {
             (Some(alpha), Some(p), None, None) => Block::try_new(alpha, p),
             (None, None, Some(width_m), Some(height_m)) => {
                 Block::from_dimensions(width_m, height_m, gravity_m_s2)
             }
-            _ => {
-                return Err(at("expected alpha and p, or width_m and \
-                               height_m"
-                    .to_owned()));
-            }
+            _ => return Err(at(format!("expected {EXPECTED}"))),
         };
         let block = block.map_err(|e| at(e.to_string()))?;
-        let eta = number("eta")?;
-        if let Some(eta) = eta {
+        if let Some(eta) = cells.eta {
             Restitution::constant(eta).map_err(|e| at(e.to_string()))?;
         }
-        let id =
-            cells.get("id").map_or_else(|| Id::of(&block), |id| id.parse());
-        let id = id.map_err(at)?;
-        if let Some(before) = lines.insert(id.clone(), line) {
+        let id = cells.id.map_or_else(|| Id::of(&block), Ok).map_err(at)?;
+        if let Some(before) = ids.insert(id.clone(), line) {
             return Err(at(format!(
                 "{id} stands on line {before} too: expected an id of its own"
             )));
         }
-        let samples = cells.get("sample").map_or(Vec::new(), |names| {
+        let samples = cells.sample.map_or(Vec::new(), |names| {
             names.split(';').map(|name| folder.join(name.trim())).collect()
         });
-        rows.push(Row { place, id, block, eta, samples });
+        rows.push(Row { place, id, block, eta: cells.eta, samples });
     }
     if rows.is_empty() {
         return Err(Failure::input(format!("{place}: no block")));

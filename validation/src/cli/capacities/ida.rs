@@ -4,12 +4,10 @@ use std::path::{Path, PathBuf};
 
 use rocking::capacity::{CapacityError, ResponseCurve};
 use rocking::ida::Adjust;
-use rocking::intensity::IntensityMeasure;
 use rocking::record::result_name;
 use thiserror::Error;
 
-use crate::cli::Failure;
-use crate::cli::samples::{Opened, SampleSetting};
+use crate::cli::samples::Opened;
 use crate::cli::table::{COLUMNS, SETTING, Setting};
 use rocking_common::paper::Intensity;
 
@@ -129,18 +127,6 @@ impl Suite {
         self.curves.into_iter().map(|(_, curve)| curve).collect()
     }
 
-    /// The block and model, as a sample file states them.
-    #[must_use]
-    pub fn sample_setting(&self) -> SampleSetting {
-        let number = |text: &str| text.parse().ok();
-        SampleSetting {
-            alpha_rad: self.block.0.as_deref().and_then(number),
-            p_rad_s: number(&self.block.1),
-            eta: number(&self.setting.eta),
-            model: self.setting.model.parse().ok(),
-        }
-    }
-
     /// The curves against a measure whose values at intensity 1 are these:
     /// proportional to the intensity, or to its square.
     ///
@@ -166,21 +152,6 @@ impl Suite {
     pub fn told(&self, im: f64) -> f64 {
         if self.squared { im * im } else { im }
     }
-}
-
-/// The measure that is asked of a table, PGA where none is.
-///
-/// # Errors
-/// [`Failure`] for a measure that no table holds.
-pub fn measure(im: Option<&IntensityMeasure>) -> Result<Intensity, Failure> {
-    let im = im.unwrap_or(&IntensityMeasure::Pga);
-    im.dimensionless().ok_or_else(|| {
-        Failure::input(format!(
-            "--im {im}: a table of `rocking ida` holds pga and pgv: expected \
-             one of them, or --sample with a file of `rocking capacities \
-             --im {im} --suite`"
-        ))
-    })
 }
 
 /// One row.

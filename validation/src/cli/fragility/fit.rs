@@ -13,6 +13,7 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 use serde::Serialize;
 
+use super::source;
 use crate::cli::capacities::{Levels, ida};
 use crate::cli::names;
 use crate::cli::samples::SampleFile;
@@ -187,7 +188,7 @@ fn of_levels(
     path: &Path,
     options: &FitOptions,
 ) -> Result<(), Failure> {
-    let measure = ida::measure(args.im.as_ref())?;
+    let measure = source::in_table(args.im.as_ref())?;
     let curves = ida::read(path, measure)?.into_curves();
     let rule = args.point.unwrap_or(InversionRule::Median);
     let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);

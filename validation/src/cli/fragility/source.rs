@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use rocking::block::Block;
 use rocking::capacity::InversionRule;
 use rocking::integrator::Model;
 use rocking::intensity::{Intensity, IntensityMeasure};
@@ -16,7 +17,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
-use rocking_surrogate::{ORIGIN, RESTITUTION, Surrogate, SurrogateError};
+use rocking_surrogate::{ORIGIN, RESTITUTION, Surrogate};
 
 use super::counts;
 use crate::cli::Failure;
@@ -92,17 +93,16 @@ pub struct SourceArgs {
     gravity: f64,
 }
 
-/// What is fitted.
-#[derive(Clone)]
+/// What is fitted, or the surface that was.
 enum Values {
     Sample(CensoredSample),
     Counts(Vec<Stripe>),
+    Surface(rocking_surrogate::Model),
 }
 
-/// What one limit state is fitted to.
-#[derive(Clone)]
+/// Where one limit state comes from.
 struct Level {
-    /// The file.
+    /// The file, or what stands for it.
     place: String,
     im: IntensityMeasure,
     setting: SampleSetting,
@@ -116,7 +116,6 @@ pub struct Source {
     levels: Vec<Level>,
     /// Of the table of blocks.
     samples: BTreeMap<PathBuf, Level>,
-    surface: Option<(SuiteKind, Surrogate)>,
     rows: Vec<Row>,
     names: Vec<Id>,
     gravity_m_s2: f64,
@@ -164,12 +163,8 @@ impl SourceArgs {
                 samples.insert(path.clone(), self.sample(path)?);
             }
         }
-        let surface = self.surrogate.map(|suite| {
-            Ok::<_, SurrogateError>((suite, Surrogate::embedded()?))
-        });
-        let (surface, levels) = (surface.transpose()?, self.levels()?);
-        let names = self.limit_state.clone();
-        Ok(Source { levels, samples, surface, rows, names, gravity_m_s2 })
+        let (levels, names) = (self.levels()?, self.limit_state.clone());
+        Ok(Source { levels, samples, rows, names, gravity_m_s2 })
     }
 
     fn levels(&self) -> Result<Vec<Level>, Failure> {
@@ -178,7 +173,8 @@ impl SourceArgs {
         }
         let samples = self.sample.iter().map(|path| self.sample(path));
         let counts = self.counts.iter().map(|path| self.counts(path));
-        samples.chain(counts).collect()
+        let surface = self.surrogate.map(surface);
+        samples.chain(counts).chain(surface).collect()
     }
 
     fn sample(&self, path: &Path) -> Result<Level, Failure> {
@@ -211,10 +207,16 @@ impl SourceArgs {
 
     fn ida(&self, path: &Path) -> Result<Vec<Level>, Failure> {
         let place = path.display().to_string();
-        let intensity = ida::measure(self.im.as_ref())?;
+        let intensity = in_table(self.im.as_ref())?;
         let im = IntensityMeasure::from(intensity);
         let suite = ida::read(path, intensity)?;
-        let setting = suite.sample_setting();
+        let number = |text: &str| text.parse().ok();
+        let setting = SampleSetting {
+            alpha_rad: suite.block.0.as_deref().and_then(number),
+            p_rad_s: number(&suite.block.1),
+            eta: number(&suite.setting.eta),
+            model: suite.setting.model.parse().ok(),
+        };
         let rule = self.point.unwrap_or(InversionRule::Median);
         let curves = suite.into_curves();
         let at = self.at.as_ref().map_or(&[][..], |levels| &levels.0);
@@ -259,25 +261,75 @@ impl SourceArgs {
     }
 }
 
+/// The measure that is asked of a table of `rocking ida`, PGA where none is.
+///
+/// # Errors
+/// [`Failure`] for a measure that no table holds.
+pub(super) fn in_table(
+    im: Option<&IntensityMeasure>,
+) -> Result<Intensity, Failure> {
+    let im = im.unwrap_or(&IntensityMeasure::Pga);
+    im.dimensionless().ok_or_else(|| {
+        Failure::input(format!(
+            "--im {im}: a table of `rocking ida` holds pga and pgv: expected \
+             one of them, or --sample with a file of `rocking capacities \
+             --im {im} --suite`"
+        ))
+    })
+}
+
+/// The surface of a suite.
+fn surface(suite: SuiteKind) -> Result<Level, Failure> {
+    let models = Surrogate::embedded()?.models.into_iter();
+    let mut own = models.filter(|(model, _)| model.suite == suite);
+    let (model, _) = own.next().ok_or_else(|| Failure::input(suite))?;
+    let setting = SampleSetting {
+        eta: Some(RESTITUTION),
+        model: Some(Model::Nonlinear),
+        ..SampleSetting::default()
+    };
+    Ok(Level {
+        place: "--surrogate".to_owned(),
+        im: IntensityMeasure::Pga,
+        setting,
+        values: Values::Surface(model),
+        origin: format!("{ORIGIN}, {suite} suite"),
+    })
+}
+
 impl Level {
     /// The fit in the unit of the values.
-    fn fit(&self, options: &FitOptions) -> Result<Lognormal, Failure> {
+    fn fit(
+        &self,
+        options: &FitOptions,
+        block: Option<&Block>,
+    ) -> Result<Lognormal, Failure> {
         let at = |e: &dyn std::fmt::Display| {
             Failure::input(format!("{}: {e}", self.place))
         };
-        match (&self.values, options.shift) {
-            (Values::Sample(sample), _) => {
-                let found = fit_sample(sample, options);
-                Ok(found.map_err(|e| at(&e))?.fitted)
+        let found = match (&self.values, options.shift, block) {
+            (Values::Sample(sample), ..) => {
+                fit_sample(sample, options).map(|found| found.fitted)
             }
-            (Values::Counts(stripes), Shift::Given(shift)) => {
-                let found = fit_stripes(stripes, shift);
-                Ok(found.map_err(|e| at(&e))?.fitted)
+            (Values::Counts(stripes), Shift::Given(shift), _) => {
+                fit_stripes(stripes, shift).map(|found| found.fitted)
             }
-            (Values::Counts(_), shift) => Err(at(&format!(
-                "--shift {shift} with counts: expected a number"
-            ))),
-        }
+            (Values::Counts(_), shift, _) => {
+                let flag = format!("--shift {shift}: expected a number");
+                return Err(at(&flag));
+            }
+            (Values::Surface(model), _, Some(block))
+                if *options == FitOptions::default() =>
+            {
+                let (alpha, p) =
+                    (block.slenderness_rad(), block.frequency_rad_s());
+                return model.at(alpha, p).map_err(|e| at(&e));
+            }
+            (Values::Surface(_), ..) => {
+                return Err(at(&"expected a block and no flag of a fit"));
+            }
+        };
+        found.map_err(|e| at(&e))
     }
 
     /// The number of units of the block's own intensity measure in one of
@@ -320,7 +372,7 @@ impl Source {
         &self,
         options: &FitOptions,
     ) -> Result<Vec<LimitState>, Failure> {
-        let laws = self.levels.iter().map(|level| level.fit(options));
+        let laws = self.levels.iter().map(|level| level.fit(options, None));
         self.named(laws.collect::<Result<_, _>>()?)
     }
 
@@ -347,15 +399,6 @@ impl Source {
         row: &Row,
         options: &FitOptions,
     ) -> Result<BlockFragility, Failure> {
-        if let Some((suite, surface)) = &self.surface {
-            if *options != FitOptions::default() {
-                return Err(Failure::input(
-                    "a flag of a fit with --surrogate, which is fitted \
-                     already: expected none",
-                ));
-            }
-            return self.on_surface(row, *suite, surface);
-        }
         let own = row.samples.iter().filter_map(|path| self.samples.get(path));
         let own: Vec<&Level> = match row.samples.is_empty() {
             true => self.levels.iter().collect(),
@@ -378,7 +421,7 @@ impl Source {
                 )));
             }
             let unit = level.unit(row, self.gravity_m_s2)?;
-            laws.push(level.fit(options)?.scaled(unit)?);
+            laws.push(level.fit(options, Some(&row.block))?.scaled(unit)?);
             origins.push(level.origin.as_str());
         }
         origins.dedup();
@@ -389,44 +432,6 @@ impl Source {
             im: first.im.clone(),
             limit_states: self.named(laws)?,
             origin: origins.join("; "),
-        })
-    }
-
-    fn on_surface(
-        &self,
-        row: &Row,
-        suite: SuiteKind,
-        surface: &Surrogate,
-    ) -> Result<BlockFragility, Failure> {
-        let at = |e: &dyn std::fmt::Display| {
-            Failure::input(format!("{}: {e}", row.place))
-        };
-        if let Some(eta) = row.eta
-            && eta != RESTITUTION
-        {
-            return Err(at(&format!(
-                "eta {eta}: expected {RESTITUTION}, that of the surface"
-            )));
-        }
-        let of = surface.models.iter().find(|(own, _)| own.suite == suite);
-        let (alpha, p) =
-            (row.block.slenderness_rad(), row.block.frequency_rad_s());
-        let law = of.map(|(own, _)| own.at(alpha, p)).transpose();
-        let law = law.map_err(|e| at(&e))?;
-        let unit = unit_intensity(
-            Intensity::Pga,
-            &row.block,
-            Model::Nonlinear,
-            self.gravity_m_s2,
-        );
-        let laws = law.iter().map(|law| law.scaled(unit));
-        Ok(BlockFragility {
-            id: row.id.clone(),
-            block: row.block,
-            eta: Some(RESTITUTION),
-            im: IntensityMeasure::Pga,
-            limit_states: self.named(laws.collect::<Result<_, _>>()?)?,
-            origin: format!("{ORIGIN}, {suite} suite"),
         })
     }
 

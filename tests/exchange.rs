@@ -74,6 +74,69 @@ fn a_table_of_blocks_gives_each_its_own_intensities() {
 }
 
 #[test]
+fn every_origin_and_measure_goes_out_by_the_same_door() {
+    let place = folder("origins");
+    let text = |name: &str| fs::read_to_string(place.join(name)).unwrap();
+    let row = |flags: &str| -> Vec<Value> {
+        let one = "--alpha 0.1 --p 3 --format csv --out out.csv --json";
+        let out = answer(&place, &format!("fragility export {flags} {one}"));
+        let out: Value = serde_json::from_str(&out).unwrap();
+        out["blocks"].as_array().unwrap().clone()
+    };
+    let tan = libm::tan(0.1);
+    let near = |found: &Value, expected: f64| {
+        let found = found.as_f64().unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+    };
+    // Two samples are two limit states.
+    fs::write(place.join("first.txt"), SAMPLE.replace(".4 #", ".3 #"))
+        .unwrap();
+    let found = row("--sample first.txt --sample capacities.txt --shift 1 \
+         --limit-state leans --limit-state falls");
+    assert_eq!(found[0]["limit_state"], "leans");
+    assert_eq!(found[1]["limit_state"], "falls");
+    // The table has the origin of both.
+    assert_eq!(text("out.csv").matches("6 capacities").count(), 2);
+    // Spectral acceleration has a dimension already, and holds for a block
+    // of the same slenderness alone.
+    let sa = SAMPLE.replace("PGA/(g tan alpha)", "SA(1 s) (g)");
+    fs::write(place.join("sa.txt"), sa).unwrap();
+    let found = row("--sample sa.txt");
+    assert_eq!(
+        (&found[0]["im"], &found[0]["unit"]),
+        (&"sa:1".into(), &"g".into())
+    );
+    // The geometric mean of 1.4, 1.8, 2.2, 2.9, 3.7 and 5.5.
+    near(&found[0]["median"], 2.625_010);
+    let other = "--alpha 0.12 --p 3 --format nrml --out x.xml";
+    let other = format!("fragility export --sample sa.txt {other}");
+    refused(&place, &other, "alpha 0.1 rad");
+    // Baker's example of counts (Earthquake Spectra 31 (2015) 579): 1.076.
+    let counts = "im,exceeded,n\n0.2,0,40\n0.3,0,40\n0.4,0,40\n0.6,4,40\n\
+                  0.7,6,40\n0.8,13,40\n0.9,12,40\n1,16,40\n";
+    fs::write(place.join("counts.csv"), counts).unwrap();
+    let median = &row("--counts counts.csv --im pga")[0]["median"];
+    let median = median.as_f64().unwrap() / tan;
+    assert!((median - 1.076).abs() < 1e-3, "{median}");
+    // The surface says what `fragility surface` says, and where it is from.
+    let found = row("--surrogate ordinary");
+    let own = answer(&place, "fragility surface --alpha 0.1 --p 3 --json");
+    let own: Value = serde_json::from_str(&own).unwrap();
+    let own = &own["suites"]["ordinary"];
+    near(&found[0]["median"], own["median_pga_g"].as_f64().unwrap());
+    assert!(text("out.csv").contains("without an analysis, ordinary suite"));
+    for (flags, names) in [
+        ("--surrogate ordinary --shift 1", "no flag of a fit"),
+        ("--counts counts.csv", "--im"),
+        ("--sample capacities.txt --limit-state a --limit-state b", "1 limit"),
+        ("--sample capacities.txt --surrogate ordinary", "cannot be used"),
+    ] {
+        let flags = format!("{flags} --alpha 0.1 --p 3 --format csv --out x");
+        refused(&place, &format!("fragility export {flags}"), names);
+    }
+}
+
+#[test]
 fn an_export_that_would_be_wrong_is_refused_and_writes_nothing() {
     let place = folder("refused");
     let export = "--shift 1 --format nrml --out block.xml";

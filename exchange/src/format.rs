@@ -11,6 +11,7 @@ use rocking::statistics::lognormal::LognormalError;
 use thiserror::Error;
 
 use crate::fragility::{BlockFragility, Id};
+use crate::table::number;
 
 /// Largest error in probability of a shifted fragility that is written as
 /// points: a tenth of what one record in two hundred is worth.
@@ -18,6 +19,12 @@ pub const TOLERANCE: f64 = 5e-4;
 
 /// Probability that is cut off at either end of a range of intensities.
 const TAIL: f64 = 1e-4;
+
+/// How far the probability of a limit state may lie above that of the one
+/// before it. OpenQuake ends a calculation whose damages, which are the
+/// differences, go below minus this; pelicun draws all limit states from one
+/// number and takes the last one that is reached.
+const CROSSING: f64 = 1e-6;
 
 /// Why fragilities cannot be written in a format.
 #[derive(Debug, Error)]
@@ -31,6 +38,53 @@ pub enum ExchangeError {
     Shifted {
         /// The fragility.
         id: Id,
+    },
+    /// A measure that the other program does not know.
+    #[error("{id}: {format} has no measure {im}: expected {expected}")]
+    Measure {
+        /// The fragility.
+        id: Id,
+        /// The format.
+        format: &'static str,
+        /// The measure.
+        im: String,
+        /// Measures that it has.
+        expected: &'static str,
+    },
+    /// A block without a limit state.
+    #[error("{id}: no limit state: expected at least one")]
+    NoState {
+        /// The fragility.
+        id: Id,
+    },
+    /// Blocks with different limit states in a format that has one list.
+    #[error(
+        "{id}: limit states {found}: expected {expected}, as of the first \
+         block, since NRML has one list for all"
+    )]
+    Mixed {
+        /// The fragility.
+        id: Id,
+        /// Its limit states.
+        found: String,
+        /// Those of the first block.
+        expected: String,
+    },
+    /// Limit states whose curves cross.
+    #[error(
+        "{id}: near {im} the limit state {next} is more probable than {name} \
+         before it, and the reader would misread them: expected curves that \
+         do not cross, such as those of one dispersion"
+    )]
+    Crossing {
+        /// The fragility.
+        id: Id,
+        /// The limit state.
+        name: Id,
+        /// That of greater damage.
+        next: Id,
+        /// The intensity with its unit.
+        im: String,
     },
     /// Points that pelicun takes for one.
     #[error(
@@ -95,25 +149,50 @@ impl Format {
         (self == Self::Pelicun).then_some("json")
     }
 
-    /// The fragilities in this format; `limit_state` names the damage.
+    /// The fragilities in this format.
     ///
     /// # Errors
-    /// [`ExchangeError`] for a fragility that the format cannot hold.
+    /// [`ExchangeError`] for a fragility that the format cannot hold, and,
+    /// but in CSV, for limit states whose curves cross.
     pub fn texts(
         self,
         fragilities: &[BlockFragility],
-        limit_state: &Id,
     ) -> Result<Texts, ExchangeError> {
+        for one in fragilities {
+            self.check(one)?;
+        }
         let alone = |main| Texts { main, beside: None };
         match self {
-            Self::Nrml => Ok(alone(nrml::text(fragilities, limit_state)?)),
+            Self::Nrml => Ok(alone(nrml::text(fragilities)?)),
             Self::Pelicun => {
                 let main = pelicun::csv(fragilities)?;
-                let json = pelicun::json(fragilities, limit_state);
+                let json = pelicun::json(fragilities);
                 Ok(Texts { main, beside: Some(("json", json)) })
             }
-            Self::Pact => Ok(alone(tables::pact(fragilities, limit_state)?)),
-            Self::Csv => Ok(alone(tables::csv(fragilities, limit_state))),
+            Self::Pact => Ok(alone(tables::pact(fragilities)?)),
+            Self::Csv => Ok(alone(tables::csv(fragilities))),
+        }
+    }
+
+    /// Whether there are limit states, in the right order.
+    fn check(self, one: &BlockFragility) -> Result<(), ExchangeError> {
+        let id = one.id.clone();
+        if one.limit_states.is_empty() {
+            return Err(ExchangeError::NoState { id });
+        }
+        let crossed = one.limit_states.windows(2).find_map(|pair| {
+            pair[0].crossed_by(&pair[1], CROSSING).map(|im| (im, pair))
+        });
+        match crossed {
+            Some((im, pair)) if self != Self::Csv => {
+                Err(ExchangeError::Crossing {
+                    id,
+                    name: pair[0].name.clone(),
+                    next: pair[1].name.clone(),
+                    im: format!("{} {}", number(im), one.im.unit()),
+                })
+            }
+            _ => Ok(()),
         }
     }
 }

@@ -1,16 +1,17 @@
 //! A fragility of one block, in the unit of the ground motion.
 //!
-//! A fragility of the statistics is dimensionless. Other programs take one
-//! block's own PGA or PGV, each in the unit that it expects: OpenQuake PGA in
-//! g and PGV in cm/s, pelicun and PACT in g and m/s.
+//! A fragility in PGA or PGV is dimensionless in the statistics. Other
+//! programs take one block's own PGA or PGV, each in the unit that it expects:
+//! OpenQuake PGA in g and PGV in cm/s, pelicun and PACT in g and m/s.
 
 use std::fmt;
 use std::str::FromStr;
 
 use rocking::block::Block;
 use rocking::integrator::{Model, uplift_threshold};
-use rocking::intensity::Intensity;
+use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::statistics::Lognormal;
+use serde::{Deserialize, Serialize};
 
 /// Most characters of a name that OpenQuake takes.
 const LONGEST: usize = 75;
@@ -25,8 +26,31 @@ const LONGEST: usize = 75;
 /// assert!("BLOCK-p300-a015".parse::<Id>().is_err());
 /// assert!("BLOCK/p3.0/a0.15".parse::<Id>().is_err());
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(
+    Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
+#[serde(try_from = "String", into = "String")]
 pub struct Id(String);
+
+impl TryFrom<String> for Id {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+impl AsRef<str> for Id {
+    fn as_ref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl From<Id> for String {
+    fn from(id: Id) -> Self {
+        id.0
+    }
+}
 
 impl FromStr for Id {
     type Err = String;
@@ -72,8 +96,8 @@ impl Id {
     }
 }
 
-/// How a fragility of one block is written.
-#[derive(Clone, Debug)]
+/// The fragilities of one block, one a limit state.
+#[derive(Clone, Debug, PartialEq)]
 pub struct BlockFragility {
     /// Its name.
     pub id: Id,
@@ -81,12 +105,52 @@ pub struct BlockFragility {
     pub block: Block,
     /// Coefficient of restitution, where it is known.
     pub eta: Option<f64>,
-    /// What of the ground motion it is a function of.
-    pub intensity: Intensity,
-    /// In g for PGA, in m/s for PGV.
-    pub fragility: Lognormal,
-    /// Where it comes from, in words.
+    /// The intensity measure of the ground motion.
+    pub im: IntensityMeasure,
+    /// Limit states in the order of rising damage.
+    pub limit_states: Vec<LimitState>,
+    /// Where they come from, in words.
     pub origin: String,
+}
+
+/// A degree of damage, and how probable it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitState {
+    /// Its name.
+    pub name: Id,
+    /// Probability of reaching it, in the unit of the block's own intensity
+    /// measure: g for PGA, m/s for PGV.
+    pub fragility: Lognormal,
+}
+
+/// Steps in the score at which two curves are compared.
+const STEPS: i32 = 4000;
+
+/// Largest score at which two curves are compared.
+const LARGEST_SCORE: f64 = 8.0;
+
+impl LimitState {
+    /// The intensity at which the probability of `next`, a state of greater
+    /// damage, is most above that of this state, where it is above it by more
+    /// than `tolerance`.
+    pub(crate) fn crossed_by(
+        &self,
+        next: &Self,
+        tolerance: f64,
+    ) -> Option<f64> {
+        let both = [&self.fragility, &next.fragility];
+        let step = LARGEST_SCORE / f64::from(STEPS);
+        let all = both.into_iter().flat_map(|law| {
+            (-STEPS..=STEPS).map(move |k| {
+                let score = f64::from(k) * step;
+                let log = law.log_mean() + law.dispersion() * score;
+                law.shift() + libm::exp(log)
+            })
+        });
+        let above = |im: f64| next.fragility.cdf(im) - self.fragility.cdf(im);
+        let worst = all.max_by(|a, b| above(*a).total_cmp(&above(*b)))?;
+        (above(worst) > tolerance).then_some(worst)
+    }
 }
 
 /// The number of g (PGA) or of m/s (PGV) that makes a dimensionless
@@ -114,15 +178,6 @@ pub fn unit_intensity(
     match intensity {
         Intensity::Pga => threshold_g,
         Intensity::Pgv => threshold_g * gravity_m_s2 / block.frequency_rad_s(),
-    }
-}
-
-/// Unit of [`BlockFragility::fragility`].
-#[must_use]
-pub fn unit(intensity: Intensity) -> &'static str {
-    match intensity {
-        Intensity::Pga => "g",
-        Intensity::Pgv => "m/s",
     }
 }
 

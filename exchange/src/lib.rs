@@ -9,7 +9,9 @@
 //! use rocking::integrator::Model;
 //! use rocking::intensity::Intensity;
 //! use rocking::statistics::Lognormal;
-//! use rocking_exchange::{BlockFragility, Format, Id, unit_intensity};
+//! use rocking_exchange::{
+//!     BlockFragility, Format, Id, LimitState, unit_intensity,
+//! };
 //! let block = Block::try_new(0.15, 3.0)?;
 //! let pga = Intensity::Pga;
 //! let unit_g = unit_intensity(pga, &block, Model::Nonlinear, 9.80665);
@@ -18,12 +20,11 @@
 //!     id: Id::of(&block)?,
 //!     block,
 //!     eta: Some(0.92),
-//!     intensity: pga,
-//!     fragility,
+//!     im: "pga".parse()?,
+//!     limit_states: vec![LimitState { name: "overturning".parse()?, fragility }],
 //!     origin: String::from("86 capacities"),
 //! };
-//! let state = "overturning".parse()?;
-//! let nrml = Format::Nrml.texts(&[one], &state)?.main;
+//! let nrml = Format::Nrml.texts(&[one])?.main;
 //! assert!(nrml.contains("<fragilityFunction id=\"block_a0_15_p3\""));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -37,5 +38,5 @@ pub mod table;
 
 pub use format::{ExchangeError, Format, Pact, Texts};
 pub use fragility::{
-    BlockFragility, Id, unit, unit_intensity, unstated_origin,
+    BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };

@@ -140,6 +140,15 @@ impl fmt::Display for IntensityMeasure {
 
 as_text!(IntensityMeasure);
 
+impl From<Intensity> for IntensityMeasure {
+    fn from(intensity: Intensity) -> Self {
+        match intensity {
+            Intensity::Pga => Self::Pga,
+            Intensity::Pgv => Self::Pgv,
+        }
+    }
+}
+
 fn listed(periods_s: &[f64], separator: &str) -> String {
     let texts: Vec<String> = periods_s.iter().map(f64::to_string).collect();
     texts.join(separator)
@@ -249,6 +258,32 @@ impl IntensityMeasure {
             }
         };
         format!("{symbol} ({})", self.unit())
+    }
+
+    /// The measure of these [`words`](Self::words).
+    ///
+    /// ```
+    /// use rocking::intensity::IntensityMeasure;
+    /// let found = IntensityMeasure::of_words("AvgSA(0.5, 1 s) (g)");
+    /// assert_eq!(found, Some(IntensityMeasure::AverageSa(vec![0.5, 1.0])));
+    /// assert_eq!(IntensityMeasure::of_words("SA(1 s), g"), None);
+    /// ```
+    #[must_use]
+    pub fn of_words(words: &str) -> Option<Self> {
+        let fixed = WORDS.iter().map(|(_, measure)| measure);
+        if let Some(found) = fixed.into_iter().find(|m| m.words() == words) {
+            return Some(found.clone());
+        }
+        let periods = words.strip_suffix(" s) (g)");
+        let name = [("SA(", "sa:"), ("AvgSA(", "avgsa:")]
+            .into_iter()
+            .find_map(|(before, name)| {
+                let list = periods?.strip_prefix(before)?;
+                Some(format!("{name}{}", list.replace(", ", ",")))
+            });
+        let column = words.strip_prefix("column ");
+        let name = name.or(column.map(|name| format!("column:{name}")));
+        name?.parse().ok().filter(|found: &Self| found.words() == words)
     }
 
     /// Whether it grows with the square of the acceleration; all others grow

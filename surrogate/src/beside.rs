@@ -3,11 +3,11 @@
 
 use libm::log;
 use rocking::statistics::{QuantileType, Sample, normal};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::blocks::rows;
 use super::{Fitted, Model, SHIFT, Size, Surrogate, SurrogateError};
-use rocking_common::paper::SuiteKind;
+use rocking_synthesis::SuiteKind;
 
 /// The study's blocks under embedded and recorded motions.
 const COMPARED: &str = include_str!("../../fixtures/comparison/suites.csv");
@@ -17,11 +17,13 @@ const PROBABILITIES: [f64; 3] = [0.16, 0.50, 0.84];
 
 /// Half the 95 % interval that the choice of records leaves, the median over
 /// the unseen blocks: bootstrap of the records of an embedded suite.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sampling {
     /// Of the median, relative.
+    #[serde(rename = "median_relative")]
     pub median: f64,
     /// Of the dispersion, relative.
+    #[serde(rename = "beta_relative")]
     pub dispersion: f64,
     /// Of the probability at the median.
     pub probability: f64,
@@ -126,11 +128,12 @@ impl Recorded {
 
 /// How far a surface is from recorded motions, whose own sampling error is
 /// in it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ToRecorded {
     /// Blocks that were compared.
     pub blocks: usize,
     /// Of the median, relative.
+    #[serde(rename = "median_relative")]
     pub median: Size,
     /// Largest difference in probability at the recorded 16, 50 and 84 %
     /// intensities of a block.

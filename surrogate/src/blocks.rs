@@ -8,8 +8,8 @@ use rocking::statistics::Lognormal;
 use serde::{Deserialize, Serialize};
 
 use super::{RESTITUTION, SHIFT, SurrogateError};
-use rocking_common::paper::SuiteKind;
-use rocking_common::table::{Table, digits};
+use rocking_exchange::table::{Table, digits};
+use rocking_synthesis::SuiteKind;
 
 /// Significant digits of a table.
 const DIGITS: usize = 6;

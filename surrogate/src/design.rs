@@ -3,7 +3,7 @@
 use libm::{exp, log};
 
 use super::{FREQUENCY_RANGE_RAD_S, SLENDERNESS_RANGE_RAD};
-use rocking_common::table::Table;
+use rocking_exchange::table::Table;
 
 /// Decimals of alpha and p in a design.
 const DECIMALS: usize = 6;

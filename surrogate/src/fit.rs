@@ -6,7 +6,7 @@ use rocking::statistics::Lognormal;
 
 use super::model::{self, Degrees, Model};
 use super::{Fitted, SHIFT, SurrogateError};
-use rocking_common::paper::SuiteKind;
+use rocking_synthesis::SuiteKind;
 
 /// Degrees that are tried.
 const MOST: Degrees = Degrees { p: 8, alpha: 3 };

@@ -13,6 +13,7 @@
 
 #![deny(missing_docs)]
 
+mod answer;
 mod beside;
 mod blocks;
 mod design;
@@ -23,6 +24,7 @@ use rocking::statistics::SampleError;
 use rocking::statistics::lognormal::LognormalError;
 use thiserror::Error;
 
+pub use answer::{ORIGIN, SuiteFragility, SurfaceFragility};
 pub use beside::{Recorded, Sampling, ToRecorded};
 pub use blocks::{Fitted, read_merged, read_table, table};
 pub use design::{design, point};
@@ -39,7 +41,7 @@ pub const FREQUENCY_RANGE_RAD_S: (f64, f64) = (1.0, 6.0);
 pub const SLENDERNESS_RANGE_RAD: (f64, f64) = (0.05, 0.60);
 
 /// Coefficient of restitution of all blocks.
-pub const RESTITUTION: f64 = rocking_common::paper::RESTITUTION;
+pub const RESTITUTION: f64 = 0.92;
 
 /// Uplift, above which the fragilities are lognormal.
 pub const SHIFT: f64 = 1.0;

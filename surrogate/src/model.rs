@@ -8,8 +8,8 @@ use super::{
     FREQUENCY_RANGE_RAD_S, Fitted, SHIFT, SLENDERNESS_RANGE_RAD,
     SurrogateError, read_table,
 };
-use rocking_common::paper::SuiteKind;
-use rocking_common::table::{Table, number};
+use rocking_exchange::table::{Table, number};
+use rocking_synthesis::SuiteKind;
 
 /// The coefficients, and the blocks that none of them was fitted to.
 const COEFFICIENTS: &str =
@@ -139,7 +139,7 @@ impl Model {
 }
 
 /// Root mean square and largest size of an error.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Size {
     /// Root mean square.
     pub rms: f64,
@@ -161,18 +161,21 @@ impl Size {
 }
 
 /// How far a surface is from analyses.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Errors {
     /// Blocks with analyses.
     pub blocks: usize,
     /// Of the median, relative.
+    #[serde(rename = "median_relative")]
     pub median: Size,
     /// Of the dispersion, relative.
+    #[serde(rename = "beta_relative")]
     pub dispersion: Size,
     /// Largest difference of the fragilities in probability.
     pub probability: Size,
     /// Share of the blocks with the surface's median in the 95 % interval of
     /// their own.
+    #[serde(rename = "share_within_interval")]
     pub inside: f64,
 }
 

@@ -1,5 +1,5 @@
 use super::*;
-use rocking_common::paper::SuiteKind;
+use rocking_synthesis::SuiteKind;
 
 const DESIGN: &str = include_str!("../../fixtures/surrogate/design.csv");
 const COEFFICIENTS: &str =

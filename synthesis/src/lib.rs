@@ -60,12 +60,14 @@
 #![deny(missing_docs)]
 
 mod draws;
+mod kind;
 mod near_fault;
 mod noise;
 mod ordinary;
 mod pair;
 mod special;
 
+pub use kind::SuiteKind;
 pub use pair::{ORDINARY_SEED, PULSE_SEED, Pair, Scenario};
 
 use rocking::record::AccelerogramError;

@@ -84,7 +84,7 @@ fn what_was_killed_goes_on_to_the_same_bytes() {
     assert!(tiles(&place).len() < 48, "nothing was left to do");
     // What a run leaves that is killed while it writes, of long ago.
     let part = place.join("plan/tiles/.rocking-killed.part");
-    fs::write(&part, "alpha_rad,p_rad_s,et").unwrap();
+    fs::write(&part, "id,alpha_rad,p_rad_s").unwrap();
     let then = SystemTime::UNIX_EPOCH + Duration::from_secs(3600);
     File::options()
         .write(true)
@@ -133,7 +133,10 @@ fn without_room_it_says_so_and_leaves_nothing_half_written() {
     assert!(last.contains("large"), "{error}");
     assert!(tiles(&place).iter().all(|name| name.ends_with(".csv")));
     let status = answer(&place, "sweep status plan");
-    assert!(status.contains("done     0"), "{status}");
+    assert!(
+        status.contains("\ndone                            0\n"),
+        "{status}"
+    );
     run(&place);
     // Neither does a merge.
     let old = "an older table\n";
@@ -196,18 +199,50 @@ fn a_merge_replaces_no_file_of_its_plan_and_a_plan_has_an_end() {
 }
 
 #[test]
-fn a_study_takes_no_curves_of_a_sweep_that_lacks_some() {
-    let place = planned("sweep-study", 2);
-    let names = ["plan: this sweep keeps no rows", "--rows"];
-    refused_for(&place, "study --sweep plan --out report", &names);
-    answer(
-        &place,
-        "sweep plan --blocks blocks.csv --suite records --out kept --rows \
-         --tile-minutes 1e-9",
-    );
-    let names = ["kept/tiles/rows-00000.csv: missing", "run the sweep again"];
-    refused_for(&place, "study --sweep kept --out report", &names);
-    assert!(!place.join("report").exists());
+fn a_sweep_becomes_one_file_whose_blocks_keep_their_names() {
+    let place = planned("sweep-export", 1);
+    let table = "id,alpha,p\nshelf,0.15,4\nstatue,0.2,5\n";
+    fs::write(place.join("named.csv"), table).unwrap();
+    let plan = "sweep plan --suite records --step-im 0.02";
+    answer(&place, &format!("{plan} --blocks named.csv --out named"));
+    let export = "sweep export named --format csv --out out.csv --json";
+    refused_for(&place, export, &["fragilities-00000.csv: missing"]);
+    let output = rocking(&place, "sweep run named").output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let found = json(&place, export);
+    answer(&place, "sweep merge named --out merged.csv");
+    let merged = fs::read_to_string(place.join("merged.csv")).unwrap();
+    let row = |id: &str| -> Vec<f64> {
+        let head = format!("{id},");
+        let own =
+            |line: &&str| line.starts_with(&head) && line.contains(",pga,1,");
+        let line = merged.lines().find(own).unwrap();
+        line.split(',').map(|c| c.parse().unwrap_or(f64::NAN)).collect()
+    };
+    for (k, id) in ["shelf", "statue"].into_iter().enumerate() {
+        let row = row(id);
+        assert_eq!(found["blocks"][k]["id"], id);
+        let median = found["blocks"][k]["median"].as_f64().unwrap();
+        // The median in g: that of PGA/(g tan alpha), times tan alpha.
+        assert!((median / (row[9] * libm::tan(row[1])) - 1.0).abs() < 1e-12);
+    }
+    let nrml = "sweep export named --format nrml --out -";
+    let text = answer(&place, nrml);
+    assert_eq!(text.matches("sweep over 4 records").count(), 1);
+    refused_for(&place, &format!("{nrml} --demand 0.4"), &["as planned"]);
+    for (table, names) in [
+        ("id,alpha,p\na,0.1,3\na,0.2,3\n", "twice.csv:3: a stands on line 2"),
+        ("id,alpha,p\na,0.1,3\nb,0.1,3\n", "b is the same block as a"),
+        ("alpha,p,sample\n0.1,3,x.txt\n", "twice.csv:2: a sample"),
+        ("alpha,p,colour\n0.1,3,red\n", "twice.csv:2"),
+        ("alpha,p,eta\n0.1,3,1.5\n", "twice.csv:2"),
+        ("alpha,p\n0.1,NaN\n", "twice.csv:2"),
+        ("alpha,p\n", "no block"),
+    ] {
+        fs::write(place.join("twice.csv"), table).unwrap();
+        let plan = format!("{plan} --blocks twice.csv --out twice");
+        refused_for(&place, &plan, &[names]);
+    }
 }
 
 #[test]
@@ -221,16 +256,16 @@ fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
         let pga_g = own["median_pga_g"].as_f64().unwrap();
         assert!((pga_g / median - libm::tan(0.15)).abs() < 1e-12);
         assert!(median > 1.0);
-        // Three errors, of which that of the surface is the least.
-        let of = |what: &str, key: &str| found[what][suite][key].as_f64();
-        let surface = of("surface", "median_rms").unwrap();
-        let records = of("records", "median_half").unwrap();
-        let recorded = of("recorded", "prob_max").unwrap();
+        // The error of the surface is the least of the three.
+        let of = |path: &str| own.pointer(path).unwrap().as_f64().unwrap();
+        let surface = of("/surface_to_analyses/median_relative/rms");
+        let records = of("/half_95_of_records/median_relative");
+        let recorded = of("/surface_to_recorded/probability/largest");
         assert!(surface < 0.02 && (0.05..0.15).contains(&records));
-        assert!(of("surface", "prob_max").unwrap() < recorded);
+        assert!(of("/surface_to_analyses/probability/largest") < recorded);
         assert!((0.05..0.2).contains(&recorded), "{recorded}");
-        assert_eq!(found["surface"][suite]["blocks"], 100);
-        assert_eq!(found["recorded"][suite]["blocks"], 15);
+        assert_eq!(own["surface_to_analyses"]["blocks"], 100);
+        assert_eq!(own["surface_to_recorded"]["blocks"], 15);
     }
     for (arguments, names) in [
         ("--alpha 0.7 --p 3", ["alpha 0.7", "0.05 to 0.6 rad"]),

@@ -61,6 +61,7 @@ const SYNTHESIS: Edges = &[
     ("near_fault", &["draws", "noise", "pair", "special"]),
     ("ordinary", &["draws", "noise", "pair", "special"]),
     ("pair", &["noise"]),
+    ("kind", &[]),
     ("noise", &["draws"]),
     ("draws", &[]),
     ("special", &[]),

@@ -16,6 +16,7 @@ use rocking::stop::{Stop, StopError};
 use signal_hook::consts::SIGABRT;
 use signal_hook::flag::register_conditional_shutdown;
 
+pub mod blocks;
 pub mod capacities;
 pub mod compare;
 pub mod completions;

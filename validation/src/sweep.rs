@@ -7,9 +7,9 @@
 //! the number of tasks, their order, or what was interrupted: a tile is
 //! written whole or not at all, and names the plan and its own sum.
 
-mod blocks;
 mod content;
 mod cost;
+mod export;
 mod merge;
 mod plan;
 mod tile;
@@ -20,14 +20,16 @@ use std::path::PathBuf;
 use rocking::block::BlockError;
 use rocking::ida::IdaError;
 use rocking::record::SuiteError;
+use rocking::statistics::lognormal::LognormalError;
+use rocking_exchange::Id;
 use thiserror::Error;
 
-pub use blocks::read_blocks;
 pub use content::{Content, Kind};
 pub use cost::Tile;
+pub use export::fragilities;
 pub use merge::merge;
 use plan::MOST_ANALYSES;
-pub use plan::{Levels, Plan, Planned, Wanted};
+pub use plan::{Given, Levels, Plan, Planned, Wanted};
 pub use tile::{State, left, run, state};
 
 use rocking_common::files::WriteError;
@@ -49,18 +51,43 @@ pub enum SweepError {
     /// A file that cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A table of blocks of another form.
-    #[error("{}:{line}: {found}; expected {expected}", path.display())]
-    Blocks {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: u64,
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: &'static str,
+    /// A block that comes again under another name.
+    #[error(
+        "{second} is the same block as {first}: expected each block, by its \
+         parameters and eta, once"
+    )]
+    Twice {
+        /// The first of them.
+        first: Id,
+        /// The second.
+        second: Id,
     },
+    /// A demand at which the plan has no capacities.
+    #[error("demand {found}: expected some of {expected}, as planned")]
+    Demand {
+        /// The demand.
+        found: f64,
+        /// The plan's.
+        expected: String,
+    },
+    /// A block without a fragility.
+    #[error(
+        "{id}: {reached} of {records} records reach the demand {demand}: \
+         expected all, or a demand that all of them reach"
+    )]
+    Censored {
+        /// The block.
+        id: Id,
+        /// Records that reach the demand.
+        reached: usize,
+        /// All records.
+        records: usize,
+        /// The demand.
+        demand: f64,
+    },
+    /// A fragility that is no distribution.
+    #[error(transparent)]
+    Lognormal(#[from] LognormalError),
     /// A plan of another form or of another program.
     #[error("{}: {found}; expected a plan of `rocking sweep plan`", path.display())]
     Plan {

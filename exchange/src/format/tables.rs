@@ -1,10 +1,10 @@
 //! Tables of parameters: for PACT, and for any program.
 
-use rocking::intensity::Intensity;
+use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::statistics::Lognormal;
 
 use super::ExchangeError;
-use crate::fragility::{BlockFragility, Id, unit};
+use crate::fragility::BlockFragility;
 use crate::table::{Table, number, optional};
 
 /// Median and dispersion as FEMA P-58's PACT is told them by hand.
@@ -38,9 +38,13 @@ impl Pact {
     /// ```
     #[must_use]
     pub fn of(intensity: Intensity, fragility: &Lognormal) -> Option<Self> {
+        let (demand, unit) = match intensity {
+            Intensity::Pga => ("PGA", IntensityMeasure::Pga.unit()),
+            Intensity::Pgv => ("PGV", IntensityMeasure::Pgv.unit()),
+        };
         (fragility.shift() == 0.0).then(|| Self {
-            demand: demand(intensity),
-            unit: unit(intensity),
+            demand,
+            unit,
             median: fragility.median(),
             dispersion: fragility.dispersion(),
         })
@@ -49,7 +53,6 @@ impl Pact {
 
 pub(super) fn pact(
     fragilities: &[BlockFragility],
-    limit_state: &Id,
 ) -> Result<String, ExchangeError> {
     let mut table = Table::new(&[
         "id",
@@ -61,58 +64,54 @@ pub(super) fn pact(
         "dispersion",
     ]);
     for one in fragilities {
-        let told = Pact::of(one.intensity, &one.fragility)
-            .ok_or_else(|| ExchangeError::Shifted { id: one.id.clone() })?;
-        table.row([
-            one.id.to_string(),
-            limit_state.to_string(),
-            told.demand.into(),
-            told.unit.into(),
-            "yes".into(),
-            number(told.median),
-            number(told.dispersion),
-        ]);
+        let id = &one.id;
+        let intensity =
+            one.im.dimensionless().ok_or_else(|| ExchangeError::Measure {
+                id: id.clone(),
+                format: "PACT",
+                im: one.im.to_string(),
+                expected: "pga or pgv",
+            })?;
+        for state in &one.limit_states {
+            let told = Pact::of(intensity, &state.fragility)
+                .ok_or_else(|| ExchangeError::Shifted { id: id.clone() })?;
+            table.row([
+                id.to_string(),
+                state.name.to_string(),
+                told.demand.into(),
+                told.unit.into(),
+                "yes".into(),
+                number(told.median),
+                number(told.dispersion),
+            ]);
+        }
     }
     Ok(table.finish())
 }
 
 /// All parameters, with units.
-pub(super) fn csv(fragilities: &[BlockFragility], limit_state: &Id) -> String {
-    let mut table = Table::new(&[
-        "id",
-        "alpha_rad",
-        "p_rad_s",
-        "eta",
-        "limit_state",
-        "intensity",
-        "unit",
-        "shift",
-        "median",
-        "dispersion",
-        "origin",
-    ]);
+pub(super) fn csv(fragilities: &[BlockFragility]) -> String {
+    let mut table = Table::headed(
+        "id,alpha_rad,p_rad_s,eta,limit_state,im,unit,shift,median,\
+         dispersion,origin",
+    );
     for one in fragilities {
-        let fragility = &one.fragility;
-        table.row([
-            one.id.to_string(),
-            number(one.block.slenderness_rad()),
-            number(one.block.frequency_rad_s()),
-            optional(one.eta),
-            limit_state.to_string(),
-            demand(one.intensity).into(),
-            unit(one.intensity).into(),
-            number(fragility.shift()),
-            number(fragility.median()),
-            number(fragility.dispersion()),
-            one.origin.clone(),
-        ]);
+        for state in &one.limit_states {
+            let fragility = &state.fragility;
+            table.row([
+                one.id.to_string(),
+                number(one.block.slenderness_rad()),
+                number(one.block.frequency_rad_s()),
+                optional(one.eta),
+                state.name.to_string(),
+                one.im.to_string(),
+                one.im.unit().into(),
+                number(fragility.shift()),
+                number(fragility.median()),
+                number(fragility.dispersion()),
+                one.origin.clone(),
+            ]);
+        }
     }
     table.finish()
-}
-
-fn demand(intensity: Intensity) -> &'static str {
-    match intensity {
-        Intensity::Pga => "PGA",
-        Intensity::Pgv => "PGV",
-    }
 }

@@ -6,7 +6,7 @@ use rocking::intensity::Intensity;
 use rocking::statistics::{Lognormal, normal};
 
 use super::*;
-use crate::fragility::unit_intensity;
+use crate::fragility::{LimitState, unit_intensity};
 
 /// A block whose fragility in its own PGA or PGV has a shift or none.
 fn one(intensity: Intensity, shift: f64) -> BlockFragility {
@@ -18,18 +18,21 @@ fn one(intensity: Intensity, shift: f64) -> BlockFragility {
         id: Id::of(&block).unwrap(),
         block,
         eta: Some(0.92),
-        intensity,
-        fragility: fitted.scaled(factor).unwrap(),
+        im: intensity.name().parse().unwrap(),
+        limit_states: vec![LimitState {
+            name: "overturning".parse().unwrap(),
+            fragility: fitted.scaled(factor).unwrap(),
+        }],
         origin: "86 capacities of \"A & B\"".into(),
     }
 }
 
-fn state() -> Id {
-    "overturning".parse().unwrap()
+fn law(intensity: Intensity, shift: f64) -> Lognormal {
+    one(intensity, shift).limit_states[0].fragility
 }
 
 fn nrml(intensity: Intensity, shift: f64) -> String {
-    Format::Nrml.texts(&[one(intensity, shift)], &state()).unwrap().main
+    Format::Nrml.texts(&[one(intensity, shift)]).unwrap().main
 }
 
 /// The number of an attribute.
@@ -86,7 +89,7 @@ fn intensities(fragility: &Lognormal) -> impl Iterator<Item = f64> {
 #[test]
 fn openquake_s_mean_and_deviation_are_of_the_intensity_not_its_logarithm() {
     let text = nrml(Intensity::Pga, 0.0);
-    let fragility = one(Intensity::Pga, 0.0).fragility;
+    let fragility = law(Intensity::Pga, 0.0);
     let (mut worst, mut wrong) = (0.0f64, 0.0f64);
     let taken_for_mean = text
         .replace(
@@ -129,7 +132,7 @@ fn a_shift_is_written_to_openquake_as_points_since_a_limit_only_cuts() {
         assert!(text.contains("format=\"discrete\""));
         let (xs, ps) = (element(&text, "imls"), element(&text, "poes"));
         let unit = if intensity == Intensity::Pgv { 100.0 } else { 1.0 };
-        let fragility = one(intensity, 1.0).fragility.scaled(unit).unwrap();
+        let fragility = law(intensity, 1.0).scaled(unit).unwrap();
         let mut worst = 0.0f64;
         let mut cut = 0.0f64;
         // The lognormal of the same median and 84 % quantile, cut.
@@ -170,14 +173,14 @@ fn names_are_those_that_every_reader_takes() {
 
 #[test]
 fn each_reader_has_its_own_unit_of_velocity() {
-    let median = one(Intensity::Pgv, 0.0).fragility.median();
+    let median = law(Intensity::Pgv, 0.0).median();
     let text = nrml(Intensity::Pgv, 0.0);
     let half = continuous(&text, 100.0 * median);
     assert!((half - 0.5).abs() < 1e-8, "{half}");
     assert!(text.contains("imt=\"PGV\""));
     let at = |format: Format| {
         let all = [one(Intensity::Pgv, 0.0)];
-        format.texts(&all, &state()).unwrap().main
+        format.texts(&all).unwrap().main
     };
     let (pelicun, pact) = (at(Format::Pelicun), at(Format::Pact));
     let metres = crate::table::number(median);
@@ -188,10 +191,8 @@ fn each_reader_has_its_own_unit_of_velocity() {
 #[test]
 fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
     let shifted = one(Intensity::Pga, 1.0);
-    let fragility = shifted.fragility;
-    let texts = Format::Pelicun
-        .texts(std::slice::from_ref(&shifted), &state())
-        .unwrap();
+    let fragility = shifted.limit_states[0].fragility;
+    let texts = Format::Pelicun.texts(std::slice::from_ref(&shifted)).unwrap();
     let row = texts.main.lines().nth(1).unwrap();
     let cells = crate::table::cells(row);
     assert_eq!(cells[2..7].join(" "), {
@@ -214,17 +215,18 @@ fn pelicun_takes_a_shift_as_a_polyline_from_nothing_to_certainty() {
     assert_eq!(damage["Description"], "overturning");
     // Points that pelicun takes for one are refused.
     let narrow = Lognormal::try_new(0.1, -16.0, 0.1).unwrap();
-    let narrow = BlockFragility { fragility: narrow, ..shifted };
-    let error = Format::Pelicun.texts(&[narrow], &state());
+    let mut shifted = shifted;
+    shifted.limit_states[0].fragility = narrow;
+    let error = Format::Pelicun.texts(&[shifted]);
     assert!(matches!(error, Err(ExchangeError::Narrow { .. })));
 }
 
 #[test]
 fn pact_is_refused_a_shift_and_csv_tells_all() {
     let shifted = [one(Intensity::Pga, 1.0)];
-    let error = Format::Pact.texts(&shifted, &state()).unwrap_err();
+    let error = Format::Pact.texts(&shifted).unwrap_err();
     assert!(matches!(error, ExchangeError::Shifted { .. }));
-    let csv = Format::Csv.texts(&shifted, &state()).unwrap().main;
+    let csv = Format::Csv.texts(&shifted).unwrap().main;
     let rows: Vec<Vec<String>> =
         csv.lines().map(crate::table::cells).collect();
     let cell = |name: &str| {
@@ -240,4 +242,119 @@ fn pact_is_refused_a_shift_and_csv_tells_all() {
 fn what_xml_would_read_as_its_own_is_escaped() {
     let text = nrml(Intensity::Pga, 0.0);
     assert!(text.contains("of &quot;A &amp; B&quot;</description>"));
+}
+
+/// A block with limit states at these medians above the shift 1 or none.
+fn several(shift: f64, states: &[(f64, f64)]) -> BlockFragility {
+    let states = states.iter().zip(["rocks", "leans", "falls"]);
+    let states = states.map(|((median, beta), name)| LimitState {
+        name: name.parse().unwrap(),
+        fragility: Lognormal::try_new(shift, libm::log(*median), *beta)
+            .unwrap(),
+    });
+    let limit_states = states.collect();
+    BlockFragility { limit_states, ..one(Intensity::Pga, 0.0) }
+}
+
+#[test]
+fn limit_states_stand_in_one_function_and_one_row() {
+    for shift in [0.0, 1.0] {
+        let block = several(shift, &[(0.4, 0.6), (0.9, 0.6), (1.6, 0.6)]);
+        let blocks = [block.clone()];
+        let text = Format::Nrml.texts(&blocks).unwrap().main;
+        assert!(text.contains("<limitStates>rocks leans falls</limit"));
+        for state in &block.limit_states {
+            let from = format!(" ls=\"{}\"", state.name);
+            let from = text.split(&from).nth(1).unwrap();
+            for im in intensities(&state.fragility) {
+                let read = if shift > 0.0 {
+                    let ps = from.split(['>', '<']).nth(1).unwrap();
+                    let xs = element(&text, "imls");
+                    interpolated(&xs, &numbers(ps, ' '), im)
+                } else {
+                    let ranges = text.split("<params").next().unwrap();
+                    continuous(&format!("{ranges}{from}"), im)
+                };
+                let error = (read - state.fragility.cdf(im)).abs();
+                assert!(error < TOLERANCE, "{} {im}: {error:e}", state.name);
+            }
+        }
+        let texts = Format::Pelicun.texts(&blocks).unwrap();
+        let rows: Vec<Vec<String>> =
+            texts.main.lines().map(crate::table::cells).collect();
+        assert_eq!((rows[0].len(), rows[1].len()), (18, 18));
+        let json: serde_json::Value =
+            serde_json::from_str(&texts.beside.unwrap().1).unwrap();
+        let states = &json[block.id.to_string()]["LimitStates"];
+        assert_eq!(states["LS3"]["DS3"]["Description"], "falls");
+    }
+}
+
+#[test]
+fn limit_states_that_cross_are_refused_where_the_reader_takes_differences() {
+    // At a score of ln(0.9)/0.1 both have the probability 0.147.
+    let block = several(1.0, &[(0.9, 0.7), (1.0, 0.8)]);
+    for format in [Format::Nrml, Format::Pelicun, Format::Pact] {
+        let error = format.texts(std::slice::from_ref(&block)).unwrap_err();
+        let words = error.to_string();
+        assert!(
+            words.contains("leans is more probable than rocks"),
+            "{words}"
+        );
+    }
+    assert!(Format::Csv.texts(&[block]).is_ok());
+    let backwards = several(1.0, &[(1.0, 0.7), (0.9, 0.7)]);
+    let error = Format::Nrml.texts(&[backwards]);
+    assert!(matches!(error, Err(ExchangeError::Crossing { .. })));
+    let mixed = [several(0.0, &[(1.0, 0.5)]), one(Intensity::Pga, 0.0)];
+    let error = Format::Nrml.texts(&mixed);
+    assert!(matches!(error, Err(ExchangeError::Mixed { .. })));
+    let none = several(1.0, &[]);
+    let error = Format::Csv.texts(&[none]);
+    assert!(matches!(error, Err(ExchangeError::NoState { .. })));
+}
+
+#[test]
+fn spectral_accelerations_go_where_the_reader_has_them() {
+    let with = |im: &str| {
+        let im = im.parse().unwrap();
+        [BlockFragility { im, ..one(Intensity::Pga, 0.0) }]
+    };
+    let texts = |format: Format, im| format.texts(&with(im));
+    let nrml = |im| texts(Format::Nrml, im).map(|texts| texts.main);
+    assert!(nrml("sa:1").unwrap().contains(" imt=\"SA(1.0)\""));
+    assert!(nrml("avgsa:0.5,1").unwrap().contains(" imt=\"AvgSA\""));
+    let pelicun = texts(Format::Pelicun, "sa:0.5").unwrap().main;
+    assert!(pelicun.contains(",Spectral Acceleration|0.5,g,0,1,lognormal,"));
+    for (format, im) in [
+        (Format::Nrml, "column:x"),
+        (Format::Nrml, "cav"),
+        (Format::Pelicun, "avgsa:0.5,1"),
+        (Format::Pact, "sa:1"),
+    ] {
+        let error = texts(format, im).unwrap_err();
+        assert!(error.to_string().contains(im), "{error}");
+    }
+    let csv = texts(Format::Csv, "avgsa:0.5,1").unwrap().main;
+    assert!(csv.contains(",\"avgsa:0.5,1\",g,"), "{csv}");
+}
+
+#[test]
+fn a_description_does_not_grow_with_the_number_of_blocks() {
+    let block = one(Intensity::Pga, 0.0);
+    let of = |k: usize, origin: String| BlockFragility {
+        id: format!("block_{k}").parse().unwrap(),
+        origin,
+        ..block.clone()
+    };
+    let length = |blocks: &[BlockFragility]| {
+        let text = Format::Nrml.texts(blocks).unwrap().main;
+        let from = text.split("<description>").nth(1).unwrap();
+        from.split('<').next().unwrap().len()
+    };
+    let same: Vec<_> = (0..1000).map(|k| of(k, "one sweep".into())).collect();
+    assert_eq!(length(&same), "one sweep".len());
+    let others: Vec<_> =
+        (0..1000).map(|k| of(k, format!("sample {k}"))).collect();
+    assert_eq!(length(&others), "sample 0; and 999 other origins".len());
 }

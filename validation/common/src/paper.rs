@@ -7,6 +7,7 @@ use std::fmt;
 use libm::sin;
 use rocking::block::Block;
 pub use rocking::intensity::Intensity;
+pub use rocking_synthesis::SuiteKind;
 use serde::{Deserialize, Serialize};
 
 use crate::words::named;
@@ -82,27 +83,6 @@ pub fn demands() -> Vec<f64> {
 #[must_use]
 pub fn demand_index(demand: f64) -> usize {
     ((demand * 200.0).round() as usize).saturating_sub(1)
-}
-
-named! {
-    /// One of the paper's two suites of records.
-    pub enum SuiteKind {
-        /// Far-field records without pulses.
-        Ordinary = "ordinary",
-        /// Near-fault records with a pulse in the velocity.
-        PulseType = "pulse-type",
-    }
-}
-
-impl SuiteKind {
-    /// Both of them.
-    pub const BOTH: [Self; 2] = [Self::Ordinary, Self::PulseType];
-}
-
-impl fmt::Display for SuiteKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
 }
 
 /// Arm of the intensity grid.

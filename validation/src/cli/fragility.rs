@@ -1,10 +1,10 @@
 //! `rocking fragility`: lognormal fragilities, one subcommand a source.
 
-mod blocks;
 mod choose;
 mod counts;
-mod export;
+pub(super) mod export;
 mod fit;
+pub mod source;
 mod surface;
 mod transform;
 

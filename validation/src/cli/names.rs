@@ -7,7 +7,7 @@ use rocking::integrator::{Model, Order, Overturning};
 use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
-use rocking_common::paper::{Arm, Intensity};
+use rocking_common::paper::{Arm, Intensity, SuiteKind};
 
 /// What each of some values is called, and what the help says of it, if
 /// anything.
@@ -85,6 +85,11 @@ pub fn fit_method() -> impl TypedValueParser<Value = FitMethod> {
     ];
     let all = FitMethod::all(QuantileType::default());
     named(all, FitMethod::name, help)
+}
+
+/// The embedded suites.
+pub fn suite() -> impl TypedValueParser<Value = SuiteKind> {
+    named(SuiteKind::BOTH, SuiteKind::name, [""; 2])
 }
 
 /// Arms of the study.

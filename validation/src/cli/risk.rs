@@ -240,7 +240,7 @@ fn of_sample(
             }
             let gravity = args.gravity.unwrap_or(STANDARD_GRAVITY_M_S2);
             let block = args.block.block(gravity)?;
-            file.holds_for(&block).map_err(at)?;
+            file.setting().holds_for(&block, Some(measure)).map_err(at)?;
             let model = file.setting().model.unwrap_or(Model::Nonlinear);
             per_unit * unit_intensity(measure, &block, model, gravity)
         }

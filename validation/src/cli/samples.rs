@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use rocking::block::Block;
 use rocking::integrator::Model;
+use rocking::intensity::IntensityMeasure;
 use rocking::statistics::{
     CensoredSample, ExtendedSample, Sample, SampleError,
 };
@@ -50,7 +51,7 @@ pub enum SampleFileError {
         /// What it says of itself.
         found: String,
         /// The measure given.
-        given: &'static str,
+        given: String,
     },
     /// A value below zero where ratios are formed.
     #[error("{}:{line}: found {found}: expected a number, not negative", path.display())]
@@ -97,8 +98,8 @@ pub enum SampleFileError {
     },
 }
 
-/// Largest relative difference between a block's frequency parameter and the
-/// sample's: the median moves by about as much.
+/// Largest relative difference between a parameter of a block and that of a
+/// sample: the median moves by about as much.
 const MOST_DIFFERENT: f64 = 0.01;
 
 /// How the line begins that says what the values are.
@@ -132,6 +133,48 @@ impl SampleSetting {
             eta: eta.and_then(number),
             model: model.parse().ok(),
         })
+    }
+
+    /// Whether capacities of this setting in a measure are those of a block.
+    /// Those in a dimensionless measure hold for another slenderness, which
+    /// is why it is used.
+    ///
+    /// # Errors
+    /// Words, where the setting has a parameter that differs.
+    pub fn holds_for(
+        &self,
+        block: &Block,
+        dimensionless: Option<Intensity>,
+    ) -> Result<(), String> {
+        let alpha = self.alpha_rad.filter(|_| dimensionless.is_none());
+        for (name, own, found, unit) in [
+            ("p", self.p_rad_s, block.frequency_rad_s(), "rad/s"),
+            ("alpha", alpha, block.slenderness_rad(), "rad"),
+        ] {
+            if let Some(own) = own
+                && !((found / own - 1.0).abs() <= MOST_DIFFERENT)
+            {
+                return Err(format!(
+                    "capacities at {name} {own} {unit}, the block has \
+                     {found}: expected those of its own {name}, to 1 %"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    /// What it states, to stand behind other words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let stated = [
+            ("alpha", self.alpha_rad, " rad"),
+            ("p", self.p_rad_s, " rad/s"),
+            ("eta", self.eta, ""),
+        ];
+        let stated = stated.into_iter().filter_map(|(name, value, unit)| {
+            value.map(|value| format!(", {name} {value}{unit}"))
+        });
+        stated.collect()
     }
 }
 
@@ -318,54 +361,40 @@ impl SampleFile {
         self.of.as_deref()
     }
 
-    /// The intensity measure that the file says its values are of; `None`
-    /// where it says nothing, or another one.
-    #[must_use]
-    pub fn intensity(&self) -> Option<Intensity> {
-        let measure = self.of()?.split(" at EDP ").next()?;
-        Intensity::ALL
-            .into_iter()
-            .find(|intensity| intensity.words() == measure)
-    }
-
-    /// The intensity measure, that of the file or the one given.
+    /// The intensity measure, that of the file or the one given; `None`
+    /// where neither says one.
     ///
     /// # Errors
     /// [`SampleFileError::Measure`] where they differ.
+    pub fn im(
+        &self,
+        given: Option<&IntensityMeasure>,
+    ) -> Result<Option<IntensityMeasure>, SampleFileError> {
+        let words = self.of().and_then(|of| of.split(" at EDP ").next());
+        let found = words.and_then(IntensityMeasure::of_words);
+        match (self.of(), given) {
+            (Some(of), Some(given)) if found.as_ref() != Some(given) => {
+                Err(SampleFileError::Measure {
+                    path: self.path.clone(),
+                    found: of.to_owned(),
+                    given: given.to_string(),
+                })
+            }
+            _ => Ok(found.or(given.cloned())),
+        }
+    }
+
+    /// The dimensionless intensity measure.
+    ///
+    /// # Errors
+    /// As [`im`](Self::im).
     pub fn measure(
         &self,
         given: Option<Intensity>,
     ) -> Result<Option<Intensity>, SampleFileError> {
-        let found = self.intensity();
-        match (self.of(), given) {
-            (Some(of), Some(given)) if found != Some(given) => {
-                Err(SampleFileError::Measure {
-                    path: self.path.clone(),
-                    found: of.to_owned(),
-                    given: given.name(),
-                })
-            }
-            _ => Ok(found.or(given)),
-        }
-    }
-
-    /// Whether capacities of this sample are those of a block; tells what is
-    /// wrong where they are not. Those of another slenderness are: the
-    /// dimensionless intensity is there to make them so.
-    ///
-    /// # Errors
-    /// Words, where the file says a frequency parameter that differs.
-    pub fn holds_for(&self, block: &Block) -> Result<(), String> {
-        let p = block.frequency_rad_s();
-        match self.setting.p_rad_s {
-            Some(own) if !((p / own - 1.0).abs() <= MOST_DIFFERENT) => {
-                Err(format!(
-                    "capacities at p {own} rad/s, the block has {p}: \
-                     expected those of its own p, to 1 %"
-                ))
-            }
-            _ => Ok(()),
-        }
+        let given = given.map(IntensityMeasure::from);
+        let found = self.im(given.as_ref())?;
+        Ok(found.and_then(|im| im.dimensionless()))
     }
 
     /// The block and model that the file says.

@@ -7,16 +7,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use clap::{Subcommand, ValueEnum};
+use clap::Subcommand;
+use rocking::intensity::Intensity;
 use rocking::stop::Stop;
-use serde_json::json;
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use serde::Serialize;
 use signal_hook::consts::{SIGINT, SIGTERM};
 
+use super::fragility::export::FileArgs;
 use super::reading::ReadArgs;
-use super::{Failure, SOFTWARE, note, print, print_json, say, until};
-use crate::sweep::{
-    self, Content, Levels, Planned, State, Wanted, read_blocks,
-};
+use super::show::show;
+use super::{Failure, SOFTWARE, blocks, names, note, print, say, until};
+use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 
@@ -33,6 +35,7 @@ use rocking_common::suites::remarks::Remarks;
     rocking sweep run sweep --task 3 --of 8\n  \
     rocking sweep status sweep\n  \
     rocking sweep merge sweep --out fragilities.csv\n  \
+    rocking sweep export sweep --format nrml --out blocks.xml\n  \
     rocking sweep slurm sweep > job.sh && sbatch job.sh")]
 pub struct Args {
     #[command(subcommand)]
@@ -45,6 +48,7 @@ enum Action {
     Run(RunArgs),
     Status(StatusArgs),
     Merge(MergeArgs),
+    Export(ExportArgs),
     Slurm(SlurmArgs),
     Design(surrogate::DesignArgs),
     Fit(surrogate::FitArgs),
@@ -53,7 +57,8 @@ enum Action {
 /// Writes a plan, packs the suite into its folder, and says what to expect.
 #[derive(clap::Args)]
 struct PlanArgs {
-    /// Table of blocks: alpha,p or width_m,height_m, and optionally eta.
+    /// Table of blocks: alpha,p or width_m,height_m, and where wanted id and
+    /// eta.
     #[arg(long, value_name = "FILE.csv")]
     blocks: PathBuf,
     /// Folder of records, index CSV, zip, or one record file.
@@ -123,8 +128,12 @@ struct MergeArgs {
     /// Folder of the plan.
     dir: PathBuf,
     /// What is merged.
-    #[arg(long, value_enum, default_value_t = Merged::Fragilities)]
-    what: Merged,
+    #[arg(
+        long,
+        value_parser = names::named(Content::ALL, Content::name, CONTENTS),
+        default_value = Content::Fragilities.name()
+    )]
+    what: Content,
     /// Where the table goes: CSV, or Parquet if it ends in .parquet and the
     /// program was built with `--features parquet`.
     #[arg(long, value_name = "FILE")]
@@ -142,15 +151,43 @@ struct SlurmArgs {
     tasks: Option<usize>,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Merged {
-    /// A row a block, intensity measure and demand.
-    Fragilities,
-    /// A row a block and record.
-    Capacities,
-    /// A row a level, and one for the refined end of a curve; for plans
-    /// with `--rows`.
-    Rows,
+/// Writes the fragilities of all blocks as one file for another program.
+#[derive(clap::Args)]
+struct ExportArgs {
+    /// Folder of the plan.
+    dir: PathBuf,
+    /// Intensity measure.
+    #[arg(
+        long,
+        value_parser = names::intensity(),
+        default_value = Intensity::Pga.name()
+    )]
+    im: Intensity,
+    /// Demands |theta|/alpha of the plan, one a limit state.
+    #[arg(long, value_name = "E", value_delimiter = ',', default_value = "1")]
+    demand: Vec<f64>,
+    #[command(flatten)]
+    file: FileArgs,
+}
+
+/// What the help says of the tables.
+const CONTENTS: [&str; 3] = [
+    "A row a block, intensity measure and demand",
+    "A row a block and record",
+    "A row a level, and one for the refined end of a curve; for plans with \
+     `--rows`",
+];
+
+/// How the tiles of a plan stand.
+#[derive(Serialize)]
+struct Standing {
+    plan: String,
+    tiles: usize,
+    done: usize,
+    missing: usize,
+    foreign: usize,
+    damaged: usize,
+    left_core_s: f64,
 }
 
 /// Runs the command.
@@ -163,6 +200,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Action::Run(args) => run_task(args),
         Action::Status(args) => status(args),
         Action::Merge(args) => merge(args),
+        Action::Export(args) => export(args),
         Action::Slurm(args) => slurm(args),
         Action::Design(args) => surrogate::design(args),
         Action::Fit(args) => surrogate::fit(args),
@@ -188,9 +226,23 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
             )));
         }
     }
-    let blocks = read_blocks(&args.blocks, args.eta)?;
-    let gravity = rocking::units::STANDARD_GRAVITY_M_S2;
-    let suite = read_suite(&args.suite, args.reading.options(gravity))?;
+    let rows = blocks::read(&args.blocks, STANDARD_GRAVITY_M_S2)?;
+    let given = |row: blocks::Row| match row.samples.as_slice() {
+        [] => Ok(Given {
+            id: row.id,
+            alpha_rad: row.block.slenderness_rad(),
+            p_rad_s: row.block.frequency_rad_s(),
+            eta: row.eta.unwrap_or(args.eta),
+        }),
+        _ => Err(Failure::input(format!(
+            "{}: a sample: expected none, since a sweep makes its own",
+            row.place
+        ))),
+    };
+    let blocks: Vec<Given> =
+        rows.into_iter().map(given).collect::<Result<_, _>>()?;
+    let options = args.reading.options(STANDARD_GRAVITY_M_S2);
+    let suite = read_suite(&args.suite, options)?;
     args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
     let wanted = Wanted {
         blocks: &blocks,
@@ -208,8 +260,10 @@ fn plan(args: &PlanArgs) -> Result<(), Failure> {
     let tiles = plan.tiles.len();
     let analyses: u64 = plan.tiles.iter().map(|tile| tile.analyses).sum();
     // Bytes of a row of capacities and of an analysis.
-    let mut bytes = blocks * records * (92 + 19 * plan.demands.len());
-    bytes += if plan.rows { 105 * analyses as usize } else { 0 };
+    let id: usize = plan.blocks.iter().map(|b| b.id.as_ref().len() + 1).sum();
+    let id = id / blocks;
+    let mut bytes = blocks * records * (92 + id + 19 * plan.demands.len());
+    bytes += if plan.rows { (105 + id) * analyses as usize } else { 0 };
     let set_aside = match suite.set_aside() {
         none if none.is_empty() => String::new(),
         some => format!("set aside: {some}\n"),
@@ -287,49 +341,38 @@ fn status(args: &StatusArgs) -> Result<(), Failure> {
         .map(|tile| sweep::state(&planned, tile))
         .collect();
     let count = |state: State| states.iter().filter(|s| **s == state).count();
-    let counts = [
-        ("done", count(State::Done)),
-        ("missing", count(State::Missing)),
-        ("foreign", count(State::Foreign)),
-        ("damaged", count(State::Damaged)),
-    ];
-    let core_s = states
+    let left_core_s = states
         .iter()
         .zip(&planned.plan.tiles)
         .filter(|(state, _)| **state != State::Done)
         .fold(0.0, |sum, (_, tile)| sum + tile.core_s);
-    if args.json {
-        let mut value = json!({
-            "plan": planned.hash,
-            "tiles": states.len(),
-            "left_core_s": core_s,
-        });
-        for (name, number) in counts {
-            value[name] = number.into();
-        }
-        return print_json(value);
-    }
-    let mut text = format!("{} tiles\n", states.len());
-    for (name, number) in counts {
-        text += &format!("{name:<8} {number}\n");
-    }
-    text += &format!("left     {:.2} core-hours, about\n", core_s / 3600.0);
-    print(&text)
+    let standing = Standing {
+        done: count(State::Done),
+        missing: count(State::Missing),
+        foreign: count(State::Foreign),
+        damaged: count(State::Damaged),
+        plan: planned.hash,
+        tiles: states.len(),
+        left_core_s,
+    };
+    show(args.json, &standing)
 }
 
 fn merge(args: &MergeArgs) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
-    let content = match args.what {
-        Merged::Fragilities => Content::Fragilities,
-        Merged::Capacities => Content::Capacities,
-        Merged::Rows => Content::Rows,
-    };
-    if !Content::kept(&planned.plan).contains(&content) {
+    if !Content::kept(&planned.plan).contains(&args.what) {
         return Err(Failure::input(
             "this plan keeps no rows; expected a plan of `--rows`",
         ));
     }
-    Ok(sweep::merge(&planned, content, &args.out)?)
+    Ok(sweep::merge(&planned, args.what, &args.out)?)
+}
+
+fn export(args: &ExportArgs) -> Result<(), Failure> {
+    let planned = Planned::read(&args.dir)?;
+    args.file.write(planned.files(), || {
+        Ok(sweep::fragilities(&planned, args.im, &args.demand)?)
+    })
 }
 
 fn slurm(args: &SlurmArgs) -> Result<(), Failure> {

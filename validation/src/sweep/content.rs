@@ -31,8 +31,8 @@ pub enum Kind {
 use Kind::{Count, Flag, Level, Text, Value};
 
 /// Columns that every table begins with.
-const BLOCK: [(&str, Kind); 3] =
-    [("alpha_rad", Level), ("p_rad_s", Level), ("eta", Level)];
+const BLOCK: [(&str, Kind); 4] =
+    [("id", Text), ("alpha_rad", Level), ("p_rad_s", Level), ("eta", Level)];
 
 const FRAGILITIES: [(&str, Kind); 12] = [
     ("im", Text),
@@ -68,6 +68,10 @@ const ROWS: [(&str, Kind); 6] = [
 ];
 
 impl Content {
+    /// All of them.
+    pub const ALL: [Self; 3] =
+        [Self::Fragilities, Self::Capacities, Self::Rows];
+
     /// What a sweep keeps.
     #[must_use]
     pub fn kept(plan: &Plan) -> Vec<Self> {

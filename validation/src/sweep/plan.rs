@@ -1,5 +1,6 @@
 //! The plan of a sweep: blocks, records, settings, tiles.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -9,17 +10,17 @@ use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
 use rocking::integrator::{Model, Overturning, uplift_threshold};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::Id;
 use serde::{Deserialize, Serialize};
 
 use super::SweepError;
-use super::blocks::Given;
 use super::cost::{self, Cost, Tile};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
 use rocking_common::suites::inputs::{read_suite, sha256_hex};
 
 /// Version of the plan's shape.
-const SCHEMA: u32 = 3;
+const SCHEMA: u32 = 4;
 
 /// Replicates of the bootstrap, and intensity measures: PGA and PGV.
 const REPLICATES: usize = 400;
@@ -46,12 +47,42 @@ pub struct Plan {
     pub replicates: usize,
     /// Whether every level is kept.
     pub rows: bool,
-    /// Alpha (rad), p (rad/s) and coefficient of restitution of each block.
-    pub blocks: Vec<[f64; 3]>,
+    /// The blocks.
+    pub blocks: Vec<Given>,
     /// Study components: name and SHA-256 of the packed file.
     pub records: Vec<(String, String)>,
     /// The tiles, in the order of the blocks, with what they cost.
     pub tiles: Vec<Tile>,
+}
+
+/// A block of a plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Given {
+    /// Its name.
+    pub id: Id,
+    /// Slenderness angle.
+    pub alpha_rad: f64,
+    /// Frequency parameter.
+    pub p_rad_s: f64,
+    /// Coefficient of restitution.
+    pub eta: f64,
+}
+
+impl Given {
+    /// The block.
+    ///
+    /// # Errors
+    /// [`SweepError::Block`] for a block out of range.
+    pub fn block(&self) -> Result<Block, SweepError> {
+        Ok(Block::try_new(self.alpha_rad, self.p_rad_s)?)
+    }
+
+    /// The parameters as the tables have them.
+    #[must_use]
+    pub fn cells(&self) -> [String; 3] {
+        [self.alpha_rad, self.p_rad_s, self.eta].map(|x| x.to_string())
+    }
 }
 
 /// Steps in which the levels of a curve rise.
@@ -114,6 +145,7 @@ impl Plan {
     /// Writes a plan and packs the suite into its folder.
     ///
     /// # Errors
+    /// [`SweepError::Twice`] for a block that comes again;
     /// [`SweepError::OtherPlan`] where the folder has another plan already;
     /// [`SweepError::Work`] for more than 1e12 analyses;
     /// [`SweepError`] where a record cannot be packed or a file cannot be
@@ -123,6 +155,13 @@ impl Plan {
         folder: &Path,
         software: &str,
     ) -> Result<Planned, SweepError> {
+        let mut ids = BTreeMap::new();
+        for one in wanted.blocks {
+            if let Some(first) = ids.insert(one.cells(), &one.id) {
+                let (first, second) = (first.clone(), one.id.clone());
+                return Err(SweepError::Twice { first, second });
+            }
+        }
         let rows: Vec<export::Row<'_>> = export::members(wanted.suite, None)
             .into_iter()
             .filter(|row| row.study_component)
@@ -136,11 +175,10 @@ impl Plan {
             .blocks
             .iter()
             .map(|given| {
-                let p = given.block.frequency_rad_s();
-                let step_im = wanted.levels.step_im(&given.block);
-                Cost::of(p, &motions, step_im, fits)
+                let step_im = wanted.levels.step_im(&given.block()?);
+                Ok(Cost::of(given.p_rad_s, &motions, step_im, fits))
             })
-            .collect();
+            .collect::<Result<_, SweepError>>()?;
         let records = files
             .iter()
             .filter(|(path, _)| path.extension().is_some_and(|e| e == "at2"))
@@ -149,9 +187,6 @@ impl Plan {
                 (row.motion.name().to_owned(), sha256_hex(text))
             })
             .collect();
-        let one = |g: &Given| {
-            [g.block.slenderness_rad(), g.block.frequency_rad_s(), g.eta]
-        };
         let plan = Self {
             schema: SCHEMA,
             software: software.into(),
@@ -159,7 +194,7 @@ impl Plan {
             demands: wanted.demands.clone(),
             replicates: REPLICATES,
             rows: wanted.rows,
-            blocks: wanted.blocks.iter().map(one).collect(),
+            blocks: wanted.blocks.to_vec(),
             records,
             tiles: cost::tiles(&costs, 60.0 * wanted.tile_minutes),
         };
@@ -222,7 +257,7 @@ impl Plan {
 
     /// The blocks of a tile.
     #[must_use]
-    pub fn blocks_of(&self, tile: usize) -> &[[f64; 3]] {
+    pub fn blocks_of(&self, tile: usize) -> &[Given] {
         let first: usize =
             self.tiles[..tile].iter().map(|tile| tile.blocks).sum();
         &self.blocks[first..first + self.tiles[tile].blocks]
@@ -240,13 +275,12 @@ impl Plan {
     ///
     /// # Errors
     /// [`SweepError::Block`] for a block out of range.
-    pub fn analysis(&self, block: [f64; 3]) -> Result<Analysis, SweepError> {
-        let [alpha, p, eta] = block;
-        let restitution = Restitution::constant(eta)?;
+    pub fn analysis(&self, given: &Given) -> Result<Analysis, SweepError> {
+        let restitution = Restitution::constant(given.eta)?;
         Ok(Analysis {
             grid: self.levels.grid(),
             refine: Some(REFINEMENT),
-            ..Analysis::paper(Block::try_new(alpha, p)?, restitution)
+            ..Analysis::paper(given.block()?, restitution)
         })
     }
 }

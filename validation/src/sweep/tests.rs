@@ -1,11 +1,9 @@
 use std::fs;
 use std::path::Path;
 
-use rocking::block::Block;
 use rocking::record::ReadOptions;
 use rocking::stop::{Stop, StopError};
 
-use super::blocks::Given;
 use super::*;
 use rocking_common::suites::inputs::{read_suite, sha256_hex};
 
@@ -31,8 +29,11 @@ fn suite(folder: &Path) -> rocking::record::Suite {
 fn plan(folder: &Path, tile_minutes: f64) -> Planned {
     let blocks: Vec<Given> = [0.08, 0.1, 0.12, 0.15, 0.2, 0.22, 0.25]
         .into_iter()
-        .map(|alpha| Given {
-            block: Block::try_new(alpha, 3.0).unwrap(),
+        .enumerate()
+        .map(|(k, alpha_rad)| Given {
+            id: format!("block_{k}").parse().unwrap(),
+            alpha_rad,
+            p_rad_s: 3.0,
             eta: 0.92,
         })
         .collect();
@@ -143,30 +144,4 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     fs::write(&record, bytes).unwrap();
     let error = run(&planned, (0, 1), &|_| ()).unwrap_err();
     assert!(error.to_string().contains("b.at2"), "{error}");
-}
-
-#[test]
-fn tables_of_blocks_are_refused_with_their_line() {
-    let place = tempfile::tempdir().unwrap();
-    let path = place.path().join("blocks.csv");
-    let read = |text: &str| {
-        fs::write(&path, text).unwrap();
-        read_blocks(&path, 0.92)
-    };
-    let blocks = read("alpha,p,eta\n0.1,3,0.9\n0.2,4,1\n").unwrap();
-    assert_eq!((blocks.len(), blocks[0].eta), (2, 0.9));
-    let blocks = read("width_m, height_m\n0.4, 2\n").unwrap();
-    // tan(alpha) = 0.2, p = sqrt(3 g/(2 sqrt(4.16))).
-    assert!((blocks[0].block.slenderness_rad() - 0.197_395_56).abs() < 1e-8);
-    for (text, words) in [
-        ("alpha,p\n0.1,3\n0.1,x\n", "blocks.csv:3: \"x\""),
-        ("alpha,p\n0.1,NaN\n", "blocks.csv:2"),
-        ("alpha,p,colour\n0.1,3,red\n", "column \"colour\""),
-        ("alpha,height_m\n0.1,3\n", "blocks.csv:1"),
-        ("alpha,p,eta\n0.1,3,1.5\n", "blocks.csv:2"),
-        ("alpha,p\n", "no block"),
-    ] {
-        let error = read(text).unwrap_err().to_string();
-        assert!(error.contains(words), "{error}");
-    }
 }

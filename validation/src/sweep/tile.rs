@@ -13,7 +13,7 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::SweepError;
 use super::content::Content;
-use super::plan::{Plan, Planned};
+use super::plan::{Given, Plan, Planned};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::Table;
@@ -116,7 +116,7 @@ pub fn run(
         let blocks = plan.blocks_of(tile);
         let analyses = blocks
             .iter()
-            .map(|block| plan.analysis(*block))
+            .map(|block| plan.analysis(block))
             .collect::<Result<Vec<_>, _>>()?;
         let found = curves(&records, &analyses, &Batch::default())?;
         for content in Content::kept(plan) {
@@ -125,7 +125,7 @@ pub fn run(
                 columns.iter().map(|(name, _)| name.as_str()).collect();
             let mut table = Table::new(&header);
             for (block, curves) in blocks.iter().zip(&found) {
-                fill(&mut table, plan, content, *block, curves)?;
+                fill(&mut table, plan, content, block, curves)?;
             }
             let body = table.finish();
             let text = footer(&planned.hash, tile, &body);
@@ -157,10 +157,11 @@ fn fill(
     table: &mut Table,
     plan: &Plan,
     content: Content,
-    block: [f64; 3],
+    block: &Given,
     curves: &[IdaCurve],
 ) -> Result<(), SweepError> {
-    let name = block.map(|x| x.to_string());
+    let parameters = block.cells();
+    let name = [&[block.id.to_string()], &parameters[..]].concat();
     match content {
         Content::Rows => {
             for curve in curves {
@@ -184,7 +185,7 @@ fn fill(
             for curve in curves {
                 let first =
                     curve.overturning.map_or(f64::INFINITY, |o| o.im());
-                let numbers = [curve.velocity_factor(block[1]), first];
+                let numbers = [curve.velocity_factor(block.p_rad_s), first];
                 let found = capacities(plan, curve)?;
                 let counts = [curve.analyses, unresolved(curve) as u64];
                 let cells = name
@@ -202,8 +203,10 @@ fn fill(
                 .iter()
                 .map(|curve| capacities(plan, curve))
                 .collect::<Result<Vec<_>, _>>()?;
-            let factors: Vec<f64> =
-                curves.iter().map(|c| c.velocity_factor(block[1])).collect();
+            let factors: Vec<f64> = curves
+                .iter()
+                .map(|curve| curve.velocity_factor(block.p_rad_s))
+                .collect();
             let open: usize = curves.iter().map(unresolved).sum();
             for (im, factors) in [
                 (Intensity::Pga, vec![1.0; curves.len()]),
@@ -215,7 +218,8 @@ fn fill(
                         .zip(&factors)
                         .map(|(own, factor)| own[k] * factor)
                         .collect();
-                    let numbers = fragility(plan, &name, &sample, &factors);
+                    let numbers =
+                        fragility(plan, &parameters, &sample, &factors);
                     let cells = name
                         .iter()
                         .cloned()

@@ -45,7 +45,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Reads a table of counts.
-fn read(path: &Path) -> Result<Vec<Stripe>, Failure> {
+pub(super) fn read(path: &Path) -> Result<Vec<Stripe>, Failure> {
     let place = path.display();
     let refuse = |e: csv::Error| Failure::input(format!("{place}: {e}"));
     let opened = Opened::open(path);

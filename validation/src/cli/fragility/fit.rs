@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::capacity::InversionRule;
+use rocking::intensity::IntensityMeasure;
 use rocking::procedures::fit::Band;
 use rocking::procedures::{
     Draws, FitOptions, FragilityFit, LevelFit, Shift, fit_levels, fit_sample,
@@ -12,13 +13,13 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 use serde::Serialize;
 
+use super::source;
 use crate::cli::capacities::{Levels, ida};
 use crate::cli::names;
 use crate::cli::samples::SampleFile;
 use crate::cli::show::show;
 use crate::cli::{Failure, with_threads};
 use rocking_common::files::Outputs;
-use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, number, optional};
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
@@ -50,8 +51,8 @@ pub(super) struct Args {
     point: Option<InversionRule>,
     /// Intensity measure of --ida [default: pga], or of a sample that does
     /// not say it.
-    #[arg(long, value_parser = names::intensity())]
-    im: Option<Intensity>,
+    #[arg(long, value_name = "MEASURE")]
+    im: Option<IntensityMeasure>,
     #[command(flatten)]
     fit: FitArgs,
     /// Bootstrap samples for intervals.
@@ -166,7 +167,7 @@ fn of_sample(
     let mut outputs = Outputs::of(vec![path.to_owned()]);
     let table = outputs.open_some(args.band_csv.as_ref())?;
     let file = SampleFile::read(path)?;
-    let unit = unit(&file, args.im)?;
+    let unit = unit(&file, args.im.as_ref())?;
     let sample = file.censored()?;
     let found = with_threads(args.threads, || fit_sample(&sample, options))?;
     let fit = found
@@ -187,7 +188,7 @@ fn of_levels(
     path: &Path,
     options: &FitOptions,
 ) -> Result<(), Failure> {
-    let measure = args.im.unwrap_or(Intensity::Pga);
+    let measure = source::in_table(args.im.as_ref())?;
     let curves = ida::read(path, measure)?.1.into_curves();
     let rule = args.point.unwrap_or(InversionRule::Median);
     let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
@@ -202,11 +203,11 @@ fn of_levels(
 /// The unit of a sample's values in words.
 fn unit(
     file: &SampleFile,
-    given: Option<Intensity>,
+    given: Option<&IntensityMeasure>,
 ) -> Result<String, Failure> {
     let of = file.of().and_then(|of| of.split(" at EDP ").next());
-    Ok(match (file.measure(given)?, of) {
-        (Some(measure), _) => measure.words().to_owned(),
+    Ok(match (file.im(given)?, of) {
+        (Some(measure), _) => measure.words(),
         (None, Some(of)) => of.to_owned(),
         (None, None) => "that of the sample".to_owned(),
     })

@@ -1,0 +1,98 @@
+//! The table of blocks: CSV, one row a block, the same for all commands.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use rocking::block::{Block, Restitution};
+use rocking_exchange::Id;
+use serde::Deserialize;
+
+use super::Failure;
+use super::samples::Opened;
+
+/// The columns that a table of blocks has.
+const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
+                        height_m, and where wanted id, eta and sample";
+
+/// The cells of a row; an empty one is none.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Cells {
+    id: Option<Id>,
+    alpha: Option<f64>,
+    p: Option<f64>,
+    width_m: Option<f64>,
+    height_m: Option<f64>,
+    eta: Option<f64>,
+    sample: Option<String>,
+}
+
+/// A row of the table.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// File and line.
+    pub place: String,
+    /// The name, made of alpha and p where none is given.
+    pub id: Id,
+    /// The block.
+    pub block: Block,
+    /// Coefficient of restitution.
+    pub eta: Option<f64>,
+    /// Its own sample files beside the table, one a limit state.
+    pub samples: Vec<PathBuf>,
+}
+
+/// Reads a table with the columns `alpha,p` (rad, rad/s) or
+/// `width_m,height_m`, and where wanted `id`, `eta`, and `sample` with files
+/// separated by `;`.
+///
+/// # Errors
+/// [`Failure`] with the line for another column, a cell of another form, a
+/// block out of range, a name that comes again, and no row at all.
+pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
+    let place = path.display();
+    let broken = |e: csv::Error| Failure::input(format!("{place}: {e}"));
+    let file = Opened::open(path)
+        .map_err(|e| Failure::input(format!("cannot read {place}: {e}")))?;
+    let mut reader =
+        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let header = reader.headers().map_err(broken)?.clone();
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut rows: Vec<Row> = Vec::new();
+    let mut ids = BTreeMap::new();
+    for record in reader.records() {
+        let record = record.map_err(broken)?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let place = format!("{place}:{line}");
+        let at = |what: String| Failure::input(format!("{place}: {what}"));
+        let cells: Cells = record
+            .deserialize(Some(&header))
+            .map_err(|e| at(format!("{e}: expected {EXPECTED}")))?;
+        let block = match (cells.alpha, cells.p, cells.width_m, cells.height_m)
+        {
+            (Some(alpha), Some(p), None, None) => Block::try_new(alpha, p),
+            (None, None, Some(width_m), Some(height_m)) => {
+                Block::from_dimensions(width_m, height_m, gravity_m_s2)
+            }
+            _ => return Err(at(format!("expected {EXPECTED}"))),
+        };
+        let block = block.map_err(|e| at(e.to_string()))?;
+        if let Some(eta) = cells.eta {
+            Restitution::constant(eta).map_err(|e| at(e.to_string()))?;
+        }
+        let id = cells.id.map_or_else(|| Id::of(&block), Ok).map_err(at)?;
+        if let Some(before) = ids.insert(id.clone(), line) {
+            return Err(at(format!(
+                "{id} stands on line {before} too: expected an id of its own"
+            )));
+        }
+        let samples = cells.sample.map_or(Vec::new(), |names| {
+            names.split(';').map(|name| folder.join(name.trim())).collect()
+        });
+        rows.push(Row { place, id, block, eta: cells.eta, samples });
+    }
+    if rows.is_empty() {
+        return Err(Failure::input(format!("{place}: no block")));
+    }
+    Ok(rows)
+}

@@ -1,0 +1,457 @@
+//! Where the fragilities of blocks come from: samples, an IDA, counts, or the
+//! fitted surface. `fragility export` and `risk` take the same.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use rocking::block::Block;
+use rocking::capacity::InversionRule;
+use rocking::integrator::Model;
+use rocking::intensity::{Intensity, IntensityMeasure};
+use rocking::procedures::{
+    FitOptions, Shift, capacities, fit_sample, fit_stripes,
+};
+use rocking::statistics::lognormal::Stripe;
+use rocking::statistics::{CensoredSample, Lognormal};
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::{
+    BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
+};
+use rocking_surrogate::{ORIGIN, RESTITUTION, Surrogate};
+
+use super::counts;
+use crate::cli::Failure;
+use crate::cli::blocks::{self, Row};
+use crate::cli::capacities::{Levels, ida};
+use crate::cli::names;
+use crate::cli::samples::{SampleFile, SampleSetting};
+use crate::cli::scene::BlockArgs;
+use rocking_common::paper::SuiteKind;
+
+/// Where fragilities come from, and of which blocks they are.
+#[derive(clap::Args)]
+pub struct SourceArgs {
+    /// Sample of capacities; again for each limit state, in the order of
+    /// rising damage.
+    #[arg(long, value_name = "FILE")]
+    sample: Vec<PathBuf>,
+    /// Table of `rocking ida`, with a limit state at each level of --at.
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "at",
+        conflicts_with = "sample"
+    )]
+    ida: Option<PathBuf>,
+    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
+    #[arg(long, value_name = "LEVELS", requires = "ida")]
+    at: Option<Levels>,
+    /// Which capacity is made of several crossings [default: median].
+    #[arg(long, value_parser = names::crossing(), requires = "ida")]
+    point: Option<InversionRule>,
+    /// Table of counts, columns im,exceeded,n; again for each limit state.
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        requires = "im",
+        conflicts_with_all = ["sample", "ida"]
+    )]
+    counts: Vec<PathBuf>,
+    /// Overturning under an embedded suite by the fitted surface, without an
+    /// analysis.
+    #[arg(
+        long,
+        value_name = "SUITE",
+        value_parser = names::suite(),
+        conflicts_with_all = ["sample", "ida", "counts", "im"]
+    )]
+    surrogate: Option<SuiteKind>,
+    /// Intensity measure of --ida [default: pga], of --counts, or of a sample
+    /// that does not say it.
+    #[arg(long, value_name = "MEASURE")]
+    im: Option<IntensityMeasure>,
+    /// Table of blocks: alpha,p or width_m,height_m, and where wanted id,
+    /// eta and sample (files beside the table separated by `;`, in place of
+    /// --sample).
+    #[arg(
+        long,
+        value_name = "BLOCKS.csv",
+        conflicts_with_all = ["alpha", "p", "width_m", "height_m", "id"]
+    )]
+    blocks: Option<PathBuf>,
+    #[command(flatten)]
+    block: BlockArgs,
+    /// Name of the block [default: from alpha and p].
+    #[arg(long, value_name = "NAME")]
+    id: Option<Id>,
+    /// Name of the limit state; again for each [default: exceeded, of several
+    /// LS1, LS2, ..].
+    #[arg(long, value_name = "NAME")]
+    limit_state: Vec<Id>,
+    /// Gravity in m/s2.
+    #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
+    gravity: f64,
+}
+
+/// What is fitted, or the surface that was.
+enum Values {
+    Sample(CensoredSample),
+    Counts(Vec<Stripe>),
+    Surface(rocking_surrogate::Model),
+}
+
+/// Where one limit state comes from.
+struct Level {
+    /// The file, or what stands for it.
+    place: String,
+    im: IntensityMeasure,
+    setting: SampleSetting,
+    values: Values,
+    origin: String,
+}
+
+/// The files of [`SourceArgs`], read.
+pub struct Source {
+    /// Of the flags.
+    levels: Vec<Level>,
+    /// Of the table of blocks.
+    samples: BTreeMap<PathBuf, Level>,
+    rows: Vec<Row>,
+    names: Vec<Id>,
+    gravity_m_s2: f64,
+}
+
+impl SourceArgs {
+    /// Whether a source is given.
+    #[must_use]
+    pub fn is_given(&self) -> bool {
+        !self.inputs().is_empty() || self.surrogate.is_some()
+    }
+
+    /// The files that flags name.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let many = self.sample.iter().chain(&self.counts);
+        many.chain(&self.ida).chain(&self.blocks).cloned().collect()
+    }
+
+    /// Reads every file, each once.
+    ///
+    /// # Errors
+    /// [`Failure`] for a file or a block that is refused.
+    pub fn open(&self) -> Result<Source, Failure> {
+        let gravity_m_s2 = self.gravity;
+        if !(gravity_m_s2 > 0.0 && gravity_m_s2.is_finite()) {
+            return Err(Failure::input(format!(
+                "--gravity {gravity_m_s2}: expected a positive number"
+            )));
+        }
+        let rows = match (&self.blocks, self.block.given(), &self.id) {
+            (Some(path), ..) => blocks::read(path, gravity_m_s2)?,
+            (None, None, None) => Vec::new(),
+            (None, ..) => {
+                let block = self.block.block(gravity_m_s2)?;
+                let id = self.id.clone().map_or_else(|| Id::of(&block), Ok);
+                let id = id.map_err(Failure::input)?;
+                let (place, samples) = (id.to_string(), Vec::new());
+                vec![Row { place, id, block, eta: None, samples }]
+            }
+        };
+        let mut samples = BTreeMap::new();
+        for path in rows.iter().flat_map(|row| &row.samples) {
+            if !samples.contains_key(path) {
+                samples.insert(path.clone(), self.sample(path)?);
+            }
+        }
+        let (levels, names) = (self.levels()?, self.limit_state.clone());
+        Ok(Source { levels, samples, rows, names, gravity_m_s2 })
+    }
+
+    fn levels(&self) -> Result<Vec<Level>, Failure> {
+        if let Some(path) = &self.ida {
+            return self.ida(path);
+        }
+        let samples = self.sample.iter().map(|path| self.sample(path));
+        let counts = self.counts.iter().map(|path| self.counts(path));
+        let surface = self.surrogate.map(surface);
+        samples.chain(counts).chain(surface).collect()
+    }
+
+    fn sample(&self, path: &Path) -> Result<Level, Failure> {
+        let file = SampleFile::read(path)?;
+        let place = path.display().to_string();
+        let setting = file.setting();
+        let n = file.values().len();
+        let Some(im) = file.im(self.im.as_ref())? else {
+            return Err(Failure::input(match file.of() {
+                Some(of) => format!(
+                    "{place}: a sample of {of}: expected an intensity measure"
+                ),
+                None => format!(
+                    "{place}: it does not say its measure: expected --im"
+                ),
+            }));
+        };
+        let mut origin = match (file.of(), im.dimensionless()) {
+            (Some(of), _) => format!("{n} capacities, {of}"),
+            (None, Some(intensity)) => unstated_origin(n, intensity),
+            (None, None) => format!(
+                "{n} capacities in {}, response level not stated",
+                im.words()
+            ),
+        };
+        origin += &setting.words();
+        let values = Values::Sample(file.censored()?);
+        Ok(Level { place, im, setting, values, origin })
+    }
+
+    fn ida(&self, path: &Path) -> Result<Vec<Level>, Failure> {
+        let place = path.display().to_string();
+        let intensity = in_table(self.im.as_ref())?;
+        let im = IntensityMeasure::from(intensity);
+        let (table, curves) = ida::read(path, intensity)?;
+        let setting = SampleSetting {
+            alpha_rad: table.alpha_rad(),
+            p_rad_s: Some(table.setting.p_rad_s),
+            eta: Some(table.setting.eta),
+            model: Some(table.setting.model),
+        };
+        let rule = self.point.unwrap_or(InversionRule::Median);
+        let curves = curves.into_curves();
+        let at = self.at.as_ref().map_or(&[][..], |levels| &levels.0);
+        let words: Vec<String> = at.iter().map(f64::to_string).collect();
+        let origin = format!(
+            "{} capacities, {} at EDP {}, {rule} crossing{}",
+            curves.len(),
+            im.words(),
+            words.join(" and "),
+            setting.words(),
+        );
+        let level = |&edp: &f64| {
+            let values = capacities::sample(&curves, edp, rule);
+            let values =
+                values.map_err(|e| Failure::input(format!("{place}: {e}")))?;
+            Ok(Level {
+                place: place.clone(),
+                im: im.clone(),
+                setting,
+                values: Values::Sample(values),
+                origin: origin.clone(),
+            })
+        };
+        at.iter().map(level).collect()
+    }
+
+    fn counts(&self, path: &Path) -> Result<Level, Failure> {
+        let stripes = counts::read(path)?;
+        let im = self.im.clone().unwrap_or(IntensityMeasure::Pga);
+        let origin = format!(
+            "counts of exceedance at {} intensities, {}",
+            stripes.len(),
+            im.words()
+        );
+        Ok(Level {
+            place: path.display().to_string(),
+            im,
+            setting: SampleSetting::default(),
+            values: Values::Counts(stripes),
+            origin,
+        })
+    }
+}
+
+/// The measure that is asked of a table of `rocking ida`, PGA where none is.
+///
+/// # Errors
+/// [`Failure`] for a measure that no table holds.
+pub(super) fn in_table(
+    im: Option<&IntensityMeasure>,
+) -> Result<Intensity, Failure> {
+    let im = im.unwrap_or(&IntensityMeasure::Pga);
+    im.dimensionless().ok_or_else(|| {
+        Failure::input(format!(
+            "--im {im}: a table of `rocking ida` holds pga and pgv: expected \
+             one of them, or --sample with a file of `rocking capacities \
+             --im {im} --suite`"
+        ))
+    })
+}
+
+/// The surface of a suite.
+fn surface(suite: SuiteKind) -> Result<Level, Failure> {
+    let models = Surrogate::embedded()?.models.into_iter();
+    let mut own = models.filter(|(model, _)| model.suite == suite);
+    let (model, _) = own.next().ok_or_else(|| Failure::input(suite))?;
+    let setting = SampleSetting {
+        eta: Some(RESTITUTION),
+        model: Some(Model::Nonlinear),
+        ..SampleSetting::default()
+    };
+    Ok(Level {
+        place: "--surrogate".to_owned(),
+        im: IntensityMeasure::Pga,
+        setting,
+        values: Values::Surface(model),
+        origin: format!("{ORIGIN}, {suite} suite"),
+    })
+}
+
+impl Level {
+    /// The fit in the unit of the values.
+    fn fit(
+        &self,
+        options: &FitOptions,
+        block: Option<&Block>,
+    ) -> Result<Lognormal, Failure> {
+        let at = |e: &dyn std::fmt::Display| {
+            Failure::input(format!("{}: {e}", self.place))
+        };
+        let found = match (&self.values, options.shift, block) {
+            (Values::Sample(sample), ..) => {
+                fit_sample(sample, options).map(|found| found.fitted)
+            }
+            (Values::Counts(stripes), Shift::Given(shift), _) => {
+                fit_stripes(stripes, shift).map(|found| found.fitted)
+            }
+            (Values::Counts(_), shift, _) => {
+                let flag = format!("--shift {shift}: expected a number");
+                return Err(at(&flag));
+            }
+            (Values::Surface(model), _, Some(block))
+                if *options == FitOptions::default() =>
+            {
+                let (alpha, p) =
+                    (block.slenderness_rad(), block.frequency_rad_s());
+                return model.at(alpha, p).map_err(|e| at(&e));
+            }
+            (Values::Surface(_), ..) => {
+                return Err(at(&"expected a block and no flag of a fit"));
+            }
+        };
+        found.map_err(|e| at(&e))
+    }
+
+    /// The number of units of the block's own intensity measure in one of
+    /// the values'.
+    fn unit(&self, row: &Row, gravity_m_s2: f64) -> Result<f64, Failure> {
+        let at = |what: String| {
+            Failure::input(format!("{}: {}: {what}", row.place, self.place))
+        };
+        let setting = &self.setting;
+        let intensity = self.im.dimensionless();
+        setting.holds_for(&row.block, intensity).map_err(at)?;
+        if let (Some(own), Some(eta)) = (setting.eta, row.eta)
+            && own != eta
+        {
+            return Err(at(format!(
+                "capacities at eta {own}, the block has {eta}: expected the \
+                 same"
+            )));
+        }
+        let model = setting.model.unwrap_or(Model::Nonlinear);
+        Ok(intensity.map_or(1.0, |intensity| {
+            unit_intensity(intensity, &row.block, model, gravity_m_s2)
+        }))
+    }
+}
+
+impl Source {
+    /// The files that the table of blocks names.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        self.samples.keys().cloned().collect()
+    }
+
+    /// The fits of the flags' own files in the unit of their values, one a
+    /// limit state, without a block.
+    ///
+    /// # Errors
+    /// [`Failure`] for values that make no fit.
+    pub fn fits(
+        &self,
+        options: &FitOptions,
+    ) -> Result<Vec<LimitState>, Failure> {
+        let laws = self.levels.iter().map(|level| level.fit(options, None));
+        self.named(laws.collect::<Result<_, _>>()?)
+    }
+
+    /// The fragilities of all blocks, each in its own unit.
+    ///
+    /// # Errors
+    /// [`Failure`] for values that make no fit, and for a block that they do
+    /// not hold for.
+    pub fn fragilities(
+        &self,
+        options: &FitOptions,
+    ) -> Result<Vec<BlockFragility>, Failure> {
+        if self.rows.is_empty() {
+            return Err(Failure::input(
+                "expected --blocks, or --alpha and --p, or --width-m and \
+                 --height-m",
+            ));
+        }
+        self.rows.iter().map(|row| self.of_row(row, options)).collect()
+    }
+
+    fn of_row(
+        &self,
+        row: &Row,
+        options: &FitOptions,
+    ) -> Result<BlockFragility, Failure> {
+        let own = row.samples.iter().filter_map(|path| self.samples.get(path));
+        let own: Vec<&Level> = match row.samples.is_empty() {
+            true => self.levels.iter().collect(),
+            false => own.collect(),
+        };
+        let Some(first) = own.first() else {
+            return Err(Failure::input(
+                "expected --sample, --ida, --counts or --surrogate, or a \
+                 column `sample`",
+            ));
+        };
+        let (mut laws, mut origins) = (Vec::new(), Vec::new());
+        for level in &own {
+            if level.im != first.im {
+                return Err(Failure::input(format!(
+                    "{}: a sample of {}: expected one of {}, as the first",
+                    level.place,
+                    level.im.words(),
+                    first.im.words(),
+                )));
+            }
+            let unit = level.unit(row, self.gravity_m_s2)?;
+            laws.push(level.fit(options, Some(&row.block))?.scaled(unit)?);
+            origins.push(level.origin.as_str());
+        }
+        origins.dedup();
+        Ok(BlockFragility {
+            id: row.id.clone(),
+            block: row.block,
+            eta: row.eta.or(first.setting.eta),
+            im: first.im.clone(),
+            limit_states: self.named(laws)?,
+            origin: origins.join("; "),
+        })
+    }
+
+    /// The limit states of these fragilities.
+    fn named(&self, laws: Vec<Lognormal>) -> Result<Vec<LimitState>, Failure> {
+        let name = |k: usize| match (self.names.get(k), laws.len()) {
+            (Some(name), _) => Ok(name.clone()),
+            (None, 1) => "exceeded".parse(),
+            (None, _) => format!("LS{}", k + 1).parse(),
+        };
+        if !self.names.is_empty() && self.names.len() != laws.len() {
+            return Err(Failure::input(format!(
+                "--limit-state: found {}: expected one for each of {} limit \
+                 states",
+                self.names.len(),
+                laws.len()
+            )));
+        }
+        let states = laws.iter().enumerate().map(|(k, fragility)| {
+            Ok(LimitState { name: name(k)?, fragility: *fragility })
+        });
+        states.collect::<Result<_, String>>().map_err(Failure::input)
+    }
+}

@@ -1,0 +1,104 @@
+//! The fragilities of a finished sweep, for other programs.
+
+use rocking::block::Block;
+use rocking::integrator::Model;
+use rocking::intensity::Intensity;
+use rocking::statistics::Lognormal;
+use rocking::units::STANDARD_GRAVITY_M_S2;
+use rocking_exchange::{BlockFragility, Id, LimitState, unit_intensity};
+use serde::Deserialize;
+
+use super::SweepError;
+use super::content::Content;
+use super::plan::Planned;
+use super::tile::{self, State};
+
+/// A row of a tile's fragilities; other columns are not read.
+#[derive(Deserialize)]
+struct Row {
+    id: Id,
+    alpha_rad: f64,
+    p_rad_s: f64,
+    eta: f64,
+    im: Intensity,
+    demand: f64,
+    records: usize,
+    reached: usize,
+    shift: f64,
+    median: Option<f64>,
+    dispersion: Option<f64>,
+}
+
+/// The fragilities of all blocks in one intensity measure, in the order of
+/// the plan: a limit state a demand.
+///
+/// # Errors
+/// [`SweepError::Tile`] for a tile that is not done, [`SweepError::Demand`]
+/// for a demand that the plan has not, [`SweepError::Censored`] for a block
+/// that some record never brings to a demand.
+pub fn fragilities(
+    planned: &Planned,
+    intensity: Intensity,
+    demands: &[f64],
+) -> Result<Vec<BlockFragility>, SweepError> {
+    let plan = &planned.plan;
+    if let Some(found) = demands.iter().find(|d| !plan.demands.contains(d)) {
+        let expected = format!("{:?}", plan.demands);
+        return Err(SweepError::Demand { found: *found, expected });
+    }
+    let origin = format!(
+        "sweep over {} records, {} at |theta|/alpha {demands:?}",
+        plan.records.len(),
+        intensity.words(),
+    );
+    let mut out: Vec<BlockFragility> = Vec::new();
+    for tile in 0..plan.tiles.len() {
+        let (state, body) = tile::read(planned, Content::Fragilities, tile);
+        let path = planned.tile_path(Content::Fragilities, tile);
+        if state != State::Done {
+            return Err(SweepError::Tile { path, state });
+        }
+        let mut reader = csv::Reader::from_reader(body.as_bytes());
+        for row in reader.deserialize() {
+            let row: Row = row.map_err(|e| {
+                SweepError::Statistics(format!("{}: {e}", path.display()))
+            })?;
+            if row.im != intensity || !demands.contains(&row.demand) {
+                continue;
+            }
+            let block = Block::try_new(row.alpha_rad, row.p_rad_s)?;
+            let state = limit_state(&row, &block)?;
+            match out.last_mut().filter(|last| last.id == row.id) {
+                Some(last) => last.limit_states.push(state),
+                None => out.push(BlockFragility {
+                    id: row.id,
+                    block,
+                    eta: Some(row.eta),
+                    im: intensity.into(),
+                    limit_states: vec![state],
+                    origin: origin.clone(),
+                }),
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// The limit state of a row in the unit of the block's own intensity.
+fn limit_state(row: &Row, block: &Block) -> Result<LimitState, SweepError> {
+    let (Some(median), Some(dispersion)) = (row.median, row.dispersion) else {
+        return Err(SweepError::Censored {
+            id: row.id.clone(),
+            reached: row.reached,
+            records: row.records,
+            demand: row.demand,
+        });
+    };
+    let log_mean = libm::log(median - row.shift);
+    let law = Lognormal::try_new(row.shift, log_mean, dispersion)?;
+    let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
+    let unit = unit_intensity(row.im, block, model, gravity);
+    let name = format!("demand_{}", row.demand).replace('.', "_");
+    let name = name.parse().map_err(SweepError::Statistics)?;
+    Ok(LimitState { name, fragility: law.scaled(unit)? })
+}

@@ -14,6 +14,7 @@ pub mod counts;
 pub mod fit;
 pub mod normality;
 pub mod ranking;
+pub mod risk;
 pub mod stripes;
 pub mod summary;
 
@@ -26,6 +27,7 @@ pub use fit::{
 };
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use ranking::{Ranking, rank};
+pub use risk::{Risk, RiskError, risk};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 

@@ -21,6 +21,8 @@ mod order;
 mod support;
 #[path = "cli/sweep.rs"]
 mod sweep;
+#[path = "cli/tables.rs"]
+mod tables;
 #[path = "cli/texts.rs"]
 mod texts;
 

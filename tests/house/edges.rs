@@ -9,7 +9,7 @@ const CORE: Edges = &[
     ("block", &[]),
     ("capacity", &["names", "statistics"]),
     ("excitation", &["names", "number", "record"]),
-    ("fragility", &["statistics"]),
+    ("fragility", &["intensity", "statistics"]),
     (
         "ida",
         &[
@@ -29,7 +29,7 @@ const CORE: Edges = &[
     ("intensity", &["names", "record", "stop", "units"]),
     ("names", &[]),
     ("number", &[]),
-    ("procedures", &["capacity", "fragility", "statistics"]),
+    ("procedures", &["capacity", "fragility", "intensity", "statistics"]),
     ("record", &["stop", "units"]),
     ("statistics", &["names", "number", "stop", "streams"]),
     ("stop", &[]),
@@ -38,8 +38,12 @@ const CORE: Edges = &[
 ];
 
 /// The modules of the texts that other programs read.
-const EXCHANGE: Edges =
-    &[("format", &["fragility", "table"]), ("fragility", &[]), ("table", &[])];
+const EXCHANGE: Edges = &[
+    ("columns", &[]),
+    ("format", &["fragility", "table"]),
+    ("fragility", &[]),
+    ("table", &["columns"]),
+];
 
 /// The modules of the embedded suites.
 const SYNTHESIS: Edges = &[

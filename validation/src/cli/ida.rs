@@ -22,7 +22,7 @@ use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::respond::outcome_name;
 use super::scene::{BlockArgs, ModelArgs};
-use super::table::{COLUMNS, Setting};
+use super::table::Setting;
 use super::way::WayArgs;
 use super::{
     Failure, SOFTWARE, logged, print_json, progress, say, with_threads,
@@ -30,7 +30,7 @@ use super::{
 use rocking_common::files::Outputs;
 use rocking_common::suites::inputs::{files, read_suite};
 use rocking_common::suites::remarks::Remarks;
-use rocking_common::table::Table;
+use rocking_common::table::{Table, columns::IDA};
 use rocking_common::words::printable;
 
 /// Incremental dynamic analysis of every record of a suite.
@@ -279,7 +279,7 @@ impl Refine {
 impl Job<'_> {
     /// The table: one row an analysis, by record, then level.
     fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
-        let mut table = Table::new(&COLUMNS);
+        let mut table = Table::of(&IDA);
         let p = analysis.block.frequency_rad_s();
         let setting = Setting {
             eta: analysis.restitution.velocity_ratio().to_string(),

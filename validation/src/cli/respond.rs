@@ -19,7 +19,7 @@ use super::{Failure, patiently, print, print_json};
 use rocking_common::files::{Output, Outputs};
 use rocking_common::paper::Intensity;
 use rocking_common::suites::remarks::Remarks;
-use rocking_common::table::Table;
+use rocking_common::table::{Table, columns::HISTORY};
 use rocking_common::words::printable;
 use rocking_draw::figures::{Heading, Histories, History, HistoryPanel};
 
@@ -363,7 +363,7 @@ impl Setting<'_> {
                 "processing": self.done,
                 "remarks": self.remarks.map(Remarks::json),
                 "pga_g": self.pga_g,
-                "im_pga": self.im_pga(),
+                "intensity_pga": self.im_pga(),
             },
         })
     }
@@ -535,8 +535,7 @@ impl Setting<'_> {
 /// The history as a table, one row a point.
 fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
     let alpha = scene.block.slenderness_rad();
-    let mut table =
-        Table::headed("time_s,rotation_rad,velocity_rad_s,rotation_ratio");
+    let mut table = Table::of(&HISTORY);
     for point in &response.history {
         let angle = point.rotation_rad;
         let cells = [point.time_s, angle, point.velocity_rad_s, angle / alpha];

@@ -7,10 +7,7 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{Failure, print};
-
-/// Number of the shape of all JSON and CSV that the commands write. It rises
-/// when a field or a column changes its name, its unit or its meaning.
-pub const SCHEMA: u32 = 1;
+use rocking_common::table::columns::SCHEMA;
 
 /// What every JSON of a command carries.
 #[derive(Serialize)]

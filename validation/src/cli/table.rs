@@ -1,29 +1,6 @@
-//! The table of an incremental dynamic analysis: its columns, and what all
-//! its rows share.
+//! What all rows of a table of an incremental dynamic analysis share.
 
-/// The columns, in order.
-pub const COLUMNS: [&str; 18] = [
-    "record",
-    "alpha_rad",
-    "p_rad_s",
-    "pga_g",
-    "pgv_m_s",
-    "im_pga",
-    "im_pgv",
-    "edp",
-    "outcome",
-    "margin",
-    "remarks",
-    "eta",
-    "model",
-    "overturn",
-    "by",
-    "gravity_m_s2",
-    "processing",
-    "software",
-];
-
-/// Place of the first column of a [`Setting`].
+/// Place of the first column of a [`Setting`] in a table of `rocking ida`.
 pub const SETTING: usize = 11;
 
 /// What all rows of a table share, as it is written.

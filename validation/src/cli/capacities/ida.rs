@@ -8,7 +8,9 @@ use rocking::record::result_name;
 use thiserror::Error;
 
 use crate::cli::samples::Opened;
-use crate::cli::table::{COLUMNS, SETTING, Setting};
+use rocking_common::table::columns::{IDA, SCHEMA_COLUMN};
+
+use crate::cli::table::{SETTING, Setting};
 use rocking_common::paper::Intensity;
 
 /// Why an IDA file was refused.
@@ -27,7 +29,7 @@ pub enum IdaFileError {
     /// Not the columns of an IDA file.
     #[error(
         "{}:1: found columns `{found}`: expected `{}`",
-        path.display(), COLUMNS.join(",")
+        path.display(), IDA.names().collect::<Vec<_>>().join(",")
     )]
     Header {
         /// The file.
@@ -257,7 +259,7 @@ fn rows(path: &Path, measure: Intensity) -> Result<Rows, IdaFileError> {
     let opened = Opened::open(path).map_err(|e| csv_error(e.into()))?;
     let mut reader = csv::Reader::from_reader(opened);
     let header = reader.headers().map_err(csv_error)?;
-    if header.iter().ne(COLUMNS) {
+    if !IDA.has(header) {
         return Err(IdaFileError::Header {
             path: path.to_owned(),
             found: header.iter().collect::<Vec<_>>().join(","),
@@ -275,16 +277,26 @@ fn rows(path: &Path, measure: Intensity) -> Result<Rows, IdaFileError> {
         let refuse = |column: usize, expected| IdaFileError::Field {
             path: path.to_owned(),
             line,
-            column: COLUMNS[column],
+            column: IDA.columns[column].name,
             found: fields[column].to_owned(),
             expected,
         };
+        let schema = IDA.columns.len();
+        if !IDA.is_current(fields.get(schema)) {
+            return Err(IdaFileError::Field {
+                path: path.to_owned(),
+                line,
+                column: SCHEMA_COLUMN,
+                found: fields[schema].to_owned(),
+                expected: "1, the schema of this program",
+            });
+        }
         let first = common.get_or_insert_with(|| Common::of(&fields));
         if let Some((column, expected)) = first.differs(&fields) {
             return Err(IdaFileError::Mixed {
                 path: path.to_owned(),
                 line,
-                column: COLUMNS[column],
+                column: IDA.columns[column].name,
                 found: fields[column].to_owned(),
                 expected: expected.to_owned(),
             });

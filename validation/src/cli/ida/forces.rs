@@ -9,7 +9,7 @@ use rocking::ida::{Analysis, IdaCurve, IdaError, forces_at};
 use rocking::integrator::Forces;
 use serde_json::{Value, json};
 
-use rocking_common::table::Table;
+use rocking_common::table::{Table, columns::FORCES};
 
 /// Forces at the pivot of every analysis.
 #[derive(clap::Args)]
@@ -119,10 +119,7 @@ impl Audit {
 
     /// One row an analysis, by record, then level.
     pub(super) fn csv(&self, table: &[IdaCurve]) -> String {
-        let mut out = Table::headed(
-            "record,im_pga,pga_g,edp,friction,friction_time_s,\
-             least_normal_over_weight,least_normal_time_s",
-        );
+        let mut out = Table::of(&FORCES);
         let time = |t: Option<f64>| t.map_or(String::new(), |t| t.to_string());
         for (curve, found) in table.iter().zip(&self.found) {
             for (point, forces) in curve.points.iter().zip(found) {

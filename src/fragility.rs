@@ -7,6 +7,7 @@
 //! IM_R by Eqs. 5 and 7, here [`transform`]. A fragility's value at an
 //! intensity is [`Lognormal::cdf`].
 
+pub mod hazard;
 pub mod options;
 pub mod points;
 pub mod risk;

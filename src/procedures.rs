@@ -16,6 +16,7 @@ pub mod ida_summary;
 pub mod normality;
 pub mod pivot;
 pub mod ranking;
+pub mod risk;
 pub mod stripes;
 pub mod summary;
 
@@ -30,6 +31,7 @@ pub use ida_summary::{IdaSummary, summarise_ida};
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};
+pub use risk::{Risk, RiskError, risk};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 

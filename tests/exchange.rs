@@ -229,13 +229,40 @@ fn risk_is_that_of_fine_quadrature_and_tells_what_lies_beyond() {
         "risk --hazard hazard.csv --sample capacities.txt --shift 1 \
          --alpha 0.1 --p 3",
     );
-    assert!(text.contains("\nshifted ") && text.contains("\nnot shifted "));
-    assert!(text.contains("weaker motions than the first point add to it"));
-    // The two bounds are not what records or hazard leave open.
-    assert!(text.contains("no confidence interval"), "{text}");
-    for key in ["annual_frequency_low", "annual_frequency_high"] {
-        assert!(row.get(key).is_none(), "{key}");
+    for name in ["fragility                     shifted\n", " not shifted\n"] {
+        assert!(text.contains(name), "{text}");
     }
+    // Both ends in 10 years; -expm1(-10 lambda) by Python.
+    let ten = format!("risk --hazard hazard.csv {flags} --years 10 --json");
+    let ten: Value = serde_json::from_str(&answer(&place, &ten)).unwrap();
+    for (key, expected) in [
+        ("probability_truncation_lower", 0.01422773191139885),
+        ("probability_truncation_upper", 0.014229231373069388),
+    ] {
+        let found = ten["fragilities"][0][key].as_f64().unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-12, "{key}: {found}");
+    }
+}
+
+/// A curve of OpenQuake with two sites, as in its manual.
+#[test]
+fn risk_reads_a_site_of_openquake_and_says_what_it_sets_aside() {
+    let place = folder("openquake");
+    let text = "#,,,,,\"generated_by='OpenQuake engine 3.18.0', \
+        kind='mean', investigation_time=1.0, imt='PGA'\"\n\
+        lon,lat,depth,poe-0.1000000,poe-0.4000000,poe-0.6000000\n\
+        -0.10000,0.00000,-0.10000,4.553860E-01,5.754042E-02,0.000000E+00\n\
+        0.10000,0.00000,-0.10000,1.522632E-01,0.000000E+00,0.000000E+00\n";
+    fs::write(place.join("oq.csv"), text).unwrap();
+    let risk = "risk --hazard oq.csv --median 0.4 --dispersion 0.5 --json";
+    refused(&place, risk, "oq.csv: 2 sites");
+    let site = format!("{risk} --site -0.1,0");
+    let (code, out, said) = run(&place, &site);
+    assert!(code == 0 && said.contains("oq.csv: 1 points"), "{said}");
+    let out: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&out["im"], &out["points"]), (&"pga".into(), &2.into()));
+    let remark = out["remarks"][0].as_str().unwrap();
+    assert!(remark.starts_with("1 points at the end"), "{remark}");
 }
 
 #[test]
@@ -257,7 +284,11 @@ fn a_hazard_curve_that_is_none_is_refused_with_its_line() {
     let other = "pgv_m_s,annual_frequency\n0.1,0.1\n0.2,0.05\n";
     fs::write(place.join("pgv.csv"), other).unwrap();
     let risk = "risk --hazard pgv.csv --sample capacities.txt";
-    refused(&place, &format!("{risk} --alpha 0.1 --p 3"), "PGV");
+    refused(
+        &place,
+        &format!("{risk} --alpha 0.1 --p 3"),
+        "hazard curve of pgv",
+    );
     let risk = "risk --hazard hazard.csv --sample capacities.txt";
     refused(&place, &format!("{risk} --alpha 0.1 --p 4"), "p 3 rad/s");
 }
@@ -315,7 +346,9 @@ fn the_tour_of_the_readme_runs() {
     let error = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{error}");
     let said = String::from_utf8_lossy(&output.stdout);
-    for words in ["need friction > 0.5", "delta low", "at least", "SA(1 s)"] {
+    for words in
+        ["need friction > 0.5", "delta low", "truncation lower", "SA(1 s)"]
+    {
         assert!(said.contains(words), "no `{words}` in {said}");
     }
     for (name, lines) in [("cabinet-band.csv", 26), ("fragility.csv", 4)] {

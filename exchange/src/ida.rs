@@ -12,29 +12,8 @@ use rocking::intensity::Intensity;
 use rocking::record::result_name;
 use thiserror::Error;
 
+use crate::columns::{IDA, SCHEMA_COLUMN};
 use crate::table::Table;
-
-/// The columns, in order.
-pub const COLUMNS: [&str; 18] = [
-    "record",
-    "alpha_rad",
-    "p_rad_s",
-    "pga_g",
-    "pgv_m_s",
-    "im_pga",
-    "im_pgv",
-    "edp",
-    "outcome",
-    "margin",
-    "remarks",
-    "eta",
-    "model",
-    "overturn",
-    "by",
-    "gravity_m_s2",
-    "processing",
-    "software",
-];
 
 /// Place of the first column of a [`Setting`].
 const SETTING: usize = 11;
@@ -62,7 +41,7 @@ pub enum IdaFileError {
     /// Not the columns of an IDA file.
     #[error(
         "{}:1: found columns `{found}`: expected `{}`",
-        path.display(), COLUMNS.join(",")
+        path.display(), IDA.names().collect::<Vec<_>>().join(",")
     )]
     Header {
         /// The file.
@@ -169,9 +148,9 @@ pub struct Row {
     /// PGV in m/s.
     pub pgv_m_s: f64,
     /// PGA/(g tan alpha).
-    pub im_pga: f64,
+    pub intensity_pga: f64,
     /// p PGV/(g tan alpha).
-    pub im_pgv: f64,
+    pub intensity_pgv: f64,
     /// Peak |theta|/alpha; infinite where overturned.
     pub edp: f64,
     /// `no-uplift`, `rocked`, `overturned`, `overturned-refined` or
@@ -274,8 +253,8 @@ impl IdaTable {
                     pgv_m_s: point.pga_g
                         * curve.velocity_ratio_s
                         * gravity_m_s2,
-                    im_pga: point.im,
-                    im_pgv: point.im * factor,
+                    intensity_pga: point.im,
+                    intensity_pgv: point.im * factor,
                     edp: point.edp(),
                     outcome,
                     margin: point.fate_margin,
@@ -297,7 +276,7 @@ impl IdaTable {
     /// The CSV text.
     #[must_use]
     pub fn csv(&self) -> String {
-        let mut table = Table::new(&COLUMNS);
+        let mut table = Table::of(&IDA);
         let s = &self.setting;
         let setting = [
             s.eta.to_string(),
@@ -314,8 +293,8 @@ impl IdaTable {
                 s.p_rad_s,
                 row.pga_g,
                 row.pgv_m_s,
-                row.im_pga,
-                row.im_pgv,
+                row.intensity_pga,
+                row.intensity_pgv,
                 row.edp,
             ];
             let own = std::iter::once(row.record.clone());
@@ -336,7 +315,7 @@ impl IdaTable {
             |source| IdaFileError::Csv { path: path.to_owned(), source };
         let mut reader = csv::Reader::from_reader(from);
         let header = reader.headers().map_err(csv_error)?;
-        if header.iter().ne(COLUMNS) {
+        if !IDA.has(header) {
             return Err(IdaFileError::Header {
                 path: path.to_owned(),
                 found: header.iter().collect::<Vec<_>>().join(","),
@@ -349,6 +328,7 @@ impl IdaTable {
             let fields = fields.map_err(csv_error)?;
             let line = fields.position().map_or(0, csv::Position::line);
             let cells = Cells { path, line, fields: &fields };
+            cells.schema()?;
             match &first {
                 None => first = Some((fields.clone(), cells.setting()?)),
                 Some((first, setting)) => cells.as_first(first, setting)?,
@@ -391,8 +371,8 @@ impl IdaTable {
         measure: Intensity,
     ) -> Result<Curves, (String, CapacityError)> {
         let im = |row: &Row| match measure {
-            Intensity::Pga => row.im_pga,
-            Intensity::Pgv => row.im_pgv,
+            Intensity::Pga => row.intensity_pga,
+            Intensity::Pgv => row.intensity_pgv,
         };
         let (mut curves, mut after_overturning) = (Vec::new(), 0);
         for rows in self.rows.chunk_by(|a, b| a.record == b.record) {
@@ -443,7 +423,7 @@ impl Cells<'_> {
         IdaFileError::Field {
             path: self.path.to_owned(),
             line: self.line,
-            column: COLUMNS[column],
+            column: IDA.columns[column].name,
             found: self.fields[column].to_owned(),
             expected,
         }
@@ -462,6 +442,21 @@ impl Cells<'_> {
     fn positive(&self, column: usize) -> Result<f64, IdaFileError> {
         let fits = |x: &f64| *x > 0.0 && x.is_finite();
         self.parsed(column, fits, "a positive number")
+    }
+
+    /// Refuses a row of another schema; a table without one is taken.
+    fn schema(&self) -> Result<(), IdaFileError> {
+        let found = self.fields.get(IDA.columns.len());
+        if IDA.is_current(found) {
+            return Ok(());
+        }
+        Err(IdaFileError::Field {
+            path: self.path.to_owned(),
+            line: self.line,
+            column: SCHEMA_COLUMN,
+            found: found.unwrap_or_default().to_owned(),
+            expected: "1, the schema of this program",
+        })
     }
 
     fn setting(&self) -> Result<Setting, IdaFileError> {
@@ -495,7 +490,7 @@ impl Cells<'_> {
             Some(column) => Err(IdaFileError::Mixed {
                 path: self.path.to_owned(),
                 line: self.line,
-                column: COLUMNS[column],
+                column: IDA.columns[column].name,
                 found: self.fields[column].to_owned(),
                 expected: first[column].to_owned(),
             }),
@@ -527,8 +522,8 @@ impl Cells<'_> {
             alpha_rad: self.positive(1)?,
             pga_g: not_negative(3)?,
             pgv_m_s: not_negative(4)?,
-            im_pga: not_negative(5)?,
-            im_pgv: not_negative(6)?,
+            intensity_pga: not_negative(5)?,
+            intensity_pgv: not_negative(6)?,
             edp,
             outcome,
             margin: self.parsed(9, |_| true, "a number")?,

@@ -31,6 +31,7 @@
 
 #![deny(missing_docs)]
 
+pub mod columns;
 mod format;
 mod fragility;
 pub mod ida;

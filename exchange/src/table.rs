@@ -1,15 +1,19 @@
 //! Tables as CSV text: one header line, long format, stable bytes.
 
+use crate::columns::{Layout, SCHEMA};
+
 /// Rows under one header line, as CSV.
 ///
 /// ```
 /// use rocking_exchange::table::{Table, number};
-/// let mut table = Table::new(&["record", "im"]);
+/// let mut table = Table::new(&["record", "edp"]);
 /// table.row([String::from("A, B"), number(1.0 / 3.0)]);
-/// assert_eq!(table.finish(), "record,im\n\"A, B\",0.333333333\n");
+/// assert_eq!(table.finish(), "record,edp\n\"A, B\",0.333333333\n");
 /// ```
 pub struct Table {
     csv: csv::Writer<Vec<u8>>,
+    /// What every row ends with: the schema number, where the table has one.
+    last: Option<String>,
 }
 
 impl Table {
@@ -23,15 +27,35 @@ impl Table {
     #[must_use]
     pub fn new(header: &[&str]) -> Self {
         let mut csv = csv::WriterBuilder::new();
-        let mut table = Self { csv: csv.flexible(true).from_writer(vec![]) };
+        let csv = csv.flexible(true).from_writer(vec![]);
+        let mut table = Self { csv, last: None };
         table.row(header);
         table
+    }
+
+    /// A table of the registry; each row ends with the schema number.
+    #[must_use]
+    pub fn of(layout: &Layout) -> Self {
+        Self::with_schema(&layout.names().collect::<Vec<_>>())
+    }
+
+    /// A table whose last column is the schema number, which
+    /// [`row`](Self::row) writes.
+    #[must_use]
+    pub fn with_schema(header: &[&str]) -> Self {
+        Self { last: Some(SCHEMA.to_string()), ..Self::new(header) }
     }
 
     /// Adds a row; a cell with a comma, a quote or a line break is quoted.
     pub fn row<C: AsRef<[u8]>>(&mut self, cells: impl IntoIterator<Item = C>) {
         // Writing to memory cannot fail, and rows may differ in length.
-        let _ = self.csv.write_record(cells);
+        for cell in cells {
+            let _ = self.csv.write_field(cell);
+        }
+        if let Some(last) = &self.last {
+            let _ = self.csv.write_field(last);
+        }
+        let _ = self.csv.write_record(None::<&[u8]>);
     }
 
     /// The CSV text.

@@ -257,8 +257,8 @@ impl IdaTable {
         out.set_item("alpha_rad", numbers(|row| row.alpha_rad))?;
         out.set_item("pga_g", numbers(|row| row.pga_g))?;
         out.set_item("pgv_m_s", numbers(|row| row.pgv_m_s))?;
-        out.set_item("im_pga", numbers(|row| row.im_pga))?;
-        out.set_item("im_pgv", numbers(|row| row.im_pgv))?;
+        out.set_item("intensity_pga", numbers(|row| row.intensity_pga))?;
+        out.set_item("intensity_pgv", numbers(|row| row.intensity_pgv))?;
         out.set_item("edp", numbers(|row| row.edp))?;
         out.set_item("outcome", texts(|row| row.outcome))?;
         out.set_item("margin", numbers(|row| row.margin))?;

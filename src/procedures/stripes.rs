@@ -11,7 +11,7 @@ use crate::statistics::{ExtendedSample, QuantileType};
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StripeResponses {
     /// The intensity, in the unit of the curves.
-    pub im: f64,
+    pub intensity: f64,
     /// Records that were run so far.
     pub n: usize,
     /// 16 % quantile of the EDP; infinite where overturned.
@@ -34,7 +34,7 @@ impl StripeResponses {
     pub fn counts(&self) -> Option<Stripe> {
         let exceeded = u32::try_from(self.exceeded?).ok()?;
         let n = u32::try_from(self.n).ok()?;
-        Some(Stripe { im: self.im, exceeded, n })
+        Some(Stripe { im: self.intensity, exceeded, n })
     }
 }
 
@@ -67,7 +67,7 @@ pub fn stripes(
         let exceeded =
             |level: f64| known.iter().filter(|edp| **edp >= level).count();
         Ok(StripeResponses {
-            im,
+            intensity: im,
             n: known.len(),
             edp16: quantile(0.16),
             edp50: quantile(0.5),

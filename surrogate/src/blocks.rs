@@ -8,6 +8,7 @@ use rocking::statistics::Lognormal;
 use serde::{Deserialize, Serialize};
 
 use super::{RESTITUTION, SHIFT, SurrogateError};
+use rocking_exchange::columns::SCHEMA;
 use rocking_exchange::table::{Table, digits};
 use rocking_synthesis::SuiteKind;
 
@@ -65,6 +66,7 @@ struct Merged {
     median_high: f64,
     dispersion_low: f64,
     dispersion_high: f64,
+    schema: u32,
 }
 
 pub(super) fn rows<R: for<'d> Deserialize<'d>>(
@@ -110,6 +112,10 @@ pub fn read_merged(
             continue;
         }
         let at = format!("{name}:{line}");
+        if row.schema != SCHEMA {
+            let found = format!("schema {}", row.schema);
+            return Err(flaw(at, found));
+        }
         if row.eta != RESTITUTION || row.shift != SHIFT {
             let found = format!("eta {}, shift {}", row.eta, row.shift);
             return Err(flaw(at, found));

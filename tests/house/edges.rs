@@ -9,7 +9,7 @@ const CORE: Edges = &[
     ("block", &[]),
     ("capacity", &["names", "statistics"]),
     ("excitation", &["names", "number", "record"]),
-    ("fragility", &["statistics"]),
+    ("fragility", &["intensity", "statistics"]),
     (
         "ida",
         &[
@@ -38,6 +38,7 @@ const CORE: Edges = &[
             "fragility",
             "ida",
             "integrator",
+            "intensity",
             "statistics",
         ],
     ),
@@ -50,10 +51,11 @@ const CORE: Edges = &[
 
 /// The modules of the texts that other programs read.
 const EXCHANGE: Edges = &[
+    ("columns", &[]),
     ("format", &["fragility", "table"]),
     ("fragility", &[]),
-    ("ida", &["table"]),
-    ("table", &[]),
+    ("ida", &["columns", "table"]),
+    ("table", &["columns"]),
 ];
 
 /// The modules of the embedded suites.

@@ -11,7 +11,10 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, mpsc};
 use std::time::Duration;
 
-use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use clap::{
+    Arg, ArgAction, CommandFactory as _, FromArgMatches as _, Parser,
+    Subcommand,
+};
 use rocking::stop::{Stop, StopError};
 use signal_hook::consts::SIGABRT;
 use signal_hook::flag::register_conditional_shutdown;
@@ -53,9 +56,32 @@ pub use terminal::{SOFTWARE, note, print, print_json, say};
 /// Threads beyond which more only cost.
 const MOST_THREADS_A_PROCESSOR: usize = 8;
 
+/// The commands by what they are for, as `rocking --help` lists them.
+const GROUPS: [(&str, &[&str]); 4] = [
+    (
+        "Analyse",
+        &["respond", "ida", "records", "suite", "capacities", "sweep"],
+    ),
+    (
+        "Decide",
+        &[
+            "stripes",
+            "fragility",
+            "risk",
+            "rank",
+            "sample",
+            "compare",
+            "lilliefors",
+        ],
+    ),
+    ("Prove", &["study", "validate", "diff", "speed"]),
+    ("Develop", &["accept", "completions", "man"]),
+];
+
 /// Rocking of free-standing blocks under earthquakes, and its statistics.
 #[derive(Parser)]
 #[command(name = "rocking", version, max_term_width = 100)]
+#[command(disable_help_subcommand = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -281,6 +307,48 @@ fn reading_negatives(command: clap::Command) -> clap::Command {
     command.mut_args(read).mut_subcommands(reading_negatives)
 }
 
+/// The same command, whose `--help` fits a screen: one paragraph an argument,
+/// and no blank lines between them. The manual page has all.
+fn on_a_screen(mut command: clap::Command) -> clap::Command {
+    const TEMPLATE: &str = "{about-with-newline}\n{before-help}\
+        {usage-heading} {usage}\n\n{all-args}{after-help}";
+    let long = command.get_long_about().map(ToString::to_string);
+    if let Some((_, rest)) = long.as_deref().and_then(|l| l.split_once("\n\n"))
+    {
+        command = command.before_help(rest.to_owned());
+    }
+    let help = Arg::new("help").short('h').long("help").help("Print help");
+    command
+        .help_template(TEMPLATE)
+        .disable_help_flag(true)
+        .disable_help_subcommand(true)
+        .arg(help.action(ArgAction::HelpShort))
+        .mut_subcommands(on_a_screen)
+}
+
+/// The same command, whose help lists the subcommands in [`GROUPS`].
+fn grouped(command: clap::Command) -> clap::Command {
+    let mut list = String::new();
+    for (group, names) in GROUPS {
+        list += &format!("{group}:\n");
+        for name in names {
+            let found = command.find_subcommand(name);
+            let about = found.and_then(clap::Command::get_about);
+            let about = about.map(ToString::to_string).unwrap_or_default();
+            // The first clause.
+            let about = about.split([':', ',', '.', '(']).next();
+            let about = about.unwrap_or_default().trim_end();
+            list += &format!("  {name:<13}{about}\n");
+        }
+        list += "\n";
+    }
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{list}\
+         Options:\n{{options}}\n\n`rocking man COMMAND` prints the manual \
+         page of a command.\n"
+    ))
+}
+
 /// Lets the program end with status 2 where it would abort: what aborts it is
 /// an allocation that fails, after the runtime has said so.
 fn abort_is_a_refusal() {
@@ -298,7 +366,7 @@ fn command() -> clap::Command {
 #[must_use]
 pub fn run() -> ExitCode {
     abort_is_a_refusal();
-    let matches = command().get_matches();
+    let matches = grouped(on_a_screen(command())).get_matches();
     let cli = Cli::from_arg_matches(&matches).unwrap_or_else(|e| e.exit());
     let outcome: Result<(), Failure> = match cli.command {
         Command::Accept(args) => {
@@ -339,7 +407,19 @@ pub fn run() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::{Duration, mpsc, saying};
+    use super::{Duration, GROUPS, command, mpsc, saying};
+
+    #[test]
+    fn every_command_is_in_one_group() {
+        let mut listed: Vec<&str> =
+            GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        listed.sort_unstable();
+        let command = command();
+        let known = command.get_subcommands().map(clap::Command::get_name);
+        let mut known: Vec<&str> = known.collect();
+        known.sort_unstable();
+        assert_eq!(listed, known);
+    }
 
     #[test]
     fn long_work_says_so_until_it_is_done() {

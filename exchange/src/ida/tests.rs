@@ -2,21 +2,23 @@ use std::path::Path;
 
 use rocking::intensity::Intensity;
 
-use super::{COLUMNS, IdaTable};
+use super::IdaTable;
+use crate::columns::IDA;
 
 const ROWS: [&str; 4] = [
     "A,0.2,3,0.2,0.1,1,0.5,0,no-uplift,inf,,0.92,nonlinear,alpha,\
-     record-scaling,9.80665,none,x",
+     record-scaling,9.80665,none,x,1",
     "A,0.2,3,0.3,0.2,1.5,0.75,0.4,rocked,0.6,,0.92,nonlinear,alpha,\
-     record-scaling,9.80665,none,x",
+     record-scaling,9.80665,none,x,1",
     "A,0.2,3,0.4,0.3,2,1,inf,overturned,0.1,,0.92,nonlinear,alpha,\
-     record-scaling,9.80665,none,x",
+     record-scaling,9.80665,none,x,1",
     "B,0.2,3,0.2,0.1,1,0.6,0,no-uplift,inf,,0.92,nonlinear,alpha,\
-     record-scaling,9.80665,none,x",
+     record-scaling,9.80665,none,x,1",
 ];
 
 fn read(rows: &[&str]) -> Result<IdaTable, String> {
-    let text = format!("{}\n{}\n", COLUMNS.join(","), rows.join("\n"));
+    let header: Vec<&str> = IDA.names().collect();
+    let text = format!("{}\n{}\n", header.join(","), rows.join("\n"));
     let table = IdaTable::read(text.as_bytes(), Path::new("a.csv"));
     table.map_err(|error| error.to_string())
 }
@@ -45,6 +47,7 @@ fn a_table_that_is_none_is_refused_with_its_line() {
         (changed("0.4,rocked", "inf,rocked"), "inf where overturned"),
         (changed("rocked", "fell"), "found `fell` in column outcome"),
         (changed(",0.6,,", ",x,,"), "found `x` in column margin"),
+        (changed("x,1", "x,2"), "found `2` in column schema"),
     ];
     for (row, expected) in cases {
         let refused = read(&[ROWS[0], &row]).unwrap_err();

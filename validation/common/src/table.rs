@@ -1,6 +1,7 @@
 //! Tables: as CSV text, which [`rocking_exchange::table`] writes, and as a
 //! page shows them.
 
+pub use rocking_exchange::columns;
 pub use rocking_exchange::table::{
     Table, cells, digits, number, optional, point,
 };

@@ -8,8 +8,6 @@ pub mod source;
 mod surface;
 mod transform;
 
-pub(super) use counts::COLUMNS as COUNTS;
-
 use clap::{Args as ClapArgs, Subcommand};
 
 use super::Failure;

@@ -19,7 +19,7 @@ use super::show::shown;
 use super::{Failure, patiently, print};
 use rocking_common::files::{Output, Outputs};
 use rocking_common::suites::remarks::Remarks;
-use rocking_common::table::Table;
+use rocking_common::table::{Table, columns::HISTORY};
 use rocking_common::words::printable;
 use rocking_draw::figures::of_result::response_svg;
 
@@ -95,7 +95,7 @@ struct Setting<'a> {
     processing: Option<String>,
     remarks: Option<&'a Remarks>,
     pga_g: f64,
-    im_pga: f64,
+    intensity_pga: f64,
 }
 
 /// Runs the command.
@@ -173,7 +173,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             processing: args.excitation.processing()?,
             remarks: ground.remarks(),
             pga_g,
-            im_pga: pga_g / threshold,
+            intensity_pga: pga_g / threshold,
         },
     };
     let text = shown(as_json, &result)?;
@@ -214,8 +214,7 @@ fn certified(
 /// The history as a table, one row a point.
 fn history_csv(scene: &Scene<'_>, response: &Response) -> String {
     let alpha = scene.block.slenderness_rad();
-    let mut table =
-        Table::headed("time_s,rotation_rad,velocity_rad_s,rotation_ratio");
+    let mut table = Table::of(&HISTORY);
     for point in &response.history {
         let angle = point.rotation_rad;
         let cells = [point.time_s, angle, point.velocity_rad_s, angle / alpha];

@@ -1,33 +1,34 @@
 //! `rocking risk`: how often a year a block overturns, or exceeds a demand.
 
-use std::fmt::Write as _;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::fragility::risk::{AnnualFrequency, HazardCurve, HazardError};
+use rocking::fragility::hazard::{Hazard, HazardOptions};
 use rocking::integrator::Model;
-use rocking::procedures::{FitOptions, Shift, fit_sample};
+use rocking::intensity::IntensityMeasure;
+use rocking::procedures::{FitOptions, Shift, fit_sample, risk};
 use rocking::statistics::Lognormal;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::unit_intensity;
-use serde_json::{Value, json};
 
-use super::names;
 use super::samples::{Opened, SampleFile};
 use super::scene::BlockArgs;
-use super::{Failure, print, print_json};
+use super::show::show;
+use super::{Failure, names, note};
 use rocking_common::paper::Intensity;
 
-/// Mean annual frequency of overturning, or of exceeding a demand, from a
-/// hazard curve and a fragility.
+/// Mean annual frequency of overturning, or of exceeding a demand, and its
+/// probability in T years, from a hazard curve and a fragility.
 ///
-/// The hazard curve is a CSV of intensity and annual frequency of
-/// exceedance, between whose points the frequency is a power of the
-/// intensity. Its first column is `pga_g`, `pgv_m_s`, `pgv_cm_s`, or `im` for
-/// the unit of the fragility. Nothing is assumed beyond its last point: the
-/// frequency lies between two bounds of that truncation, which are no
-/// confidence interval.
+/// The hazard curve is OpenQuake's CSV, or a CSV with the columns `pga_g`,
+/// `pgv_m_s`, `pgv_cm_s` or `intensity` (the fragility's own unit), and
+/// `annual_frequency` or `probability_of_exceedance`. Between its points the
+/// frequency is a power of the intensity. OpenQuake interpolates linearly
+/// and finds 10 to 17 % more on a curve of 20 points. Beyond the last point
+/// nothing is assumed: lower and upper are bounds of that truncation and no
+/// confidence interval. Where the fragility at the first point is not 0,
+/// weaker motions add to the frequency.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true)
     .args(["median", "sample"]))]
@@ -42,6 +43,18 @@ pub struct Args {
     /// Hazard curve, CSV; `-` is standard input.
     #[arg(long, value_name = "HAZARD.csv")]
     hazard: PathBuf,
+    /// Longitude and latitude of the site, in OpenQuake's CSV of several.
+    #[arg(
+        long,
+        value_name = "LON,LAT",
+        value_parser = site,
+        allow_hyphen_values = true
+    )]
+    site: Option<(f64, f64)>,
+    /// Years of the probabilities: of those printed [default: 50], and of a
+    /// hazard curve's that does not say its own.
+    #[arg(long, value_name = "T")]
+    years: Option<f64>,
     /// Median of the fragility, in the unit of the hazard curve.
     #[arg(long, value_name = "X", requires = "dispersion")]
     median: Option<f64>,
@@ -70,34 +83,15 @@ pub struct Args {
     json: bool,
 }
 
-/// What a hazard curve's intensities are.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Column {
-    name: &'static str,
-    unit: &'static str,
-    /// The measure, and the number of them in a g or a m/s; none for a
-    /// curve in the fragility's own unit.
-    measure: Option<(Intensity, f64)>,
-}
+/// Years of the probabilities that are printed, where none are given.
+const YEARS: f64 = 50.0;
 
-const COLUMNS: [Column; 4] = [
-    Column {
-        name: "pga_g",
-        unit: "PGA, g",
-        measure: Some((Intensity::Pga, 1.0)),
-    },
-    Column {
-        name: "pgv_m_s",
-        unit: "PGV, m/s",
-        measure: Some((Intensity::Pgv, 1.0)),
-    },
-    Column {
-        name: "pgv_cm_s",
-        unit: "PGV, cm/s",
-        measure: Some((Intensity::Pgv, 100.0)),
-    },
-    Column { name: "im", unit: "intensity", measure: None },
-];
+fn site(text: &str) -> Result<(f64, f64), String> {
+    let degrees = text.split_once(',').and_then(|(lon, lat)| {
+        Some((lon.trim().parse().ok()?, lat.trim().parse().ok()?))
+    });
+    degrees.ok_or_else(|| "expected longitude,latitude in degrees".into())
+}
 
 /// Runs the command.
 ///
@@ -111,74 +105,29 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--hazard - and --sample -: expected one of them as a file",
         ));
     }
-    let (column, hazard) = read(&args.hazard)?;
+    let hazard = read(args)?;
     let fragilities = match (&args.sample, args.median, args.dispersion) {
-        (Some(path), ..) => of_sample(args, path, column)?,
+        (Some(path), ..) => of_sample(args, path, &hazard)?,
         (None, Some(median), Some(beta)) => given(args, median, beta)?,
         _ => return Err(Failure::input("expected --median or --sample")),
     };
-    let rows: Vec<(&str, Lognormal, AnnualFrequency)> = fragilities
-        .into_iter()
-        .map(|(name, f)| (name, f, hazard.annual_frequency(&f)))
-        .collect();
-    if args.json {
-        return print_json(to_json(column, &hazard, &rows));
-    }
-    print(&to_text(column, &hazard, &rows)?)
+    let years = args.years.unwrap_or(YEARS);
+    show(args.json, &risk(&hazard, &fragilities, years)?)
 }
 
-/// Reads a hazard curve of two columns.
-fn read(path: &Path) -> Result<(Column, HazardCurve), Failure> {
-    let place = path.display();
-    let broken = |e: &dyn std::fmt::Display| {
-        Failure::input(format!("cannot read {place}: {e}"))
-    };
+/// Reads the hazard curve; what is set aside is said on standard error, too.
+fn read(args: &Args) -> Result<Hazard, Failure> {
+    let place = args.hazard.display().to_string();
     let mut text = String::new();
-    let mut file = Opened::open(path).map_err(|e| broken(&e))?;
-    file.read_to_string(&mut text).map_err(|e| broken(&e))?;
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let header = reader.headers().map_err(|e| broken(&e))?;
-    let cells: Vec<&str> = header.iter().collect();
-    let column = COLUMNS
-        .into_iter()
-        .find(|column| cells == [column.name, "annual_frequency"]);
-    let column = column.ok_or_else(|| {
-        let names = COLUMNS.map(|column| column.name);
-        Failure::input(format!(
-            "{place}:1: found `{}`: expected {} and annual_frequency",
-            cells.join(","),
-            names.join(", or "),
-        ))
-    })?;
-    let (mut points, mut lines) = (Vec::new(), Vec::new());
-    for record in reader.records() {
-        let record = record.map_err(|e| broken(&e))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let number = |k: usize| {
-            let text = record.get(k).unwrap_or_default();
-            text.parse::<f64>().map_err(|_| {
-                Failure::input(format!(
-                    "{place}:{line}: found `{text}`: expected a number"
-                ))
-            })
-        };
-        points.push((number(0)?, number(1)?));
-        lines.push(line);
+    Opened::open(&args.hazard)
+        .and_then(|mut file| file.read_to_string(&mut text))
+        .map_err(|e| Failure::input(format!("cannot read {place}: {e}")))?;
+    let options = HazardOptions { years: args.years, site_deg: args.site };
+    let hazard = Hazard::parse(&place, &text, &options)?;
+    for remark in &hazard.remarks {
+        note(&format!("{place}: {remark}"));
     }
-    let hazard = HazardCurve::try_new(&points).map_err(|error| {
-        let line = match error {
-            HazardError::Intensity { number, .. }
-            | HazardError::Frequency { number, .. } => lines
-                .get(number - 1)
-                .map_or(String::new(), |line| format!(":{line}")),
-            _ => String::new(),
-        };
-        Failure::input(format!("{place}{line}: {error}"))
-    })?;
-    Ok((column, hazard))
+    Ok(hazard)
 }
 
 /// The fragility of given parameters.
@@ -211,38 +160,34 @@ fn given(
 fn of_sample(
     args: &Args,
     path: &Path,
-    column: Column,
+    hazard: &Hazard,
 ) -> Result<Vec<(&'static str, Lognormal)>, Failure> {
     let file = SampleFile::read(path)?;
     let name = path.display();
     let at = |what: String| Failure::input(format!("{name}: {what}"));
-    let factor = match column.measure {
+    let factor = match &hazard.im {
         None => match args.block.given() {
             None => 1.0,
             Some(flag) => {
                 return Err(Failure::input(format!(
-                    "{flag}: the hazard curve is in `im`, the sample's own \
-                     unit: expected no block, or pga_g, pgv_m_s or pgv_cm_s"
+                    "{flag}: the hazard curve is in the sample's own unit \
+                     (`intensity`): expected no block, or pga_g, pgv_m_s or \
+                     pgv_cm_s"
                 )));
             }
         },
-        Some((measure, per_unit)) => {
-            let own = file.measure(args.im)?;
-            if own != Some(measure) {
+        Some(im) => {
+            let given = file.measure(args.im)?.map(Intensity::words);
+            let stated = file.of().and_then(|of| of.split(" at EDP ").next());
+            let own = given.or(stated);
+            if own != Some(im.words().as_str()) {
                 return Err(at(format!(
-                    "a sample of {}, a hazard of {}: expected the same \
-                     measure",
-                    own.map(Intensity::words)
-                        .or(file.of())
-                        .unwrap_or("a measure not stated"),
-                    measure.name().to_uppercase(),
+                    "a sample of {}, a hazard curve of {im}: expected the \
+                     same measure",
+                    own.unwrap_or("a measure not stated"),
                 )));
             }
-            let gravity = args.gravity.unwrap_or(STANDARD_GRAVITY_M_S2);
-            let block = args.block.block(gravity)?;
-            file.setting().holds_for(&block, Some(measure)).map_err(at)?;
-            let model = file.setting().model.unwrap_or(Model::Nonlinear);
-            per_unit * unit_intensity(measure, &block, model, gravity)
+            hazard.units_per_im_unit * in_a_block(args, &file, im, &at)?
         }
     };
     let sample = file.censored()?;
@@ -259,84 +204,24 @@ fn of_sample(
     })
 }
 
-fn to_json(
-    column: Column,
-    hazard: &HazardCurve,
-    rows: &[(&str, Lognormal, AnnualFrequency)],
-) -> Value {
-    let row = |(name, f, found): &(&str, Lognormal, AnnualFrequency)| {
-        json!({
-            "fragility": name,
-            "shift": json!(f.shift()),
-            "median": json!(f.median()),
-            "dispersion": json!(f.dispersion()),
-            "annual_frequency_truncation_lower":
-                json!(found.truncation_lower),
-            "annual_frequency_truncation_upper":
-                json!(found.truncation_upper),
-            "annual_frequency_covered": json!(found.covered),
-            "probability_at_first_point":
-                json!(found.first_probability),
-        })
+/// Number of units of the measure (g or m/s) in a unit of the sample.
+fn in_a_block(
+    args: &Args,
+    file: &SampleFile,
+    im: &IntensityMeasure,
+    at: &dyn Fn(String) -> Failure,
+) -> Result<f64, Failure> {
+    let Some(intensity) = im.dimensionless() else {
+        return match args.block.given() {
+            None => Ok(1.0),
+            Some(flag) => Err(Failure::input(format!(
+                "{flag} is not used with a hazard curve of {im}"
+            ))),
+        };
     };
-    let points = hazard.points();
-    json!({
-        "unit": column.unit,
-        "points": points.len(),
-        "first_point": json!(&[points[0].0, points[0].1]),
-        "last_point": json!(
-            &[points[points.len() - 1].0, points[points.len() - 1].1]),
-        "fragilities": rows.iter().map(row).collect::<Vec<_>>(),
-    })
-}
-
-fn to_text(
-    column: Column,
-    hazard: &HazardCurve,
-    rows: &[(&str, Lognormal, AnnualFrequency)],
-) -> Result<String, Failure> {
-    let points = hazard.points();
-    let (first, last) = (points[0], points[points.len() - 1]);
-    let mut text = format!(
-        "hazard curve of {} points, {}, from {} ({} a year) to {} ({} a \
-         year)\n{:<12} {:>9} {:>9} {:>9} {:>12} {:>12} {:>12} {:>11}\n",
-        points.len(),
-        column.unit,
-        first.0,
-        first.1,
-        last.0,
-        last.1,
-        "fragility",
-        "shift",
-        "median",
-        "beta",
-        "at least",
-        "at most",
-        "covered",
-        "F at first",
-    );
-    for (name, f, found) in rows {
-        writeln!(
-            text,
-            "{name:<12} {:>9.5} {:>9.5} {:>9.5} {:>12.5e} {:>12.5e} \
-             {:>12.5e} {:>11.2e}",
-            f.shift(),
-            f.median(),
-            f.dispersion(),
-            found.truncation_lower,
-            found.truncation_upper,
-            found.covered,
-            found.first_probability,
-        )?;
-    }
-    text += "mean annual frequencies, 1/year: at least with the damage of \
-             the last point beyond it,\nat most with damage for certain \
-             there; covered: between the points\nbounds of where the curve \
-             ends, no confidence interval: records and hazard count as \
-             known\n";
-    if rows.iter().any(|(.., found)| found.first_probability > 0.0) {
-        text += "weaker motions than the first point add to it where F is \
-                 not 0 there: how much, the curve does not tell\n";
-    }
-    Ok(text)
+    let gravity = args.gravity.unwrap_or(STANDARD_GRAVITY_M_S2);
+    let block = args.block.block(gravity)?;
+    file.setting().holds_for(&block, Some(intensity)).map_err(at)?;
+    let model = file.setting().model.unwrap_or(Model::Nonlinear);
+    Ok(unit_intensity(intensity, &block, model, gravity))
 }

@@ -7,10 +7,7 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{Failure, print};
-
-/// Number of the shape of all JSON and CSV that the commands write. It rises
-/// when a field or a column changes its name, its unit or its meaning.
-pub const SCHEMA: u32 = 1;
+use rocking_common::table::columns::SCHEMA;
 
 /// What every JSON of a command carries.
 #[derive(Serialize)]
@@ -157,6 +154,9 @@ fn heading(name: &str) -> String {
     }
 }
 
+/// Columns of the widest table; a wider one becomes a block of rows a line.
+const WIDEST: usize = 140;
+
 /// One row a field; a struct is a block of rows, a list of structs a table.
 fn rows(text: &mut String, fields: &[(String, Node)], depth: usize) {
     let indent = 2 * depth;
@@ -172,12 +172,23 @@ fn rows(text: &mut String, fields: &[(String, Node)], depth: usize) {
                 if matches!(all.first(), Some(Node::Struct(_))) =>
             {
                 *text += &format!("{:indent$}{name}\n", "");
-                table(text, all, indent + 2);
+                let mut lines = String::new();
+                table(&mut lines, all, indent + 2);
+                if lines.lines().all(|line| line.chars().count() <= WIDEST) {
+                    *text += &lines;
+                    continue;
+                }
+                for one in all {
+                    let Node::Struct(fields) = one else { continue };
+                    rows(text, fields, depth + 1);
+                }
             }
             _ => {
                 let width = 32_usize.saturating_sub(indent);
-                *text +=
-                    &format!("{:indent$}{name:<width$}{}\n", "", cell(value));
+                let name = format!("{name:<width$}");
+                let gap = if name.len() > width { "  " } else { "" };
+                let cell = cell(value);
+                *text += &format!("{:indent$}{name}{gap}{cell}\n", "");
             }
         }
     }

@@ -8,12 +8,11 @@ use serde::Serialize;
 
 use super::Failure;
 use super::capacities::{Levels, ida};
-use super::fragility::COUNTS;
 use super::names;
 use super::shared::JsonArg;
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
-use rocking_common::table::Table;
+use rocking_common::table::{Table, columns::COUNTS};
 
 /// Responses at given intensities, of all records of an IDA table.
 ///
@@ -72,7 +71,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
     if let Some(out) = counts {
         let is_standard = out.is_standard();
-        let mut table = Table::new(&COUNTS);
+        let mut table = Table::of(&COUNTS);
         for s in stripes.iter().filter_map(StripeResponses::counts) {
             let cells = [s.exceeded.to_string(), s.n.to_string()];
             table.row([s.im.to_string()].into_iter().chain(cells));

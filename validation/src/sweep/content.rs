@@ -1,6 +1,7 @@
 //! What the tables of a sweep hold: their columns, and of what kind each is.
 
 use super::plan::Plan;
+use rocking_common::table::columns::SCHEMA_COLUMN;
 
 /// What a file of a tile holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,7 +61,7 @@ const CAPACITIES: [(&str, Kind); 5] = [
 
 const ROWS: [(&str, Kind); 6] = [
     ("record", Text),
-    ("im", Level),
+    ("intensity_pga", Level),
     ("pga_g", Level),
     ("edp", Value),
     ("refined", Flag),
@@ -105,7 +106,8 @@ impl Content {
             Self::Fragilities | Self::Rows => &[],
         };
         let fixed = BLOCK.iter().chain(own).map(|(n, k)| ((*n).into(), *k));
-        let at = demands.iter().map(|d| (format!("im_at_{d}"), Value));
-        fixed.chain(at).collect()
+        let at = demands.iter().map(|d| (format!("intensity_at_{d}"), Value));
+        let schema = [(SCHEMA_COLUMN.into(), Level)];
+        fixed.chain(at).chain(schema).collect()
     }
 }

@@ -123,7 +123,7 @@ pub fn run(
             let columns = content.columns(plan);
             let header: Vec<&str> =
                 columns.iter().map(|(name, _)| name.as_str()).collect();
-            let mut table = Table::new(&header);
+            let mut table = Table::with_schema(&header);
             for (block, curves) in blocks.iter().zip(&found) {
                 fill(&mut table, plan, content, block, curves)?;
             }

@@ -10,9 +10,7 @@ use rocking::statistics::lognormal::Stripe;
 use crate::cli::Failure;
 use crate::cli::samples::Opened;
 use crate::cli::show::show;
-
-/// The columns of a table of counts.
-pub(in crate::cli) const COLUMNS: [&str; 3] = ["im", "exceeded", "n"];
+use rocking_common::table::columns::{COUNTS, SCHEMA};
 
 /// Fits a lognormal fragility to counts: how many of n records exceeded a
 /// level, or overturned, at each intensity.
@@ -21,7 +19,7 @@ pub(in crate::cli) const COLUMNS: [&str; 3] = ["im", "exceeded", "n"];
 /// that take the stripes as independent.
 #[derive(ClapArgs)]
 pub(super) struct Args {
-    /// Table of counts, columns im,exceeded,n; `-` is standard input.
+    /// Table of counts, columns intensity,exceeded,n; `-` is standard input.
     #[arg(long, value_name = "FILE.csv")]
     counts: PathBuf,
     /// Shift IM_R, not negative.
@@ -55,11 +53,11 @@ pub(super) fn read(path: &Path) -> Result<Vec<Stripe>, Failure> {
         .comment(Some(b'#'))
         .from_reader(opened);
     let header = reader.headers().map_err(refuse)?;
-    if header.iter().ne(COLUMNS) {
+    if !COUNTS.has(header) {
         return Err(Failure::input(format!(
             "{place}:1: found columns `{}`: expected `{}`",
             header.iter().collect::<Vec<_>>().join(","),
-            COLUMNS.join(","),
+            COUNTS.names().collect::<Vec<_>>().join(","),
         )));
     }
     let mut stripes = Vec::new();
@@ -69,9 +67,15 @@ pub(super) fn read(path: &Path) -> Result<Vec<Stripe>, Failure> {
         let wrong = |column: usize, expected: &str| {
             Failure::input(format!(
                 "{place}:{line}: found `{}` in column {}: expected {expected}",
-                &row[column], COLUMNS[column],
+                &row[column], COUNTS.columns[column].name,
             ))
         };
+        if !COUNTS.is_current(row.get(3)) {
+            return Err(Failure::input(format!(
+                "{place}:{line}: found schema {}: expected {SCHEMA}",
+                &row[3],
+            )));
+        }
         let count = |column: usize| {
             let count = row[column].parse::<u32>().ok();
             let count = count.filter(|count| *count <= MOST_RECORDS);

@@ -20,6 +20,7 @@ use crate::cli::samples::SampleFile;
 use crate::cli::show::show;
 use crate::cli::{Failure, with_threads};
 use rocking_common::files::Outputs;
+use rocking_common::table::columns::BAND;
 use rocking_common::table::{Table, number, optional};
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
@@ -215,14 +216,7 @@ fn unit(
 
 /// The band as a table.
 fn csv(band: &Band) -> String {
-    let mut table = Table::new(&[
-        "im",
-        "probability",
-        "low",
-        "high",
-        "delta_low",
-        "delta_high",
-    ]);
+    let mut table = Table::of(&BAND);
     for point in &band.points {
         table.row([
             number(point.intensity),

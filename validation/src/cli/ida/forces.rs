@@ -7,7 +7,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, IdaCurve, IdaError};
 use rocking::procedures::{PivotForces, pivot_forces};
 
-use rocking_common::table::Table;
+use rocking_common::table::{Table, columns::FORCES};
 
 /// Forces at the pivot of every analysis.
 #[derive(clap::Args)]
@@ -52,10 +52,7 @@ impl ForcesArgs {
 
 /// One row an analysis, by record, then level.
 pub(super) fn csv(pivot: &PivotForces, table: &[IdaCurve]) -> String {
-    let mut out = Table::headed(
-        "record,im_pga,pga_g,edp,friction,friction_time_s,\
-         least_normal_over_weight,least_normal_time_s",
-    );
+    let mut out = Table::of(&FORCES);
     let time = |t: Option<f64>| t.map_or(String::new(), |t| t.to_string());
     for (curve, found) in table.iter().zip(&pivot.curves) {
         for (point, forces) in curve.points.iter().zip(found) {

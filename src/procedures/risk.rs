@@ -1,0 +1,150 @@
+//! How often a year a fragility's damage is to be expected under a hazard
+//! curve, and how probable it is in some years.
+
+use libm::expm1;
+use thiserror::Error;
+
+use crate::fragility::hazard::{Hazard, HazardRemark};
+use crate::intensity::IntensityMeasure;
+use crate::statistics::Lognormal;
+
+/// Annual frequencies and probabilities of damage under one hazard curve.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Risk {
+    /// The hazard curve's intensity measure; none where it is in the
+    /// fragility's own.
+    pub im: Option<IntensityMeasure>,
+    /// Unit of the intensities here, of medians and of shifts.
+    pub unit: &'static str,
+    /// Number of points of the hazard curve.
+    pub points: usize,
+    /// Its first point.
+    pub first: HazardPoint,
+    /// Its last point: what lies beyond it is bounded, not known.
+    pub last: HazardPoint,
+    /// What was set aside of the hazard curve.
+    pub remarks: Vec<HazardRemark>,
+    /// The time T of the probabilities in years.
+    pub years: f64,
+    /// One for each fragility.
+    pub fragilities: Vec<FragilityRisk>,
+}
+
+/// A point of a hazard curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct HazardPoint {
+    /// Intensity, in the unit of the curve.
+    pub intensity: f64,
+    /// Annual frequency of exceedance in 1/year.
+    pub annual_frequency: f64,
+}
+
+/// Annual frequency and probability of damage of one fragility.
+///
+/// Lower and upper are bounds of the hazard curve's truncation at its last
+/// point (see
+/// [`AnnualFrequency`](crate::fragility::risk::AnnualFrequency)). They are no
+/// confidence interval: records and hazard count as known.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FragilityRisk {
+    /// Name of the fragility.
+    pub fragility: String,
+    /// The fragility, in the unit of the hazard curve.
+    pub fitted: Lognormal,
+    /// Annual frequency in 1/year at least.
+    pub annual_frequency_truncation_lower: f64,
+    /// Annual frequency in 1/year at most.
+    pub annual_frequency_truncation_upper: f64,
+    /// Annual frequency in 1/year of what the points cover.
+    pub annual_frequency_covered: f64,
+    /// Probability of damage in T years at least.
+    pub probability_truncation_lower: f64,
+    /// Probability of damage in T years at most.
+    pub probability_truncation_upper: f64,
+    /// The fragility at the first point. Where it is not 0, weaker motions
+    /// add to the frequency; how much, the curve does not tell.
+    pub probability_at_first_point: f64,
+}
+
+/// Why a risk was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RiskError {
+    /// A time is positive.
+    #[error("{0} years: expected a positive number")]
+    Years(f64),
+}
+
+/// Annual frequency of damage of fragilities F, named and in the unit of the
+/// hazard curve H, and probability of damage in `years` T.
+///
+/// lambda is the integral of F(x) |dH(x)|, with a power law H between the
+/// points (OpenQuake interpolates linearly, which gives 10 to 17 % more on a
+/// usual curve of 20 points). Damage is a Poisson process of that frequency:
+/// the probability of damage in T years is 1 - exp(-lambda T).
+///
+/// ```
+/// use rocking::fragility::hazard::{Hazard, HazardOptions};
+/// use rocking::procedures::risk;
+/// use rocking::statistics::Lognormal;
+/// let text = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
+/// let hazard = Hazard::parse("h.csv", text, &HazardOptions::default())?;
+/// let fragility = Lognormal::try_new(0.0, 0.0, 0.5)?;
+/// let found = risk(&hazard, &[("block", fragility)], 50.0)?;
+/// // Cornell's closed form for H = 1e-4 x^-2, median 1, dispersion 0.5.
+/// let cornell = 1e-4 * 0.5f64.exp();
+/// let row = &found.fragilities[0];
+/// let ratio = row.annual_frequency_truncation_lower / cornell;
+/// assert!((ratio - 1.0).abs() < 1e-12);
+/// let probability = 1.0 - (-50.0 * cornell).exp();
+/// assert!((row.probability_truncation_lower - probability).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`RiskError`] for a time that is no positive number.
+pub fn risk(
+    hazard: &Hazard,
+    fragilities: &[(&str, Lognormal)],
+    years: f64,
+) -> Result<Risk, RiskError> {
+    if !(years > 0.0 && years.is_finite()) {
+        return Err(RiskError::Years(years));
+    }
+    let points = hazard.curve.points();
+    let point = |(intensity, annual_frequency)| HazardPoint {
+        intensity,
+        annual_frequency,
+    };
+    let within = |frequency: f64| -expm1(-frequency * years);
+    let row = |(name, fitted): &(&str, Lognormal)| {
+        let found = hazard.curve.annual_frequency(fitted);
+        let (lower, upper) = (found.truncation_lower, found.truncation_upper);
+        FragilityRisk {
+            fragility: (*name).to_owned(),
+            fitted: *fitted,
+            annual_frequency_truncation_lower: lower,
+            annual_frequency_truncation_upper: upper,
+            annual_frequency_covered: found.covered,
+            probability_truncation_lower: within(lower),
+            probability_truncation_upper: within(upper),
+            probability_at_first_point: found.first_probability,
+        }
+    };
+    Ok(Risk {
+        im: hazard.im.clone(),
+        unit: hazard.unit(),
+        points: points.len(),
+        first: point(points[0]),
+        last: point(points[points.len() - 1]),
+        remarks: hazard.remarks.clone(),
+        years,
+        fragilities: fragilities.iter().map(row).collect(),
+    })
+}

@@ -1,0 +1,134 @@
+//! The registry of tables, against what commands write and `docs/tables.md`.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use rocking_common::table::columns::{
+    BAND, COUNTS, FORCES, HISTORY, IDA, Kind, Layout, SCHEMA,
+    SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS, TABLES,
+};
+
+use super::support::{at2, folder, motion, run};
+
+/// The page that the registry makes.
+fn page() -> String {
+    let mut text = format!(
+        "# Tables\n\nEach file of rows that a command reads or writes, with \
+         its columns. A test makes\nthis page of `exchange/src/columns.rs`, \
+         from which the writers take their header\nlines. A table that a \
+         command writes ends with the column `schema`, now\n{SCHEMA}; each \
+         JSON has a field of that name. It rises when a column or a field\n\
+         changes its name, its unit or its meaning, and a table of another \
+         schema is\nrefused. Unit 1 is a number without a unit. `inf` is \
+         infinity. An empty cell of\nnumbers is missing. `im` is the name of \
+         an intensity measure; a number is an\n`intensity`. An index of \
+         records carries no schema: its other columns are\nattributes of the \
+         records.\n"
+    );
+    for table in TABLES {
+        let about = table.about.split_whitespace().collect::<Vec<_>>();
+        writeln!(
+            text,
+            "\n## {}\n\n{}\n\n| column | cells | unit | meaning |\n\
+             |---|---|---|---|",
+            table.name,
+            about.join(" ")
+        )
+        .unwrap();
+        for column in table.columns {
+            let kind = format!("{:?}", column.kind).to_lowercase();
+            let meaning = column.meaning.replace('|', "\\|");
+            let (name, unit) = (column.name, column.unit);
+            writeln!(text, "| `{name}` | {kind} | {unit} | {meaning} |")
+                .unwrap();
+        }
+    }
+    text
+}
+
+/// Renewed, as the help snapshots, with `INSTA_UPDATE=always`.
+#[test]
+fn the_page_of_tables_is_that_of_the_registry() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tables.md");
+    if std::env::var("INSTA_UPDATE").is_ok_and(|mode| mode == "always") {
+        fs::write(path, page()).unwrap();
+    }
+    let kept = fs::read_to_string(path).unwrap_or_default();
+    assert!(kept == page(), "docs/tables.md: expected\n{}", page());
+    // `im` is a name wherever it stands.
+    let all = TABLES.iter().flat_map(|table| table.columns);
+    for column in all {
+        assert!(column.name != "im" || column.kind == Kind::Text);
+    }
+}
+
+/// Holds a table to its layout; `extra` columns stand before the schema.
+fn holds(place: &Path, file: &str, layout: &Layout, extra: &[&str]) {
+    let text = fs::read_to_string(place.join(file)).unwrap();
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header: Vec<String> =
+        reader.headers().unwrap().iter().map(String::from).collect();
+    let mut expected: Vec<&str> = layout.names().collect();
+    expected
+        .splice(layout.columns.len()..layout.columns.len(), extra.to_vec());
+    assert_eq!(header, expected, "{file}");
+    let mut rows = 0;
+    for row in reader.records() {
+        let row = row.unwrap();
+        rows += 1;
+        for (column, cell) in layout.columns.iter().zip(&row) {
+            let fits = match column.kind {
+                Kind::Text => cell.parse::<f64>().is_err(),
+                Kind::Number => cell.is_empty() || cell.parse::<f64>().is_ok(),
+                Kind::Count => cell.parse::<u64>().is_ok(),
+                Kind::Flag => cell.parse::<bool>().is_ok(),
+            };
+            assert!(fits, "{file}, {}: {cell}", column.name);
+        }
+        assert_eq!(row.get(row.len() - 1), Some("1"), "{file}");
+    }
+    assert!(rows > 0, "{file}");
+}
+
+#[test]
+fn tables_of_commands_have_the_columns_of_the_registry() {
+    let samples = motion(9.0);
+    let record = at2("0.02", samples.len(), &samples);
+    let files = [
+        ("a.at2", record.as_str()),
+        ("sample.txt", "1.2\n1.5\n1.9\n2.6\n"),
+        ("blocks.csv", "alpha,p\n0.1,3\n"),
+    ];
+    let place = folder("tables", &files);
+    for command in [
+        "respond --alpha 0.1 --p 3 --record a.at2 --im 2 --history h.csv",
+        "ida --alpha 0.1 --p 3 --suite a.at2 --step-im 0.5 --out ida.csv \
+         --forces forces.csv",
+        "stripes --ida ida.csv --levels 1.2,1.4 --at 0.01 --counts n.csv",
+        "fragility fit --sample sample.txt --bootstrap 20 --band 1:2:0.5 \
+         --band-csv band.csv",
+        "sweep plan --blocks blocks.csv --suite a.at2 --out plan --step-im \
+         0.5 --demands 0.5,1 --rows",
+        "sweep run plan",
+        "sweep merge plan --out f.csv",
+        "sweep merge plan --what capacities --out c.csv",
+        "sweep merge plan --what rows --out r.csv",
+    ] {
+        let (status, _, error) = run(&place, command);
+        assert_eq!(status, 0, "{command}: {error}");
+    }
+    for (file, layout) in [
+        ("h.csv", &HISTORY),
+        ("ida.csv", &IDA),
+        ("forces.csv", &FORCES),
+        ("n.csv", &COUNTS),
+        ("band.csv", &BAND),
+        ("f.csv", &SWEEP_FRAGILITIES),
+        ("r.csv", &SWEEP_ROWS),
+    ] {
+        holds(&place, file, layout, &[]);
+    }
+    let capacities = ["intensity_at_0.5", "intensity_at_1"];
+    holds(&place, "c.csv", &SWEEP_CAPACITIES, &capacities);
+}

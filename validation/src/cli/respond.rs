@@ -95,7 +95,7 @@ struct Setting<'a> {
     processing: Option<String>,
     remarks: Option<&'a Remarks>,
     pga_g: f64,
-    im_pga: f64,
+    intensity_pga: f64,
 }
 
 /// Runs the command.
@@ -173,7 +173,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             processing: args.excitation.processing()?,
             remarks: ground.remarks(),
             pga_g,
-            im_pga: pga_g / threshold,
+            intensity_pga: pga_g / threshold,
         },
     };
     let text = shown(as_json, &result)?;

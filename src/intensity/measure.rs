@@ -29,6 +29,30 @@ impl Intensity {
             Self::Pgv => "p PGV/(g tan alpha)",
         }
     }
+
+    /// The PGA (g) of a motion at this intensity of `im`, for a block of
+    /// uplift threshold `threshold` (over g) and frequency parameter
+    /// `p_rad_s`; PGV/(g PGA) of the motion is `velocity_ratio_s`.
+    ///
+    /// ```
+    /// use rocking::intensity::Intensity;
+    /// let pga_g = Intensity::Pgv.pga_g(2.0, 0.1, 3.0, 0.2);
+    /// // p PGV/(g tan alpha)
+    /// assert!((3.0 * 0.2 * pga_g / 0.1 - 2.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn pga_g(
+        self,
+        im: f64,
+        threshold: f64,
+        p_rad_s: f64,
+        velocity_ratio_s: f64,
+    ) -> f64 {
+        match self {
+            Self::Pga => im * threshold,
+            Self::Pgv => im * threshold / (p_rad_s * velocity_ratio_s),
+        }
+    }
 }
 
 /// An intensity measure of a record: its name is `pga`, `pgv`, `pgd`,

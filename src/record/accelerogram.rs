@@ -151,6 +151,15 @@ impl Accelerogram {
     /// Velocity (m/s) and displacement (m) at the samples, from rest under
     /// gravity `gravity_m_s2`, exact for an acceleration that is linear
     /// between them.
+    ///
+    /// ```
+    /// use rocking::record::Accelerogram;
+    /// let record = Accelerogram::try_new("step", 0.5, vec![0.1; 3])?;
+    /// let (velocity, displacement) = record.integrals(10.0);
+    /// // a t and a t^2/2 of 1 m/s2 after 1 s.
+    /// assert_eq!((velocity[2], displacement[2]), (1.0, 0.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn integrals(&self, gravity_m_s2: f64) -> (Vec<f64>, Vec<f64>) {
         let dt_s = self.dt_s;

@@ -176,11 +176,9 @@ impl ExcitationArgs {
         p: f64,
         velocity_ratio_s: f64,
     ) -> Option<f64> {
-        let by_im = self.im.map(|im| match self.im_kind {
-            Some(Intensity::Pgv) => im * threshold / (p * velocity_ratio_s),
-            Some(Intensity::Pga) | None => im * threshold,
-        });
-        self.pga.or(by_im)
+        let kind = self.im_kind.unwrap_or(Intensity::Pga);
+        let by_im = |im| kind.pga_g(im, threshold, p, velocity_ratio_s);
+        self.pga.or(self.im.map(by_im))
     }
 
     /// The parameters of pulses: flags and values.

@@ -57,7 +57,7 @@ pub struct Args {
     step_im: Option<f64>,
     /// Width in IM to which the first overturning is bisected, or `none`
     /// [default: 1e-4].
-    #[arg(long, value_name = "TOL|none")]
+    #[arg(long, value_name = "TOL|none", value_parser = refine)]
     refine: Option<Refine>,
     /// How intensity is reached.
     #[arg(
@@ -218,7 +218,7 @@ impl Args {
             overturning: self.model.overturning(),
             grid,
             adjust: self.by,
-            refine: self.refine.map_or(Some(REFINEMENT), Refine::width),
+            refine: self.refine.map_or(Some(REFINEMENT), |width| width.0),
             highest_im: HIGHEST_IM,
             resurrections,
             order: self.order,
@@ -254,30 +254,17 @@ impl Args {
     }
 }
 
-/// Bisection of the first overturning bracket, as `--refine` has it.
+/// Width to which the first overturning is bisected, if it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Refine(Option<f64>);
 
-impl std::str::FromStr for Refine {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "none" {
-            return Ok(Self(None));
+fn refine(text: &str) -> Result<Refine, String> {
+    match text.parse() {
+        _ if text == "none" => Ok(Refine(None)),
+        Ok(width) if width > 0.0 && f64::is_finite(width) => {
+            Ok(Refine(Some(width)))
         }
-        match text.parse() {
-            Ok(width) if width > 0.0 && f64::is_finite(width) => {
-                Ok(Self(Some(width)))
-            }
-            _ => Err("expected a positive number, or none".to_owned()),
-        }
-    }
-}
-
-impl Refine {
-    /// The width, if any.
-    fn width(self) -> Option<f64> {
-        self.0
+        _ => Err("expected a positive number, or none".to_owned()),
     }
 }
 

@@ -1,10 +1,8 @@
 //! How a result is printed: as JSON by `serde`, or as text made of the same
 //! fields by one rule.
 
-use std::fmt;
-
-use serde::de::{MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
 
 use super::{Failure, print};
 use rocking_common::table::columns::SCHEMA;
@@ -54,76 +52,20 @@ pub fn text<T: Serialize>(result: &T) -> Result<String, Failure> {
 }
 
 /// A serialized result whose fields keep their order.
+#[derive(Clone, Deserialize)]
+#[serde(untagged)]
 enum Node {
     None,
-    Text(String),
+    Flag(bool),
+    Count(u64),
+    Whole(i64),
     Number(f64),
+    Text(String),
     List(Vec<Self>),
-    Struct(Vec<(String, Self)>),
+    Struct(Fields),
 }
 
-impl<'de> Deserialize<'de> for Node {
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        from.deserialize_any(NodeVisitor)
-    }
-}
-
-struct NodeVisitor;
-
-impl<'de> Visitor<'de> for NodeVisitor {
-    type Value = Node;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a value of JSON")
-    }
-
-    fn visit_unit<E>(self) -> Result<Node, E> {
-        Ok(Node::None)
-    }
-
-    fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
-        Ok(Node::Text(if value { "yes" } else { "no" }.into()))
-    }
-
-    fn visit_str<E>(self, value: &str) -> Result<Node, E> {
-        // A name with a line break stays in its row.
-        Ok(Node::Text(value.replace('\n', "\\u000a")))
-    }
-
-    fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
-        Ok(Node::Text(value.to_string()))
-    }
-
-    fn visit_i64<E>(self, value: i64) -> Result<Node, E> {
-        Ok(Node::Text(value.to_string()))
-    }
-
-    fn visit_f64<E>(self, value: f64) -> Result<Node, E> {
-        Ok(Node::Number(value))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(
-        self,
-        mut all: A,
-    ) -> Result<Node, A::Error> {
-        let mut list = Vec::new();
-        while let Some(one) = all.next_element()? {
-            list.push(one);
-        }
-        Ok(Node::List(list))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(
-        self,
-        mut all: A,
-    ) -> Result<Node, A::Error> {
-        let mut fields = Vec::new();
-        while let Some(field) = all.next_entry()? {
-            fields.push(field);
-        }
-        Ok(Node::Struct(fields))
-    }
-}
+type Fields = IndexMap<String, Node>;
 
 /// Units that end the name of a field, the longer ones first.
 const UNITS: [(&str, &str); 13] = [
@@ -158,7 +100,7 @@ fn heading(name: &str) -> String {
 const WIDEST: usize = 140;
 
 /// One row a field; a struct is a block of rows, a list of structs a table.
-fn rows(text: &mut String, fields: &[(String, Node)], depth: usize) {
+fn rows(text: &mut String, fields: &Fields, depth: usize) {
     let indent = 2 * depth;
     for (name, value) in fields {
         let name = heading(name);
@@ -234,11 +176,7 @@ fn table(text: &mut String, all: &[Node], indent: usize) {
 }
 
 /// The cells of a row, the fields of inner structs behind their own name.
-fn flatten(
-    before: &str,
-    fields: &[(String, Node)],
-    into: &mut Vec<(String, String)>,
-) {
+fn flatten(before: &str, fields: &Fields, into: &mut Vec<(String, String)>) {
     for (name, value) in fields {
         let name = format!("{before}{}", heading(name));
         match value {
@@ -251,10 +189,11 @@ fn flatten(
             {
                 for one in all {
                     let Node::Struct(inner) = one else { continue };
-                    let Some(((_, first), rest)) = inner.split_first() else {
+                    let mut inner = inner.clone();
+                    let Some((_, first)) = inner.shift_remove_index(0) else {
                         continue;
                     };
-                    flatten(&format!("{} ", cell(first)), rest, into);
+                    flatten(&format!("{} ", cell(&first)), &inner, into);
                 }
             }
             _ => into.push((name, cell(value))),
@@ -264,11 +203,8 @@ fn flatten(
 
 /// A value with the ends of its interval: a struct with `point` or `value`,
 /// `low` and `high`.
-fn interval(fields: &[(String, Node)]) -> Option<String> {
-    let at = |wanted: &str| {
-        let found = fields.iter().find(|(name, _)| name == wanted);
-        found.map(|(_, value)| cell(value))
-    };
+fn interval(fields: &Fields) -> Option<String> {
+    let at = |name: &str| fields.get(name).map(cell);
     let point = at("point").or_else(|| at("value"))?;
     let (low, high) = (at("low")?, at("high")?);
     Some(format!("{point} [{low}, {high}]"))
@@ -277,7 +213,11 @@ fn interval(fields: &[(String, Node)]) -> Option<String> {
 fn cell(value: &Node) -> String {
     match value {
         Node::None => "none".into(),
-        Node::Text(text) => text.clone(),
+        Node::Flag(yes) => String::from(if *yes { "yes" } else { "no" }),
+        Node::Count(n) => n.to_string(),
+        Node::Whole(n) => n.to_string(),
+        // A name with a line break stays in its row.
+        Node::Text(text) => text.replace('\n', "\\u000a"),
         Node::Number(x) => number(*x),
         Node::List(all) => all.iter().map(cell).collect::<Vec<_>>().join(" "),
         Node::Struct(fields) => interval(fields).unwrap_or_default(),

@@ -2,10 +2,13 @@
 
 use std::path::PathBuf;
 
+use rocking::record::SetAside;
 use rocking::units::STANDARD_GRAVITY_M_S2;
+use serde::Serialize;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
+use super::show::text;
 use super::{Failure, say, with_threads};
 use rocking_common::files::Folder;
 use rocking_common::suites::export;
@@ -40,6 +43,21 @@ struct ExportArgs {
     processing: ProcessingArgs,
 }
 
+/// What was written.
+#[derive(Serialize)]
+struct Shown {
+    suites: Vec<Written>,
+    /// What was set aside of a suite of the user's.
+    set_aside: Option<SetAside>,
+}
+
+#[derive(Serialize)]
+struct Written {
+    suite: String,
+    records: usize,
+    index: String,
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -47,14 +65,13 @@ struct ExportArgs {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let Action::Export(args) = &args.action;
     let mut files = Vec::new();
-    let mut table = String::new();
+    let mut shown = Shown { suites: Vec::new(), set_aside: None };
     let mut add = |name: &str, rows: Vec<export::Row<'_>>| {
-        let index = args.out.join(format!("{name}.csv"));
-        table.push_str(&format!(
-            "{name}: {} records, index {}\n",
-            rows.len(),
-            index.display()
-        ));
+        shown.suites.push(Written {
+            suite: name.to_owned(),
+            records: rows.len(),
+            index: args.out.join(format!("{name}.csv")).display().to_string(),
+        });
         let named = |(path, content): (PathBuf, Vec<u8>)| {
             (path.display().to_string(), content)
         };
@@ -70,9 +87,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             args.reading.judge(suite.set_aside(), &Remarks::on(&suite))?;
             let done = words(&processing);
             add(suite.name(), export::members(&suite, done.as_deref()))?;
-            if !suite.set_aside().is_empty() {
-                table += &format!("set aside: {}\n", suite.set_aside());
-            }
+            shown.set_aside = Some(suite.set_aside().clone());
         }
         None => {
             let given = args.reading.given().or(args.processing.given());
@@ -91,5 +106,5 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let folder = Folder::open_new(&args.out)?;
     let last = files.last().map_or(String::new(), |(name, _)| name.clone());
     folder.write(&files.into_iter().collect(), &last)?;
-    say(&table)
+    say(&text(&shown)?)
 }

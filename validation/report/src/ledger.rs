@@ -202,8 +202,7 @@ pub fn table(
 ) -> Result<PlainTable, LedgerError> {
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
     let drawn = |number: u32| {
-        let stem = format!("figure-{number:02}");
-        let is = |f: &Figure| f.heading.name.starts_with(&stem);
+        let is = |f: &Figure| f.heading.number() == Some(number);
         figures.iter().any(|f| is(f) && !f.csv.is_empty())
     };
     let requirements = requirements()?;

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use serde_json::{Map, Value};
 use thiserror::Error;
 
 use rocking_common::findings::Claim;
 use rocking_common::paper::Verdict;
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
+use rocking_proof::verdict::snapshot;
 
 /// The requirements, embedded.
 const REQUIREMENTS: &str = include_str!("../../requirements.toml");
@@ -134,7 +134,7 @@ impl Requirement {
     #[must_use]
     pub fn standing(
         &self,
-        results: Option<&Map<String, Value>>,
+        results: Option<&snapshot::Results>,
         measured: &dyn Fn(&str) -> bool,
         is_test: &dyn Fn(&str) -> bool,
         drawn: &dyn Fn(u32) -> bool,
@@ -155,7 +155,7 @@ impl Requirement {
                 if !met.insert(id) {
                     continue;
                 }
-                if result["verdict"] == "pass" {
+                if result.passed() {
                     out.passed += 1;
                 } else {
                     out.failed.push(id.clone());
@@ -196,7 +196,7 @@ fn fit(pattern: &str, id: &str) -> bool {
 /// # Errors
 /// [`LedgerError`] where the requirements cannot be read.
 pub fn table(
-    results: Option<&Map<String, Value>>,
+    results: Option<&snapshot::Results>,
     claims: &[Claim],
     figures: &[Figure],
 ) -> Result<PlainTable, LedgerError> {

@@ -353,7 +353,7 @@ mod tests {
 
     /// The folder of the committed results.
     fn committed() -> PathBuf {
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/data")
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/data")
     }
 
     /// Reads the committed results after a change of both texts.

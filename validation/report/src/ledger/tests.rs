@@ -10,7 +10,7 @@ fn in_the_gate(name: &str) -> bool {
     let Some((file, function)) = name.split_once("::") else {
         return false;
     };
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let Ok(text) = std::fs::read_to_string(root.join(file)) else {
         return false;
     };
@@ -21,7 +21,7 @@ fn in_the_gate(name: &str) -> bool {
 
 #[test]
 fn every_requirement_has_executed_evidence() {
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
     let proof = Proof::read(data.as_ref()).unwrap();
     let mut problems = Vec::new();
     for r in requirements().unwrap() {

@@ -1,9 +1,26 @@
 //! Numbers of the data files in JSON, which tell infinity. The command line
 //! prints `null` for what is infinite or not a number, as `json!` does.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
 
 use crate::words;
+
+/// A number as data files hold it, with all its digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extended(pub f64);
+
+impl Serialize for Extended {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        extended(self.0).serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Extended {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        nine::deserialize(from).map(Self)
+    }
+}
 
 /// A number as data files hold it: `"inf"` or `"-inf"` for infinities,
 /// `null` for NaN.

@@ -32,7 +32,7 @@ pub use fragilities::{
     BandOf, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
     Fragilities, FragilityPanel, Limit,
 };
-pub use heading::{Figure, Heading};
+pub use heading::{Figure, Heading, Place};
 pub use histories::{Histories, History, HistoryPanel};
 pub use ida::{IdaCurve, IdaCurves, IdaPanel};
 pub use quantiles::{QuantileGroup, QuantilePanel, Quantiles};

@@ -2,7 +2,7 @@
 //! one rule, and what stands about every theme and every suite.
 
 use crate::evidence::Proof;
-use crate::page::AnswerRow;
+use crate::page::{Anchor, AnswerRow};
 use crate::quantity::{cell_text, rule_text, value_text};
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
@@ -24,7 +24,7 @@ struct Asked {
     effect: &'static str,
     /// What the answer leaves out: words, and the claim with their number.
     except: Option<(&'static str, &'static str)>,
-    figures: &'static [&'static str],
+    figures: &'static [u32],
 }
 
 const ASKED: [Asked; 4] = [
@@ -39,7 +39,7 @@ const ASKED: [Asked; 4] = [
         name: "Median ratio, p = 3 and 4",
         effect: "ratios-p3-p4",
         except: Some(("with Housner's restitution", "housner-breaks")),
-        figures: &["figure-06", "figure-07", "figure-08"],
+        figures: &[6, 7, 8],
     },
     Asked {
         question: "Do scaled records and an adjusted slenderness give the \
@@ -51,7 +51,7 @@ const ASKED: [Asked; 4] = [
         name: "Median ratio, adjusted over scaled",
         effect: "adjustment-ratios",
         except: None,
-        figures: &["figure-09", "figure-10"],
+        figures: &[9, 10],
     },
     Asked {
         question: "Does the shifted lognormal fit capacities, in PGA better \
@@ -64,7 +64,7 @@ const ASKED: [Asked; 4] = [
         name: "Gain in distance to the sample in PGA",
         effect: "shift-gains-pga",
         except: None,
-        figures: &["figure-12", "figure-14", "figure-15"],
+        figures: &[12, 14, 15],
     },
     Asked {
         question: "Do Eqs. 5 to 7 give the shifted fragility?",
@@ -76,7 +76,7 @@ const ASKED: [Asked; 4] = [
         name: "Trimmed PGA, distance to the shifted lognormal",
         effect: "eq7-trimmed-pga",
         except: None,
-        figures: &["figure-16", "figure-17", "figure-18"],
+        figures: &[16, 17, 18],
     },
 ];
 
@@ -178,7 +178,7 @@ pub(super) fn rows(
     recorded: Option<&Findings>,
     timings: &Timings,
     proof: Option<&Proof>,
-    figures: &[(String, String)],
+    figures: &[Anchor],
 ) -> Vec<AnswerRow> {
     let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
     let lead = recorded.unwrap_or(here);
@@ -201,12 +201,10 @@ pub(super) fn rows(
                     _ => format!("{word}: {counts}"),
                 }
             };
-            let stems = asked.figures.iter();
-            let shown = stems.filter_map(|stem| {
-                let own = |f: &&(String, String)| f.0.starts_with(stem);
-                let (name, number) = figures.iter().find(own)?;
-                let number = number.split(',').next().unwrap_or(number);
-                Some((name.clone(), number.to_owned()))
+            let shown = asked.figures.iter().filter_map(|number| {
+                let (_, (name, _)) =
+                    figures.iter().find(|f| f.0 == *number)?;
+                Some((name.clone(), format!("Figure {number}")))
             });
             AnswerRow {
                 question: asked.question.into(),

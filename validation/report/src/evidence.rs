@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn every_quick_case_is_shown_with_its_result() {
-        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
         let proof = Proof::read(data.as_ref()).unwrap();
         let families = shown(&proof).unwrap();
         let cases: usize = families.iter().map(|f| f.cases.len()).sum();

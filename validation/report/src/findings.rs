@@ -1,7 +1,7 @@
 //! The findings of a study for the page: by theme, recorded suites first.
 
 use crate::answers;
-use crate::page::{Column, Finding, Outcome, Theme as Shown};
+use crate::page::{Anchor, Column, Finding, Outcome, Theme as Shown};
 use crate::quantity::{cell_text, rule_text, value_text};
 use rocking_common::findings::{Claim, ClaimResult, Findings, Kind, Theme};
 use rocking_common::paper::Arm;
@@ -59,14 +59,13 @@ pub fn anchor(theme: Theme) -> &'static str {
 
 /// The theme in which a figure of the paper stands.
 #[must_use]
-pub fn theme_of(name: &str) -> Theme {
-    let digits: String = name.chars().filter(char::is_ascii_digit).collect();
-    match digits.parse() {
-        Ok(2..=5) => Theme::SingleRecords,
-        Ok(6..=10) => Theme::Statistics,
-        Ok(11..=14) => Theme::Lognormality,
-        Ok(15..=18) => Theme::Fragilities,
-        Ok(_) | Err(_) => Theme::Choices,
+pub fn theme_of(number: u32) -> Theme {
+    match number {
+        2..=5 => Theme::SingleRecords,
+        6..=10 => Theme::Statistics,
+        11..=14 => Theme::Lognormality,
+        15..=18 => Theme::Fragilities,
+        _ => Theme::Choices,
     }
 }
 
@@ -76,7 +75,7 @@ pub fn theme_of(name: &str) -> Theme {
 pub fn themes(
     here: &Findings,
     recorded: Option<&Findings>,
-    figures: &[(String, String)],
+    figures: &[Anchor],
 ) -> Vec<Shown> {
     let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
     let first = answers::first_arm(here);
@@ -141,7 +140,7 @@ pub fn identities(here: &Findings) -> PlainTable {
 fn finding(
     claim: &Claim,
     sources: &[&Findings],
-    names: &[(String, String)],
+    names: &[Anchor],
     first: Arm,
 ) -> Finding {
     let outcomes = |findings: &&Findings| -> Vec<Outcome> {
@@ -215,15 +214,10 @@ fn outcome(claim: &Claim, result: &ClaimResult, first: Arm) -> Outcome {
 }
 
 /// The figures among `names` that a claim is about: those of its section.
-fn shown_by(
-    claim: &Claim,
-    names: &[(String, String)],
-) -> Vec<(String, String)> {
-    let mut out = Vec::new();
-    for number in claim.section.figures() {
-        let stem = format!("figure-{number:02}");
-        let found = names.iter().filter(|(name, _)| name.starts_with(&stem));
-        out.extend(found.cloned());
-    }
-    out
+fn shown_by(claim: &Claim, names: &[Anchor]) -> Vec<(String, String)> {
+    let numbers = claim.section.figures().into_iter();
+    let of = |number: u8| {
+        names.iter().filter(move |name| name.0 == u32::from(number))
+    };
+    numbers.flat_map(of).map(|(_, name)| name.clone()).collect()
 }

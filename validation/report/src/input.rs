@@ -12,36 +12,27 @@ use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
 use crate::method;
-use crate::page::{Answers, Chapter, ReportInput, ShownFigure};
+use crate::page::{Anchor, Answers, Chapter, ReportInput, ShownFigure};
 use crate::recorded;
 use crate::timings::Timings;
-use rocking_common::findings::{Findings, Theme};
+use rocking_common::findings::Findings;
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
-use rocking_draw::figures::Figure;
+use rocking_draw::figures::{Figure, Place};
 use rocking_study::questions::Answer;
 use rocking_study::results::Results;
 
 /// Title of the page.
 pub(super) const TITLE: &str = "The statistics of rocking";
 
-/// Figures beside the answers, by their stems.
-const FIRST: [&str; 2] = ["figure-08", "figure-16"];
+/// Figures beside the answers, by their numbers.
+const FIRST: [u32; 2] = [8, 16];
 
 /// The figure of Eq. 1's departure from similarity.
-const SIMILARITY: &str = "figure-19";
+const SIMILARITY: u32 = 19;
 
-/// Figures that open a theme, by their stems; its others are folded.
-const LEADING: [&str; 8] = [
-    "figure-02",
-    "figure-04",
-    "figure-06",
-    "figure-07",
-    "figure-11",
-    "figure-12",
-    "figure-15",
-    "figure-17",
-];
+/// Figures that open a theme, by their numbers; its others are folded.
+const LEADING: [u32; 8] = [2, 4, 6, 7, 11, 12, 15, 17];
 
 /// What the page shows; `proof` are the results of the declared cases, if
 /// they were handed in.
@@ -67,21 +58,20 @@ pub fn input(
     // Of figures that both arms have, those of the paper's grid stand in the
     // annex.
     let other = |figure: &&Figure| {
-        let arm = figure.heading.arm;
-        let both = figure.heading.name.len() > "figure-00".len();
-        both && arm == Some(Arm::A) && results.plan.drawn().len() > 1
+        figure.heading.own_arm() == Some(Arm::A)
+            && results.plan.drawn().len() > 1
     };
-    let own: Vec<ShownFigure> = figures
+    let own: Vec<(u32, ShownFigure)> = figures
         .iter()
-        .filter(|f| is_paper_s(f))
         .filter(|f| !other(f))
-        .map(shown)
+        .filter_map(|f| Some((f.heading.number()?, shown(f))))
         .collect();
-    let names: Vec<(String, String)> =
-        own.iter().map(|f| (f.name.clone(), f.number.clone())).collect();
-    let (first, rest): (Vec<_>, Vec<_>) = own
-        .into_iter()
-        .partition(|f| FIRST.iter().any(|stem| f.name.starts_with(stem)));
+    let names: Vec<Anchor> = own
+        .iter()
+        .map(|(number, f)| (*number, (f.name.clone(), f.number.clone())))
+        .collect();
+    let (first, rest): (Vec<_>, Vec<_>) =
+        own.into_iter().partition(|(number, _)| FIRST.contains(number));
     let rows = answers::rows(
         results.embedded(),
         found,
@@ -91,12 +81,10 @@ pub fn input(
         &names,
     );
     let mut themes = findings::themes(found, recorded, &names);
-    for figure in rest {
-        let theme = findings::theme_of(&figure.name);
-        let place = Theme::ALL.into_iter().find(|t| *t == theme);
-        let id = place.map(findings::anchor);
-        if let Some(one) = themes.iter_mut().find(|t| Some(t.id) == id) {
-            let leads = LEADING.iter().any(|s| figure.name.starts_with(s));
+    for (number, figure) in rest {
+        let id = findings::anchor(findings::theme_of(number));
+        if let Some(one) = themes.iter_mut().find(|t| t.id == id) {
+            let leads = LEADING.contains(&number);
             let list = if leads { &mut one.figures } else { &mut one.more };
             list.push(figure);
         }
@@ -107,16 +95,14 @@ pub fn input(
         id: "suites",
         title: "Suites".into(),
         text: compared().map(|q| q.answer.clone()).collect(),
-        figures: drawn(figures, |f| f.heading.name == "figure-suites"),
+        figures: drawn(figures, |f| f.heading.place == Place::Suites),
         ..Chapter::default()
     };
     let by_block = Chapter {
         id: "suites-by-block",
         title: "Suites: motions, and capacities block by block".into(),
         tables: compared().flat_map(|q| q.tables.clone()).collect(),
-        figures: drawn(figures, |f| {
-            f.heading.name == "figure-suites-capacities"
-        }),
+        figures: drawn(figures, |f| f.heading.place == Place::SuitesByBlock),
         ..Chapter::default()
     };
     let beyond = Chapter {
@@ -127,9 +113,7 @@ pub fn input(
             .filter(|q| q.id != "suites")
             .flat_map(|q| answered(q, recorded))
             .collect(),
-        figures: drawn(figures, |f| {
-            !is_paper_s(f) && !f.heading.name.starts_with("figure-suites")
-        }),
+        figures: drawn(figures, |f| f.heading.place == Place::Beside),
         ..Chapter::default()
     };
     let claims = &found.claims;
@@ -155,7 +139,10 @@ pub fn input(
         ]
         .concat(),
         signatures: signatures.shown(),
-        answers: Answers { rows, figures: first },
+        answers: Answers {
+            rows,
+            figures: first.into_iter().map(|(_, f)| f).collect(),
+        },
         columns: findings::columns(found, recorded),
         findings: themes,
         identities: findings::identities(found),
@@ -176,7 +163,7 @@ pub fn input(
         evidence: Chapter {
             figures: charts
                 .iter()
-                .filter(|c| c.heading.name != SIMILARITY)
+                .filter(|c| c.heading.number() != Some(SIMILARITY))
                 .map(shown)
                 .collect(),
             folded: vec![Chapter {
@@ -184,7 +171,9 @@ pub fn input(
                 title: "Pulses, critical values, departure from similarity"
                     .into(),
                 tables: evidence::checks(proof)?,
-                figures: drawn(charts, |c| c.heading.name == SIMILARITY),
+                figures: drawn(charts, |c| {
+                    c.heading.number() == Some(SIMILARITY)
+                }),
                 ..Chapter::default()
             }],
             ..Chapter::default()
@@ -299,11 +288,6 @@ fn answered(
     tables
 }
 
-/// Whether it is one of the paper's, by its number.
-fn is_paper_s(figure: &Figure) -> bool {
-    figure.heading.name.chars().any(|c| c.is_ascii_digit())
-}
-
 fn drawn(
     figures: &[Figure],
     is: impl Fn(&Figure) -> bool,
@@ -352,22 +336,15 @@ fn millimetres(length_m: f64) -> String {
 
 fn shown(figure: &Figure) -> ShownFigure {
     let heading = &figure.heading;
-    let digits: String =
-        heading.name.chars().filter(char::is_ascii_digit).collect();
-    let number = digits.trim_start_matches('0');
-    // Figures that both arms have end in the arm's letter.
-    let both = heading.name.len() > "figure-00".len();
     let arm = heading
-        .arm
-        .filter(|_| both)
+        .own_arm()
         .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
     ShownFigure {
         name: heading.name.clone(),
-        number: if number.is_empty() {
-            "Beyond the paper".into()
-        } else {
-            format!("Figure {number}{arm}")
-        },
+        number: heading.number().map_or_else(
+            || "Beyond the paper".into(),
+            |number| format!("Figure {number}{arm}"),
+        ),
         title: heading.title.clone(),
         reading: figure.reading.clone(),
         svg: figure.svg(),

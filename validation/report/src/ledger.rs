@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use serde::Deserialize;
-use serde_json::{Map, Value};
 use thiserror::Error;
 
 use rocking_common::findings::Claim;
 use rocking_common::paper::Verdict;
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
+use rocking_proof::verdict::snapshot;
 
 /// The requirements, embedded.
 const REQUIREMENTS: &str = include_str!("../../requirements.toml");
@@ -134,7 +134,7 @@ impl Requirement {
     #[must_use]
     pub fn standing(
         &self,
-        results: Option<&Map<String, Value>>,
+        results: Option<&snapshot::Results>,
         measured: &dyn Fn(&str) -> bool,
         is_test: &dyn Fn(&str) -> bool,
         drawn: &dyn Fn(u32) -> bool,
@@ -155,7 +155,7 @@ impl Requirement {
                 if !met.insert(id) {
                     continue;
                 }
-                if result["verdict"] == "pass" {
+                if result.passed() {
                     out.passed += 1;
                 } else {
                     out.failed.push(id.clone());
@@ -196,14 +196,13 @@ fn fit(pattern: &str, id: &str) -> bool {
 /// # Errors
 /// [`LedgerError`] where the requirements cannot be read.
 pub fn table(
-    results: Option<&Map<String, Value>>,
+    results: Option<&snapshot::Results>,
     claims: &[Claim],
     figures: &[Figure],
 ) -> Result<PlainTable, LedgerError> {
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
     let drawn = |number: u32| {
-        let stem = format!("figure-{number:02}");
-        let is = |f: &Figure| f.heading.name.starts_with(&stem);
+        let is = |f: &Figure| f.heading.number() == Some(number);
         figures.iter().any(|f| is(f) && !f.csv.is_empty())
     };
     let requirements = requirements()?;

@@ -17,7 +17,7 @@ use input::Part;
 
 pub use figures::ShownFigure;
 pub use input::{
-    AnswerRow, Answers, Chapter, Column, Family, Finding, Outcome,
+    Anchor, AnswerRow, Answers, Chapter, Column, Family, Finding, Outcome,
     ReportInput, ShownCase, Theme,
 };
 

@@ -185,7 +185,7 @@ fn no_claim_names_a_restitution_that_a_run_may_not_have() {
 
 #[test]
 fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
-    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
     let proof = Proof::read(data.as_ref()).expect("proof");
     let mut one = small(1, Execution::default(), Some(&proof));
     let mut two = small(2, Execution::OneByOne, None);

@@ -5,7 +5,6 @@ mod fragilities;
 mod quantiles;
 mod ratios;
 mod single;
-mod stem;
 
 pub(crate) use ratios::adjusted_boxes;
 

@@ -16,6 +16,26 @@ pub struct Heading {
     pub description: String,
     /// Arm of the grid that the numbers come from, where there is one.
     pub arm: Option<Arm>,
+    /// Where it belongs.
+    pub place: Place,
+}
+
+/// Where a figure belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// By its number: one of the paper's, or behind them one of the proof's.
+    Numbered {
+        /// The number.
+        number: u32,
+        /// Whether it is drawn once for each arm.
+        by_arm: bool,
+    },
+    /// The comparison of suites.
+    Suites,
+    /// That comparison block by block.
+    SuitesByBlock,
+    /// Beside these.
+    Beside,
 }
 
 impl Heading {
@@ -28,7 +48,42 @@ impl Heading {
         arm: Option<Arm>,
     ) -> Self {
         let (name, title) = (name.into(), title.into());
-        Self { name, title, description: description.into(), arm }
+        let (description, place) = (description.into(), Place::Beside);
+        Self { name, title, description, arm, place }
+    }
+
+    /// The words of a figure with a number, and its name: `figure-06`, or
+    /// `figure-06-c` where it is drawn once for each arm.
+    #[must_use]
+    pub fn numbered(
+        number: u32,
+        by_arm: bool,
+        title: impl Into<String>,
+        description: impl Into<String>,
+        arm: Option<Arm>,
+    ) -> Self {
+        let of_arm = |arm: Arm| format!("-{}", arm.letter().to_lowercase());
+        let suffix = arm.filter(|_| by_arm).map_or(String::new(), of_arm);
+        let name = format!("figure-{number:02}{suffix}");
+        let place = Place::Numbered { number, by_arm };
+        Self { place, ..Self::new(name, title, description, arm) }
+    }
+
+    /// Its number, where it has one.
+    #[must_use]
+    pub fn number(&self) -> Option<u32> {
+        match self.place {
+            Place::Numbered { number, .. } => Some(number),
+            _ => None,
+        }
+    }
+
+    /// The arm, where it is drawn once for each.
+    #[must_use]
+    pub fn own_arm(&self) -> Option<Arm> {
+        let by_arm =
+            matches!(self.place, Place::Numbered { by_arm: true, .. });
+        self.arm.filter(|_| by_arm)
     }
 }
 

@@ -1,13 +1,77 @@
 //! The results of a run as the committed snapshot has them: sorted by id,
 //! rounded to the digits that the bounds support, one value a line.
 
-use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 
-use super::{Check, Outcome};
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use super::{Check, Outcome, Verdict};
+use crate::cases::{Bound, Case, Kind, OracleKind};
+use rocking_common::json::{self, Extended};
 use rocking_common::words::rounded;
 
-use crate::cases::{Bound, Case};
-use rocking_common::json;
+/// Results of cases by their ids.
+pub type Results = BTreeMap<String, CaseResult>;
+
+/// The result of a case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseResult {
+    /// Kind of evidence.
+    pub kind: Kind,
+    /// Name of the method.
+    pub method: String,
+    /// Nature of the expected values.
+    pub oracle: OracleKind,
+    /// Quantities by name.
+    pub quantities: BTreeMap<String, QuantityResult>,
+    /// Wrong models that were told from the right one.
+    pub rejected: BTreeMap<String, Rejected>,
+    /// The verdict.
+    pub verdict: Verdict,
+}
+
+/// A quantity against its bound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuantityResult {
+    /// The bound: a number, two for an interval, none where it is waived.
+    pub bound: Value,
+    /// The first values.
+    pub first: Vec<Extended>,
+    /// Kind of the bound.
+    pub kind: String,
+    /// Error over bound.
+    pub margin: Extended,
+    /// Number of values.
+    pub values: usize,
+}
+
+/// How a wrong model was rejected.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rejected {
+    /// Largest error over bound.
+    pub margin: Extended,
+    /// The quantity that shows it best.
+    pub quantity: String,
+}
+
+impl CaseResult {
+    /// Whether the case passed.
+    #[must_use]
+    pub fn passed(&self) -> bool {
+        self.verdict == Verdict::Pass
+    }
+
+    /// Quantities that are compared: all but those that are waived.
+    pub fn compared(
+        &self,
+    ) -> impl Iterator<Item = (&String, &QuantityResult)> {
+        self.quantities.iter().filter(|(_, q)| q.kind != "waived")
+    }
+}
 
 /// Most digits printed of any number.
 const MOST_DIGITS: usize = 9;
@@ -17,62 +81,53 @@ const MOST_VALUES: usize = 3;
 /// The snapshot's text, ending in a line feed.
 #[must_use]
 pub fn text(cases: &[Case], outcomes: &[Outcome]) -> String {
-    let mut map = Map::new();
-    for outcome in outcomes {
-        if let Some(case) = cases.iter().find(|c| c.id == outcome.id) {
-            map.insert(outcome.id.clone(), entry(case, outcome));
-        }
-    }
-    let mut text = format!("{:#}", Value::Object(map));
-    text.push('\n');
-    text
+    let entry = |outcome: &Outcome| {
+        let case = cases.iter().find(|c| c.id == outcome.id)?;
+        Some((outcome.id.clone(), entry(case, outcome)))
+    };
+    let all: Results = outcomes.iter().filter_map(entry).collect();
+    format!("{:#}\n", json!(all))
 }
 
-fn entry(case: &Case, outcome: &Outcome) -> Value {
-    let mut quantities = Map::new();
-    for check in &outcome.checks {
-        quantities.insert(check.quantity.clone(), quantity(check));
+fn entry(case: &Case, outcome: &Outcome) -> CaseResult {
+    let quantities = outcome.checks.iter();
+    let rejected = outcome.rejections.iter().map(|rejection| {
+        let margin = Extended(rounded(rejection.margin, 1));
+        let quantity = rejection.quantity.clone();
+        (rejection.model.to_owned(), Rejected { margin, quantity })
+    });
+    CaseResult {
+        kind: case.kind,
+        method: case.method.clone(),
+        oracle: case.expect.oracle,
+        quantities: quantities
+            .map(|check| (check.quantity.clone(), quantity(check)))
+            .collect(),
+        rejected: rejected.collect(),
+        verdict: outcome.verdict,
     }
-    let mut rejected = Map::new();
-    for rejection in &outcome.rejections {
-        let by = json!({
-            "margin": json::extended(rounded(rejection.margin, 1)),
-            "quantity": rejection.quantity,
-        });
-        rejected.insert(rejection.model.to_owned(), by);
-    }
-    json!({
-        "kind": case.kind.name(),
-        "method": case.method,
-        "oracle": case.expect.oracle.name(),
-        "verdict": outcome.verdict.name(),
-        "quantities": quantities,
-        "rejected": rejected,
-    })
 }
 
-fn quantity(check: &Check) -> Value {
+fn quantity(check: &Check) -> QuantityResult {
     let digits = digits(check);
     let shown = check.observed.iter().take(MOST_VALUES);
-    let values: Vec<f64> = shown.map(|x| rounded(*x, digits)).collect();
-    let bound = match &check.bound {
-        Bound::Absolute(x) | Bound::Relative(x) | Bound::Order(x) => {
-            json::extended(*x)
-        }
-        Bound::Interval(low, high) => json::all_extended(&[*low, *high]),
-        Bound::Coverage(trials) => json!(trials),
-        Bound::Waived(_) => Value::Null,
-        Bound::Exact => json!(0),
-    };
-    json!({
-        "kind": check.bound.kind(),
-        "bound": bound,
-        "values": check.observed.len(),
-        "first": json::all_extended(&values),
+    QuantityResult {
+        bound: match &check.bound {
+            Bound::Absolute(x) | Bound::Relative(x) | Bound::Order(x) => {
+                json::extended(*x)
+            }
+            Bound::Interval(low, high) => json::all_extended(&[*low, *high]),
+            Bound::Coverage(trials) => json!(trials),
+            Bound::Waived(_) => Value::Null,
+            Bound::Exact => json!(0),
+        },
+        first: shown.map(|x| Extended(rounded(*x, digits))).collect(),
+        kind: check.bound.kind().to_owned(),
         // An error at the rounding level moves with every change of the
         // code: its size is told, not its digits.
-        "margin": json::extended(rounded(check.margin, 1)),
-    })
+        margin: Extended(rounded(check.margin, 1)),
+        values: check.observed.len(),
+    }
 }
 
 /// Significant digits that the bound supports.

@@ -1,77 +1,45 @@
 //! Results of declared cases as items.
 
-use std::collections::BTreeMap;
-
-use serde::Deserialize;
+use serde::Deserialize as _;
 use serde_json::{Map, Value};
 
 use super::flaw::{Flaw, amount};
 use super::item::{Content, Item, Limit};
-use rocking_proof::verdict::snapshot::supported_digits;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Entry {
-    kind: String,
-    method: String,
-    oracle: String,
-    quantities: BTreeMap<String, Quantity>,
-    rejected: BTreeMap<String, Rejected>,
-    verdict: String,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Quantity {
-    bound: Value,
-    first: Vec<Value>,
-    kind: String,
-    margin: Value,
-    values: u64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Rejected {
-    margin: Value,
-    quantity: String,
-}
-
-/// Verdicts of a case.
-const VERDICTS: [&str; 5] =
-    ["pass", "fail", "error", "known-failure", "unexpected-pass"];
+use rocking_proof::verdict::snapshot::{
+    CaseResult, QuantityResult, supported_digits,
+};
 
 /// The items of `validation.json`.
 pub fn items(map: &Map<String, Value>) -> Result<Vec<Item>, Flaw> {
     let mut out = Vec::new();
     for (id, value) in map {
-        let entry = Entry::deserialize(value).map_err(|e| {
+        let result = CaseResult::deserialize(value).map_err(|e| {
             Flaw::new(
                 format!("case {id}"),
                 e.to_string(),
                 "kind, method, oracle, quantities, rejected and verdict",
             )
         })?;
-        add(&mut out, id, entry)?;
+        add(&mut out, id, result)?;
     }
     Ok(out)
 }
 
-fn add(out: &mut Vec<Item>, id: &str, entry: Entry) -> Result<(), Flaw> {
-    if !VERDICTS.contains(&entry.verdict.as_str()) {
-        let found = format!("\"{}\"", entry.verdict);
-        let place = format!("case {id}, verdict");
-        return Err(Flaw::new(place, found, VERDICTS.join(", ")));
-    }
+fn add(out: &mut Vec<Item>, id: &str, entry: CaseResult) -> Result<(), Flaw> {
     let family = id.split('/').next().unwrap_or(id).to_owned();
     let owner = format!("case {id}");
     let mut item = |name: String, words: String, content| {
         let group = format!("cases: {family}");
         out.push(Item { owner: owner.clone(), name, group, words, content });
     };
-    let evidence =
-        format!("{}, {} against {}", entry.kind, entry.method, entry.oracle);
-    item("verdict".into(), owner.clone(), Content::Verdict(entry.verdict));
+    let evidence = format!(
+        "{}, {} against {}",
+        entry.kind.name(),
+        entry.method,
+        entry.oracle.name()
+    );
+    let verdict = entry.verdict.name().to_owned();
+    item("verdict".into(), owner.clone(), Content::Verdict(verdict));
     item(
         "evidence".into(),
         format!("{owner}: evidence"),
@@ -85,7 +53,7 @@ fn add(out: &mut Vec<Item>, id: &str, entry: Entry) -> Result<(), Flaw> {
         Content::Setting(models.join(", ")),
     );
     for (model, by) in &entry.rejected {
-        let value = amount(&format!("{id}, rejected {model}"), &by.margin)?;
+        let value = by.margin.0;
         item(
             format!("rejects {model}"),
             format!("{owner}: error of {model} in {} over bound", by.quantity),
@@ -111,16 +79,9 @@ fn add(out: &mut Vec<Item>, id: &str, entry: Entry) -> Result<(), Flaw> {
         item(
             format!("{name} margin"),
             format!("{owner}: error of {name} over tolerance"),
-            Content::Number {
-                value: amount(&place, &q.margin)?,
-                limit: Limit::Verdict,
-            },
+            Content::Number { value: q.margin.0, limit: Limit::Verdict },
         );
-        let first: Vec<f64> = q
-            .first
-            .iter()
-            .map(|value| amount(&place, value))
-            .collect::<Result<_, _>>()?;
+        let first: Vec<f64> = q.first.iter().map(|value| value.0).collect();
         let digits = digits(&q.kind, bound, &first);
         for (k, value) in first.into_iter().enumerate() {
             let unit = unit(value, digits);
@@ -146,7 +107,7 @@ fn add(out: &mut Vec<Item>, id: &str, entry: Entry) -> Result<(), Flaw> {
 }
 
 /// The tolerance where it is one number; zero where it is none.
-fn bound(place: &str, q: &Quantity) -> Result<f64, Flaw> {
+fn bound(place: &str, q: &QuantityResult) -> Result<f64, Flaw> {
     match (q.kind.as_str(), &q.bound) {
         ("exact" | "absolute" | "relative" | "order" | "coverage", b) => {
             amount(place, b)

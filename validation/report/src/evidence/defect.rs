@@ -67,8 +67,9 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
     }
     let (low, high) = rocking_common::words::range(slopes.into_iter());
     Ok(Chart {
-        heading: Heading::new(
-            "figure-19",
+        heading: Heading::numbered(
+            19,
+            false,
             "Departure of Eq. 1 from similarity as the \
                         slenderness grows",
             "Relative change of the first impact speed \

@@ -1,13 +1,12 @@
-use serde_json::{Map, Value};
-
 use crate::page::{Family, ShownCase};
 use rocking_common::words::rounded;
 use rocking_proof::cases::{Bound, Case, Cost, FAMILIES};
+use rocking_proof::verdict::snapshot::{CaseResult, Results};
 
 /// Declared cases with their results, as the snapshot has them: all but those
 /// that are run only with `--full`.
 #[must_use]
-pub fn families(cases: &[Case], results: &Map<String, Value>) -> Vec<Family> {
+pub fn families(cases: &[Case], results: &Results) -> Vec<Family> {
     FAMILIES
         .iter()
         .map(|(name, _)| {
@@ -21,15 +20,18 @@ pub fn families(cases: &[Case], results: &Map<String, Value>) -> Vec<Family> {
                 worst: worst_of(
                     own().filter_map(|case| results.get(&case.id)),
                 ),
-                rejected: own().map(|case| rejected(results, case)).sum(),
+                rejected: own()
+                    .filter_map(|case| results.get(&case.id))
+                    .map(|result| result.rejected.len())
+                    .sum(),
                 cases: own().map(|case| shown(case, results)).collect(),
             }
         })
         .collect()
 }
 
-fn shown(case: &Case, results: &Map<String, Value>) -> ShownCase {
-    let result = results.get(&case.id).unwrap_or(&Value::Null);
+fn shown(case: &Case, results: &Results) -> ShownCase {
+    let result = results.get(&case.id);
     let source = &case.source;
     let note = if source.note.is_empty() {
         String::new()
@@ -42,28 +44,20 @@ fn shown(case: &Case, results: &Map<String, Value>) -> ShownCase {
         source: format!("{}, {}{note}", source.cite, source.place),
         tolerance: tolerance(case),
         because: case.tolerance.because.clone(),
-        worst: worst_of([result].into_iter()),
+        worst: worst_of(result.into_iter()),
         rejects: rejects(case, result),
-        passed: result["verdict"] == "pass",
+        passed: result.is_some_and(CaseResult::passed),
     }
 }
 
-/// Number of wrong models that a case told from the right one.
-fn rejected(results: &Map<String, Value>, case: &Case) -> usize {
-    let found = results.get(&case.id).and_then(|r| r["rejected"].as_object());
-    found.map_or(0, Map::len)
-}
-
 /// The largest share of a tolerance, and the quantity that uses it.
-fn worst_of<'a>(results: impl Iterator<Item = &'a Value>) -> String {
-    let quantities = results
-        .filter_map(|result| result["quantities"].as_object())
-        .flatten()
-        .filter(|(_, q)| q["kind"] != "waived");
-    let worst = quantities
+fn worst_of<'a>(results: impl Iterator<Item = &'a CaseResult>) -> String {
+    let worst = results
+        .flat_map(CaseResult::compared)
         .map(|(name, q)| {
-            let margin = q["margin"].as_f64().unwrap_or(f64::INFINITY);
-            (name.as_str(), margin)
+            let margin = q.margin.0;
+            let known = if margin.is_nan() { f64::INFINITY } else { margin };
+            (name.as_str(), known)
         })
         .max_by(|a, b| a.1.total_cmp(&b.1));
     match worst {
@@ -126,16 +120,19 @@ fn words(bound: &Bound) -> String {
 }
 
 /// Wrong models that fail the case, each with its error over the bound.
-fn rejects(case: &Case, result: &Value) -> String {
+fn rejects(case: &Case, result: Option<&CaseResult>) -> String {
     let texts: Vec<String> = case
         .tolerance
         .reject
         .iter()
         .map(|wrong| wrong.name())
-        .map(|name| match result["rejected"][name]["margin"].as_f64() {
-            Some(margin) => format!("{name} ({})", times(margin)),
-            // Infinite: a fate, a count or a side.
-            None => name.to_owned(),
+        .map(|name| {
+            let by = result.and_then(|result| result.rejected.get(name));
+            match by.map(|by| by.margin.0).filter(|x| x.is_finite()) {
+                Some(margin) => format!("{name} ({})", times(margin)),
+                // Infinite: a fate, a count or a side.
+                None => name.to_owned(),
+            }
         })
         .collect();
     texts.join(", ")
@@ -150,12 +147,25 @@ mod tests {
     fn shows_every_case_with_bound_and_rejections() {
         let cases = load_all().unwrap();
         let id = cases[0].id.clone();
+        let of = |margin: f64| {
+            serde_json::json!({
+                "bound": 1.0,
+                "first": [],
+                "kind": "absolute",
+                "margin": margin,
+                "values": 1,
+            })
+        };
         let results = serde_json::json!({ id: {
+            "kind": "regression",
+            "method": "m",
+            "oracle": "own-output",
             "verdict": "pass",
-            "quantities": { "a": { "margin": 0.5 }, "b": { "margin": 0.25 } },
+            "quantities": { "a": of(0.5), "b": of(0.25) },
             "rejected": {},
         } });
-        let shown = families(&cases, results.as_object().unwrap());
+        let results = serde_json::from_value(results).unwrap();
+        let shown = families(&cases, &results);
         let all: Vec<&ShownCase> =
             shown.iter().flat_map(|f| &f.cases).collect();
         let quick = cases.iter().filter(|c| c.cost == Cost::Quick).count();

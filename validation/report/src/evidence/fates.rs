@@ -89,8 +89,9 @@ pub(super) fn map() -> Result<Figure, EvidenceError> {
         share(|f| *f == Fate::AfterOne),
     );
     Ok(FateMap {
-        heading: Heading::new(
-            "figure-21",
+        heading: Heading::numbered(
+            21,
+            false,
             "Map of fates under one-sine pulses",
             "Cells of a plane of pulse frequency over p and amplitude over \
              the uplift threshold, both logarithmic, coloured by the fate of \

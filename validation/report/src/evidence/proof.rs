@@ -7,7 +7,6 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use serde_json::{Map, Value};
 use thiserror::Error;
 
 use crate::diff::{self, DiffError};
@@ -15,6 +14,7 @@ use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
 use rocking_proof::cases::{Case, CaseError, Cost, load_all};
 use rocking_proof::methods::DIGITS_HEADER;
+use rocking_proof::verdict::snapshot;
 
 /// File of the results of the declared cases.
 const RESULTS: &str = "validation.json";
@@ -91,7 +91,7 @@ fn list(ids: &[String]) -> String {
 #[derive(Clone, Debug)]
 pub struct Proof {
     place: String,
-    results: Map<String, Value>,
+    results: snapshot::Results,
     digits: String,
 }
 
@@ -160,7 +160,7 @@ impl Proof {
         let path = folder.join(RESULTS);
         // Refuses what has another form.
         diff::Results::from_text(&path, results)?;
-        let results: Map<String, Value> =
+        let results: snapshot::Results =
             serde_json::from_str(results).unwrap_or_default();
         same_cases(&path, &load_all()?, &results)?;
         whole_table(&folder.join(DIGITS), &digits)?;
@@ -183,14 +183,14 @@ impl Proof {
 
     /// The results by id.
     #[must_use]
-    pub fn results(&self) -> &Map<String, Value> {
+    pub fn results(&self) -> &snapshot::Results {
         &self.results
     }
 
     /// Number of cases that passed.
     #[must_use]
     pub fn passed(&self) -> usize {
-        self.results.values().filter(|case| case["verdict"] == "pass").count()
+        self.results.values().filter(|case| case.passed()).count()
     }
 
     /// How often the intervals of the study hold the truth of simulated
@@ -200,11 +200,12 @@ impl Proof {
     /// [`CaseError`] where the declared cases cannot be read.
     pub fn coverage(&self) -> Result<Coverage, CaseError> {
         let share = |id: &str| {
-            let found = &self.results[id]["quantities"]["rate"];
-            found["first"][0].as_f64().unwrap_or(f64::NAN)
+            let rate = self.results.get(id)?.quantities.get("rate")?;
+            rate.first.first().map(|rate| rate.0)
         };
         let cases = load_all()?;
         let own = cases.iter().filter(|case| case.method == COVERAGE);
+        let share = |id| share(id).unwrap_or(f64::NAN);
         let rows = own.map(|c| (c.claim.clone(), share(&c.id))).collect();
         Ok(Coverage { rows })
     }
@@ -212,8 +213,7 @@ impl Proof {
     /// Number of wrong models that the cases told from the right one.
     #[must_use]
     pub fn rejected(&self) -> usize {
-        let all = self.results.values();
-        all.filter_map(|case| Some(case["rejected"].as_object()?.len())).sum()
+        self.results.values().map(|case| case.rejected.len()).sum()
     }
 
     /// Errors of the numbers compared, over their tolerances, in order.
@@ -221,10 +221,9 @@ impl Proof {
         let mut margins: Vec<f64> = self
             .results
             .values()
-            .filter_map(|case| case["quantities"].as_object())
-            .flat_map(Map::values)
-            .filter(|quantity| quantity["kind"] != "waived")
-            .filter_map(|quantity| quantity["margin"].as_f64())
+            .flat_map(|case| case.compared())
+            .map(|(_, quantity)| quantity.margin.0)
+            .filter(|margin| margin.is_finite())
             .collect();
         margins.sort_by(f64::total_cmp);
         margins
@@ -297,7 +296,7 @@ fn read(path: &Path) -> Result<String, ProofError> {
 fn same_cases(
     path: &Path,
     cases: &[Case],
-    results: &Map<String, Value>,
+    results: &snapshot::Results,
 ) -> Result<(), ProofError> {
     let declared: BTreeSet<&String> = cases
         .iter()
@@ -354,7 +353,7 @@ mod tests {
 
     /// The folder of the committed results.
     fn committed() -> PathBuf {
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../reports/data")
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/data")
     }
 
     /// Reads the committed results after a change of both texts.

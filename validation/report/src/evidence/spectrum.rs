@@ -195,8 +195,9 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
     let (panel, lowest) = low_frequencies(&with_impact)?;
     panels.push(panel);
     Ok(Chart {
-        heading: Heading::new(
-            "figure-20",
+        heading: Heading::numbered(
+            20,
+            false,
             "Overturning spectrum of one-sine pulses",
             "Amplitude over the uplift threshold against \
                               frequency over p at which a block overturns, \

@@ -3,11 +3,11 @@
 
 use rocking::statistics::lilliefors::{LillieforsError, Table};
 use serde::Deserialize;
-use serde_json::{Map, Value};
 
 use rocking_common::table::{PlainTable, digits};
 use rocking_common::words::percent;
 use rocking_proof::cases::{Case, CaseError, load_all};
+use rocking_proof::verdict::snapshot;
 
 /// The pulses of the closed forms, in the order in which the cases name them.
 const PULSES: &str =
@@ -46,26 +46,26 @@ struct Pulse {
 /// # Errors
 /// [`CaseError`] where the declared cases cannot be read.
 pub fn similarity(
-    results: &Map<String, Value>,
+    results: &snapshot::Results,
 ) -> Result<PlainTable, CaseError> {
     let pulses: Vec<Pulse> = serde_json::from_str::<Pulses>(PULSES)
         .map_or_else(|_| Vec::new(), |found| found.cases);
     let row = |case: &Case| {
         let entry = case.input.get("entry")?.as_integer()?;
         let pulse = pulses.get(usize::try_from(entry).ok()?)?;
-        let quantities = &results.get(&case.id)?["quantities"];
+        let quantities = &results.get(&case.id)?.quantities;
         let error = |name: &str| {
-            let of = &quantities[name];
-            let count = of["values"].as_u64().unwrap_or(0);
-            let margin = of["margin"].as_f64().unwrap_or(f64::NAN);
-            let bound = of["bound"].as_f64().unwrap_or(f64::NAN);
-            match (count, margin * bound) {
+            let Some(of) = quantities.get(name) else {
+                return "–".to_owned();
+            };
+            let bound = of.bound.as_f64().unwrap_or(f64::NAN);
+            match (of.values, of.margin.0 * bound) {
                 (0, _) => "–".to_owned(),
                 (_, 0.0) => "none".to_owned(),
                 (_, error) => digits(error, 1),
             }
         };
-        let impacts = quantities["impact-times-p"]["values"].as_u64();
+        let impacts = quantities.get("impact-times-p").map(|of| of.values);
         Some(vec![
             pulse.pulse.replace('_', "-"),
             pulse.frequency.as_deref().map_or("–", bare).to_owned(),
@@ -264,7 +264,7 @@ mod tests {
 
     #[test]
     fn every_pulse_has_a_row_with_its_errors() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
         let proof = super::super::Proof::read(folder.as_ref()).unwrap();
         let table = similarity(proof.results()).unwrap();
         assert!(table.rows.len() > 10);

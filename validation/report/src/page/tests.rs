@@ -88,7 +88,7 @@ fn made_up() -> ReportInput {
             id: "theme-a",
             question: "Does the slenderness drop out?".into(),
             paragraph: "On average it does.".into(),
-            figures: ["figure-01", "figure-06", "figure-08-c"]
+            figures: ["figure-01", "figure-06-c", "figure-08"]
                 .map(|name| shown(&sketch(name)))
                 .into(),
             more: Vec::new(),

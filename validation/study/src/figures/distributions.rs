@@ -3,7 +3,6 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
-use super::stem::name;
 use crate::error::StudyError;
 use crate::estimates::three_quantiles;
 use crate::normality::{
@@ -61,8 +60,9 @@ pub(super) fn inverted(
         n => format!(" {n} records never overturn: their curves end early."),
     };
     Ok(Capacities {
-        heading: Heading::new(
-            name(11, None),
+        heading: Heading::numbered(
+            11,
+            false,
             "Intensity given demand, original and shifted",
             "A pale curve for each record of the intensity that reaches a \
              demand, by median point, with median and band of 16 to 84 % of \
@@ -145,8 +145,9 @@ pub(super) fn shares(
         format!("All {levels} levels were tested for every block.")
     };
     Ok(AcceptedShares {
-        heading: Heading::new(
-            name(number, None),
+        heading: Heading::numbered(
+            number,
+            false,
             format!(
                 "Share of demand levels at which lognormality is \
                      accepted, {measure}"
@@ -213,8 +214,9 @@ pub(super) fn along(
         });
     }
     Ok(TestsAlongDemand {
-        heading: Heading::new(
-            name(13, Some(arm)),
+        heading: Heading::numbered(
+            13,
+            true,
             "Lilliefors' test along the demand, p = 3",
             "Test statistic over its critical value along \
                               the demand, and histograms of the logarithm \

@@ -6,7 +6,6 @@ pub(super) use thresholds::thresholds;
 
 use rocking::statistics::ExtendedSample;
 
-use super::stem::name;
 use crate::distributions::BlockSamples;
 use crate::error::StudyError;
 use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
@@ -59,8 +58,9 @@ pub(super) fn constants(
         });
     }
     Ok(ByConstant {
-        heading: Heading::new(
-            name(18, None),
+        heading: Heading::numbered(
+            18,
+            false,
             "The constant c of Eq. 7",
             "USFL7 for four constants against the SSFL, \
                               demand 0.15, PGA; untrimmed and trimmed.",

@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 
-use super::stem::name;
 use crate::analyses::SuiteResults;
 use crate::error::StudyError;
 use crate::estimates::three_quantiles;
@@ -47,8 +46,9 @@ pub(super) fn slendernesses(
         }
     }
     Ok(Quantiles {
-        heading: Heading::new(
-            name(8, None),
+        heading: Heading::numbered(
+            8,
+            false,
             "16/50/84 % demand given intensity, five slendernesses",
             "Three quantile curves for each slenderness; a row a frequency \
              parameter, a column an arm of the grid, both on the same \
@@ -109,8 +109,9 @@ pub(super) fn adjusted(
     })?;
     let words = overturning_in_words(&panels);
     Ok(Quantiles {
-        heading: Heading::new(
-            name(10, Some(arm)),
+        heading: Heading::numbered(
+            10,
+            true,
             "16/50/84 % demand given intensity: scaled records \
                         and adjusted slenderness",
             "Three quantile curves for each procedure, one \

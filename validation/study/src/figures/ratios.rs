@@ -2,7 +2,6 @@
 
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::stem::name;
 use crate::analyses::{StripeDemands, SuiteResults};
 use crate::error::StudyError;
 use crate::inference::LEAST_DECIDING;
@@ -43,8 +42,9 @@ pub(super) fn slendernesses(
     let reading = medians_in_words(&panels);
     Ok(Some(
         Boxplots {
-            heading: Heading::new(
-                name(number, Some(arm)),
+            heading: Heading::numbered(
+                number,
+                true,
                 format!("Paired ratios of demands to alpha = 0.10, {p}"),
                 "Notched boxplots of the ratio of peak rotation \
                               over slenderness to that of the block with \
@@ -84,8 +84,9 @@ pub(super) fn adjusted(
     let reading = medians_in_words(&panels);
     Ok(Some(
         Boxplots {
-            heading: Heading::new(
-                name(9, Some(arm)),
+            heading: Heading::numbered(
+                9,
+                true,
                 "Slenderness adjustment against record scaling",
                 "Notched boxplots of the ratio of demands: \
                               unscaled record on a block of adjusted \

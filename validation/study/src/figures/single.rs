@@ -1,6 +1,5 @@
 //! Figures 1 to 5: the block, and single records.
 
-use super::stem::name;
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use crate::error::StudyError;
 use rocking_common::paper::{
@@ -14,8 +13,9 @@ use rocking_draw::figures::{
 
 pub(super) fn sketch() -> Figure {
     BlockSketch {
-        heading: Heading::new(
-            name(1, None),
+        heading: Heading::numbered(
+            1,
+            false,
             "The rocking block",
             "A rectangular block of width 2b and height 2h, \
                               rotated about one base corner; R is half its \
@@ -67,8 +67,9 @@ pub(super) fn histories(
         suite.kind
     );
     Histories {
-        heading: Heading::new(
-            name(number, None),
+        heading: Heading::numbered(
+            number,
+            false,
             title,
             "Rotation over slenderness against time, five \
                               slendernesses in each panel; rows by frequency \
@@ -151,8 +152,9 @@ pub(super) fn curves(
         })
         .collect();
     Ok(IdaCurves {
-        heading: Heading::new(
-            name(number, None),
+        heading: Heading::numbered(
+            number,
+            false,
             format!(
                 "IDA curves of three {} motions, five slendernesses",
                 suite.kind

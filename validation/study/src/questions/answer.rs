@@ -41,32 +41,40 @@ impl Answer {
     }
 }
 
-/// Rows for a CSV and a table of the page at once.
+/// Rows for a CSV and a table of the page at once: each cell stands beside
+/// the name of its column.
+#[derive(Default)]
 pub struct Rows {
-    csv: Table,
-    header: Vec<String>,
+    csv: Option<Table>,
+    header: Vec<&'static str>,
     shown: Vec<Vec<String>>,
 }
 
 impl Rows {
-    pub fn new(header: &[&str]) -> Self {
-        Self {
-            csv: Table::new(header),
-            header: header.iter().map(|h| h.replace('_', " ")).collect(),
-            shown: Vec::new(),
-        }
+    /// A row of the CSV and of the page.
+    pub fn row(&mut self, cells: Vec<(&'static str, Cell)>) {
+        self.row_if(true, cells);
     }
 
     /// A row of the CSV, and of the page if it is `shown` there.
-    pub fn row(&mut self, shown: bool, cells: Vec<Cell>) {
+    pub fn row_if(&mut self, shown: bool, cells: Vec<(&'static str, Cell)>) {
+        let names: Vec<&str> = cells.iter().map(|(name, _)| *name).collect();
+        let csv = self.csv.get_or_insert_with(|| Table::new(&names));
+        csv.row(cells.iter().map(|(_, cell)| cell.full()));
         if shown {
-            self.shown.push(cells.iter().map(Cell::short).collect());
+            let cells = cells.iter().map(|(_, cell)| cell.short());
+            self.shown.push(cells.collect());
         }
-        self.csv.row(cells.iter().map(Cell::full));
+        self.header = cells.into_iter().map(|(name, _)| name).collect();
+    }
+
+    /// The CSV alone.
+    pub fn csv(self) -> String {
+        self.csv.map_or_else(String::new, Table::finish)
     }
 
     pub fn finish(self, answer: &mut Answer, title: &str, reading: &str) {
-        answer.csv = self.csv.finish();
+        answer.csv = self.csv.map_or_else(String::new, Table::finish);
         answer.tables.push(PlainTable {
             name: format!("table-{}", answer.id),
             title: title.into(),
@@ -74,7 +82,7 @@ impl Rows {
                 "{} {reading} All rows: {}.csv.",
                 answer.answer, answer.id
             ),
-            header: self.header,
+            header: self.header.iter().map(|h| h.replace('_', " ")).collect(),
             rows: self.shown,
         });
     }
@@ -89,10 +97,6 @@ pub enum Cell {
 }
 
 impl Cell {
-    pub fn word(text: impl Into<String>) -> Self {
-        Self::Word(text.into())
-    }
-
     fn full(&self) -> String {
         match self {
             Self::Word(text) => text.clone(),
@@ -114,6 +118,18 @@ impl Cell {
             _ => self.full(),
         }
     }
+}
+
+pub fn word(text: impl Into<String>) -> Cell {
+    Cell::Word(text.into())
+}
+
+pub fn count(of: usize) -> Cell {
+    Cell::Count(of)
+}
+
+pub fn number(x: f64, decimals: usize) -> Cell {
+    Cell::Number(x, decimals)
 }
 
 pub fn both(results: &Results) -> [&SuiteResults; 2] {

@@ -4,7 +4,7 @@
 use libm::{exp, log};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Rows, both, number, word};
 use crate::analyses::SuiteResults;
 use crate::contents::{Item, items};
 use crate::error::StudyError;
@@ -24,6 +24,22 @@ const QUESTION: &str = "Do FEMA P-58's fragilities of bookcases and filing \
 
 /// Items of one depth, with which FEMA P-58's medians are read.
 const BOOKCASES: usize = 5;
+
+/// Columns of each suite.
+const COLUMNS: [[&str; 4]; 2] = [
+    [
+        "ordinary_median_m_s",
+        "ordinary_low",
+        "ordinary_high",
+        "ordinary_dispersion",
+    ],
+    [
+        "pulse_type_median_m_s",
+        "pulse_type_low",
+        "pulse_type_high",
+        "pulse_type_dispersion",
+    ],
+];
 
 /// Median PGV in m/s at first overturning, and its dispersion: cells are
 /// items, the median first.
@@ -96,46 +112,29 @@ pub(super) fn answer(
     let [ordinary, pulse] = both(results);
     let ours = [Ours::of(ordinary, draws)?, Ours::of(pulse, draws)?];
     let mut answer = Answer::new("contents", QUESTION, words(&ours));
-    let mut table = Rows::new(&[
-        "fema_p58",
-        "item",
-        "depth_m",
-        "height_m",
-        "alpha_rad",
-        "p_rad_s",
-        "fema_median_m_s",
-        "fema_dispersion",
-        "ordinary_median_m_s",
-        "ordinary_low",
-        "ordinary_high",
-        "ordinary_dispersion",
-        "pulse_type_median_m_s",
-        "pulse_type_low",
-        "pulse_type_high",
-        "pulse_type_dispersion",
-    ]);
+    let mut table = Rows::default();
     for (k, item) in items().iter().enumerate() {
         let block = item.block()?;
         let mut cells = vec![
-            Cell::word(&item.id),
-            Cell::word(&item.item),
-            Cell::Number(item.depth_m(), 3),
-            Cell::Number(item.height_m(), 3),
-            Cell::Number(block.slenderness_rad(), 3),
-            Cell::Number(block.frequency_rad_s(), 2),
-            Cell::Number(item.median_m_s, 3),
-            Cell::Number(item.dispersion, 1),
+            ("fema_p58", word(&item.id)),
+            ("item", word(&item.item)),
+            ("depth_m", number(item.depth_m(), 3)),
+            ("height_m", number(item.height_m(), 3)),
+            ("alpha_rad", number(block.slenderness_rad(), 3)),
+            ("p_rad_s", number(block.frequency_rad_s(), 2)),
+            ("fema_median_m_s", number(item.median_m_s, 3)),
+            ("fema_dispersion", number(item.dispersion, 1)),
         ];
-        for one in &ours {
+        for (one, names) in ours.iter().zip(COLUMNS) {
             let (low, high) = one.interval_m_s(k);
             cells.extend([
-                Cell::Number(one.median_m_s(k), 3),
-                Cell::Number(low, 3),
-                Cell::Number(high, 3),
-                Cell::Number(one.dispersion(k), 2),
+                (names[0], number(one.median_m_s(k), 3)),
+                (names[1], number(low, 3)),
+                (names[2], number(high, 3)),
+                (names[3], number(one.dispersion(k), 2)),
             ]);
         }
-        table.row(true, cells);
+        table.row(cells);
     }
     table.finish(
         &mut answer,

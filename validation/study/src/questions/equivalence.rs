@@ -8,7 +8,7 @@ use rocking::statistics::paired::{
 };
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
-use super::answer::{Answer, Cell, Rows};
+use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::error::StudyError;
 use crate::results::Results;
 use crate::runs::capacities;
@@ -74,23 +74,7 @@ impl Counts {
 }
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
-    let mut table = Rows::new(&[
-        "arm",
-        "compared",
-        "p_rad_s",
-        "cells",
-        "notch_covers_1",
-        "exact_interval_covers_1",
-        "sign_test_accepts_1",
-        "mean_equivalent_5_percent",
-        "mean_equivalent_10_percent",
-        "median_equivalent_5_percent",
-        "median_equivalent_10_percent",
-        "mcnemar_rejects",
-        "pairs_with_one_infinite",
-        "least_median",
-        "largest_median",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     for arm in results.plan.drawn() {
         for compared in
@@ -103,7 +87,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     counts.add(&pairs)?;
                     total.add(&pairs)?;
                 }
-                table.row(true, cells(arm, compared, p, &counts));
+                table.row(cells(arm, compared, p, &counts));
             }
             words.push(format!(
                 "Arm {}, {}: of {} medians the notch of {} and the exact 95 % interval \
@@ -138,30 +122,30 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     Ok(answer)
 }
 
-fn cells(arm: Arm, compared: Compared, p: f64, c: &Counts) -> Vec<Cell> {
+fn cells(
+    arm: Arm,
+    compared: Compared,
+    p: f64,
+    c: &Counts,
+) -> Vec<(&'static str, Cell)> {
     let (least, most) = range(c.medians.iter().copied());
-    let mut cells = vec![
-        Cell::word(arm.letter()),
-        Cell::word(compared.words()),
-        Cell::Number(p, 0),
-    ];
-    cells.extend(
-        [
-            c.cells,
-            c.notch_covers,
-            c.interval_covers,
-            c.sign_accepts,
-            c.equivalent_mean[0],
-            c.equivalent_mean[1],
-            c.equivalent_median[0],
-            c.equivalent_median[1],
-            c.discordant,
-            c.censored,
-        ]
-        .map(Cell::Count),
-    );
-    cells.extend([least, most].map(|x| Cell::Number(x, 4)));
-    cells
+    vec![
+        ("arm", word(arm.letter())),
+        ("compared", word(compared.words())),
+        ("p_rad_s", number(p, 0)),
+        ("cells", count(c.cells)),
+        ("notch_covers_1", count(c.notch_covers)),
+        ("exact_interval_covers_1", count(c.interval_covers)),
+        ("sign_test_accepts_1", count(c.sign_accepts)),
+        ("mean_equivalent_5_percent", count(c.equivalent_mean[0])),
+        ("mean_equivalent_10_percent", count(c.equivalent_mean[1])),
+        ("median_equivalent_5_percent", count(c.equivalent_median[0])),
+        ("median_equivalent_10_percent", count(c.equivalent_median[1])),
+        ("mcnemar_rejects", count(c.discordant)),
+        ("pairs_with_one_infinite", count(c.censored)),
+        ("least_median", number(least, 4)),
+        ("largest_median", number(most, 4)),
+    ]
 }
 
 /// What is paired.

@@ -4,7 +4,7 @@ use rocking::capacity::ResponseCurve;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Rows, both, count, number, word};
 use crate::error::StudyError;
 use crate::fits::{Fits, of_intervals};
 use crate::results::Results;
@@ -38,49 +38,37 @@ struct Row {
 const ARMS: [Arm; 3] = [Arm::A, Arm::B, Arm::C];
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
-    let mut table = Rows::new(&[
-        "suite",
-        "p_rad_s",
-        "alpha_rad",
-        "rejected_a",
-        "rejected_b",
-        "rejected_c",
-        "distinct_a",
-        "distinct_b",
-        "distinct_c",
-        "levels_decided_by_ties_a",
-        "rejected_by_the_grid_alone",
-        "dispersion_a",
-        "dispersion_a_by_intervals",
-        "dispersion_b",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     let mut by_suite = Vec::new();
     for suite in both(results) {
         let rows = rows(results, suite.kind)?;
         for (i, row) in rows.iter().enumerate() {
-            let share = |x: f64| Cell::Number(x, 3);
+            let share = |x: f64| number(x, 3);
             let slenderness = i % SLENDERNESSES_RAD.len();
-            table.row(
+            table.row_if(
                 slenderness == 0 || suite.kind == results.ordinary.kind,
                 vec![
-                    Cell::word(suite.kind.name()),
-                    Cell::Number(
-                        FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()],
-                        0,
+                    ("suite", word(suite.kind.name())),
+                    (
+                        "p_rad_s",
+                        number(
+                            FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()],
+                            0,
+                        ),
                     ),
-                    Cell::Number(SLENDERNESSES_RAD[slenderness], 2),
-                    share(row.rejected[0]),
-                    share(row.rejected[1]),
-                    share(row.rejected[2]),
-                    Cell::Count(row.distinct[0]),
-                    Cell::Count(row.distinct[1]),
-                    Cell::Count(row.distinct[2]),
-                    Cell::Count(row.tied[0]),
-                    share(row.grid_alone),
-                    share(row.dispersions[0]),
-                    share(row.dispersions[1]),
-                    share(row.dispersions[2]),
+                    ("alpha_rad", number(SLENDERNESSES_RAD[slenderness], 2)),
+                    ("rejected_a", share(row.rejected[0])),
+                    ("rejected_b", share(row.rejected[1])),
+                    ("rejected_c", share(row.rejected[2])),
+                    ("distinct_a", count(row.distinct[0])),
+                    ("distinct_b", count(row.distinct[1])),
+                    ("distinct_c", count(row.distinct[2])),
+                    ("levels_decided_by_ties_a", count(row.tied[0])),
+                    ("rejected_by_the_grid_alone", share(row.grid_alone)),
+                    ("dispersion_a", share(row.dispersions[0])),
+                    ("dispersion_a_by_intervals", share(row.dispersions[1])),
+                    ("dispersion_b", share(row.dispersions[2])),
                 ],
             );
         }

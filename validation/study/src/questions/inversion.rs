@@ -2,7 +2,7 @@
 
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Rows, both, count, number, word};
 use crate::error::StudyError;
 use crate::results::Results;
 use crate::runs::capacities;
@@ -17,17 +17,7 @@ const RULES: [InversionRule; 3] =
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let arm = results.plan.common();
-    let mut table = Rows::new(&[
-        "suite",
-        "p_rad_s",
-        "edp",
-        "curves",
-        "share_with_several_crossings",
-        "median_bias",
-        "first_bias",
-        "last_bias",
-        "largest_gap_to_stripes",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     for suite in both(results) {
         let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
@@ -51,16 +41,20 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 all += row.curves;
                 gap = if row.gap > gap { row.gap } else { gap };
                 let share = row.several as f64 / row.curves as f64;
-                let mut cells = vec![
-                    Cell::word(suite.kind.name()),
-                    Cell::Number(p, 0),
-                    Cell::Number(edp, 1),
-                    Cell::Count(row.curves),
-                    Cell::Number(share, 3),
-                ];
-                cells.extend(bias.map(|b| Cell::Number(b, 4)));
-                cells.push(Cell::Number(row.gap, 3));
-                table.row([0.1, 0.5, 1.0].contains(&edp), cells);
+                table.row_if(
+                    [0.1, 0.5, 1.0].contains(&edp),
+                    vec![
+                        ("suite", word(suite.kind.name())),
+                        ("p_rad_s", number(p, 0)),
+                        ("edp", number(edp, 1)),
+                        ("curves", count(row.curves)),
+                        ("share_with_several_crossings", number(share, 3)),
+                        ("median_bias", number(bias[0], 4)),
+                        ("first_bias", number(bias[1], 4)),
+                        ("last_bias", number(bias[2], 4)),
+                        ("largest_gap_to_stripes", number(row.gap, 3)),
+                    ],
+                );
             }
         }
         words.push(format!(

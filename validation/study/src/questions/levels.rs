@@ -6,7 +6,7 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Cell, Rows, both, count, number, word};
 use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::normality::{
@@ -21,30 +21,7 @@ const REPLICATES: u64 = 20_000;
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let arm = results.plan.common();
-    let mut table = Rows::new(&[
-        "suite",
-        "im_kind",
-        "sample",
-        "p_rad_s",
-        "alpha_rad",
-        "accepted_share",
-        "band_low",
-        "band_high",
-        "p_of_share",
-        "p_of_mean_d",
-        "effective_levels",
-        "rejected_plain",
-        "rejected_holm",
-        "rejected_benjamini_hochberg",
-        "ties_decide",
-        "share_step_0.01",
-        "share_step_0.02",
-        "share_step_0.05",
-        "share_from_0.1",
-        "accepted_anderson_darling",
-        "accepted_cramer_von_mises",
-        "accepted_shapiro_wilk",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     for suite in both(results) {
         let size = suite.records.len();
@@ -72,14 +49,14 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     }
                     let kind = ["original", "shifted"][shifted];
                     let mut cells = vec![
-                        Cell::word(suite.kind.name()),
-                        Cell::word(intensity.name()),
-                        Cell::word(kind),
-                        Cell::Number(block.p_rad_s, 0),
-                        Cell::Number(block.alpha_rad, 2),
+                        ("suite", word(suite.kind.name())),
+                        ("im_kind", word(intensity.name())),
+                        ("sample", word(kind)),
+                        ("p_rad_s", number(block.p_rad_s, 0)),
+                        ("alpha_rad", number(block.alpha_rad, 2)),
                     ];
                     cells.extend(row.cells());
-                    table.row(shifted == 1, cells);
+                    table.row_if(shifted == 1, cells);
                 }
             }
             let [d, a, w, s] = others.map(|o| mean(o.iter().copied()));
@@ -178,21 +155,27 @@ impl Row {
         }
     }
 
-    fn cells(&self) -> Vec<Cell> {
-        let share = |x: f64| Cell::Number(x, 3);
-        let mut cells = vec![
-            share(self.share),
-            share(self.band.0),
-            share(self.band.1),
-            share(self.p_of_share),
-            share(self.p_of_mean),
-            Cell::Number(self.effective, 1),
-        ];
-        cells.extend(self.rejected.map(Cell::Count));
-        cells.push(Cell::Count(self.ties));
-        cells.extend(self.by_step.map(share));
-        cells.extend(self.others.map(share));
-        cells
+    fn cells(&self) -> Vec<(&'static str, Cell)> {
+        let share = |x: f64| number(x, 3);
+        vec![
+            ("accepted_share", share(self.share)),
+            ("band_low", share(self.band.0)),
+            ("band_high", share(self.band.1)),
+            ("p_of_share", share(self.p_of_share)),
+            ("p_of_mean_d", share(self.p_of_mean)),
+            ("effective_levels", number(self.effective, 1)),
+            ("rejected_plain", count(self.rejected[0])),
+            ("rejected_holm", count(self.rejected[1])),
+            ("rejected_benjamini_hochberg", count(self.rejected[2])),
+            ("ties_decide", count(self.ties)),
+            ("share_step_0.01", share(self.by_step[0])),
+            ("share_step_0.02", share(self.by_step[1])),
+            ("share_step_0.05", share(self.by_step[2])),
+            ("share_from_0.1", share(self.by_step[3])),
+            ("accepted_anderson_darling", share(self.others[0])),
+            ("accepted_cramer_von_mises", share(self.others[1])),
+            ("accepted_shapiro_wilk", share(self.others[2])),
+        ]
     }
 }
 

@@ -4,7 +4,7 @@
 use libm::log;
 use rocking::intensity::IntensityMeasure;
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Rows, both, number, word};
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
 use crate::error::StudyError;
 use crate::fits::of_intervals;
@@ -201,18 +201,7 @@ pub(super) fn answer(
         .collect::<Result<Vec<_>, _>>()?;
     let words: Vec<String> = found.iter().map(|f| words(f, draws)).collect();
     let mut answer = Answer::new("measures", QUESTION, words.join(" "));
-    let mut table = Rows::new(&[
-        "suite",
-        "p_rad_s",
-        "alpha_rad",
-        "measure",
-        "dispersion",
-        "dispersion_low",
-        "dispersion_high",
-        "ratio_to_pga",
-        "ratio_low",
-        "ratio_high",
-    ]);
+    let mut table = Rows::default();
     for one in &found {
         rows(one, &mut table);
     }
@@ -294,19 +283,19 @@ fn rows(found: &Dispersions, table: &mut Rows) {
                 let shown = slenderness == SHOWN
                     && (!SPECTRAL.contains(&place)
                         || place == found.best(block));
-                table.row(
+                table.row_if(
                     shown,
                     vec![
-                        Cell::word(found.suite.name()),
-                        Cell::Number(*p, 0),
-                        Cell::Number(*alpha, 2),
-                        Cell::word(name(place)),
-                        Cell::Number(found.measured.point(at), 3),
-                        Cell::Number(low, 3),
-                        Cell::Number(high, 3),
-                        Cell::Number(ratios.point(at), 2),
-                        Cell::Number(from, 2),
-                        Cell::Number(to, 2),
+                        ("suite", word(found.suite.name())),
+                        ("p_rad_s", number(*p, 0)),
+                        ("alpha_rad", number(*alpha, 2)),
+                        ("measure", word(name(place))),
+                        ("dispersion", number(found.measured.point(at), 3)),
+                        ("dispersion_low", number(low, 3)),
+                        ("dispersion_high", number(high, 3)),
+                        ("ratio_to_pga", number(ratios.point(at), 2)),
+                        ("ratio_low", number(from, 2)),
+                        ("ratio_high", number(to, 2)),
                     ],
                 );
             }

@@ -2,7 +2,7 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Rows, both, count, number, word};
 use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
 use crate::error::StudyError;
@@ -38,18 +38,7 @@ struct Row {
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let arm = results.plan.common();
-    let mut table = Rows::new(&[
-        "suite",
-        "p_rad_s",
-        "alpha_rad",
-        "accepted_shift_as_given",
-        "accepted_shift_estimated_anew",
-        "critical_value_ratio_least",
-        "critical_value_ratio_median",
-        "critical_value_ratio_largest",
-        "places_without_a_null",
-        "largest_share_drawn_again",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     let mut drawn = Vec::new();
     for suite in both(results) {
@@ -63,21 +52,21 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 row.ratios.iter().copied().filter(|x| x.is_finite()).collect();
             let (least, most) = range(finite.iter().copied());
             let without = PLACES.len() - finite.len();
-            table.row(
-                true,
-                vec![
-                    Cell::word(suite.kind.name()),
-                    Cell::Number(block.p_rad_s, 0),
-                    Cell::Number(block.alpha_rad, 2),
-                    Cell::Number(row.given, 3),
-                    Cell::Number(row.anew, 3),
-                    Cell::Number(least, 3),
-                    Cell::Number(median(&finite).value, 3),
-                    Cell::Number(most, 3),
-                    Cell::Count(without),
-                    Cell::Number(row.redrawn, 3),
-                ],
-            );
+            table.row(vec![
+                ("suite", word(suite.kind.name())),
+                ("p_rad_s", number(block.p_rad_s, 0)),
+                ("alpha_rad", number(block.alpha_rad, 2)),
+                ("accepted_shift_as_given", number(row.given, 3)),
+                ("accepted_shift_estimated_anew", number(row.anew, 3)),
+                ("critical_value_ratio_least", number(least, 3)),
+                (
+                    "critical_value_ratio_median",
+                    number(median(&finite).value, 3),
+                ),
+                ("critical_value_ratio_largest", number(most, 3)),
+                ("places_without_a_null", count(without)),
+                ("largest_share_drawn_again", number(row.redrawn, 3)),
+            ]);
             changes.push(row.anew - row.given);
             drawn.push((
                 suite.kind.name(),

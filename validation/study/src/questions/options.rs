@@ -15,7 +15,7 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 
-use super::answer::{Answer, Cell, Rows};
+use super::answer::{Answer, Rows, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::error::StudyError;
 use crate::estimates::median;
@@ -24,7 +24,7 @@ use crate::results::Results;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };
-use rocking_common::table::{Table, digits, number};
+use rocking_common::table::digits;
 use rocking_common::words::range;
 
 /// Draws of the bootstrap, by default and with all blocks and choices.
@@ -83,31 +83,25 @@ pub(super) fn answer(
         "Which of the paper's three options gives the best fragility?",
         words(&summaries),
     );
-    let mut table = Rows::new(&[
-        "option",
-        "recipe",
-        "numbers_reported",
-        "im_kind",
-        "defined_share",
-        "median_ks",
-        "largest_ks",
-        "median_area",
-    ]);
+    let mut table = Rows::default();
     for s in &summaries {
         let parameters = s.recipe.parameters();
-        table.row(
+        table.row_if(
             s.recipe.option() != 3 || shown_constant(&s.recipe),
             vec![
-                Cell::Count(usize::from(s.recipe.option())),
-                Cell::word(s.recipe.to_string()),
-                Cell::word(
-                    parameters.map_or("sample".into(), |n| n.to_string()),
+                ("option", count(usize::from(s.recipe.option()))),
+                ("recipe", word(s.recipe.to_string())),
+                (
+                    "numbers_reported",
+                    word(
+                        parameters.map_or("sample".into(), |n| n.to_string()),
+                    ),
                 ),
-                Cell::word(s.intensity.name()),
-                Cell::Number(s.defined, 3),
-                Cell::Number(s.ks, 4),
-                Cell::Number(s.largest, 4),
-                Cell::Number(s.area, 4),
+                ("im_kind", word(s.intensity.name())),
+                ("defined_share", number(s.defined, 3)),
+                ("median_ks", number(s.ks, 4)),
+                ("largest_ks", number(s.largest, 4)),
+                ("median_area", number(s.area, 4)),
             ],
         );
     }
@@ -265,57 +259,45 @@ fn words(summaries: &[Summary]) -> String {
 
 /// Every recipe of every block, with its parameters and distances.
 fn by_block(entries: &[Entry]) -> String {
-    let mut table = Table::new(&[
-        "im_kind",
-        "p_rad_s",
-        "alpha_rad",
-        "edp",
-        "im_r",
-        "option",
-        "recipe",
-        "numbers_reported",
-        "ln_median",
-        "dispersion",
-        "shift",
-        "ks_distance",
-        "ks_low",
-        "ks_high",
-        "area_distance",
-        "area_low",
-        "area_high",
-        "draws_used",
-        "undefined_because",
-    ]);
+    let mut table = Rows::default();
     for e in entries {
         let fragility = e.fragility.as_ref();
         let of = |f: fn(&Lognormal) -> f64| {
             fragility.map_or_else(|_| String::new(), |x| short(f(x)))
         };
-        table.row([
-            e.intensity.name().into(),
-            number(e.p_rad_s),
-            number(e.alpha_rad),
-            number(e.edp),
-            short(e.shift),
-            e.recipe.option().to_string(),
-            e.recipe.to_string(),
-            e.recipe
-                .parameters()
-                .map_or_else(|| "sample".into(), |n| n.to_string()),
-            of(Lognormal::log_mean),
-            of(Lognormal::dispersion),
-            of(Lognormal::shift),
-            short(e.ks),
-            short(e.ks_interval.0),
-            short(e.ks_interval.1),
-            short(e.area),
-            short(e.area_interval.0),
-            short(e.area_interval.1),
-            e.used.to_string(),
-            fragility.err().cloned().unwrap_or_default(),
+        table.row(vec![
+            ("im_kind", word(e.intensity.name())),
+            ("p_rad_s", number(e.p_rad_s, 0)),
+            ("alpha_rad", number(e.alpha_rad, 0)),
+            ("edp", number(e.edp, 0)),
+            ("im_r", word(short(e.shift))),
+            ("option", word(e.recipe.option().to_string())),
+            ("recipe", word(e.recipe.to_string())),
+            (
+                "numbers_reported",
+                word(
+                    e.recipe
+                        .parameters()
+                        .map_or_else(|| "sample".into(), |n| n.to_string()),
+                ),
+            ),
+            ("ln_median", word(of(Lognormal::log_mean))),
+            ("dispersion", word(of(Lognormal::dispersion))),
+            ("shift", word(of(Lognormal::shift))),
+            ("ks_distance", word(short(e.ks))),
+            ("ks_low", word(short(e.ks_interval.0))),
+            ("ks_high", word(short(e.ks_interval.1))),
+            ("area_distance", word(short(e.area))),
+            ("area_low", word(short(e.area_interval.0))),
+            ("area_high", word(short(e.area_interval.1))),
+            ("draws_used", word(e.used.to_string())),
+            (
+                "undefined_because",
+                word(fragility.err().cloned().unwrap_or_default()),
+            ),
         ]);
     }
-    table.finish()
+    table.csv()
 }
 
 /// Six digits: more than 86 records say.
@@ -326,17 +308,7 @@ fn short(x: f64) -> String {
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
 /// unshifted lognormal, dimensionless and in physical units.
 fn pact(entries: &[Entry]) -> Result<String, StudyError> {
-    let mut table = Table::new(&[
-        "p_rad_s",
-        "alpha_rad",
-        "edp",
-        "fit",
-        "demand",
-        "median_dimensionless",
-        "median",
-        "unit",
-        "dispersion",
-    ]);
+    let mut table = Rows::default();
     for e in entries {
         let (Recipe::Unshifted(method), Ok(fragility)) =
             (e.recipe, &e.fragility)
@@ -348,17 +320,17 @@ fn pact(entries: &[Entry]) -> Result<String, StudyError> {
         let unit = unit_intensity(e.intensity, &block, model, gravity);
         let own = fragility.scaled(unit)?;
         let Some(told) = Pact::of(e.intensity, &own) else { continue };
-        table.row([
-            number(e.p_rad_s),
-            number(e.alpha_rad),
-            number(e.edp),
-            method.to_string(),
-            told.demand.into(),
-            short(fragility.median()),
-            short(told.median),
-            told.unit.into(),
-            short(told.dispersion),
+        table.row(vec![
+            ("p_rad_s", number(e.p_rad_s, 0)),
+            ("alpha_rad", number(e.alpha_rad, 0)),
+            ("edp", number(e.edp, 0)),
+            ("fit", word(method.to_string())),
+            ("demand", word(told.demand)),
+            ("median_dimensionless", word(short(fragility.median()))),
+            ("median", word(short(told.median))),
+            ("unit", word(told.unit)),
+            ("dispersion", word(short(told.dispersion))),
         ]);
     }
-    Ok(table.finish())
+    Ok(table.csv())
 }

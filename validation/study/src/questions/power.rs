@@ -9,7 +9,7 @@ use rocking::statistics::normality::{
 };
 use rocking::streams::{Streams, standard_normal};
 
-use super::answer::{Answer, Cell, Rows};
+use super::answer::{Answer, Rows, count, number};
 use crate::error::StudyError;
 use crate::normality::LEVEL;
 use crate::results::Results;
@@ -31,27 +31,21 @@ const TESTS: [&str; 4] =
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let sizes = [results.ordinary.records.len(), results.pulse.records.len()];
-    let mut table = Rows::new(&[
-        "records",
-        "excess_median",
-        "dispersion",
-        "lilliefors",
-        "anderson_darling",
-        "cramer_von_mises",
-        "shapiro_wilk",
-    ]);
+    let mut table = Rows::default();
     let mut all = Vec::new();
     for n in sizes {
         let mut by_excess = Vec::new();
         for excess in EXCESSES {
             let rates = rejected(n, excess);
-            let mut cells = vec![
-                Cell::Count(n),
-                Cell::Number(excess, 2),
-                Cell::Number(DISPERSION, 1),
-            ];
-            cells.extend(rates.map(|r| Cell::Number(r, 2)));
-            table.row(true, cells);
+            table.row(vec![
+                ("records", count(n)),
+                ("excess_median", number(excess, 2)),
+                ("dispersion", number(DISPERSION, 1)),
+                ("lilliefors", number(rates[0], 2)),
+                ("anderson_darling", number(rates[1], 2)),
+                ("cramer_von_mises", number(rates[2], 2)),
+                ("shapiro_wilk", number(rates[3], 2)),
+            ]);
             by_excess.push(rates);
         }
         all.push(by_excess);

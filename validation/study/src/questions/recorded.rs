@@ -9,7 +9,7 @@ use rocking::integrator::{Model, Observe, Scene, respond};
 use rocking::intensity::{Measures, Settings};
 use rocking::record::{Processing, ReadOptions, Suite};
 
-use super::answer::{Answer, Cell, Rows};
+use super::answer::{Answer, Rows, number, word};
 use crate::error::StudyError;
 use crate::results::Results;
 use rocking_common::suites::{StudySuiteError, inputs};
@@ -43,15 +43,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let suite = ridgecrest()?;
     let settings = Settings::default();
     let block = Block::try_new(ALPHA_RAD, P_RAD_S)?;
-    let mut rows = Rows::new(&[
-        "record",
-        "corner_hz",
-        "pga_g",
-        "pgv_m_s",
-        "pgd_m",
-        "arias_intensity_m_s",
-        "peak_over_alpha",
-    ]);
+    let mut rows = Rows::default();
     let (mut overturned, mut analyses) = (0, 0);
     for corner_hz in CORNERS_HZ {
         let processing = Processing::try_new(true, Some(corner_hz))
@@ -73,18 +65,18 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             let outcome = respond(&scene, &Observe::default())?.outcome;
             analyses += 1;
             overturned += usize::from(outcome.is_overturned());
-            rows.row(
-                true,
-                vec![
-                    Cell::word(motion.name().replace('_', " ")),
-                    Cell::Number(corner_hz, 2),
-                    Cell::Number(measures.pga_g, 3),
-                    Cell::Number(measures.pgv_m_s, 3),
-                    Cell::Number(measures.pgd_m, 3),
-                    Cell::Number(measures.arias_intensity_m_s, 2),
-                    Cell::Number(outcome.edp(), 3),
-                ],
-            );
+            rows.row(vec![
+                ("record", word(motion.name().replace('_', " "))),
+                ("corner_hz", number(corner_hz, 2)),
+                ("pga_g", number(measures.pga_g, 3)),
+                ("pgv_m_s", number(measures.pgv_m_s, 3)),
+                ("pgd_m", number(measures.pgd_m, 3)),
+                (
+                    "arias_intensity_m_s",
+                    number(measures.arias_intensity_m_s, 2),
+                ),
+                ("peak_over_alpha", number(outcome.edp(), 3)),
+            ]);
         }
     }
     let words = format!(

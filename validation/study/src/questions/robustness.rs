@@ -6,7 +6,7 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{Answer, Rows, both, number, word};
 use crate::distributions::BlockSamples;
 use crate::error::StudyError;
 use crate::estimates::mean;
@@ -26,20 +26,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let arm = results.plan.common();
     let (large, small) =
         (results.ordinary.records.len(), results.pulse.records.len());
-    let mut table = Rows::new(&[
-        "suite",
-        "im_kind",
-        "p_rad_s",
-        "alpha_rad",
-        "accepted_share",
-        "subsample_mean",
-        "subsample_low",
-        "subsample_high",
-        "without_one_record_low",
-        "without_one_record_high",
-        "most_influential_record",
-        "share_at_0.9_im_r",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     for suite in both(results) {
         for intensity in [Intensity::Pga, Intensity::Pgv] {
@@ -78,27 +65,30 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 gains.push(mean(shares.iter().copied()) - whole);
                 swings.push(high - low);
                 moves.push(nine - whole);
-                table.row(
-                    true,
-                    vec![
-                        Cell::word(suite.kind.name()),
-                        Cell::word(intensity.name()),
-                        Cell::Number(block.p_rad_s, 0),
-                        Cell::Number(block.alpha_rad, 2),
-                        Cell::Number(whole, 2),
-                        Cell::Number(mean(shares.iter().copied()), 2),
-                        Cell::Number(ends.0, 2),
-                        Cell::Number(ends.1, 2),
-                        Cell::Number(low, 2),
-                        Cell::Number(high, 2),
-                        Cell::word(
+                table.row(vec![
+                    ("suite", word(suite.kind.name())),
+                    ("im_kind", word(intensity.name())),
+                    ("p_rad_s", number(block.p_rad_s, 0)),
+                    ("alpha_rad", number(block.alpha_rad, 2)),
+                    ("accepted_share", number(whole, 2)),
+                    (
+                        "subsample_mean",
+                        number(mean(shares.iter().copied()), 2),
+                    ),
+                    ("subsample_low", number(ends.0, 2)),
+                    ("subsample_high", number(ends.1, 2)),
+                    ("without_one_record_low", number(low, 2)),
+                    ("without_one_record_high", number(high, 2)),
+                    (
+                        "most_influential_record",
+                        word(
                             farthest
                                 .map(|i| suite.records[i].name.clone())
                                 .unwrap_or_default(),
                         ),
-                        Cell::Number(nine, 2),
-                    ],
-                );
+                    ),
+                    ("share_at_0.9_im_r", number(nine, 2)),
+                ]);
             }
             let of = |values: &[f64]| median(values).value;
             let by_size = if gains.iter().any(|x| x.is_finite()) {

@@ -3,7 +3,7 @@
 
 use rocking::statistics::ExtendedSample;
 
-use super::answer::{Answer, Cell, Rows};
+use super::answer::{Answer, Rows, number, word};
 use crate::error::StudyError;
 use crate::fits::Fits;
 use crate::results::Results;
@@ -58,38 +58,35 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let own = own(results);
     let mut answer =
         Answer::new("surface", QUESTION, words(results, &surrogate, &own)?);
-    let mut table = Rows::new(&[
-        "suite",
-        "blocks",
-        "p_rad_s",
-        "alpha_rad",
-        "median_by_analyses",
-        "median_low",
-        "median_high",
-        "median_by_surface",
-        "dispersion_by_analyses",
-        "dispersion_by_surface",
-        "difference_in_probability",
-    ]);
+    let mut table = Rows::default();
     for (blocks, of) in [("study", &own), ("unseen", &surrogate.unseen)] {
         for (model, _) in &surrogate.models {
             for block in of.iter().filter(|b| b.suite == model.suite) {
                 let found = model.at(block.alpha_rad, block.p_rad_s)?;
                 let off = found.distance(&block.lognormal()?);
-                table.row(
+                table.row_if(
                     blocks == "study",
                     vec![
-                        Cell::word(model.suite.name()),
-                        Cell::word(blocks),
-                        Cell::Number(block.p_rad_s, 2),
-                        Cell::Number(block.alpha_rad, 2),
-                        Cell::Number(block.median, 3),
-                        Cell::Number(block.median_low, 3),
-                        Cell::Number(block.median_high, 3),
-                        Cell::Number(found.median(), 3),
-                        Cell::Number(block.dispersion, 3),
-                        Cell::Number(found.dispersion(), 3),
-                        Cell::Number(off.unwrap_or(f64::NAN), 3),
+                        ("suite", word(model.suite.name())),
+                        ("blocks", word(blocks)),
+                        ("p_rad_s", number(block.p_rad_s, 2)),
+                        ("alpha_rad", number(block.alpha_rad, 2)),
+                        ("median_by_analyses", number(block.median, 3)),
+                        ("median_low", number(block.median_low, 3)),
+                        ("median_high", number(block.median_high, 3)),
+                        ("median_by_surface", number(found.median(), 3)),
+                        (
+                            "dispersion_by_analyses",
+                            number(block.dispersion, 3),
+                        ),
+                        (
+                            "dispersion_by_surface",
+                            number(found.dispersion(), 3),
+                        ),
+                        (
+                            "difference_in_probability",
+                            number(off.unwrap_or(f64::NAN), 3),
+                        ),
                     ],
                 );
             }

@@ -6,7 +6,7 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::answer::{Answer, Cell, Rows, both};
+use super::answer::{self, Answer, Cell, Rows, both, number, word};
 use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::normality::every;
@@ -34,17 +34,7 @@ struct Count {
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let arm = results.plan.common();
-    let mut table = Rows::new(&[
-        "suite",
-        "im_kind",
-        "skewness",
-        "c",
-        "samples",
-        "trimmed_is_nearer",
-        "only_trimmed_is_defined",
-        "neither_is_defined",
-        "share_helped",
-    ]);
+    let mut table = Rows::default();
     let mut words = Vec::new();
     for suite in both(results) {
         for intensity in [Intensity::Pga, Intensity::Pgv] {
@@ -64,14 +54,13 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             let counts = count(&rows);
             for (class, by_constant) in counts.iter().enumerate() {
                 for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
-                    let mut cells = vec![
-                        Cell::word(suite.kind.name()),
-                        Cell::word(intensity.name()),
-                        Cell::word(class_words(class)),
-                        Cell::Number(c, 2),
-                    ];
-                    cells.extend(count.cells());
-                    table.row(c == 0.25 || c == 1.0, cells);
+                    let cells = count.cells(
+                        suite.kind.name(),
+                        intensity.name(),
+                        &class_words(class),
+                        c,
+                    );
+                    table.row_if(c == 0.25 || c == 1.0, cells);
                 }
             }
             if intensity == Intensity::Pga {
@@ -98,14 +87,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     }
     let truth = simulated(results.ordinary.records.len())?;
     for (c, count) in CONSTANTS.into_iter().zip(truth) {
-        let mut cells = vec![
-            Cell::word("simulated"),
-            Cell::word("shifted lognormal"),
-            Cell::word("any"),
-            Cell::Number(c, 2),
-        ];
-        cells.extend(count.cells());
-        table.row(true, cells);
+        let cells = count.cells("simulated", "shifted lognormal", "any", c);
+        table.row(cells);
     }
     words.push(format!(
         "Where the truth is shifted lognormal (excess median 1, dispersion \
@@ -154,13 +137,23 @@ impl Count {
         (self.helps + self.only_trimmed) as f64 / self.samples as f64
     }
 
-    fn cells(&self) -> Vec<Cell> {
+    fn cells(
+        &self,
+        suite: &str,
+        im_kind: &str,
+        skewness: &str,
+        c: f64,
+    ) -> Vec<(&'static str, Cell)> {
         vec![
-            Cell::Count(self.samples),
-            Cell::Count(self.helps),
-            Cell::Count(self.only_trimmed),
-            Cell::Count(self.neither),
-            Cell::Number(self.share(), 3),
+            ("suite", word(suite)),
+            ("im_kind", word(im_kind)),
+            ("skewness", word(skewness)),
+            ("c", number(c, 2)),
+            ("samples", answer::count(self.samples)),
+            ("trimmed_is_nearer", answer::count(self.helps)),
+            ("only_trimmed_is_defined", answer::count(self.only_trimmed)),
+            ("neither_is_defined", answer::count(self.neither)),
+            ("share_helped", number(self.share(), 3)),
         ]
     }
 }

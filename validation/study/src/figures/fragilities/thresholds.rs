@@ -4,7 +4,6 @@ use rocking::statistics::Lognormal;
 
 use crate::claims::limit_of;
 use crate::error::StudyError;
-use crate::figures::stem::name;
 use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
@@ -141,8 +140,9 @@ pub(in super::super) fn thresholds(
         .into(),
     );
     Ok(Fragilities {
-        heading: Heading::new(
-            name(number, None),
+        heading: Heading::numbered(
+            number,
+            false,
             pair.title(),
             "Six panels, PGA above and PGV below, demands 0.15, 0.35 and \
              1.00 from left to right: probability of exceedance against \

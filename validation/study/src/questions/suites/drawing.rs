@@ -5,7 +5,7 @@ use super::row::{MOTIONS, of_motion};
 use crate::analyses::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Scale, Series,
 };
 
 /// Demands at which capacities are drawn.
@@ -22,16 +22,19 @@ pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
         kinds.iter().map(|kind| ratios(rows, kind)).collect();
     panels.extend(kinds.iter().map(|kind| spectra(rows, kind)));
     Chart {
-        heading: Heading::new(
-            "figure-suites",
-            "Embedded motions beside recorded ones",
-            "Above, the ratio of the embedded to the \
+        heading: Heading {
+            place: Place::Suites,
+            ..Heading::new(
+                "figure-suites",
+                "Embedded motions beside recorded ones",
+                "Above, the ratio of the embedded to the \
                               recorded median of eight measures with its 95 \
                               % interval; below, median and 16 to 84 % of \
                               the response spectra at 5 % damping; ordinary \
                               and pulse-type suites.",
-            None,
-        ),
+                None,
+            )
+        },
         panels,
         columns: 2,
     }
@@ -130,15 +133,18 @@ pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
         }
     }
     Chart {
-        heading: Heading::new(
-            "figure-suites-capacities",
-            "Capacities under embedded and recorded motions",
-            "Ratio of the embedded to the recorded median \
+        heading: Heading {
+            place: Place::SuitesByBlock,
+            ..Heading::new(
+                "figure-suites-capacities",
+                "Capacities under embedded and recorded motions",
+                "Ratio of the embedded to the recorded median \
                               capacity with its 95 % interval, block by \
                               block, at demands 0.15 and 1.00, for PGA and \
                               PGV, ordinary and pulse-type suites.",
-            None,
-        ),
+                None,
+            )
+        },
         panels,
         columns: 2,
     }

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
 use rocking_exchange::{
-    BlockFragility, Format, Id, unit_intensity, unstated_origin,
+    BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
 };
 
 use crate::given::{block_of, choose, positive_gravity, refuse};
@@ -46,15 +46,18 @@ pub fn exchange(
     let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
     let fragility = Lognormal::try_new(law.0, law.1, law.2).map_err(refuse)?;
     let id = wanted.id.map_or_else(|| Id::of(&block), |id| id.parse());
-    let limit_state: Id = wanted.limit_state.parse().map_err(refuse)?;
+    let state = LimitState {
+        name: wanted.limit_state.parse().map_err(refuse)?,
+        fragility: fragility.scaled(factor).map_err(refuse)?,
+    };
     let one = BlockFragility {
         id: id.map_err(refuse)?,
         block,
         eta: None,
-        intensity,
-        fragility: fragility.scaled(factor).map_err(refuse)?,
+        im: intensity.into(),
+        limit_states: vec![state],
         origin: wanted.origin.unwrap_or_else(|| unstated_origin(n, intensity)),
     };
-    let texts = format.texts(&[one], &limit_state).map_err(refuse)?;
+    let texts = format.texts(&[one]).map_err(refuse)?;
     Ok((texts.main, texts.beside.map(|(_, text)| text)))
 }

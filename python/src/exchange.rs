@@ -50,13 +50,16 @@ pub fn exchange(
         name: wanted.limit_state.parse().map_err(refuse)?,
         fragility: fragility.scaled(factor).map_err(refuse)?,
     };
+    let im = intensity.into();
+    let origin =
+        wanted.origin.unwrap_or_else(|| unstated_origin(n, &im));
     let one = BlockFragility {
         id: id.map_err(refuse)?,
         block,
         eta: None,
-        im: intensity.into(),
+        im,
         limit_states: vec![state],
-        origin: wanted.origin.unwrap_or_else(|| unstated_origin(n, intensity)),
+        origin,
     };
     let texts = format.texts(&[one]).map_err(refuse)?;
     Ok((texts.main, texts.beside.map(|(_, text)| text)))

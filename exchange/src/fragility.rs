@@ -124,7 +124,7 @@ pub struct LimitState {
 }
 
 /// Steps in the score at which two curves are compared.
-const STEPS: i32 = 4000;
+const STEPS: i32 = 1000;
 
 /// Largest score at which two curves are compared.
 const LARGEST_SCORE: f64 = 8.0;
@@ -185,13 +185,13 @@ pub fn unit_intensity(
 /// alone are known.
 ///
 /// ```
-/// use rocking::intensity::Intensity;
+/// use rocking::intensity::IntensityMeasure;
 /// use rocking_exchange::unstated_origin;
-/// let words = unstated_origin(86, Intensity::Pga);
+/// let words = unstated_origin(86, &IntensityMeasure::Pga);
 /// assert!(words.starts_with("86 capacities in PGA/(g tan alpha)"));
 /// ```
 #[must_use]
-pub fn unstated_origin(capacities: usize, intensity: Intensity) -> String {
-    let measure = intensity.words();
+pub fn unstated_origin(capacities: usize, im: &IntensityMeasure) -> String {
+    let measure = im.words();
     format!("{capacities} capacities in {measure}, response level not stated")
 }

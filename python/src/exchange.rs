@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use rocking::intensity::Intensity;
 use rocking::statistics::Lognormal;
 use rocking_exchange::{
-    BlockFragility, Format, Id, unit_intensity, unstated_origin,
+    BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
 };
 
 use crate::given::{block_of, choose, positive_gravity, refuse};
@@ -32,24 +32,27 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    fn fragility(self, gravity_m_s2: f64) -> PyResult<BlockFragility> {
+    fn fragility(
+        self,
+        name: &Id,
+        gravity_m_s2: f64,
+    ) -> PyResult<BlockFragility> {
         let intensity: Intensity = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
         let model = self.model.parse().map_err(refuse)?;
         let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
         let (shift, log_mean, dispersion) = self.law;
         let law = Lognormal::try_new(shift, log_mean, dispersion);
+        let fragility = law.and_then(|f| f.scaled(factor)).map_err(refuse)?;
         let id = self.id.map_or_else(|| Id::of(&block), |id| id.parse());
-        let n = self.n;
+        let (n, im) = (self.n, intensity.into());
         Ok(BlockFragility {
             id: id.map_err(refuse)?,
             block,
             eta: self.eta,
-            intensity,
-            fragility: law.and_then(|f| f.scaled(factor)).map_err(refuse)?,
-            origin: self
-                .origin
-                .unwrap_or_else(|| unstated_origin(n, intensity)),
+            origin: self.origin.unwrap_or_else(|| unstated_origin(n, &im)),
+            im,
+            limit_states: vec![LimitState { name: name.clone(), fragility }],
         })
     }
 }
@@ -66,9 +69,9 @@ pub fn exchange(
     let formats = Format::ALL.map(|f| (f.name(), f));
     let format = choose("format", format, &formats)?;
     let gravity_m_s2 = positive_gravity(gravity)?;
-    let limit_state: Id = limit_state.parse().map_err(refuse)?;
-    let all = blocks.into_iter().map(|one| one.fragility(gravity_m_s2));
+    let name: Id = limit_state.parse().map_err(refuse)?;
+    let all = blocks.into_iter().map(|one| one.fragility(&name, gravity_m_s2));
     let all = all.collect::<PyResult<Vec<_>>>()?;
-    let texts = format.texts(&all, &limit_state).map_err(refuse)?;
+    let texts = format.texts(&all).map_err(refuse)?;
     Ok((texts.main, texts.beside))
 }

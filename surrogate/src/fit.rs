@@ -3,6 +3,7 @@
 use libm::{exp, log, sqrt};
 use nalgebra::{DMatrix, DVector};
 use rocking::statistics::Lognormal;
+use serde::Serialize;
 
 use super::model::{self, Degrees, Model};
 use super::{Fitted, SHIFT, SurrogateError};
@@ -15,7 +16,7 @@ const MOST: Degrees = Degrees { p: 8, alpha: 3 };
 const SPARED: f64 = 0.1;
 
 /// A surface that was tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Choice {
     /// Its degrees.
     pub degrees: Degrees,

@@ -18,7 +18,7 @@ const UNSEEN: &str = include_str!("../../fixtures/surrogate/unseen.csv");
 
 /// Highest degrees of a surface in u (of p) and in v (of alpha); terms of a
 /// total degree above that in u are left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Degrees {
     /// In u.
     pub p: usize,

@@ -137,31 +137,27 @@ fn words(numbers: &[f64]) -> String {
     words.join(" ")
 }
 
-/// Levels at which all curves stand, and the probabilities of each: the
-/// levels of each curve's own points, at which its own probabilities stand.
+/// The levels of all curves' own points, and the probabilities of each curve
+/// there; the last is certainty.
 fn discrete<'a>(
-    laws: impl Iterator<Item = &'a Lognormal>,
+    laws: impl Iterator<Item = &'a Lognormal> + Clone,
 ) -> Result<(Vec<f64>, Vec<Vec<f64>>), ExchangeError> {
-    let mut all = Vec::new();
-    for law in laws {
-        all.push((law, points(law, TOLERANCE)?));
+    let mut levels = Vec::new();
+    for law in laws.clone() {
+        levels.extend(points(law, TOLERANCE)?.iter().map(|point| point.0));
     }
-    let mut levels: Vec<f64> =
-        all.iter().flat_map(|(_, own)| own).map(|point| point.0).collect();
     // Nine digits are written, and levels rise strictly; a level of nothing
     // is none to OpenQuake.
     levels.sort_by(f64::total_cmp);
     levels.dedup_by_key(|level| number(*level));
     levels.retain(|level| *level > 0.0);
-    let curves = all.iter().map(|(law, own)| {
-        let last = own[own.len() - 1].0;
-        let at = |level: &f64| match own.iter().find(|p| p.0 == *level) {
-            Some(point) => point.1,
-            None if *level > last => 1.0,
-            None => law.cdf(*level),
-        };
-        levels.iter().map(at).collect()
-    });
+    let last = levels.last().copied();
+    let at = |law: &Lognormal, level: f64| match Some(level) == last {
+        true => 1.0,
+        false => law.cdf(level),
+    };
+    let curves =
+        laws.map(|law| levels.iter().map(|level| at(law, *level)).collect());
     let curves = curves.collect();
     Ok((levels, curves))
 }

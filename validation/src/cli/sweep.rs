@@ -74,21 +74,37 @@ struct PlanArgs {
         long,
         value_name = "E",
         value_delimiter = ',',
-        default_values_t = [0.15, 0.35, 1.0]
+        value_parser = share,
+        default_value = "0.15,0.35,1"
     )]
     demands: Vec<f64>,
     /// Step of the levels in PGA/(g tan alpha), from 1.
-    #[arg(long, value_name = "X", default_value_t = 0.02)]
+    #[arg(
+        long,
+        value_name = "X",
+        default_value_t = 0.02,
+        value_parser = positive
+    )]
     step_im: f64,
     /// Step of the levels in PGA (multiples of g) instead, as the paper has
     /// it: 0.01.
-    #[arg(long, value_name = "G", conflicts_with = "step_im")]
+    #[arg(
+        long,
+        value_name = "G",
+        conflicts_with = "step_im",
+        value_parser = positive
+    )]
     step_pga_g: Option<f64>,
     /// Keep every level, not capacities and fragilities alone.
     #[arg(long)]
     rows: bool,
     /// What a tile should take, in minutes of one core.
-    #[arg(long, value_name = "MIN", default_value_t = 5.0)]
+    #[arg(
+        long,
+        value_name = "MIN",
+        default_value_t = 5.0,
+        value_parser = positive
+    )]
     tile_minutes: f64,
     /// Folder of the plan.
     #[arg(long, value_name = "DIR")]
@@ -207,25 +223,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
+fn positive(text: &str) -> Result<f64, &'static str> {
+    let number = text.parse().ok().filter(|x: &f64| x.is_finite());
+    number.filter(|x| *x > 0.0).ok_or("expected a positive number")
+}
+
+fn share(text: &str) -> Result<f64, &'static str> {
+    let share = positive(text).ok().filter(|x| *x <= 1.0);
+    share.ok_or("expected a number above 0, at most 1")
+}
+
 fn plan(args: &PlanArgs) -> Result<(), Failure> {
-    let positive = |x: f64| x > 0.0 && x.is_finite();
-    for (flag, x) in [
-        ("--tile-minutes", args.tile_minutes),
-        ("--step-im", args.step_im),
-        ("--step-pga-g", args.step_pga_g.unwrap_or(1.0)),
-    ] {
-        if !positive(x) {
-            let message = format!("{flag} {x}: expected a positive number");
-            return Err(Failure::input(message));
-        }
-    }
-    for demand in &args.demands {
-        if !(*demand > 0.0 && *demand <= 1.0) {
-            return Err(Failure::input(format!(
-                "--demands {demand}: expected numbers above 0, at most 1"
-            )));
-        }
-    }
     let rows = blocks::read(&args.blocks, STANDARD_GRAVITY_M_S2)?;
     let given = |row: blocks::Row| match row.samples.as_slice() {
         [] => Ok(Given {

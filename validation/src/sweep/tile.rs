@@ -272,12 +272,8 @@ fn fragility(
         ends.map_or([f64::NAN; 2], |e| [e.low, e.high])
     };
     let found = found.unwrap_or([f64::NAN; 2]);
-    let numbers = [[shift, found[0]], [found[1], f64::NAN]];
-    let mut out = vec![reached.to_string()];
-    let all = [numbers[0][0], numbers[0][1], numbers[1][0]];
-    let ends = [interval(0), interval(1)].concat();
-    for x in all.into_iter().chain(ends) {
-        out.push(rocking_common::table::number(x));
-    }
-    out
+    let numbers = [shift, found[0], found[1]].into_iter();
+    let numbers = numbers.chain(interval(0)).chain(interval(1));
+    let reached = [reached.to_string()].into_iter();
+    reached.chain(numbers.map(rocking_common::table::number)).collect()
 }

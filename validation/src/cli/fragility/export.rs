@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use rocking::statistics::QuantileType;
 use rocking_exchange::{BlockFragility, Format, Id};
 use serde::Serialize;
 
@@ -73,7 +74,7 @@ struct ShownState<'a> {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let source = args.source.open()?;
     let inputs = [args.source.inputs(), source.inputs()].concat();
-    let options = args.fit.options()?;
+    let options = args.fit.options(QuantileType::default());
     args.file.write(inputs, || source.fragilities(&options))
 }
 

@@ -56,6 +56,12 @@ pub(super) struct Args {
     im: Option<IntensityMeasure>,
     #[command(flatten)]
     fit: FitArgs,
+    /// Type of the quantiles, 1 to 9.
+    #[arg(long, value_name = "TYPE", default_value_t = 5)]
+    quantile_type: u8,
+    /// Constant c of Eq. 7.
+    #[arg(long, default_value_t = 1.0)]
+    c: f64,
     /// Bootstrap samples for intervals.
     #[arg(long, value_name = "N")]
     bootstrap: Option<usize>,
@@ -105,25 +111,15 @@ pub(super) struct FitArgs {
         default_value = FitMethod::MaximumLikelihood.name()
     )]
     method: FitMethod,
-    /// Type of the quantiles, 1 to 9.
-    #[arg(long, value_name = "TYPE", default_value_t = 5)]
-    quantile_type: u8,
-    /// Constant c of Eq. 7.
-    #[arg(long, default_value_t = 1.0)]
-    c: f64,
 }
 
 impl FitArgs {
-    /// The options of a fit without intervals.
-    ///
-    /// # Errors
-    /// [`Failure`] for a type of quantile that there is none of.
-    pub(super) fn options(&self) -> Result<FitOptions, Failure> {
-        let quantile_type = QuantileType::try_new(self.quantile_type)?;
+    /// The options of a fit without intervals, quantiles of this type.
+    #[must_use]
+    pub(super) fn options(&self, quantile_type: QuantileType) -> FitOptions {
         let method = self.method.with_quantile_type(quantile_type);
-        let (shift, c) = (self.shift, self.c);
-        let default = FitOptions::default();
-        Ok(FitOptions { method, shift, quantile_type, c, ..default })
+        let (shift, default) = (self.shift, FitOptions::default());
+        FitOptions { method, shift, quantile_type, ..default }
     }
 }
 
@@ -148,7 +144,9 @@ struct OfLevels {
 /// # Errors
 /// [`Failure`] for input that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let mut options = args.fit.options()?;
+    let quantile_type = QuantileType::try_new(args.quantile_type)?;
+    let mut options = args.fit.options(quantile_type);
+    options.c = args.c;
     let seed = args.seed;
     options.draws =
         args.bootstrap.map(|replicates| Draws { replicates, seed });

@@ -122,12 +122,6 @@ pub struct Source {
 }
 
 impl SourceArgs {
-    /// Whether a source is given.
-    #[must_use]
-    pub fn is_given(&self) -> bool {
-        !self.inputs().is_empty() || self.surrogate.is_some()
-    }
-
     /// The files that flags name.
     #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
@@ -192,15 +186,10 @@ impl SourceArgs {
                 ),
             }));
         };
-        let mut origin = match (file.of(), im.dimensionless()) {
-            (Some(of), _) => format!("{n} capacities, {of}"),
-            (None, Some(intensity)) => unstated_origin(n, intensity),
-            (None, None) => format!(
-                "{n} capacities in {}, response level not stated",
-                im.words()
-            ),
-        };
-        origin += &setting.words();
+        let origin = match file.of() {
+            Some(of) => format!("{n} capacities, {of}"),
+            None => unstated_origin(n, &im),
+        } + &setting.words();
         let values = Values::Sample(file.censored()?);
         Ok(Level { place, im, setting, values, origin })
     }

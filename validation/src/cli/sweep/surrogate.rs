@@ -1,12 +1,18 @@
 //! `rocking sweep design` and `fit`: the surrogate of `rocking fragility
 //! --alpha --p`.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use crate::cli::{Failure, print};
+use serde::Serialize;
+
+use crate::cli::Failure;
+use crate::cli::show::show;
 use rocking_common::files::Outputs;
 use rocking_common::paper::SuiteKind;
-use rocking_surrogate::{self as surrogate, Surrogate, SurrogateError};
+use rocking_surrogate::{
+    self as surrogate, Choice, Errors, Surrogate, SurrogateError,
+};
 
 /// Writes a table of blocks that fill the surrogate's range of p and alpha:
 /// points of Halton's sequence in ln p and alpha.
@@ -54,6 +60,15 @@ pub struct FitArgs {
     out: PathBuf,
 }
 
+/// The surfaces that were tried by leaving one block out, the one that was
+/// taken, and its errors at blocks that it was not fitted to.
+#[derive(Serialize)]
+struct Found<'a> {
+    choices: &'a [Choice],
+    taken: Option<&'a Choice>,
+    unseen: BTreeMap<SuiteKind, Errors>,
+}
+
 pub(super) fn design(args: &DesignArgs) -> Result<(), Failure> {
     let out = Outputs::default().open(&args.out)?;
     Ok(out.write(surrogate::design(args.first, args.blocks))?)
@@ -85,40 +100,17 @@ pub(super) fn fit(args: &FitArgs) -> Result<(), Failure> {
     let (models, choices) = surrogate::fit(&blocks)?;
     let coefficients = Surrogate::coefficients(&models);
     let made = Surrogate::parse(&coefficients, &unseen)?;
-    let mut text = String::from(
-        "degree_p degree_alpha terms error_in_probability (leave one out)\n",
-    );
-    for choice in &choices {
-        let taken =
-            models.iter().any(|model| model.terms == choice.degrees.terms());
-        text += &format!(
-            "{:>8} {:>12} {:>5} {:.4}{}\n",
-            choice.degrees.p,
-            choice.degrees.alpha,
-            choice.terms,
-            choice.error,
-            if taken { " taken" } else { "" }
-        );
-    }
-    for (model, errors) in &made.models {
-        text += &format!(
-            "{}, {} unseen blocks: rms and largest error of the median \
-             {:.4} {:.4}, of the dispersion {:.4} {:.4}, in probability \
-             {:.4} {:.4}\n",
-            model.suite,
-            errors.blocks,
-            errors.median.rms,
-            errors.median.largest,
-            errors.dispersion.rms,
-            errors.dispersion.largest,
-            errors.probability.rms,
-            errors.probability.largest,
-        );
-    }
+    let own = models.first().map(|model| &model.terms);
+    let taken = |choice: &&Choice| Some(&choice.degrees.terms()) == own;
+    let found = Found {
+        taken: choices.iter().find(taken),
+        unseen: made.models.iter().map(|(m, e)| (m.suite, *e)).collect(),
+        choices: &choices,
+    };
     for (file, content) in
         files.into_iter().zip([design, unseen, coefficients])
     {
         file.write(content)?;
     }
-    print(&text)
+    show(false, &found)
 }

@@ -129,4 +129,12 @@ fn tables_of_commands_have_the_columns_of_the_registry() {
     }
     let capacities = ["intensity_at_0.5", "intensity_at_1"];
     holds(&place, "c.csv", &SWEEP_CAPACITIES, &capacities);
+    // A table of another schema is refused.
+    let ida = fs::read_to_string(place.join("ida.csv")).unwrap();
+    fs::write(place.join("ida.csv"), ida.replace(",1\n", ",7\n")).unwrap();
+    let (status, _, error) =
+        run(&place, "capacities --ida ida.csv --at 1 --out -");
+    assert_eq!(status, 2);
+    let words = "ida.csv:2: found `7` in column schema: expected 1";
+    assert!(error.contains(words), "{error}");
 }

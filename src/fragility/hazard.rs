@@ -106,67 +106,22 @@ pub struct HazardFileError {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum HazardFault {
-    /// Another header line.
-    #[error(
-        "found columns `{0}`: expected pga_g, pgv_m_s, pgv_cm_s or \
-         intensity, and annual_frequency or probability_of_exceedance; or \
-         lon,lat,depth,poe-LEVEL,.. of OpenQuake"
-    )]
-    Columns(String),
-    /// A cell that is no number.
-    #[error("found `{0}`: expected a number")]
-    Number(String),
-    /// A row of another length.
-    #[error("{found} cells: expected {expected}, one a column")]
-    Cells {
-        /// Number of cells.
-        found: usize,
-        /// Number of columns.
-        expected: usize,
+    /// Something else than is read.
+    #[error("found {found}: expected {expected}")]
+    Found {
+        /// What was found.
+        found: String,
+        /// What was expected.
+        expected: &'static str,
     },
-    /// A probability outside its range.
-    #[error("probability {0}: expected a number from 0 to 1")]
-    Probability(f64),
-    /// Probabilities of which nothing says in how many years.
-    #[error("probabilities of exceedance: expected their years (--years)")]
-    YearsUnknown,
-    /// No time.
-    #[error("{0} years: expected a positive number")]
-    Years(f64),
-    /// An intensity measure that is not read.
-    #[error("imt `{0}`: expected PGA, PGV or SA(T)")]
-    Measure(String),
-    /// The comment that says the intensity measure is missing.
-    #[error("a curve of OpenQuake: expected imt='..' in its first comment")]
-    MeasureUnknown,
-    /// Several sites, or not the one asked for.
-    #[error(
-        "{found} sites, the first at {first}: expected one, or the site to \
-         read (--site LON,LAT)"
-    )]
-    Sites {
-        /// Number of sites in the file.
-        found: usize,
-        /// Longitude and latitude of the first.
-        first: String,
-    },
-    /// The site asked for is not in the file once.
-    #[error("site {lon},{lat}: {found} times in the file: expected once")]
-    Site {
-        /// Longitude in degrees.
-        lon: f64,
-        /// Latitude in degrees.
-        lat: f64,
-        /// How often the file has it.
-        found: usize,
-    },
-    /// A site where a curve has none.
-    #[error("a curve without a site: expected no site (--site)")]
-    NoSite,
     /// Points that are no hazard curve.
     #[error(transparent)]
     Curve(#[from] HazardError),
 }
+
+const HEADER: &str = "pga_g, pgv_m_s, pgv_cm_s or intensity, and \
+    annual_frequency or probability_of_exceedance; or \
+    lon,lat,depth,poe-LEVEL,.. of OpenQuake";
 
 /// A point as it is written: line, intensity, and frequency or probability.
 type Written = (usize, f64, f64);
@@ -221,6 +176,15 @@ impl Hazard {
 
 type Faulty = (Option<usize>, HazardFault);
 
+fn fault(
+    line: impl Into<Option<usize>>,
+    found: impl Into<String>,
+    expected: &'static str,
+) -> Faulty {
+    let found = found.into();
+    (line.into(), HazardFault::Found { found, expected })
+}
+
 fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
@@ -239,12 +203,12 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
         if row.starts_with('#') || row.trim().is_empty() {
             continue;
         }
-        let (found, expected) = (cells(row).len(), columns.len());
-        if found != expected {
-            let fault = HazardFault::Cells { found, expected };
-            return Err((Some(line), fault));
+        let row = cells(row);
+        if row.len() != columns.len() {
+            let found = format!("{} cells", row.len());
+            return Err(fault(line, found, "one a column"));
         }
-        rows.push((line, cells(row)));
+        rows.push((line, row));
     }
     if columns.starts_with(&["lon", "lat", "depth"]) {
         return openquake(&comments, (at, &columns), &rows, options);
@@ -257,10 +221,11 @@ fn read(text: &str, options: &HazardOptions) -> Result<Hazard, Faulty> {
         _ => None,
     };
     let Some((_, measure)) = own else {
-        return Err((Some(at), HazardFault::Columns(header.trim().into())));
+        return Err(fault(at, format!("columns `{header}`"), HEADER));
     };
     if options.site_deg.is_some() {
-        return Err((Some(at), HazardFault::NoSite));
+        let found = "a curve of no site";
+        return Err(fault(at, found, "no site asked for (--site)"));
     }
     let mut points = Vec::new();
     for (line, row) in &rows {
@@ -281,7 +246,8 @@ fn openquake(
     options: &HazardOptions,
 ) -> Result<Hazard, Faulty> {
     let imt = said(comments, "imt=");
-    let imt = imt.ok_or((Some(1), HazardFault::MeasureUnknown))?;
+    let expected = "imt='PGA', 'PGV' or 'SA(T)' in the first comment";
+    let imt = imt.ok_or_else(|| fault(1, "no imt", expected))?;
     let period = |name: &str| {
         let text = name.strip_prefix("SA(")?.strip_suffix(')')?;
         text.parse().ok().filter(|t: &f64| *t > 0.0 && t.is_finite())
@@ -291,9 +257,7 @@ fn openquake(
         "PGV" => (IntensityMeasure::Pgv, 100.0),
         name => match period(name) {
             Some(period_s) => (IntensityMeasure::Sa(period_s), 1.0),
-            None => {
-                return Err((Some(1), HazardFault::Measure(name.to_owned())));
-            }
+            None => return Err(fault(1, format!("imt '{name}'"), expected)),
         },
     };
     let years = match said(comments, "investigation_time=") {
@@ -301,9 +265,9 @@ fn openquake(
         None => options.years,
     };
     let levels = columns[3..].iter().map(|name| {
+        let found = || format!("column `{name}`");
         let level = name.strip_prefix("poe-");
-        let fault = || HazardFault::Columns(columns.join(","));
-        level.ok_or_else(|| (Some(at), fault()))
+        level.ok_or_else(|| fault(at, found(), HEADER))
     });
     let levels: Vec<&str> = levels.collect::<Result<_, _>>()?;
     let mut found = Vec::new();
@@ -318,17 +282,8 @@ fn openquake(
         }
     }
     let [(line, row)] = found[..] else {
-        let found = found.len();
-        let fault = match options.site_deg {
-            Some((lon, lat)) => HazardFault::Site { lon, lat, found },
-            None => HazardFault::Sites {
-                found,
-                first: rows
-                    .first()
-                    .map_or("none".into(), |(_, row)| row[..2].join(",")),
-            },
-        };
-        return Err((None, fault));
+        let found = format!("{} such sites of {}", found.len(), rows.len());
+        return Err(fault(None, found, "one (--site LON,LAT)"));
     };
     let mut points = Vec::new();
     for (level, cell) in levels.iter().zip(&row[3..]) {
@@ -347,13 +302,18 @@ fn made(
     let mut remarks = Vec::new();
     let mut certain = 0;
     if let Some(years) = years {
-        let years = years.ok_or((None, HazardFault::YearsUnknown))?;
+        let found = "probabilities of exceedance";
+        let years = years.ok_or_else(|| {
+            fault(None, found, "the years that they are for (--years)")
+        })?;
         if !(years > 0.0 && years.is_finite()) {
-            return Err((None, HazardFault::Years(years)));
+            let found = format!("{years} years");
+            return Err(fault(None, found, "a positive number"));
         }
         for (line, _, p) in &mut points {
             if !(0.0..=1.0).contains(p) {
-                return Err((Some(*line), HazardFault::Probability(*p)));
+                let found = format!("probability {p}");
+                return Err(fault(*line, found, "a number from 0 to 1"));
             }
             *p = -log1p(-*p) / years;
         }
@@ -396,8 +356,8 @@ fn cells(line: &str) -> Vec<&str> {
 }
 
 fn number(line: usize, text: &str) -> Result<f64, Faulty> {
-    let fault = || HazardFault::Number(text.chars().take(40).collect());
-    text.parse().map_err(|_| (Some(line), fault()))
+    let found = || text.chars().take(40).collect::<String>();
+    text.parse().map_err(|_| fault(line, format!("`{}`", found()), "a number"))
 }
 
 /// The value behind `name` in a comment of OpenQuake, without its quotes.

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use rocking_common::table::columns::{
-    BAND, COUNTS, FORCES, HISTORY, IDA, Kind, Layout, SCHEMA,
+    BAND, COUNTS, Column, FORCES, HISTORY, IDA, Layout, SCHEMA,
     SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS, TABLES,
 };
 
@@ -15,7 +15,7 @@ use super::support::{at2, folder, motion, run};
 fn page() -> String {
     let mut text = format!(
         "# Tables\n\nEach file of rows that a command reads or writes, with \
-         its columns. A test makes\nthis page of `exchange/src/columns.rs`, \
+         its columns. A test makes\nthis page of `exchange/src/columns.txt`, \
          from which the writers take their header\nlines. A table that a \
          command writes ends with the column `schema`, now\n{SCHEMA}; each \
          JSON has a field of that name. It rises when a column or a field\n\
@@ -27,20 +27,16 @@ fn page() -> String {
          records.\n"
     );
     for table in TABLES {
-        let about = table.about.split_whitespace().collect::<Vec<_>>();
         writeln!(
             text,
             "\n## {}\n\n{}\n\n| column | cells | unit | meaning |\n\
              |---|---|---|---|",
-            table.name,
-            about.join(" ")
+            table.name, table.about
         )
         .unwrap();
-        for column in table.columns {
-            let kind = format!("{:?}", column.kind).to_lowercase();
-            let meaning = column.meaning.replace('|', "\\|");
-            let (name, unit) = (column.name, column.unit);
-            writeln!(text, "| `{name}` | {kind} | {unit} | {meaning} |")
+        for Column { name, cells, unit, meaning } in &table.columns {
+            let meaning = meaning.replace('|', "\\|");
+            writeln!(text, "| `{name}` | {cells} | {unit} | {meaning} |")
                 .unwrap();
         }
     }
@@ -57,9 +53,10 @@ fn the_page_of_tables_is_that_of_the_registry() {
     let kept = fs::read_to_string(path).unwrap_or_default();
     assert!(kept == page(), "docs/tables.md: expected\n{}", page());
     // `im` is a name wherever it stands.
-    let all = TABLES.iter().flat_map(|table| table.columns);
+    assert!(TABLES.iter().all(|table| !table.columns.is_empty()));
+    let all = TABLES.iter().flat_map(|table| &table.columns);
     for column in all {
-        assert!(column.name != "im" || column.kind == Kind::Text);
+        assert!(column.name != "im" || column.cells == "text");
     }
 }
 
@@ -78,11 +75,12 @@ fn holds(place: &Path, file: &str, layout: &Layout, extra: &[&str]) {
         let row = row.unwrap();
         rows += 1;
         for (column, cell) in layout.columns.iter().zip(&row) {
-            let fits = match column.kind {
-                Kind::Text => cell.parse::<f64>().is_err(),
-                Kind::Number => cell.is_empty() || cell.parse::<f64>().is_ok(),
-                Kind::Count => cell.parse::<u64>().is_ok(),
-                Kind::Flag => cell.parse::<bool>().is_ok(),
+            let fits = match column.cells {
+                "text" => cell.parse::<f64>().is_err(),
+                "number" => cell.is_empty() || cell.parse::<f64>().is_ok(),
+                "count" => cell.parse::<u64>().is_ok(),
+                "flag" => cell.parse::<bool>().is_ok(),
+                other => panic!("{other}"),
             };
             assert!(fits, "{file}, {}: {cell}", column.name);
         }
@@ -131,4 +129,12 @@ fn tables_of_commands_have_the_columns_of_the_registry() {
     }
     let capacities = ["intensity_at_0.5", "intensity_at_1"];
     holds(&place, "c.csv", &SWEEP_CAPACITIES, &capacities);
+    // A table of another schema is refused.
+    let ida = fs::read_to_string(place.join("ida.csv")).unwrap();
+    fs::write(place.join("ida.csv"), ida.replace(",1\n", ",7\n")).unwrap();
+    let (status, _, error) =
+        run(&place, "capacities --ida ida.csv --at 1 --out -");
+    assert_eq!(status, 2);
+    let words = "ida.csv:2: found `7` in column schema: expected 1";
+    assert!(error.contains(words), "{error}");
 }

@@ -53,19 +53,19 @@ fn what_is_no_curve_is_refused_with_its_line() {
     let none = HazardOptions::default();
     let at = |lon| HazardOptions { site_deg: Some((lon, 0.0)), ..none };
     for (text, options, expected) in [
-        (
-            OPENQUAKE.to_owned(),
-            none,
-            "h.csv: 2 sites, the first at 0.00000,0.00000",
-        ),
-        (OPENQUAKE.to_owned(), at(7.0), "h.csv: site 7,0: 0 times"),
+        (OPENQUAKE.to_owned(), none, "h.csv: found 2 such sites of 2"),
+        (OPENQUAKE.to_owned(), at(7.0), "h.csv: found 0 such sites of 2"),
         (
             OPENQUAKE.to_owned(),
             at(0.1),
             "h.csv: 1 points: expected at least two",
         ),
-        (OPENQUAKE.replace("PGA", "PGD"), at(0.0), "h.csv:1: imt `PGD`"),
-        (OPENQUAKE.replace(", imt='PGA'", ""), at(0.0), "h.csv:1: a curve of"),
+        (OPENQUAKE.replace("PGA", "PGD"), at(0.0), "h.csv:1: found imt 'PGD'"),
+        (
+            OPENQUAKE.replace(", imt='PGA'", ""),
+            at(0.0),
+            "h.csv:1: found no imt",
+        ),
         (
             OPENQUAKE.replace("investigation_time=1.0, ", ""),
             at(0.0),
@@ -84,24 +84,28 @@ fn what_is_no_curve_is_refused_with_its_line() {
         (
             OPENQUAKE.replace("5.754042E-02", "1.2"),
             at(0.0),
-            "h.csv:3: probability 1.2",
+            "h.csv:3: found probability 1.2",
         ),
         (
             OPENQUAKE.replace("5.754042E-02", "NaN"),
             at(0.0),
-            "h.csv:3: probability NaN",
+            "h.csv:3: found probability NaN",
         ),
         (
             OPENQUAKE.replace("5.754042E-02", "0.9"),
             at(0.0),
             "h.csv:3: annual frequency",
         ),
-        ("pga_g,annual_frequency\n0.1\n".into(), none, "h.csv:2: 1 cells"),
+        (
+            "pga_g,annual_frequency\n0.1\n".into(),
+            none,
+            "h.csv:2: found 1 cells",
+        ),
         ("pga_g,annual_frequency\n0.1,x\n".into(), none, "h.csv:2: found `x`"),
         (
             "pga_g,annual_frequency\n".into(),
             at(0.0),
-            "h.csv:1: a curve without",
+            "h.csv:1: found a curve of no site",
         ),
         (
             "im,annual_frequency\n0.1,1\n".into(),

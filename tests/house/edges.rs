@@ -29,7 +29,7 @@ const CORE: Edges = &[
     ("intensity", &["names", "record", "stop", "units"]),
     ("names", &[]),
     ("number", &[]),
-    ("procedures", &["capacity", "fragility", "statistics"]),
+    ("procedures", &["capacity", "fragility", "statistics", "stop"]),
     ("record", &["stop", "units"]),
     ("statistics", &["names", "number", "stop", "streams"]),
     ("stop", &[]),

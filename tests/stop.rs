@@ -11,8 +11,8 @@ use rocking::integrator::{
 };
 use rocking::intensity::{Measures, PairMeasures, Settings};
 use rocking::number::double::DoubleDouble;
+use rocking::procedures::{Draws, FitOptions, fit_sample};
 use rocking::record::{Accelerogram, ReadOptions, read};
-use rocking::statistics::ExtendedSample;
 use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::bootstrap::Bootstrap;
 use rocking::statistics::choice::{Model, candidate, goodness};
@@ -20,6 +20,7 @@ use rocking::statistics::lilliefors::{NullDistribution, ShiftedNull};
 use rocking::statistics::normality::Battery;
 use rocking::statistics::paired::hodges_lehmann;
 use rocking::statistics::resampling::simultaneous;
+use rocking::statistics::{CensoredSample, ExtendedSample};
 use rocking::stop::{Stop, StopError};
 
 use super::compare::same;
@@ -28,7 +29,7 @@ use super::compare::same;
 type Work = (&'static str, fn(u64) -> String);
 
 /// The text of what the work gives has all its bits.
-const WORK: [Work; 17] = [
+const WORK: [Work; 18] = [
     ("IDA curves", |_| {
         text(curves(&[normalised()], &[analysis()], &Batch::default()))
     }),
@@ -69,6 +70,11 @@ const WORK: [Work; 17] = [
     ("the null of an accepted share", |size| {
         let levels = [sample(), sample().into_iter().rev().collect()];
         text(NullBand::simulate(&levels, 0.15, size, "stop", 0))
+    }),
+    ("the intervals of a fit", |_| {
+        let sample = CensoredSample::try_new(&sample(), &[]).unwrap();
+        let draws = Some(Draws { replicates: 2, seed: 0 });
+        text(fit_sample(&sample, &FitOptions { draws, ..Default::default() }))
     }),
     ("the goodness of a fit", |size| {
         let values = ExtendedSample::try_new(&sample()).unwrap();

@@ -10,6 +10,7 @@ use rocking::ida::{Adjust, Analysis, IdaCurve, IdaPoint};
 use rocking::integrator::{Model, Outcome, Overturning};
 use rocking::intensity::Intensity;
 use rocking::record::result_name;
+use rocking::stop;
 use thiserror::Error;
 
 use crate::columns::{IDA, SCHEMA_COLUMN};
@@ -325,6 +326,7 @@ impl IdaTable {
         let mut rows: Vec<Row> = Vec::new();
         let mut seen = BTreeSet::new();
         for fields in reader.records() {
+            stop::point();
             let fields = fields.map_err(csv_error)?;
             let line = fields.position().map_or(0, csv::Position::line);
             let cells = Cells { path, line, fields: &fields };

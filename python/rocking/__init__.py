@@ -38,7 +38,7 @@ command line `rocking`, for any number of threads.
 """
 
 from ._analyses import Response, peak, respond, spectrum
-from ._ida import Ida, ida, rank_ims, read_ida
+from ._ida import Ida, ImCurves, ida, rank_ims, read_ida
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
@@ -92,6 +92,7 @@ __all__ = [
     "Fragility",
     "FragilityFit",
     "Ida",
+    "ImCurves",
     "LevelCapacities",
     "LevelCrossings",
     "LevelFit",

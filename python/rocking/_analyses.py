@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _draw, _rocking
+from . import _rocking
 from ._inputs import (
     Block,
     Eta,
@@ -110,13 +110,6 @@ class Response(Frozen):
         ax.plot(self.history[:, 0], self.history[:, 1])
         ax.set(xlabel="t, s", ylabel="theta, rad")
         return ax
-
-    def _repr_html_(self) -> str:
-        words = f"{self.outcome}, peak |theta|/alpha {self.peak_ratio:.6g}"
-        if not self.resolved:
-            words += " (unresolved)"
-        curve = (self.history[:, 0], self.history[:, 1])
-        return _draw.lines([curve], "t, s", "theta, rad", words)
 
 
 def respond(

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _draw, _rocking
+from . import _rocking
 from ._analyses import Progress, physics
 from ._inputs import (
     STANDARD_GRAVITY,
@@ -59,21 +59,125 @@ def _members(suite: Sequence[Record] | None) -> Members | None:
     return [(given(record), dict(record.attributes)) for record in suite]
 
 
+class Curves:
+    """The curves of an IDA against one intensity measure."""
+
+    @property
+    def _native(self) -> _rocking.IdaCurves:
+        raise NotImplementedError
+
+    def sample(self, edp: float, *, rule: Rule = "median") -> Sample:
+        """Capacities at one EDP level with the limits of censored ones."""
+        levels = [float(edp)]
+        found = self._native.capacities(levels, rule)
+        return Sample(*(frozen(table[0]) for table in found))
+
+    def capacities(self, edp: ArrayLike, *, rule: Rule = "median") -> Floats:
+        """Intensity at which each record reaches a response.
+
+        Parameters
+        ----------
+        edp : float or array_like
+            Peak |theta|/alpha; infinite for the first overturning.
+        rule : "median", "first", "last" or "monotone"
+            Which of several crossings counts.
+
+        Returns
+        -------
+        ndarray of shape (edp, record), or (record,) for a single edp
+            Infinite (censored) where the record never got there; `sample`
+            has the intensity up to which it was run.
+
+        >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+        >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
+        >>> found.capacities(np.inf).round(4)
+        array([2.299])
+        >>> found.capacities([0.2, 0.5, np.inf]).shape
+        (3, 1)
+        """
+        levels = np.asarray(edp, dtype=np.float64)
+        flat = np.ravel(levels).tolist()
+        found = self._native.capacities(flat, rule)[0]
+        return found.reshape(*levels.shape, found.shape[1])
+
+    def demands(self, im: ArrayLike) -> Floats:
+        """Response of each record at an intensity.
+
+        Linear between the levels that stand, infinite from the first
+        overturning on. Between the last level that stands and overturning a
+        curve says nothing, which is refused: ask at the levels, which
+        `step_im` makes the same for every record. `stripes` counts such
+        records instead.
+
+        Returns
+        -------
+        ndarray of shape (im, record), or (record,) for a single im
+
+        >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
+        >>> found = ida(Block(alpha=0.1, p=3.0), lobe, step_im=0.5)
+        >>> found.demands([1.5, 2.5]).round(4).tolist()
+        [[0.066], [inf]]
+        """
+        levels = np.asarray(im, dtype=np.float64)
+        found = self._native.demands(np.ravel(levels).tolist())
+        return found.reshape(*levels.shape, found.shape[1])
+
+    def levels(
+        self, edp: ArrayLike, *, rule: Rule = "median"
+    ) -> tuple[LevelCapacities, ...]:
+        """Quantiles over the records of the capacities at EDP levels."""
+        levels = floats(edp, "EDP levels").tolist()
+        found = self._native.levels(levels, rule)
+        return LevelCapacities._all(found)
+
+    def crossings(
+        self, record: str, edp: ArrayLike
+    ) -> tuple[LevelCrossings, ...]:
+        """All crossings of EDP levels by the curve of one record."""
+        levels = floats(edp, "EDP levels").tolist()
+        found = self._native.crossings(record, levels)
+        return LevelCrossings._all(found)
+
+    def stripes(
+        self, ims: ArrayLike, *, edp: float | None = None
+    ) -> tuple[StripeResponses, ...]:
+        """Responses of the records at given intensities; `edp` is the level
+        whose exceedances are counted, which `fit_stripes` takes."""
+        levels = floats(ims, "intensities").tolist()
+        return StripeResponses._all(self._native.stripes(levels, edp))
+
+    def fit(
+        self,
+        edp: ArrayLike,
+        *,
+        rule: Rule = "median",
+        shift: Shift = 0.0,
+        method: Method = "mle",
+        quantile_type: int = 5,
+        c: float = 1.0,
+        n_resamples: int = 0,
+        rng: int = 0,
+        band: ArrayLike = (),
+    ) -> tuple[LevelFit, ...]:
+        """Fits a fragility to the capacities at each EDP level, a record that
+        does not reach it by the intensity up to which it was run; parameters
+        are as in `fit_fragility`."""
+        asked = options(
+            shift, method, quantile_type, c, n_resamples, rng, band
+        )
+        levels = floats(edp, "EDP levels").tolist()
+        return LevelFit._all(self._native.fit(levels, rule, asked))
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Ida:
+class Ida(Curves):
     """Incremental dynamic analysis of one block over a suite.
 
     `im[i]` and `edp[i]` are the curve of record i: PGA/(g tan alpha) from the
     onset of rocking (1, 0) to the first overturned level, whose EDP is
     infinite. `to_pandas` has one row an analysis, `to_csv` is the table of
-    `rocking ida`.
-
-    An intensity measure (`im`) has the name that the command line gives it:
-    "pga", which is PGA/(g tan alpha), "pgv", which is p PGV/(g tan alpha);
-    and with the records of the analysis in `suite` "pgd", "arias", "cav",
-    "pgv-d575" (PGV D5-75^(1/4)), "sa:T", "avgsa:T1,T2,..", periods in s, or
-    "column:NAME" of the records' attributes, proportional to the
-    acceleration.
+    `rocking ida`. Capacities, fits and stripes are in PGA/(g tan alpha);
+    `against` gives them in another intensity measure.
     """
 
     _table: _rocking.IdaTable
@@ -153,140 +257,23 @@ class Ida:
     def __reduce__(self) -> tuple[Any, ...]:
         return _unpickled, (self._table.csv(),)
 
-    def sample(
-        self,
-        edp: float,
-        *,
-        im: str = "pga",
-        rule: Rule = "median",
-        suite: Sequence[Record] | None = None,
-    ) -> Sample:
-        """Capacities at one EDP level with the limits of censored ones."""
-        levels = [float(edp)]
-        found = self._table.capacities(levels, rule, im, _members(suite))
-        return Sample(*(frozen(table[0]) for table in found))
+    def against(
+        self, im: str, suite: Sequence[Record] | None = None
+    ) -> ImCurves:
+        """The curves against an intensity measure.
 
-    def capacities(
-        self,
-        edp: ArrayLike,
-        *,
-        im: str = "pga",
-        rule: Rule = "median",
-        suite: Sequence[Record] | None = None,
-    ) -> Floats:
-        """Intensity at which each record reaches a response.
-
-        Parameters
-        ----------
-        edp : float or array_like
-            Peak |theta|/alpha; infinite for the first overturning.
-        im : str
-            Intensity measure; all but "pga" and "pgv" need `suite`.
-        rule : "median", "first", "last" or "monotone"
-            Which of several crossings counts.
-
-        Returns
-        -------
-        ndarray of shape (edp, record), or (record,) for a single edp
-            Infinite (censored) where the record never got there; `sample`
-            has the intensity up to which it was run.
-
-        >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
-        >>> found = ida(Block(alpha=0.1, p=3.0), lobe)
-        >>> found.capacities(np.inf).round(4)
-        array([2.299])
-        >>> found.capacities([0.2, 0.5, np.inf]).shape
-        (3, 1)
+        Its name is that of the command line: "pga", which is
+        PGA/(g tan alpha), "pgv", which is p PGV/(g tan alpha); and with the
+        records of the analysis in `suite` "pgd", "arias", "cav", "pgv-d575"
+        (PGV D5-75^(1/4)), "sa:T", "avgsa:T1,T2,..", periods in s, or
+        "column:NAME" of the records' attributes, proportional to the
+        acceleration.
         """
-        levels = np.asarray(edp, dtype=np.float64)
-        flat = np.ravel(levels).tolist()
-        found = self._table.capacities(flat, rule, im, _members(suite))[0]
-        return found.reshape(*levels.shape, len(self.records))
+        return ImCurves(self, im, None if suite is None else tuple(suite))
 
-    def demands(
-        self, im: ArrayLike, *, kind: Literal["pga", "pgv"] = "pga"
-    ) -> Floats:
-        """Response of each record at an intensity.
-
-        Linear between the levels that stand, infinite from the first
-        overturning on. Between the last level that stands and overturning a
-        curve says nothing, which is refused: ask at the levels, which
-        `step_im` makes the same for every record. `stripes` counts such
-        records instead.
-
-        Returns
-        -------
-        ndarray of shape (im, record), or (record,) for a single im
-
-        >>> lobe = Record([0.0, 0.2, 0.0], 0.25, units="g", name="lobe")
-        >>> found = ida(Block(alpha=0.1, p=3.0), lobe, step_im=0.5)
-        >>> found.demands([1.5, 2.5]).round(4).tolist()
-        [[0.066], [inf]]
-        """
-        levels = np.asarray(im, dtype=np.float64)
-        found = self._table.demands(np.ravel(levels).tolist(), kind)
-        return found.reshape(*levels.shape, len(self.records))
-
-    def levels(
-        self,
-        edp: ArrayLike,
-        *,
-        im: str = "pga",
-        rule: Rule = "median",
-        suite: Sequence[Record] | None = None,
-    ) -> tuple[LevelCapacities, ...]:
-        """Quantiles over the records of the capacities at EDP levels."""
-        levels = floats(edp, "EDP levels").tolist()
-        found = self._table.levels(levels, rule, im, _members(suite))
-        return LevelCapacities._all(found)
-
-    def crossings(
-        self,
-        record: str,
-        edp: ArrayLike,
-        *,
-        im: str = "pga",
-        suite: Sequence[Record] | None = None,
-    ) -> tuple[LevelCrossings, ...]:
-        """All crossings of EDP levels by the curve of one record."""
-        levels = floats(edp, "EDP levels").tolist()
-        found = self._table.crossings(record, levels, im, _members(suite))
-        return LevelCrossings._all(found)
-
-    def stripes(
-        self,
-        ims: ArrayLike,
-        *,
-        edp: float | None = None,
-        im: Literal["pga", "pgv"] = "pga",
-    ) -> tuple[StripeResponses, ...]:
-        """Responses of the records at given intensities; `edp` is the level
-        whose exceedances are counted, which `fit_stripes` takes."""
-        levels = floats(ims, "intensities").tolist()
-        return StripeResponses._all(self._table.stripes(levels, edp, im))
-
-    def fit(
-        self,
-        edp: ArrayLike,
-        *,
-        im: Literal["pga", "pgv"] = "pga",
-        rule: Rule = "median",
-        shift: Shift = 0.0,
-        method: Method = "mle",
-        quantile_type: int = 5,
-        c: float = 1.0,
-        n_resamples: int = 0,
-        rng: int = 0,
-        band: ArrayLike = (),
-    ) -> tuple[LevelFit, ...]:
-        """Fits a fragility to the capacities at each EDP level, a record that
-        does not reach it by the intensity up to which it was run; parameters
-        are as in `fit_fragility`."""
-        asked = options(
-            shift, method, quantile_type, c, n_resamples, rng, band
-        )
-        levels = floats(edp, "EDP levels").tolist()
-        return LevelFit._all(self._table.fit(levels, rule, im, asked))
+    @cached_property
+    def _native(self) -> _rocking.IdaCurves:
+        return self._table.against("pga", None)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Writes the table that `rocking ida` writes and other commands and
@@ -351,15 +338,25 @@ class Ida:
         ax.set(xlabel="peak |theta|/alpha", ylabel="PGA/(g tan alpha)")
         return ax
 
-    def _repr_html_(self) -> str:
-        words = (
-            f"IDA of {self.block!r} under {len(self.records)} records: "
-            f"{len(self._columns['record'])} analyses, {self.unresolved} "
-            "unresolved"
-        )
-        curves = list(zip(self.edp, self.im))
-        names = ("peak |theta|/alpha", "PGA/(g tan alpha)")
-        return _draw.lines(curves, *names, words)
+
+@dataclass(frozen=True)
+class ImCurves(Curves):
+    """The curves of an IDA against the intensity measure `im`."""
+
+    ida: Ida
+    im: str
+    suite: tuple[Record, ...] | None
+
+    def __post_init__(self) -> None:
+        # What is refused is refused here.
+        _ = self._native
+
+    @cached_property
+    def _native(self) -> _rocking.IdaCurves:
+        return self.ida._table.against(self.im, _members(self.suite))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return ImCurves, (self.ida, self.im, self.suite)
 
 
 def _unpickled(csv: str) -> Ida:

@@ -12,7 +12,7 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _draw, _rocking
+from . import _rocking
 from ._rocking import STANDARD_GRAVITY as STANDARD_GRAVITY
 
 Floats = NDArray[np.float64]
@@ -118,10 +118,6 @@ class Block:
     ) -> tuple[float, float]:
         """Width 2b and height 2h in m of the rectangular block."""
         return _rocking.block_size(self.alpha, self.p, gravity)
-
-    def _repr_html_(self) -> str:
-        width, height = self.dimensions()
-        return _draw.block(width, height, repr(self))
 
 
 @dataclass(frozen=True, init=False)
@@ -289,12 +285,6 @@ class Record(Frozen):
         """Times of the samples in s."""
         return np.arange(len(self.acc_g), dtype=np.float64) * self.dt
 
-    def _repr_html_(self) -> str:
-        words = (
-            f"{self.name}: {len(self.acc_g)} samples, PGA {self.pga_g:.3f} g"
-        )
-        return _draw.lines([(self.t, self.acc_g)], "t, s", "a/g", words)
-
 
 def _unpickled(
     name: str, acc_g: Floats, dt: float, known: dict[str, str]
@@ -375,9 +365,6 @@ class Suite(Sequence[Record]):
             for record in self.records
         ]
         return pandas.DataFrame(rows)
-
-    def _repr_html_(self) -> str:
-        return _draw.caption(f"suite {self.name}: {len(self)} records")
 
 
 def read_record(

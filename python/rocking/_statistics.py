@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _draw, _rocking
+from . import _rocking
 from ._inputs import (
     STANDARD_GRAVITY,
     Block,
@@ -157,12 +157,6 @@ class Fragility(Result):
         ax.set(xlabel="intensity", ylabel="probability")
         return ax
 
-    def _repr_html_(self) -> str:
-        words = f"median {self.median:.4g}, dispersion {self.dispersion:.4g}"
-        if self.shift > 0.0:
-            words += f", shift {self.shift:.4g}"
-        return _draw.lines([self._curve()], "intensity", "P", words)
-
 
 class _Fit(Result):
     """What has a fitted fragility."""
@@ -181,9 +175,6 @@ class _Fit(Result):
             ends = (np.array(end, dtype=np.float64) for end in (low, high))
             ax.fill_between(x, *ends, alpha=0.3)
         return ax
-
-    def _repr_html_(self) -> str:
-        return self.fitted._repr_html_()
 
 
 @dataclass(frozen=True)

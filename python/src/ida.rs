@@ -16,10 +16,12 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Batch, Grid, curves};
 use rocking::integrator::uplift_threshold;
 use rocking::intensity::{
-    AtUplift, Intensity, IntensityMeasure, Measures, Settings,
+    AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
 };
 use rocking::procedures::ranking::{Candidate, Covariate};
-use rocking::procedures::{Draws, capacities, fit_levels, rank, stripes};
+use rocking::procedures::{
+    Draws, ProcedureError, capacities, fit_levels, rank, stripes,
+};
 use rocking::record::Accelerogram;
 use rocking::stop;
 use rocking_exchange::ida::{self as tables, Curves, Row};
@@ -204,35 +206,11 @@ impl IdaTable {
                 Ok((record.name().to_owned(), measures, known))
             };
             let all = members.into_par_iter().panic_fuse().map(one);
-            all.collect::<Result<Vec<_>, rocking::intensity::IntensityError>>()
+            all.collect::<Result<Vec<_>, IntensityError>>()
         };
         let members = work::on_all(py, measured)?.map_err(refuse)?;
         let uplift = AtUplift { pga_g, p_rad_s, gravity_m_s2 };
         Ok(Ground { uplift, periods_s, members })
-    }
-
-    /// The curves against a measure; all but pga and pgv need the suite.
-    fn curves(
-        &self,
-        py: Python<'_>,
-        im: &str,
-        suite: Option<Vec<Member<'_>>>,
-    ) -> PyResult<Curves> {
-        let measure: IntensityMeasure = im.parse().map_err(refuse)?;
-        let refused = |(record, error): (String, CapacityError)| {
-            refuse(format!("record {record}: {error}"))
-        };
-        if let Some(own) = measure.dimensionless() {
-            return self.0.curves(own).map_err(refused);
-        }
-        let Some(suite) = suite else {
-            let words = measure.words();
-            return Err(refuse(format!("{words}: expected the suite")));
-        };
-        let ims = std::slice::from_ref(&measure);
-        let factors = self.ground(py, suite, ims)?.at_uplift(&measure)?;
-        let curves = self.0.curves(Intensity::Pga).map_err(refused)?;
-        curves.against(&factors, measure.is_squared()).map_err(refuse)
     }
 }
 
@@ -282,126 +260,26 @@ impl IdaTable {
         Ok(out)
     }
 
-    /// Capacity of each record (column) at each level (row), infinite where
-    /// the record did not reach it, and the limits of those.
-    fn capacities<'py>(
-        &self,
-        py: Python<'py>,
-        levels: Vec<f64>,
-        rule: &str,
-        im: &str,
-        suite: Option<Vec<Member<'py>>>,
-    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
-        let rule: InversionRule = rule.parse().map_err(refuse)?;
-        let found = self.curves(py, im, suite)?;
-        let all: Vec<ResponseCurve> =
-            found.curves.iter().map(|(_, curve)| curve.clone()).collect();
-        let cells = || {
-            let (mut values, mut limits) = (Vec::new(), Vec::new());
-            for level in &levels {
-                stop::point();
-                let intervals = capacities::intervals(&all, *level, rule)?;
-                for (low, high) in intervals {
-                    let reached = high.is_finite();
-                    values.push(found.measured(high));
-                    let limit = found.measured(low);
-                    limits.push(if reached { f64::NAN } else { limit });
-                }
-            }
-            Ok::<_, rocking::procedures::ProcedureError>([values, limits])
-        };
-        let found = work::on_numbers(py, levels.len() * all.len(), cells)?;
-        let [values, limits] = found.map_err(refuse)?;
-        let shape = (levels.len(), all.len());
-        Ok([table(py, shape, values)?, table(py, shape, limits)?])
-    }
-
-    /// Demand of each record (column) at each intensity (row); infinite
-    /// where it overturned.
-    fn demands<'py>(
-        &self,
-        py: Python<'py>,
-        ims: Vec<f64>,
-        im: &str,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let curves = self.curves(py, im, None)?.into_curves();
-        let shape = (ims.len(), curves.len());
-        let cells = || {
-            let mut values = Vec::with_capacity(shape.0 * shape.1);
-            for &im in &ims {
-                stop::point();
-                for (i, curve) in curves.iter().enumerate() {
-                    let beyond = CapacityError::Beyond { number: i + 1, im };
-                    values.push(curve.edp_at(im).ok_or(beyond)?);
-                }
-            }
-            Ok::<_, CapacityError>(values)
-        };
-        let values = work::on_numbers(py, shape.0 * shape.1, cells)?;
-        table(py, shape, values.map_err(refuse)?)
-    }
-
-    /// Quantiles of the capacities at each level.
-    fn levels(
+    /// The curves against a measure; all but pga and pgv need the suite.
+    fn against(
         &self,
         py: Python<'_>,
-        levels: Vec<f64>,
-        rule: &str,
         im: &str,
         suite: Option<Vec<Member<'_>>>,
-    ) -> PyResult<String> {
-        let rule: InversionRule = rule.parse().map_err(refuse)?;
-        let found = self.curves(py, im, suite)?;
-        let curves = found.clone().into_curves();
-        answer(py, || {
-            capacities::levels(&curves, &levels, rule, |im| found.measured(im))
-        })
-    }
-
-    /// The crossings of one record at each level.
-    fn crossings(
-        &self,
-        py: Python<'_>,
-        record: &str,
-        levels: Vec<f64>,
-        im: &str,
-        suite: Option<Vec<Member<'_>>>,
-    ) -> PyResult<String> {
-        let found = self.curves(py, im, suite)?;
-        let own = found.curves.iter().find(|(name, _)| name == record);
-        let (_, curve) = own.ok_or_else(|| {
-            refuse(format!("record {record}: expected one of the IDA"))
-        })?;
-        answer(py, || {
-            capacities::crossings(curve, &levels, |im| found.measured(im))
-        })
-    }
-
-    /// A fit of the capacities at each level.
-    fn fit(
-        &self,
-        py: Python<'_>,
-        levels: Vec<f64>,
-        rule: &str,
-        im: &str,
-        options: Fit,
-    ) -> PyResult<String> {
-        let rule: InversionRule = rule.parse().map_err(refuse)?;
-        let curves = self.curves(py, im, None)?.into_curves();
-        let options = options.options()?;
-        answer(py, || fit_levels(&curves, &levels, rule, &options))
-    }
-
-    /// Responses at given intensities.
-    fn stripes(
-        &self,
-        py: Python<'_>,
-        ims: Vec<f64>,
-        edp: Option<f64>,
-        im: &str,
-    ) -> PyResult<String> {
-        let curves = self.curves(py, im, None)?.into_curves();
-        answer(py, || stripes(&curves, &ims, edp))
+    ) -> PyResult<IdaCurves> {
+        let measure: IntensityMeasure = im.parse().map_err(refuse)?;
+        if let Some(own) = measure.dimensionless() {
+            return Ok(IdaCurves(self.0.curves(own).map_err(of_record)?));
+        }
+        let Some(suite) = suite else {
+            let words = measure.words();
+            return Err(refuse(format!("{words}: expected the suite")));
+        };
+        let ims = std::slice::from_ref(&measure);
+        let factors = self.ground(py, suite, ims)?.at_uplift(&measure)?;
+        let curves = self.0.curves(Intensity::Pga).map_err(of_record)?;
+        let curves = curves.against(&factors, measure.is_squared());
+        Ok(IdaCurves(curves.map_err(refuse)?))
     }
 
     /// Intensity measures side by side; the usual ones where none is named.
@@ -425,8 +303,8 @@ impl IdaTable {
                 .map(|im| im.parse().map_err(refuse))
                 .collect::<PyResult<_>>()?,
         };
-        let curves = self.curves(py, "pga", None)?.into_curves();
-        let found = capacities::intervals(&curves, edp, rule);
+        let curves = self.0.curves(Intensity::Pga).map_err(of_record)?;
+        let found = capacities::intervals(&curves.into_curves(), edp, rule);
         let found = found.map_err(refuse)?;
         let ground = self.ground(py, suite, &ims)?;
         let candidate = |measure: &IntensityMeasure| {
@@ -447,6 +325,141 @@ impl IdaTable {
             .collect();
         let draws = Draws { replicates, seed };
         answer(py, || rank(&found, &all, &covariates, draws))
+    }
+}
+
+/// What is wrong with the curve of a record.
+fn of_record((record, error): (String, CapacityError)) -> PyErr {
+    refuse(format!("record {record}: {error}"))
+}
+
+/// The curves of a table against one intensity measure.
+#[pyclass(frozen, module = "rocking._rocking")]
+pub struct IdaCurves(Curves);
+
+impl IdaCurves {
+    fn all(&self) -> Vec<ResponseCurve> {
+        self.0.clone().into_curves()
+    }
+
+    /// The curves, unless their measure is the square of theirs.
+    fn linear(&self) -> PyResult<Vec<ResponseCurve>> {
+        if self.0.squared {
+            return Err(refuse(
+                "a measure that grows with the square of the acceleration: \
+                 expected another",
+            ));
+        }
+        Ok(self.all())
+    }
+}
+
+#[pymethods]
+impl IdaCurves {
+    /// Capacity of each record (column) at each level (row), infinite where
+    /// the record did not reach it, and the limits of those.
+    fn capacities<'py>(
+        &self,
+        py: Python<'py>,
+        levels: Vec<f64>,
+        rule: &str,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let curves = self.all();
+        let shape = (levels.len(), curves.len());
+        let cells = || {
+            let (mut values, mut limits) = (Vec::new(), Vec::new());
+            for level in &levels {
+                stop::point();
+                for (low, high) in
+                    capacities::intervals(&curves, *level, rule)?
+                {
+                    let reached = high.is_finite();
+                    let limit = self.0.measured(low);
+                    values.push(self.0.measured(high));
+                    limits.push(if reached { f64::NAN } else { limit });
+                }
+            }
+            Ok::<_, ProcedureError>([values, limits])
+        };
+        let found = work::on_numbers(py, shape.0 * shape.1, cells)?;
+        let [values, limits] = found.map_err(refuse)?;
+        Ok([table(py, shape, values)?, table(py, shape, limits)?])
+    }
+
+    /// Demand of each record (column) at each intensity (row); infinite
+    /// where it overturned.
+    fn demands<'py>(
+        &self,
+        py: Python<'py>,
+        ims: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let curves = self.linear()?;
+        let shape = (ims.len(), curves.len());
+        let cells = || {
+            let mut values = Vec::with_capacity(shape.0 * shape.1);
+            for &im in &ims {
+                stop::point();
+                for (i, curve) in curves.iter().enumerate() {
+                    let beyond = CapacityError::Beyond { number: i + 1, im };
+                    values.push(curve.edp_at(im).ok_or(beyond)?);
+                }
+            }
+            Ok::<_, CapacityError>(values)
+        };
+        let values = work::on_numbers(py, shape.0 * shape.1, cells)?;
+        table(py, shape, values.map_err(refuse)?)
+    }
+
+    /// Quantiles of the capacities at each level.
+    fn levels(
+        &self,
+        py: Python<'_>,
+        levels: Vec<f64>,
+        rule: &str,
+    ) -> PyResult<String> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let measured = |im| self.0.measured(im);
+        answer(py, || capacities::levels(&self.all(), &levels, rule, measured))
+    }
+
+    /// The crossings of one record at each level.
+    fn crossings(
+        &self,
+        py: Python<'_>,
+        record: &str,
+        levels: Vec<f64>,
+    ) -> PyResult<String> {
+        let own = self.0.curves.iter().find(|(name, _)| name == record);
+        let (_, curve) = own.ok_or_else(|| {
+            refuse(format!("record {record}: expected one of the IDA"))
+        })?;
+        let measured = |im| self.0.measured(im);
+        answer(py, || capacities::crossings(curve, &levels, measured))
+    }
+
+    /// A fit of the capacities at each level.
+    fn fit(
+        &self,
+        py: Python<'_>,
+        levels: Vec<f64>,
+        rule: &str,
+        options: Fit,
+    ) -> PyResult<String> {
+        let rule: InversionRule = rule.parse().map_err(refuse)?;
+        let (curves, options) = (self.linear()?, options.options()?);
+        answer(py, || fit_levels(&curves, &levels, rule, &options))
+    }
+
+    /// Responses at given intensities.
+    fn stripes(
+        &self,
+        py: Python<'_>,
+        ims: Vec<f64>,
+        edp: Option<f64>,
+    ) -> PyResult<String> {
+        let curves = self.linear()?;
+        answer(py, || stripes(&curves, &ims, edp))
     }
 }
 

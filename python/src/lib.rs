@@ -36,6 +36,7 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(ida::read_ida, m)?)?;
     m.add_function(wrap_pyfunction!(ida::ida_of_csv, m)?)?;
     m.add_class::<ida::IdaTable>()?;
+    m.add_class::<ida::IdaCurves>()?;
     m.add_function(wrap_pyfunction!(measures::intensity_measures, m)?)?;
     m.add_function(wrap_pyfunction!(measures::velocity_pulse, m)?)?;
     m.add_function(wrap_pyfunction!(procedures::fit, m)?)?;

@@ -58,8 +58,12 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.ida(BLOCK, LOBE, threads=0), "threads 0"),
     (lambda: rk.ida(BLOCK, []), "at least one"),
     (lambda: rk.ida(BLOCK, LOBE).capacities(-1.0), "EDP level -1"),
-    (lambda: rk.ida(BLOCK, LOBE).capacities(1.0, im="sa:1"), "the suite"),
-    (lambda: rk.ida(BLOCK, LOBE).capacities(1.0, im="sa"), "expected one of"),
+    (lambda: rk.ida(BLOCK, LOBE).against("sa:1"), "the suite"),
+    (lambda: rk.ida(BLOCK, LOBE).against("sa"), "expected one of"),
+    (
+        lambda: rk.ida(BLOCK, LOBE).against("arias", [LOBE]).stripes([1.0]),
+        "square of the acceleration",
+    ),
     (
         lambda: rk.rank_ims(rk.ida(BLOCK, LOBE), [PACKET]),
         "records of another suite",

@@ -111,13 +111,13 @@ def rank_ims(given: Given) -> Call:
 @long
 def fit_fragility(given: Given) -> Call:
     sample = given.ida.capacities(0.5)
-    return lambda: rk.fit_fragility(sample, n_resamples=10_000_000)
+    return lambda: rk.fit_fragility(sample, n_resamples=1_000_000)
 
 
 @long
 def jackknife(given: Given) -> Call:
     sample = np.exp(np.random.default_rng(0).standard_normal(30_000))
-    return lambda: rk.fit_fragility(sample, n_resamples=1)
+    return lambda: rk.fit_fragility(sample, n_resamples=2)
 
 
 @long

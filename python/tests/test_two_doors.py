@@ -97,7 +97,8 @@ def fit_of_a_free_shift(house: House) -> Pair:
 def fit_at_levels(house: House) -> Pair:
     words = ["fragility", "fit", "--ida", house.table, "--at", "0.3,0.5"]
     words += ["--im", "pgv", "--point", "first", "--bootstrap", 20]
-    found = house.ida.fit([0.3, 0.5], im="pgv", rule="first", n_resamples=20)
+    curves = house.ida.against("pgv")
+    found = curves.fit([0.3, 0.5], rule="first", n_resamples=20)
     return Pair(found, words, ("levels",))
 
 
@@ -200,9 +201,8 @@ def summary(house: House) -> Pair:
 def capacities(house: House) -> Pair:
     words = ["capacities", "--ida", house.table, "--levels", "0.3,0.9"]
     words += ["--point", "last", "--im", "sa:1", "--suite", house.index]
-    found = house.ida.levels(
-        [0.3, 0.9], rule="last", im="sa:1", suite=house.suite
-    )
+    curves = house.ida.against("sa:1", house.suite)
+    found = curves.levels([0.3, 0.9], rule="last")
     return Pair(found, words, ("levels",))
 
 
@@ -211,9 +211,8 @@ def crossings(house: House) -> Pair:
     words = ["capacities", "--ida", house.table, "--levels", "0.3,0.9"]
     words += ["--im", "arias", "--suite", house.index]
     name = house.ida.records[2]
-    found = house.ida.crossings(
-        name, [0.3, 0.9], im="arias", suite=house.suite
-    )
+    curves = house.ida.against("arias", house.suite)
+    found = curves.crossings(name, [0.3, 0.9])
     return Pair(found, words, ("records", 2, "levels"))
 
 
@@ -278,13 +277,12 @@ def test_a_sample_is_the_file_of_the_command_line(
     words = ["--ida", house.table, "--im", im, "--at", "inf", "--out", out]
     command("capacities", *words)
     lines = [x for x in out.read_text().splitlines() if x[0] != "#"]
-    found = house.ida.sample(np.inf, im=im)
+    curves = house.ida.against(im)
+    found = curves.sample(np.inf)
     values = zip(found.values.tolist(), found.limits.tolist())
     own = [f">{b!r}" if a == np.inf else repr(a) for a, b in values]
     assert own == [line.split(" #")[0] for line in lines]
-    assert (
-        found.values.tolist() == house.ida.capacities(np.inf, im=im).tolist()
-    )
+    assert found.values.tolist() == curves.capacities(np.inf).tolist()
 
 
 def test_an_ida_has_the_bytes_of_the_command_line(

@@ -78,7 +78,7 @@ def test_everything_comes_back_from_a_pickle(
     other = rk.respond(block, packet, im=2.0, history_dt=0.02)
     sample = ida.sample(0.5)
     fit = rk.fit_fragility(sample, n_resamples=50)
-    for one in (ida, response, sample, fit):
+    for one in (ida, ida.against("pgv"), response, sample, fit):
         again = pickle.loads(pickle.dumps(one))
         assert again == one and hash(again) == hash(one)
     assert response != other and ida != response

@@ -40,6 +40,7 @@ const CORE: Edges = &[
             "integrator",
             "intensity",
             "statistics",
+            "stop",
         ],
     ),
     ("record", &["stop", "units"]),

@@ -8,6 +8,7 @@ use crate::statistics::bootstrap::{
 };
 use crate::statistics::lognormal::FitMethod;
 use crate::statistics::{CensoredSample, Lognormal};
+use crate::stop;
 
 /// Level of all intervals.
 const LEVEL: f64 = 0.95;
@@ -103,6 +104,7 @@ impl FitIntervals {
         let n = sample.len();
         let without: Vec<Replicate> = (0..n)
             .map(|k| {
+                stop::point();
                 let others: Vec<_> = (0..n).filter(|i| *i != k).collect();
                 refitted(sample, options, &others)
             })

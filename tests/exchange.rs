@@ -128,6 +128,8 @@ fn every_origin_and_measure_goes_out_by_the_same_door() {
     for (flags, names) in [
         ("--surrogate ordinary --shift 1", "no flag of a fit"),
         ("--counts counts.csv", "--im"),
+        ("--counts counts.csv --im pga --shift min", "counts: expected"),
+        ("--counts counts.csv --im pga --method moment", "counts: expected"),
         ("--sample capacities.txt --limit-state a --limit-state b", "1 limit"),
         ("--sample capacities.txt --surrogate ordinary", "cannot be used"),
     ] {

@@ -42,14 +42,19 @@ pub fn fragilities(
     demands: &[f64],
 ) -> Result<Vec<BlockFragility>, SweepError> {
     let plan = &planned.plan;
+    let listed = |demands: &[f64]| {
+        let words: Vec<String> = demands.iter().map(f64::to_string).collect();
+        words.join(", ")
+    };
     if let Some(found) = demands.iter().find(|d| !plan.demands.contains(d)) {
-        let expected = format!("{:?}", plan.demands);
+        let expected = listed(&plan.demands);
         return Err(SweepError::Demand { found: *found, expected });
     }
     let origin = format!(
-        "sweep over {} records, {} at |theta|/alpha {demands:?}",
+        "sweep over {} records, {} at |theta|/alpha {}",
         plan.records.len(),
         intensity.words(),
+        listed(demands),
     );
     let mut out: Vec<BlockFragility> = Vec::new();
     for tile in 0..plan.tiles.len() {

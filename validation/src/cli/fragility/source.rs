@@ -11,7 +11,7 @@ use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::procedures::{
     FitOptions, Shift, capacities, fit_sample, fit_stripes,
 };
-use rocking::statistics::lognormal::Stripe;
+use rocking::statistics::lognormal::{FitMethod, Stripe};
 use rocking::statistics::{CensoredSample, Lognormal};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
@@ -299,12 +299,15 @@ impl Level {
             (Values::Sample(sample), ..) => {
                 fit_sample(sample, options).map(|found| found.fitted)
             }
-            (Values::Counts(stripes), Shift::Given(shift), _) => {
+            (Values::Counts(stripes), Shift::Given(shift), _)
+                if options.method == FitMethod::MaximumLikelihood =>
+            {
                 fit_stripes(stripes, shift).map(|found| found.fitted)
             }
-            (Values::Counts(_), shift, _) => {
-                let flag = format!("--shift {shift}: expected a number");
-                return Err(at(&flag));
+            (Values::Counts(_), ..) => {
+                let expected = "counts: expected --shift with a number and \
+                                --method mle";
+                return Err(at(&expected));
             }
             (Values::Surface(model), _, Some(block))
                 if *options == FitOptions::default() =>

@@ -2,18 +2,16 @@
 
 use std::collections::BTreeSet;
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use std::str::FromStr;
+use std::path::Path;
 
 use rocking::capacity::{CapacityError, ResponseCurve};
 use rocking::ida::{Adjust, Analysis, IdaCurve, IdaPoint};
 use rocking::integrator::{Model, Outcome, Overturning};
 use rocking::intensity::Intensity;
 use rocking::record::result_name;
-use rocking::stop;
-use thiserror::Error;
 
-use crate::columns::{IDA, SCHEMA_COLUMN};
+use crate::columns::IDA;
+use crate::read::{Cells, FileError, rows};
 use crate::table::Table;
 
 /// Place of the first column of a [`Setting`].
@@ -25,96 +23,6 @@ const OUTCOMES: [&str; 5] =
 
 /// The place of [`OUTCOMES`] that the refined end of a bracket has.
 const REFINED: &str = OUTCOMES[3];
-
-/// Why an IDA file was refused.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum IdaFileError {
-    /// The file could not be read as CSV.
-    #[error("{}: {source}", path.display())]
-    Csv {
-        /// The file.
-        path: PathBuf,
-        /// What the reader said, with the line where there is one.
-        #[source]
-        source: csv::Error,
-    },
-    /// Not the columns of an IDA file.
-    #[error(
-        "{}:1: found columns `{found}`: expected `{}`",
-        path.display(), IDA.names().collect::<Vec<_>>().join(",")
-    )]
-    Header {
-        /// The file.
-        path: PathBuf,
-        /// The first line.
-        found: String,
-    },
-    /// A field that is not what its column holds.
-    #[error(
-        "{}:{line}: found `{found}` in column {column}: expected {expected}",
-        path.display()
-    )]
-    Field {
-        /// The file.
-        path: PathBuf,
-        /// Line number from 1.
-        line: u64,
-        /// The column's name.
-        column: &'static str,
-        /// The field's text.
-        found: String,
-        /// What the column holds.
-        expected: &'static str,
-    },
-    /// Rows of one record stand together.
-    #[error(
-        "{}:{line}: record {record} comes again: expected its rows together",
-        path.display()
-    )]
-    Scattered {
-        /// The file.
-        path: PathBuf,
-        /// Line number from 1.
-        line: u64,
-        /// The record.
-        record: String,
-    },
-    /// A row of another analysis than the first.
-    #[error(
-        "{}:{line}: {column} is {found}: expected {expected}, as on the first row: a table of one analysis",
-        path.display()
-    )]
-    Mixed {
-        /// The file.
-        path: PathBuf,
-        /// Line number from 1.
-        line: u64,
-        /// The column's name.
-        column: &'static str,
-        /// The field's text.
-        found: String,
-        /// The first row's.
-        expected: String,
-    },
-    /// The rows of a record make no curve.
-    #[error("{}: record {record}: {source}", path.display())]
-    Curve {
-        /// The file.
-        path: PathBuf,
-        /// The record.
-        record: String,
-        /// What is wrong with it.
-        #[source]
-        source: CapacityError,
-    },
-    /// No row at all.
-    #[error("{}: no analysis in the file", path.display())]
-    Empty {
-        /// The file.
-        path: PathBuf,
-    },
-}
 
 /// What all rows of a table share.
 #[derive(Clone, Debug, PartialEq)]
@@ -310,42 +218,34 @@ impl IdaTable {
     /// Reads a table; `path` is its name in messages.
     ///
     /// # Errors
-    /// [`IdaFileError`] with file and line.
-    pub fn read(from: impl Read, path: &Path) -> Result<Self, IdaFileError> {
-        let csv_error =
-            |source| IdaFileError::Csv { path: path.to_owned(), source };
+    /// [`FileError`] with file and line.
+    pub fn read(from: impl Read, path: &Path) -> Result<Self, FileError> {
         let mut reader = csv::Reader::from_reader(from);
-        let header = reader.headers().map_err(csv_error)?;
-        if !IDA.has(header) {
-            return Err(IdaFileError::Header {
-                path: path.to_owned(),
-                found: header.iter().collect::<Vec<_>>().join(","),
-            });
-        }
         let mut first: Option<(csv::StringRecord, Setting)> = None;
-        let mut rows: Vec<Row> = Vec::new();
+        let mut found: Vec<Row> = Vec::new();
         let mut seen = BTreeSet::new();
-        for fields in reader.records() {
-            stop::point();
-            let fields = fields.map_err(csv_error)?;
-            let line = fields.position().map_or(0, csv::Position::line);
-            let cells = Cells { path, line, fields: &fields };
-            cells.schema()?;
+        for cells in rows(&IDA, &mut reader, path)? {
+            let cells = cells?;
+            let row = Row::of(&cells)?;
             match &first {
-                None => first = Some((fields.clone(), cells.setting()?)),
-                Some((first, setting)) => cells.as_first(first, setting)?,
+                None => {
+                    first = Some((cells.fields.clone(), Setting::of(&cells)?));
+                }
+                Some((first, setting)) => setting.holds(&cells, first)?,
             }
-            let row = cells.row()?;
-            let starts = rows.last().is_none_or(|b| b.record != row.record);
+            let starts = found.last().is_none_or(|b| b.record != row.record);
             if starts && !seen.insert(row.record.clone()) {
-                let (path, record) = (path.to_owned(), row.record);
-                return Err(IdaFileError::Scattered { path, line, record });
+                return Err(cells.error(format_args!(
+                    "record {} comes again: expected its rows together",
+                    row.record
+                )));
             }
-            rows.push(row);
+            found.push(row);
         }
-        let path = path.to_owned();
-        let (_, setting) = first.ok_or(IdaFileError::Empty { path })?;
-        Ok(Self { setting, rows })
+        let (_, setting) = first.ok_or_else(|| {
+            FileError::new(path, None, "no analysis in the file")
+        })?;
+        Ok(Self { setting, rows: found })
     }
 
     /// The records, in the order of the table.
@@ -413,123 +313,82 @@ fn outcome(point: &IdaPoint) -> &'static str {
     }
 }
 
-/// The cells of one line.
-struct Cells<'a> {
-    path: &'a Path,
-    line: u64,
-    fields: &'a csv::StringRecord,
+/// A positive number.
+fn positive(cells: &Cells<'_>, column: usize) -> Result<f64, FileError> {
+    let fits = |x: &f64| *x > 0.0 && x.is_finite();
+    cells.parsed(column, fits, "a positive number")
 }
 
-impl Cells<'_> {
-    fn refuse(&self, column: usize, expected: &'static str) -> IdaFileError {
-        IdaFileError::Field {
-            path: self.path.to_owned(),
-            line: self.line,
-            column: IDA.columns[column].name,
-            found: self.fields[column].to_owned(),
-            expected,
-        }
-    }
-
-    fn parsed<T: FromStr>(
-        &self,
-        column: usize,
-        fits: impl Fn(&T) -> bool,
-        expected: &'static str,
-    ) -> Result<T, IdaFileError> {
-        let value = self.fields[column].parse().ok().filter(fits);
-        value.ok_or_else(|| self.refuse(column, expected))
-    }
-
-    fn positive(&self, column: usize) -> Result<f64, IdaFileError> {
-        let fits = |x: &f64| *x > 0.0 && x.is_finite();
-        self.parsed(column, fits, "a positive number")
-    }
-
-    /// Refuses a row of another schema; a table without one is taken.
-    fn schema(&self) -> Result<(), IdaFileError> {
-        let found = self.fields.get(IDA.columns.len());
-        if IDA.is_current(found) {
-            return Ok(());
-        }
-        Err(IdaFileError::Field {
-            path: self.path.to_owned(),
-            line: self.line,
-            column: SCHEMA_COLUMN,
-            found: found.unwrap_or_default().to_owned(),
-            expected: "1, the schema of this program",
-        })
-    }
-
-    fn setting(&self) -> Result<Setting, IdaFileError> {
+impl Setting {
+    fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
         let of = "one that this program writes";
-        Ok(Setting {
-            p_rad_s: self.positive(2)?,
-            eta: self.parsed(
-                SETTING,
-                |x: &f64| (0.0..=1.0).contains(x),
-                "a number from 0 to 1",
-            )?,
-            model: self.parsed(SETTING + 1, |_| true, of)?,
-            overturn: self.parsed(SETTING + 2, |_| true, of)?,
-            by: self.parsed(SETTING + 3, |_| true, of)?,
-            gravity_m_s2: self.positive(SETTING + 4)?,
-            processing: self.fields[SETTING + 5].to_owned(),
-            software: self.fields[SETTING + 6].to_owned(),
+        let share = |x: &f64| (0.0..=1.0).contains(x);
+        Ok(Self {
+            p_rad_s: positive(cells, 2)?,
+            eta: cells.parsed(SETTING, share, "a number from 0 to 1")?,
+            model: cells.parsed(SETTING + 1, |_| true, of)?,
+            overturn: cells.parsed(SETTING + 2, |_| true, of)?,
+            by: cells.parsed(SETTING + 3, |_| true, of)?,
+            gravity_m_s2: positive(cells, SETTING + 4)?,
+            processing: cells.fields[SETTING + 5].to_owned(),
+            software: cells.fields[SETTING + 6].to_owned(),
         })
     }
 
     /// Refuses a row of another analysis than the first.
-    fn as_first(
+    fn holds(
         &self,
+        cells: &Cells<'_>,
         first: &csv::StringRecord,
-        setting: &Setting,
-    ) -> Result<(), IdaFileError> {
-        let alpha = (setting.by == Adjust::RecordScaling).then_some(1);
+    ) -> Result<(), FileError> {
+        let alpha = (self.by == Adjust::RecordScaling).then_some(1);
         let mut shared = alpha.into_iter().chain([2]).chain(SETTING..18);
-        match shared.find(|&column| self.fields[column] != first[column]) {
+        match shared.find(|&column| cells.fields[column] != first[column]) {
             None => Ok(()),
-            Some(column) => Err(IdaFileError::Mixed {
-                path: self.path.to_owned(),
-                line: self.line,
-                column: IDA.columns[column].name,
-                found: self.fields[column].to_owned(),
-                expected: first[column].to_owned(),
-            }),
+            Some(column) => Err(cells.error(format_args!(
+                "{} is {}: expected {}, as on the first row: a table of one \
+                 analysis",
+                IDA.columns[column].name,
+                &cells.fields[column],
+                &first[column]
+            ))),
         }
     }
+}
 
-    fn row(&self) -> Result<Row, IdaFileError> {
-        let name = result_name(&self.fields[0]);
-        let name = name.map_err(|_| self.refuse(0, "a name of a record"))?;
+impl Row {
+    fn of(cells: &Cells<'_>) -> Result<Self, FileError> {
+        let fields = &cells.fields;
+        let name = result_name(&fields[0]);
+        let name = name.map_err(|_| cells.refuse(0, "a name of a record"))?;
         let not_negative = |column| {
             let expected = "a number, not negative, or inf";
-            self.parsed(column, |x: &f64| *x >= 0.0, expected)
+            cells.parsed(column, |x: &f64| *x >= 0.0, expected)
         };
-        let outcome = OUTCOMES.into_iter().find(|o| *o == &self.fields[8]);
+        let outcome = OUTCOMES.into_iter().find(|o| *o == &fields[8]);
         let outcome = outcome.ok_or_else(|| {
             let outcomes = "no-uplift, rocked, overturned, \
                             overturned-refined or unresolved";
-            self.refuse(8, outcomes)
+            cells.refuse(8, outcomes)
         })?;
         let edp = not_negative(7)?;
         if outcome.starts_with("overturned") != edp.is_infinite()
             && outcome != OUTCOMES[4]
         {
             let expected = "inf where overturned, and only there";
-            return Err(self.refuse(7, expected));
+            return Err(cells.refuse(7, expected));
         }
-        Ok(Row {
+        Ok(Self {
             record: name.to_owned(),
-            alpha_rad: self.positive(1)?,
+            alpha_rad: positive(cells, 1)?,
             pga_g: not_negative(3)?,
             pgv_m_s: not_negative(4)?,
             intensity_pga: not_negative(5)?,
             intensity_pgv: not_negative(6)?,
             edp,
             outcome,
-            margin: self.parsed(9, |_| true, "a number")?,
-            remarks: self.fields[10].to_owned(),
+            margin: cells.parsed(9, |_| true, "a number")?,
+            remarks: fields[10].to_owned(),
         })
     }
 }

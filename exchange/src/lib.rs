@@ -35,9 +35,12 @@ pub mod columns;
 mod format;
 mod fragility;
 pub mod ida;
+pub mod read;
+pub mod sample;
 pub mod table;
 
 pub use format::{ExchangeError, Format, Pact, Texts};
 pub use fragility::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
+pub use read::FileError;

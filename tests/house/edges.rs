@@ -55,7 +55,9 @@ const EXCHANGE: Edges = &[
     ("columns", &[]),
     ("format", &["fragility", "table"]),
     ("fragility", &[]),
-    ("ida", &["columns", "table"]),
+    ("ida", &["columns", "read", "table"]),
+    ("read", &["columns"]),
+    ("sample", &["ida", "read"]),
     ("table", &["columns"]),
 ];
 

@@ -5,7 +5,6 @@ mod validate;
 
 use std::io;
 use std::num::NonZeroUsize;
-use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, mpsc};
@@ -27,6 +26,7 @@ pub mod diff;
 pub mod excitation;
 pub mod fragility;
 pub mod ida;
+pub mod input;
 pub mod lilliefors;
 mod limit;
 pub mod man;
@@ -39,7 +39,6 @@ pub mod records;
 pub mod respond;
 pub mod risk;
 pub mod sample;
-pub mod samples;
 pub mod scene;
 mod shared;
 pub mod show;
@@ -51,7 +50,7 @@ pub mod sweep;
 pub mod terminal;
 pub mod way;
 
-pub use terminal::{SOFTWARE, note, print, print_json, say};
+pub use terminal::{SOFTWARE, note, print, say};
 
 /// Threads beyond which more only cost.
 const MOST_THREADS_A_PROCESSOR: usize = 8;
@@ -167,15 +166,6 @@ impl<T, E: Into<Failure>> At<T> for Result<T, E> {
             Failure { message: format!("{place}: {message}"), status }
         })
     }
-}
-
-/// The text of a file.
-///
-/// # Errors
-/// [`Failure`] where it cannot be read.
-pub fn read_text(path: &Path) -> Result<String, Failure> {
-    let place = format_args!("cannot read {}", path.display());
-    std::fs::read_to_string(path).at(place)
 }
 
 /// Runs `work` on `threads` threads, or on as many as the machine has; more

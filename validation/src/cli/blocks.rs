@@ -7,8 +7,7 @@ use rocking::block::{Block, Restitution};
 use rocking_exchange::Id;
 use serde::Deserialize;
 
-use super::Failure;
-use super::samples::Opened;
+use super::{At as _, Failure, input};
 
 /// The columns that a table of blocks has.
 const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
@@ -51,17 +50,15 @@ pub struct Row {
 /// block out of range, a name that comes again, and no row at all.
 pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
     let place = path.display();
-    let broken = |e: csv::Error| Failure::input(format!("{place}: {e}"));
-    let file = Opened::open(path)
-        .map_err(|e| Failure::input(format!("cannot read {place}: {e}")))?;
+    let file = input::open(path)?;
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
-    let header = reader.headers().map_err(broken)?.clone();
+    let header = reader.headers().at(&place)?.clone();
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut rows: Vec<Row> = Vec::new();
     let mut ids = BTreeMap::new();
     for record in reader.records() {
-        let record = record.map_err(broken)?;
+        let record = record.at(&place)?;
         let line = record.position().map_or(0, csv::Position::line);
         let place = format!("{place}:{line}");
         let at = |what: String| Failure::input(format!("{place}: {what}"));
@@ -76,9 +73,9 @@ pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
             }
             _ => return Err(at(format!("expected {EXPECTED}"))),
         };
-        let block = block.map_err(|e| at(e.to_string()))?;
+        let block = block.at(&place)?;
         if let Some(eta) = cells.eta {
-            Restitution::constant(eta).map_err(|e| at(e.to_string()))?;
+            Restitution::constant(eta).at(&place)?;
         }
         let id = cells.id.map_or_else(|| Id::of(&block), Ok).map_err(at)?;
         if let Some(before) = ids.insert(id.clone(), line) {

@@ -1,27 +1,24 @@
 //! `rocking capacities`: IM given EDP from a response curve or an IDA file.
 
-pub mod ida;
-
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::capacity::{Capacity, InversionRule, ResponseCurve};
+use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::intensity::IntensityMeasure;
 use rocking::procedures::capacities::{
     LevelCapacities, LevelCrossings, crossings, levels,
 };
 use rocking::record::SetAside;
 use rocking_exchange::ida::{Curves, IdaTable};
+use rocking_exchange::sample::SampleFile;
 use serde::Serialize;
 
-use super::Failure;
 use super::measure::GroundArgs;
 use super::names;
-use super::samples::SAMPLE_OF;
 use super::shared::JsonArg;
 use super::with_threads;
+use super::{Failure, input};
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
 
@@ -211,7 +208,7 @@ fn by_file(args: &Args, path: &Path) -> Result<(), Failure> {
     let (table, suite, set_aside) = suite(args, path, measure)?;
     if let (Some(level), Some(out)) = (args.at, out) {
         let is_standard = out.is_standard();
-        out.write(sample(&table, &suite, measure, level, rule)?)?;
+        out.write(SampleFile::text(&table, &suite, measure, level, rule)?)?;
         if is_standard {
             return Ok(());
         }
@@ -257,52 +254,13 @@ fn suite(
                 intensity.words()
             )));
         }
-        let (table, curves) = ida::read(path, intensity)?;
+        let (table, curves) = input::ida(path, intensity)?;
         return Ok((table, curves, None));
     }
-    let (table, curves) = ida::read(path, Intensity::Pga)?;
+    let (table, curves) = input::ida(path, Intensity::Pga)?;
     let measures = std::slice::from_ref(measure);
     let ground = with_threads(None, || args.ground.ground(&table, measures))??;
     let factors = ground.at_uplift(measure)?;
     let curves = curves.against(&factors, measure.is_squared())?;
     Ok((table, curves, Some(ground.into_set_aside())))
-}
-
-/// The sample file of the records' capacities at a level.
-fn sample(
-    table: &IdaTable,
-    suite: &Curves,
-    measure: &IntensityMeasure,
-    level: f64,
-    rule: InversionRule,
-) -> Result<String, Failure> {
-    let setting = &table.setting;
-    let alpha_rad = table.alpha_rad().map(|alpha| alpha.to_string());
-    let mut text = format!(
-        "{SAMPLE_OF}{} at EDP {level}, {rule} crossing\n\
-         # alpha {} rad, p {} rad/s, eta {}, {}, overturned at {}, \
-         {}, g {} m/s2, processing: {}, {}\n",
-        measure.words(),
-        alpha_rad.as_deref().unwrap_or("adjusted"),
-        setting.p_rad_s,
-        setting.eta,
-        setting.model,
-        setting.overturn,
-        setting.by,
-        setting.gravity_m_s2,
-        setting.processing,
-        setting.software,
-    );
-    for (record, curve) in &suite.curves {
-        match curve.capacity(level, rule)? {
-            Capacity::Reached(im) => {
-                writeln!(text, "{} # {record}", suite.measured(im))?;
-            }
-            Capacity::Censored { above } => {
-                let above = suite.measured(above);
-                writeln!(text, ">{above} # {record}")?;
-            }
-        }
-    }
-    Ok(text)
 }

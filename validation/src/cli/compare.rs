@@ -6,9 +6,8 @@ use clap::Args as ClapArgs;
 use rocking::procedures::{Comparison, compare};
 use serde::Serialize;
 
-use super::Failure;
-use super::samples::SampleFile;
 use super::shared::JsonArg;
+use super::{Failure, input};
 
 /// Paired ratios a/b of two samples: counts, boxplot, tests of a centre at 1
 /// and of equivalence to it. Values are paired by the names of their records,
@@ -46,7 +45,7 @@ struct Shown {
 /// # Errors
 /// [`Failure`] for files, pairs or a margin that are refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let (a, b) = (SampleFile::read(&args.a)?, SampleFile::read(&args.b)?);
+    let (a, b) = (input::sample(&args.a)?, input::sample(&args.b)?);
     let (a, b, paired_by_name) = a.pairs(&b)?;
     let found = compare(&a, &b, args.margin)?;
     args.json.show(&Shown { paired_by_name, found })

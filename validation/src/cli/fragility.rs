@@ -3,7 +3,7 @@
 mod choose;
 mod counts;
 pub(super) mod export;
-mod fit;
+pub(super) mod fit;
 pub mod source;
 mod surface;
 mod transform;

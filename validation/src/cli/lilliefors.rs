@@ -10,11 +10,11 @@ use rocking::statistics::lilliefors::{
 };
 use serde::Serialize;
 
-use super::samples::SampleFile;
 use super::shared::{JsonArg, ThreadsArg};
-use super::{Failure, progress};
+use super::{Failure, input, progress};
 use rocking_common::files::Outputs;
 use rocking_common::table::Table as Csv;
+use rocking_exchange::sample::SampleFile;
 
 /// Values of a simulated sample, at most: each thread holds one.
 const MOST_VALUES: i64 = 10_000_000;
@@ -88,7 +88,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         if let Some(path) = &args.write_table {
             write_table(path)
         } else if let Some(path) = &args.sample {
-            test(args, &SampleFile::read(path)?)
+            test(args, &input::sample(path)?)
         } else {
             critical_value(args, args.n.unwrap_or(0) as usize)
         }

@@ -13,8 +13,7 @@ use rocking_exchange::ida::IdaTable;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::samples::Opened;
-use super::Failure;
+use super::{At as _, Failure, input};
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 
@@ -232,11 +231,10 @@ type Attributes = BTreeMap<String, Vec<(String, String)>>;
 
 fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
     let place = path.display();
-    let refuse = |e: csv::Error| Failure::input(format!("{place}: {e}"));
-    let opened = Opened::open(path).map_err(|e| refuse(e.into()))?;
+    let file = input::open(path)?;
     let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(opened);
-    let header = reader.headers().map_err(refuse)?.clone();
+        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let header = reader.headers().at(&place)?.clone();
     let Some(key) = header.iter().position(|name| name == "record") else {
         return Err(Failure::input(format!(
             "{place}:1: found columns `{}`: expected one named `record`",
@@ -245,7 +243,7 @@ fn read_attributes(path: &Path) -> Result<Attributes, Failure> {
     };
     let mut all = Attributes::new();
     for row in reader.records() {
-        let row = row.map_err(refuse)?;
+        let row = row.at(&place)?;
         let line = row.position().map_or(0, csv::Position::line);
         let cells = header.iter().zip(&row);
         let cells = cells.map(|(name, cell)| (name.into(), cell.into()));

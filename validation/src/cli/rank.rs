@@ -11,11 +11,10 @@ use rocking::procedures::{Ranking, rank};
 use rocking::record::SetAside;
 use serde::Serialize;
 
-use super::Failure;
-use super::capacities::ida;
 use super::measure::{Ground, GroundArgs};
 use super::names;
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use super::{Failure, input};
 use rocking_common::files::Outputs;
 use rocking_draw::figures::of_result::ranking_svg;
 
@@ -100,7 +99,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     inputs.push(args.ida.clone());
     let mut outputs = Outputs::of(inputs);
     let plot = outputs.open_some(args.plot.as_ref())?;
-    let (table, curves) = ida::read(&args.ida, Intensity::Pga)?;
+    let (table, curves) = input::ida(&args.ida, Intensity::Pga)?;
     let capacities = intervals(&curves.into_curves(), args.at, args.point)?;
     let draws = args.bootstrap.draws();
     let (ranking, set_aside) = args.threads.run(|| {

@@ -1,22 +1,16 @@
 //! `rocking risk`: how often a year a block overturns, or exceeds a demand.
 
-use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
 use rocking::fragility::hazard::{Hazard, HazardOptions};
-use rocking::integrator::Model;
-use rocking::intensity::IntensityMeasure;
-use rocking::procedures::{FitOptions, Shift, fit_sample, risk};
-use rocking::statistics::Lognormal;
-use rocking::units::STANDARD_GRAVITY_M_S2;
-use rocking_exchange::unit_intensity;
+use rocking::procedures::{FitOptions, Shift, risk};
+use rocking::statistics::{Lognormal, QuantileType};
 
-use super::samples::{Opened, SampleFile};
-use super::scene::BlockArgs;
-use super::show::show;
-use super::{Failure, names, note};
-use rocking_common::paper::Intensity;
+use super::fragility::fit::FitArgs;
+use super::fragility::source::SourceArgs;
+use super::shared::JsonArg;
+use super::{Failure, input, note};
 
 /// Mean annual frequency of overturning, or of exceeding a demand, and its
 /// probability in T years, from a hazard curve and a fragility.
@@ -30,8 +24,8 @@ use rocking_common::paper::Intensity;
 /// confidence interval. Where the fragility at the first point is not 0,
 /// weaker motions add to the frequency.
 #[derive(ClapArgs)]
-#[command(group = ArgGroup::new("fragility").required(true)
-    .args(["median", "sample"]))]
+#[command(group = ArgGroup::new("fragility").required(true).multiple(true)
+    .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
 #[command(after_help = "Examples:\n  \
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
@@ -56,31 +50,22 @@ pub struct Args {
     #[arg(long, value_name = "T")]
     years: Option<f64>,
     /// Median of the fragility, in the unit of the hazard curve.
-    #[arg(long, value_name = "X", requires = "dispersion")]
+    #[arg(
+        long,
+        value_name = "X",
+        requires = "dispersion",
+        conflicts_with_all = ["SourceArgs", "BlockArgs", "method"]
+    )]
     median: Option<f64>,
     /// Dispersion of the fragility, of the logarithm above the shift.
     #[arg(long, value_name = "B", requires = "median")]
     dispersion: Option<f64>,
-    /// Sample of dimensionless capacities, fitted by maximum likelihood
-    /// (`>3.2` is a value censored at 3.2), of the block --alpha --p or
-    /// --width-m --height-m; `-` is standard input.
-    #[arg(long, value_name = "FILE")]
-    sample: Option<PathBuf>,
-    /// Shift, below which nothing happens: in the unit of the hazard curve
-    /// with --median, of the sample with --sample [default: 0].
-    #[arg(long, value_name = "X|min", allow_hyphen_values = true)]
-    shift: Option<Shift>,
-    /// Intensity measure of a sample that does not say it.
-    #[arg(long, value_parser = names::intensity(), requires = "sample")]
-    im: Option<Intensity>,
     #[command(flatten)]
-    block: BlockArgs,
-    /// Gravity in m/s2 [default: 9.80665].
-    #[arg(long, value_name = "G", requires = "sample")]
-    gravity: Option<f64>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    fit: FitArgs,
+    #[command(flatten)]
+    source: SourceArgs,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Years of the probabilities that are printed, where none are given.
@@ -96,32 +81,32 @@ fn site(text: &str) -> Result<(f64, f64), String> {
 /// Runs the command.
 ///
 /// # Errors
-/// [`Failure`] for a curve, a sample or a parameter that is refused.
+/// [`Failure`] for a curve, a fragility or a parameter that is refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    if args.sample.as_deref() == Some(Path::new("-"))
-        && args.hazard == Path::new("-")
+    let standard = Path::new("-");
+    if args.hazard == standard
+        && args.source.inputs().iter().any(|path| path == standard)
     {
         return Err(Failure::input(
-            "--hazard - and --sample -: expected one of them as a file",
+            "--hazard - and another file -: expected one of them as a file",
         ));
     }
     let hazard = read(args)?;
-    let fragilities = match (&args.sample, args.median, args.dispersion) {
-        (Some(path), ..) => of_sample(args, path, &hazard)?,
-        (None, Some(median), Some(beta)) => given(args, median, beta)?,
-        _ => return Err(Failure::input("expected --median or --sample")),
+    let options = args.fit.options(QuantileType::default());
+    let fragilities = match (args.median, args.dispersion) {
+        (Some(median), Some(beta)) => given(options.shift, median, beta)?,
+        _ => of_source(args, options, &hazard)?,
     };
+    let fragilities: Vec<(&str, Lognormal)> =
+        fragilities.iter().map(|(name, law)| (name.as_str(), *law)).collect();
     let years = args.years.unwrap_or(YEARS);
-    show(args.json, &risk(&hazard, &fragilities, years)?)
+    args.json.show(&risk(&hazard, &fragilities, years)?)
 }
 
 /// Reads the hazard curve; what is set aside is said on standard error, too.
 fn read(args: &Args) -> Result<Hazard, Failure> {
     let place = args.hazard.display().to_string();
-    let mut text = String::new();
-    Opened::open(&args.hazard)
-        .and_then(|mut file| file.read_to_string(&mut text))
-        .map_err(|e| Failure::input(format!("cannot read {place}: {e}")))?;
+    let text = input::text(&args.hazard)?;
     let options = HazardOptions { years: args.years, site_deg: args.site };
     let hazard = Hazard::parse(&place, &text, &options)?;
     for remark in &hazard.remarks {
@@ -132,96 +117,44 @@ fn read(args: &Args) -> Result<Hazard, Failure> {
 
 /// The fragility of given parameters.
 fn given(
-    args: &Args,
+    shift: Shift,
     median: f64,
     beta: f64,
-) -> Result<Vec<(&'static str, Lognormal)>, Failure> {
-    if let Some(flag) = args.block.given() {
-        return Err(Failure::input(format!(
-            "{flag} is not used without --sample"
-        )));
-    }
-    let shift = match args.shift {
-        None => 0.0,
-        Some(Shift::Given(shift)) => shift,
-        Some(Shift::Smallest | Shift::Free) => {
-            return Err(Failure::input(
-                "--shift min or free: expected a number with --median",
-            ));
-        }
+) -> Result<Vec<(String, Lognormal)>, Failure> {
+    let Shift::Given(shift) = shift else {
+        return Err(Failure::input(
+            "--shift min or free: expected a number with --median",
+        ));
     };
     let log_mean = rocking::fragility::eq5(median, shift)?;
-    let fragility = Lognormal::try_new(shift, log_mean, beta)?;
-    Ok(vec![(if shift > 0.0 { "shifted" } else { "lognormal" }, fragility)])
+    let law = Lognormal::try_new(shift, log_mean, beta)?;
+    Ok(vec![(kind(&law).to_owned(), law)])
 }
 
-/// The fits of a sample, with the shift where there is one and without, in
+fn kind(law: &Lognormal) -> &'static str {
+    if law.shift() > 0.0 { "shifted" } else { "not shifted" }
+}
+
+/// The fits of the files, with the shift where there is one and without, in
 /// the unit of the hazard curve.
-fn of_sample(
+fn of_source(
     args: &Args,
-    path: &Path,
+    options: FitOptions,
     hazard: &Hazard,
-) -> Result<Vec<(&'static str, Lognormal)>, Failure> {
-    let file = SampleFile::read(path)?;
-    let name = path.display();
-    let at = |what: String| Failure::input(format!("{name}: {what}"));
-    let factor = match &hazard.im {
-        None => match args.block.given() {
-            None => 1.0,
-            Some(flag) => {
-                return Err(Failure::input(format!(
-                    "{flag}: the hazard curve is in the sample's own unit \
-                     (`intensity`): expected no block, or pga_g, pgv_m_s or \
-                     pgv_cm_s"
-                )));
-            }
-        },
-        Some(im) => {
-            let given = file.measure(args.im)?.map(Intensity::words);
-            let stated = file.of().and_then(|of| of.split(" at EDP ").next());
-            let own = given.or(stated);
-            if own != Some(im.words().as_str()) {
-                return Err(at(format!(
-                    "a sample of {}, a hazard curve of {im}: expected the \
-                     same measure",
-                    own.unwrap_or("a measure not stated"),
-                )));
-            }
-            hazard.units_per_im_unit * in_a_block(args, &file, im, &at)?
+) -> Result<Vec<(String, Lognormal)>, Failure> {
+    let source = args.source.open()?;
+    let unshifted = FitOptions { shift: Shift::Given(0.0), ..options.clone() };
+    let mut fits = vec![options];
+    if fits[0] != unshifted {
+        fits.push(unshifted);
+    }
+    let mut all = Vec::new();
+    for options in &fits {
+        for (name, law) in source.against(hazard.im.as_ref(), options)? {
+            let law = law.scaled(hazard.units_per_im_unit)?;
+            let name = name.map_or(String::new(), |name| name + ", ");
+            all.push((name + kind(&law), law));
         }
-    };
-    let sample = file.censored()?;
-    let fitted = |shift: Shift| {
-        let options = FitOptions { shift, ..FitOptions::default() };
-        let found = fit_sample(&sample, &options);
-        let found = found.map_err(|e| at(e.to_string()))?;
-        Ok::<_, Failure>(found.fitted.scaled(factor)?)
-    };
-    let unshifted = ("not shifted", fitted(Shift::Given(0.0))?);
-    Ok(match args.shift {
-        None | Some(Shift::Given(0.0)) => vec![unshifted],
-        Some(shift) => vec![("shifted", fitted(shift)?), unshifted],
-    })
-}
-
-/// Number of units of the measure (g or m/s) in a unit of the sample.
-fn in_a_block(
-    args: &Args,
-    file: &SampleFile,
-    im: &IntensityMeasure,
-    at: &dyn Fn(String) -> Failure,
-) -> Result<f64, Failure> {
-    let Some(intensity) = im.dimensionless() else {
-        return match args.block.given() {
-            None => Ok(1.0),
-            Some(flag) => Err(Failure::input(format!(
-                "{flag} is not used with a hazard curve of {im}"
-            ))),
-        };
-    };
-    let gravity = args.gravity.unwrap_or(STANDARD_GRAVITY_M_S2);
-    let block = args.block.block(gravity)?;
-    file.setting().holds_for(&block, Some(intensity)).map_err(at)?;
-    let model = file.setting().model.unwrap_or(Model::Nonlinear);
-    Ok(unit_intensity(intensity, &block, model, gravity))
+    }
+    Ok(all)
 }

@@ -6,9 +6,8 @@ use clap::Args as ClapArgs;
 use rocking::procedures::summarise;
 use rocking::statistics::QuantileType;
 
-use super::Failure;
-use super::samples::SampleFile;
 use super::shared::JsonArg;
+use super::{Failure, input};
 
 /// Quantiles of a sample by named type (Hyndman and Fan 1996), its quartiles,
 /// whiskers, outliers and McGill's notch, and the exact order-statistic
@@ -40,6 +39,6 @@ pub struct Args {
 /// [`Failure`] for a sample, a type or a probability that is refused.
 pub fn run(args: &Args) -> Result<(), Failure> {
     let quantile_type = QuantileType::try_new(args.quantile_type)?;
-    let sample = SampleFile::read(&args.sample)?.extended()?;
+    let sample = input::sample(&args.sample)?.extended()?;
     args.json.show(&summarise(&sample, &args.at, quantile_type)?)
 }

@@ -6,10 +6,10 @@ use clap::Args as ClapArgs;
 use rocking::procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
-use super::Failure;
-use super::capacities::{Levels, ida};
+use super::capacities::Levels;
 use super::names;
 use super::shared::JsonArg;
+use super::{Failure, input};
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
 use rocking_common::table::{Table, columns::COUNTS};
@@ -67,7 +67,7 @@ struct Shown {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![args.ida.clone()]);
     let counts = outputs.open_some(args.counts.as_ref())?;
-    let curves = ida::read(&args.ida, args.im)?.1.into_curves();
+    let curves = input::ida(&args.ida, args.im)?.1.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
     if let Some(out) = counts {
         let is_standard = out.is_standard();

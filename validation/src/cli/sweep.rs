@@ -16,7 +16,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::fragility::export::FileArgs;
 use super::reading::ReadArgs;
-use super::show::show;
+use super::shared::{JsonArg, ThreadsArg};
 use super::{Failure, SOFTWARE, blocks, names, note, print, say, until};
 use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use rocking_common::suites::inputs::read_suite;
@@ -122,9 +122,8 @@ struct RunArgs {
     /// Number of tasks [default: from SLURM, PMI or Open MPI, else 1].
     #[arg(long, value_name = "N", requires = "task")]
     of: Option<usize>,
-    /// Threads [default: all].
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
+    #[command(flatten)]
+    threads: ThreadsArg,
 }
 
 /// Says which tiles are done.
@@ -132,9 +131,8 @@ struct RunArgs {
 struct StatusArgs {
     /// Folder of the plan.
     dir: PathBuf,
-    /// JSON for machines.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Puts the tiles together in the plan's order; refuses a tile that is
@@ -331,7 +329,7 @@ fn run_task(args: &RunArgs) -> Result<(), Failure> {
         note(&format!("tile {tile} of {total} done"));
     };
     let run = || sweep::run(&planned, (task, of), &done);
-    until(&Stop::from(flag), args.threads, run)?.transpose()?;
+    until(&Stop::from(flag), args.threads.threads, run)?.transpose()?;
     let left = sweep::left(&planned, (task, of));
     if left.is_empty() {
         return say(&format!("task {task} of {of}: all its tiles are done\n"));
@@ -363,7 +361,7 @@ fn status(args: &StatusArgs) -> Result<(), Failure> {
         tiles: states.len(),
         left_core_s,
     };
-    show(args.json, &standing)
+    args.json.show(&standing)
 }
 
 fn merge(args: &MergeArgs) -> Result<(), Failure> {

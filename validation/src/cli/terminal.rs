@@ -5,7 +5,6 @@ use std::io::{self, Write as _};
 
 use super::Failure;
 use rocking_common::files::standard_output;
-use rocking_common::table::columns::SCHEMA;
 use rocking_common::words::printable;
 
 /// Name and version of the program, for results.
@@ -43,19 +42,6 @@ fn write(out: io::Result<io::Stdout>, text: &str) -> Result<(), Failure> {
             done.map_err(|e| Failure::input(format!("standard output: {e}")))
         }
     }
-}
-
-/// Prints `value`, the result of a command, as JSON, with the schema number and
-/// the version of the program.
-///
-/// # Errors
-/// As [`print()`].
-pub fn print_json(mut value: serde_json::Value) -> Result<(), Failure> {
-    if let Some(object) = value.as_object_mut() {
-        object.insert("schema".into(), SCHEMA.into());
-        object.insert("version".into(), env!("CARGO_PKG_VERSION").into());
-    }
-    print(&format!("{value:#}\n"))
 }
 
 /// Tells `text`, one line or several, on standard error.

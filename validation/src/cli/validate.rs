@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::show::shown;
-use super::{At as _, Failure, read_text, say};
+use super::{At as _, Failure, input, say};
 use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_proof::methods::{digits, digits_csv};
@@ -76,7 +76,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Ok(precision.write(digits)?);
     }
     compare(&path, &text)?;
-    if digits == read_text(&digits_path)? {
+    if digits == input::text(&digits_path)? {
         return Ok(());
     }
     Err(stale(&digits_path))
@@ -100,7 +100,7 @@ fn selected(args: &Args) -> Result<Vec<Case>, Failure> {
 }
 
 fn compare(path: &Path, text: &str) -> Result<(), Failure> {
-    let found = read_text(path)?;
+    let found = input::text(path)?;
     if found == text {
         return Ok(());
     }

@@ -8,10 +8,10 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{BlockFragility, Id, LimitState, unit_intensity};
 use serde::Deserialize;
 
-use super::SweepError;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
+use crate::cli::{At as _, Failure};
 
 /// A row of a tile's fragilities; other columns are not read.
 #[derive(Deserialize)]
@@ -33,22 +33,23 @@ struct Row {
 /// the plan: a limit state a demand.
 ///
 /// # Errors
-/// [`SweepError::Tile`] for a tile that is not done, [`SweepError::Demand`]
-/// for a demand that the plan has not, [`SweepError::Censored`] for a block
-/// that some record never brings to a demand.
+/// [`Failure`] for a tile that is not done, for a demand that the plan has
+/// not, and for a block that some record never brings to a demand.
 pub fn fragilities(
     planned: &Planned,
     intensity: Intensity,
     demands: &[f64],
-) -> Result<Vec<BlockFragility>, SweepError> {
+) -> Result<Vec<BlockFragility>, Failure> {
     let plan = &planned.plan;
     let listed = |demands: &[f64]| {
         let words: Vec<String> = demands.iter().map(f64::to_string).collect();
         words.join(", ")
     };
     if let Some(found) = demands.iter().find(|d| !plan.demands.contains(d)) {
-        let expected = listed(&plan.demands);
-        return Err(SweepError::Demand { found: *found, expected });
+        return Err(Failure::input(format!(
+            "demand {found}: expected some of {}, as planned",
+            listed(&plan.demands)
+        )));
     }
     let origin = format!(
         "sweep over {} records, {} at |theta|/alpha {}",
@@ -59,15 +60,14 @@ pub fn fragilities(
     let mut out: Vec<BlockFragility> = Vec::new();
     for tile in 0..plan.tiles.len() {
         let (state, body) = tile::read(planned, Content::Fragilities, tile);
-        let path = planned.tile_path(Content::Fragilities, tile);
         if state != State::Done {
-            return Err(SweepError::Tile { path, state });
+            let content = Content::Fragilities;
+            return Err(tile::refused(planned, content, tile, &state));
         }
+        let path = planned.tile_path(Content::Fragilities, tile);
         let mut reader = csv::Reader::from_reader(body.as_bytes());
         for row in reader.deserialize() {
-            let row: Row = row.map_err(|e| {
-                SweepError::Statistics(format!("{}: {e}", path.display()))
-            })?;
+            let row: Row = row.at(path.display())?;
             if row.im != intensity || !demands.contains(&row.demand) {
                 continue;
             }
@@ -90,20 +90,19 @@ pub fn fragilities(
 }
 
 /// The limit state of a row in the unit of the block's own intensity.
-fn limit_state(row: &Row, block: &Block) -> Result<LimitState, SweepError> {
+fn limit_state(row: &Row, block: &Block) -> Result<LimitState, Failure> {
     let (Some(median), Some(dispersion)) = (row.median, row.dispersion) else {
-        return Err(SweepError::Censored {
-            id: row.id.clone(),
-            reached: row.reached,
-            records: row.records,
-            demand: row.demand,
-        });
+        return Err(Failure::input(format!(
+            "{}: {} of {} records reach the demand {}: expected all, or a \
+             demand that all of them reach",
+            row.id, row.reached, row.records, row.demand
+        )));
     };
     let log_mean = libm::log(median - row.shift);
     let law = Lognormal::try_new(row.shift, log_mean, dispersion)?;
     let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
     let unit = unit_intensity(row.im, block, model, gravity);
     let name = format!("demand_{}", row.demand).replace('.', "_");
-    let name = name.parse().map_err(SweepError::Statistics)?;
+    let name = name.parse().map_err(Failure::input)?;
     Ok(LimitState { name, fragility: law.scaled(unit)? })
 }

@@ -4,10 +4,10 @@ use std::cell::RefCell;
 use std::io;
 use std::path::Path;
 
-use super::SweepError;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
+use crate::cli::Failure;
 use rocking_common::files::Outputs;
 
 /// Puts the tiles together in the plan's order, one after the other: as
@@ -15,17 +15,22 @@ use rocking_common::files::Outputs;
 /// same for any number of tasks.
 ///
 /// # Errors
-/// [`SweepError::Tile`] for a tile that is missing, of another plan, or
-/// damaged; [`SweepError::NoParquet`] where the program was built without it.
+/// [`Failure`] for a tile that is missing, of another plan, or
+/// damaged; and for Parquet where the program was built without it.
 /// `out` is then as it was.
 pub fn merge(
     planned: &Planned,
     content: Content,
     out: &Path,
-) -> Result<(), SweepError> {
+) -> Result<(), Failure> {
     let parquet = out.extension().is_some_and(|e| e == "parquet");
     if parquet && !cfg!(feature = "parquet") {
-        return Err(SweepError::NoParquet { path: out.to_owned() });
+        return Err(Failure::input(format!(
+            "{}: this program writes no Parquet; expected another ending for \
+             CSV, or a program built by `cargo install --path validation \
+             --features parquet`",
+            out.display()
+        )));
     }
     let output = Outputs::of(planned.files()).open(out)?;
     let refused = RefCell::new(None);
@@ -44,8 +49,7 @@ pub fn merge(
     });
     match refused.into_inner() {
         Some((tile, state)) => {
-            let path = planned.tile_path(content, tile);
-            Err(SweepError::Tile { path, state })
+            Err(tile::refused(planned, content, tile, &state))
         }
         None => Ok(written?),
     }

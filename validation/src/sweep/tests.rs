@@ -101,7 +101,7 @@ fn what_was_interrupted_goes_on_and_leaves_nothing_half_written() {
     }
     let out = place.path().join("out.csv");
     let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
-    assert!(error.to_string().contains("missing"), "{error}");
+    assert!(error.message.contains("missing"), "{error:?}");
     assert!(!out.exists());
     run_all(&planned, 1);
     let whole = tempfile::tempdir().unwrap();
@@ -127,7 +127,7 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     assert_eq!(state(&planned, 3), State::Damaged);
     let out = place.path().join("out.csv");
     let error = merge(&planned, Content::Fragilities, &out).unwrap_err();
-    let words = error.to_string();
+    let words = error.message;
     assert!(words.contains("fragilities-00003.csv"), "{words}");
     // The same tile, once more.
     run_all(&planned, 1);
@@ -143,5 +143,5 @@ fn a_flipped_byte_a_foreign_tile_and_another_record_are_named() {
     bytes[last] = if bytes[last] == b'1' { b'2' } else { b'1' };
     fs::write(&record, bytes).unwrap();
     let error = run(&planned, (0, 1), &|_| ()).unwrap_err();
-    assert!(error.to_string().contains("b.at2"), "{error}");
+    assert!(error.message.contains("b.at2"), "{error:?}");
 }

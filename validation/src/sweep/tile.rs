@@ -11,9 +11,9 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 
-use super::SweepError;
 use super::content::Content;
 use super::plan::{Given, Plan, Planned};
+use crate::cli::{At as _, Failure};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::Table;
@@ -77,6 +77,18 @@ pub(super) fn read(
     (state, String::new())
 }
 
+/// Why a tile that is not done is refused.
+pub(super) fn refused(
+    planned: &Planned,
+    content: Content,
+    tile: usize,
+    state: &State,
+) -> Failure {
+    let path = planned.tile_path(content, tile);
+    let path = path.display();
+    Failure::input(format!("{path}: {state}; run the sweep again"))
+}
+
 /// How a tile stands, by all its files.
 #[must_use]
 pub fn state(planned: &Planned, tile: usize) -> State {
@@ -98,13 +110,13 @@ pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
 /// each tile that was finished. A tile that is stopped leaves no file.
 ///
 /// # Errors
-/// [`SweepError`] for a record that is another than planned, an analysis
+/// [`Failure`] for a record that is another than planned, an analysis
 /// that cannot be done, and a tile that cannot be written.
 pub fn run(
     planned: &Planned,
     task_of: (usize, usize),
     done: &(dyn Fn(usize) + Sync),
-) -> Result<(), SweepError> {
+) -> Result<(), Failure> {
     let plan = &planned.plan;
     let left = left(planned, task_of);
     if left.is_empty() {
@@ -141,14 +153,11 @@ fn unresolved(curve: &IdaCurve) -> usize {
 }
 
 /// Capacities of a curve at the plan's demands.
-fn capacities(plan: &Plan, curve: &IdaCurve) -> Result<Vec<f64>, SweepError> {
-    let refused = |e: rocking::capacity::CapacityError| {
-        SweepError::Statistics(format!("{}: {e}", curve.record))
-    };
-    let response = curve.response(Overturned::Refined).map_err(refused)?;
+fn capacities(plan: &Plan, curve: &IdaCurve) -> Result<Vec<f64>, Failure> {
+    let response = curve.response(Overturned::Refined).at(&curve.record)?;
     let at = |demand: &f64| {
         let found = response.capacity(*demand, InversionRule::Median);
-        Ok(found.map_err(refused)?.im())
+        Ok(found.at(&curve.record)?.im())
     };
     plan.demands.iter().map(at).collect()
 }
@@ -159,7 +168,7 @@ fn fill(
     content: Content,
     block: &Given,
     curves: &[IdaCurve],
-) -> Result<(), SweepError> {
+) -> Result<(), Failure> {
     let parameters = block.cells();
     let name = [&[block.id.to_string()], &parameters[..]].concat();
     match content {

@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use rocking::procedures::{Draws, choose};
+use rocking::procedures::choose;
 
-use crate::cli::samples::SampleFile;
-use crate::cli::show::show;
-use crate::cli::{Failure, with_threads};
+use crate::cli::shared::{BootstrapArgs, JsonArg, ThreadsArg};
+use crate::cli::{At as _, Failure, input};
 
 /// Compares lognormal, shifted lognormal (its shift fitted too), Weibull,
 /// gamma and generalized extreme value distributions.
@@ -22,18 +21,12 @@ pub(super) struct Args {
     /// Shift above which lognormal, Weibull and gamma lie.
     #[arg(long, value_name = "X", default_value_t = 0.0)]
     shift: f64,
-    /// Samples drawn from each fit.
-    #[arg(long, value_name = "N", default_value_t = 1000)]
-    bootstrap: usize,
-    /// Repetition of the draws.
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    seed: u64,
-    /// Threads; the result doesn't depend on them.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    threads: ThreadsArg,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -41,12 +34,8 @@ pub(super) struct Args {
 /// # Errors
 /// [`Failure`] for a sample that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let sample = SampleFile::read(&args.sample)?.censored()?;
-    let draws = Draws { replicates: args.bootstrap, seed: args.seed };
-    let found =
-        with_threads(args.threads, || choose(&sample, args.shift, draws))?;
-    let found = found.map_err(|e| {
-        Failure::input(format!("{}: {e}", args.sample.display()))
-    })?;
-    show(args.json, &found)
+    let sample = input::sample(&args.sample)?.censored()?;
+    let draws = args.bootstrap.draws();
+    let found = args.threads.run(|| choose(&sample, args.shift, draws))?;
+    args.json.show(&found.at(args.sample.display())?)
 }

@@ -10,7 +10,7 @@ use super::fit::FitArgs;
 use super::source::SourceArgs;
 use crate::cli::Failure;
 use crate::cli::names::named;
-use crate::cli::show::show;
+use crate::cli::shared::JsonArg;
 use rocking_common::files::Outputs;
 
 /// What the help says of the formats.
@@ -45,9 +45,8 @@ pub(in crate::cli) struct FileArgs {
     /// The file; `-` is standard output, and nothing else is printed then.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 #[derive(Serialize)]
@@ -113,7 +112,7 @@ impl FileArgs {
                 beta: state.fragility.dispersion(),
             })
         });
-        show(self.json, &Shown { blocks: states.collect() })
+        self.json.show(&Shown { blocks: states.collect() })
     }
 
     /// The second file of the format, beside the first.

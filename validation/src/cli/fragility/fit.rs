@@ -14,14 +14,14 @@ use rocking::statistics::lognormal::FitMethod;
 use serde::Serialize;
 
 use super::source;
-use crate::cli::capacities::{Levels, ida};
+use crate::cli::capacities::Levels;
 use crate::cli::names;
-use crate::cli::samples::SampleFile;
-use crate::cli::show::show;
-use crate::cli::{Failure, with_threads};
+use crate::cli::shared::{JsonArg, ThreadsArg};
+use crate::cli::{At as _, Failure, input};
 use rocking_common::files::Outputs;
 use rocking_common::table::columns::BAND;
 use rocking_common::table::{Table, number, optional};
+use rocking_exchange::sample::SampleFile;
 
 /// Fits a lognormal fragility to a sample of capacities, or at EDP levels of
 /// an IDA.
@@ -84,17 +84,15 @@ pub(super) struct Args {
     /// The band as a table.
     #[arg(long, value_name = "FILE.csv", requires_all = ["band", "sample"])]
     band_csv: Option<PathBuf>,
-    /// Threads; the result doesn't depend on them.
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    threads: ThreadsArg,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// How a fragility is fitted.
 #[derive(ClapArgs)]
-pub(super) struct FitArgs {
+pub(in crate::cli) struct FitArgs {
     /// Shift IM_R: a number, `min` (smallest value; overstates the
     /// dispersion, no intervals) or `free` (maximum likelihood).
     #[arg(
@@ -116,7 +114,10 @@ pub(super) struct FitArgs {
 impl FitArgs {
     /// The options of a fit without intervals, quantiles of this type.
     #[must_use]
-    pub(super) fn options(&self, quantile_type: QuantileType) -> FitOptions {
+    pub(in crate::cli) fn options(
+        &self,
+        quantile_type: QuantileType,
+    ) -> FitOptions {
         let method = self.method.with_quantile_type(quantile_type);
         let (shift, default) = (self.shift, FitOptions::default());
         FitOptions { method, shift, quantile_type, ..default }
@@ -165,12 +166,11 @@ fn of_sample(
 ) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![path.to_owned()]);
     let table = outputs.open_some(args.band_csv.as_ref())?;
-    let file = SampleFile::read(path)?;
+    let file = input::sample(path)?;
     let unit = unit(&file, args.im.as_ref())?;
     let sample = file.censored()?;
-    let found = with_threads(args.threads, || fit_sample(&sample, options))?;
-    let fit = found
-        .map_err(|e| Failure::input(format!("{}: {e}", path.display())))?;
+    let found = args.threads.run(|| fit_sample(&sample, options))?;
+    let fit = found.at(path.display())?;
     if let (Some(table), Some(band)) = (table, &fit.band) {
         let is_standard = table.is_standard();
         table.write(csv(band))?;
@@ -179,7 +179,7 @@ fn of_sample(
         }
     }
     let sample_of = file.of().map(str::to_owned);
-    show(args.json, &OfSample { sample_of, unit, fit })
+    args.json.show(&OfSample { sample_of, unit, fit })
 }
 
 fn of_levels(
@@ -188,15 +188,13 @@ fn of_levels(
     options: &FitOptions,
 ) -> Result<(), Failure> {
     let measure = source::in_table(args.im.as_ref())?;
-    let curves = ida::read(path, measure)?.1.into_curves();
+    let curves = input::ida(path, measure)?.1.into_curves();
     let rule = args.point.unwrap_or(InversionRule::Median);
     let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
-    let found =
-        with_threads(args.threads, || fit_levels(&curves, at, rule, options))?;
-    let levels = found
-        .map_err(|e| Failure::input(format!("{}: {e}", path.display())))?;
+    let found = args.threads.run(|| fit_levels(&curves, at, rule, options))?;
+    let levels = found.at(path.display())?;
     let unit = measure.words().to_owned();
-    show(args.json, &OfLevels { unit, point: rule.to_string(), levels })
+    args.json.show(&OfLevels { unit, point: rule.to_string(), levels })
 }
 
 /// The unit of a sample's values in words.
@@ -204,12 +202,9 @@ fn unit(
     file: &SampleFile,
     given: Option<&IntensityMeasure>,
 ) -> Result<String, Failure> {
-    let of = file.of().and_then(|of| of.split(" at EDP ").next());
-    Ok(match (file.im(given)?, of) {
-        (Some(measure), _) => measure.words(),
-        (None, Some(of)) => of.to_owned(),
-        (None, None) => "that of the sample".to_owned(),
-    })
+    let measure = file.im(given)?.map(|measure| measure.words());
+    let stated = || file.unit().unwrap_or("that of the sample").to_owned();
+    Ok(measure.unwrap_or_else(stated))
 }
 
 /// The band as a table.

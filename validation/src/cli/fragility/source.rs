@@ -20,13 +20,14 @@ use rocking_exchange::{
 use rocking_surrogate::{ORIGIN, RESTITUTION, Surrogate};
 
 use super::counts;
-use crate::cli::Failure;
 use crate::cli::blocks::{self, Row};
-use crate::cli::capacities::{Levels, ida};
+use crate::cli::capacities::Levels;
 use crate::cli::names;
-use crate::cli::samples::{SampleFile, SampleSetting};
 use crate::cli::scene::BlockArgs;
+use crate::cli::shared::positive;
+use crate::cli::{At as _, Failure, input};
 use rocking_common::paper::SuiteKind;
+use rocking_exchange::sample::SampleSetting;
 
 /// Where fragilities come from, and of which blocks they are.
 #[derive(clap::Args)]
@@ -134,12 +135,7 @@ impl SourceArgs {
     /// # Errors
     /// [`Failure`] for a file or a block that is refused.
     pub fn open(&self) -> Result<Source, Failure> {
-        let gravity_m_s2 = self.gravity;
-        if !(gravity_m_s2 > 0.0 && gravity_m_s2.is_finite()) {
-            return Err(Failure::input(format!(
-                "--gravity {gravity_m_s2}: expected a positive number"
-            )));
-        }
+        let gravity_m_s2 = positive("--gravity", self.gravity)?;
         let rows = match (&self.blocks, self.block.given(), &self.id) {
             (Some(path), ..) => blocks::read(path, gravity_m_s2)?,
             (None, None, None) => Vec::new(),
@@ -172,7 +168,7 @@ impl SourceArgs {
     }
 
     fn sample(&self, path: &Path) -> Result<Level, Failure> {
-        let file = SampleFile::read(path)?;
+        let file = input::sample(path)?;
         let place = path.display().to_string();
         let setting = file.setting();
         let n = file.values().len();
@@ -189,7 +185,7 @@ impl SourceArgs {
         let origin = match file.of() {
             Some(of) => format!("{n} capacities, {of}"),
             None => unstated_origin(n, &im),
-        } + &setting.words();
+        } + &setting.to_string();
         let values = Values::Sample(file.censored()?);
         Ok(Level { place, im, setting, values, origin })
     }
@@ -198,7 +194,7 @@ impl SourceArgs {
         let place = path.display().to_string();
         let intensity = in_table(self.im.as_ref())?;
         let im = IntensityMeasure::from(intensity);
-        let (table, curves) = ida::read(path, intensity)?;
+        let (table, curves) = input::ida(path, intensity)?;
         let setting = SampleSetting {
             alpha_rad: table.alpha_rad(),
             p_rad_s: Some(table.setting.p_rad_s),
@@ -214,17 +210,15 @@ impl SourceArgs {
             curves.len(),
             im.words(),
             words.join(" and "),
-            setting.words(),
+            setting,
         );
         let level = |&edp: &f64| {
             let values = capacities::sample(&curves, edp, rule);
-            let values =
-                values.map_err(|e| Failure::input(format!("{place}: {e}")))?;
             Ok(Level {
+                values: Values::Sample(values.at(&place)?),
                 place: place.clone(),
                 im: im.clone(),
                 setting,
-                values: Values::Sample(values),
                 origin: origin.clone(),
             })
         };
@@ -354,17 +348,57 @@ impl Source {
         self.samples.keys().cloned().collect()
     }
 
-    /// The fits of the flags' own files in the unit of their values, one a
-    /// limit state, without a block.
+    /// The fragilities in the unit of a measure; without a measure in that of
+    /// their values. Where there are several, they have names.
     ///
     /// # Errors
-    /// [`Failure`] for values that make no fit.
-    pub fn fits(
+    /// [`Failure`] for values that make no fit, or are of another measure,
+    /// and for a block where the unit is that of the values.
+    pub fn against(
         &self,
+        im: Option<&IntensityMeasure>,
         options: &FitOptions,
-    ) -> Result<Vec<LimitState>, Failure> {
-        let laws = self.levels.iter().map(|level| level.fit(options, None));
-        self.named(laws.collect::<Result<_, _>>()?)
+    ) -> Result<Vec<(Option<String>, Lognormal)>, Failure> {
+        if im.is_none()
+            && let Some(row) = self.rows.first()
+        {
+            return Err(Failure::input(format!(
+                "{}: the hazard curve is in the sample's own unit \
+                 (`intensity`): expected no block, or pga_g, pgv_m_s or \
+                 pgv_cm_s",
+                row.place
+            )));
+        }
+        let is_own = im.is_none_or(|im| im.dimensionless().is_none())
+            && self.rows.is_empty();
+        let own = self.samples.values().chain(&self.levels);
+        for level in own.filter(|level| im.is_some_and(|im| level.im != *im)) {
+            return Err(Failure::input(format!(
+                "{}: a sample of {}, a hazard curve of {}: expected the same \
+                 measure",
+                level.place,
+                level.im.words(),
+                im.map_or_else(String::new, ToString::to_string),
+            )));
+        }
+        let blocks: Vec<(Option<Id>, Vec<LimitState>)> = if is_own {
+            let laws = self.levels.iter();
+            let laws = laws.map(|level| level.fit(options, None));
+            vec![(None, self.named(laws.collect::<Result<_, _>>()?)?)]
+        } else {
+            let all = self.fragilities(options)?.into_iter();
+            all.map(|one| (Some(one.id), one.limit_states)).collect()
+        };
+        let count: usize = blocks.iter().map(|(_, states)| states.len()).sum();
+        let named = |(id, states): (Option<Id>, Vec<LimitState>)| {
+            states.into_iter().map(move |state| {
+                let id =
+                    id.as_ref().map_or(String::new(), |id| format!("{id}, "));
+                let name = (count > 1).then(|| format!("{id}{}", state.name));
+                (name, state.fragility)
+            })
+        };
+        Ok(blocks.into_iter().flat_map(named).collect())
     }
 
     /// The fragilities of all blocks, each in its own unit.

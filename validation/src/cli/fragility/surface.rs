@@ -5,7 +5,7 @@ use rocking_surrogate::Surrogate;
 
 use crate::cli::Failure;
 use crate::cli::scene::BlockArgs;
-use crate::cli::show::show;
+use crate::cli::shared::JsonArg;
 
 /// Overturning fragility of a block under the embedded suites, by a fitted
 /// surface and without an analysis, with its errors.
@@ -13,9 +13,8 @@ use crate::cli::show::show;
 pub(super) struct Args {
     #[command(flatten)]
     block: BlockArgs,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -24,5 +23,5 @@ pub(super) struct Args {
 /// [`Failure`] for a block that is none, or lies outside the surface.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let block = args.block.block(STANDARD_GRAVITY_M_S2)?;
-    show(args.json, &Surrogate::embedded()?.fragility(&block)?)
+    args.json.show(&Surrogate::embedded()?.fragility(&block)?)
 }

@@ -4,7 +4,7 @@ use clap::Args as ClapArgs;
 use rocking::procedures::fit::Transformed;
 
 use crate::cli::Failure;
-use crate::cli::show::show;
+use crate::cli::shared::JsonArg;
 
 /// Eqs. 5 to 7: a shifted fragility from unshifted numbers.
 ///
@@ -29,9 +29,8 @@ pub(super) struct Args {
     /// Constant c of Eq. 7.
     #[arg(long, default_value_t = 1.0)]
     c: f64,
-    /// Print JSON.
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    json: JsonArg,
 }
 
 /// Runs the command.
@@ -45,5 +44,5 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         args.shift,
         args.c,
     );
-    show(args.json, &found)
+    args.json.show(&found)
 }

@@ -1,0 +1,67 @@
+//! Files that commands read; `-` is standard input.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+use rocking::intensity::Intensity;
+use rocking_exchange::ida::{Curves, IdaTable};
+use rocking_exchange::sample::SampleFile;
+
+use super::{At as _, Failure};
+
+fn opened(path: &Path) -> io::Result<Box<dyn Read>> {
+    if path == Path::new("-") {
+        return Ok(Box::new(io::stdin()));
+    }
+    let found = fs::metadata(path)?;
+    let given = path.starts_with("/dev/fd") || path.starts_with("/proc");
+    if !(found.is_file() || given) {
+        return Err(io::Error::other(
+            "it is no file: expected one, or - for standard input",
+        ));
+    }
+    Ok(Box::new(File::open(path)?))
+}
+
+/// Opens a file.
+///
+/// # Errors
+/// [`Failure`] where it cannot be opened, and for a device that may never end.
+pub fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
+    opened(path).at(format_args!("cannot read {}", path.display()))
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// [`Failure`] where it cannot be read.
+pub fn text(path: &Path) -> Result<String, Failure> {
+    let read = opened(path).and_then(io::read_to_string);
+    read.at(format_args!("cannot read {}", path.display()))
+}
+
+/// A sample file.
+///
+/// # Errors
+/// [`Failure`] with file and line.
+pub fn sample(path: &Path) -> Result<SampleFile, Failure> {
+    Ok(SampleFile::parse(&text(path)?, path)?)
+}
+
+/// A table of `rocking ida`, and its curves against an intensity measure.
+///
+/// # Errors
+/// [`Failure`] with file and line.
+pub fn ida(
+    path: &Path,
+    measure: Intensity,
+) -> Result<(IdaTable, Curves), Failure> {
+    let table = IdaTable::read(open(path)?, path)?;
+    let curves = table.curves(measure);
+    let curves = curves.map_err(|(record, error)| {
+        let place = path.display();
+        Failure::input(format!("{place}: record {record}: {error}"))
+    })?;
+    Ok((table, curves))
+}

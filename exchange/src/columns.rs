@@ -20,7 +20,8 @@ pub struct Column {
     /// Name in the header line.
     pub name: &'static str,
     /// What the cells are: `text`, `number` (`inf` is one, and an empty cell
-    /// a missing one), `count` (whole numbers) or `flag` (`true`, `false`).
+    /// a missing one), `level` (a number that many rows share, never
+    /// missing), `count` (whole numbers) or `flag` (`true`, `false`).
     pub cells: &'static str,
     /// Unit; `1` for a number without one, `own` for that of the sample or
     /// the fragility, empty for other cells.
@@ -63,6 +64,8 @@ tables!(
     COUNTS = "counts",
     BAND = "band",
     HAZARD = "hazard",
+    BLOCKS = "blocks",
+    FRAGILITIES = "fragilities",
     SWEEP_FRAGILITIES = "sweep fragilities",
     SWEEP_CAPACITIES = "sweep capacities",
     SWEEP_ROWS = "sweep rows",

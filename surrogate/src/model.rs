@@ -4,6 +4,7 @@ use libm::{exp, log, sqrt};
 use rocking::statistics::Lognormal;
 use serde::{Deserialize, Serialize};
 
+use super::blocks::rows;
 use super::{
     FREQUENCY_RANGE_RAD_S, Fitted, SHIFT, SLENDERNESS_RANGE_RAD,
     SurrogateError, read_table,
@@ -224,13 +225,10 @@ impl Surrogate {
                 coefficients: [Vec::new(), Vec::new()],
             })
             .into();
-        let mut reader = csv::Reader::from_reader(coefficients.as_bytes());
-        for (row, line) in reader.deserialize::<Coefficient>().zip(2_u64..) {
-            let row = row.map_err(|e| SurrogateError::Table {
-                place: format!("coefficients.csv:{line}"),
-                found: e.to_string(),
-                expected: "a table of `rocking sweep fit`",
-            })?;
+        let expected = "a table of `rocking sweep fit`";
+        let found =
+            rows::<Coefficient>("coefficients.csv", coefficients, expected)?;
+        for (_, row) in found {
             for model in models.iter_mut().filter(|m| m.suite == row.suite) {
                 model.terms.push((row.degree_p, row.degree_alpha));
                 model.coefficients[0].push(row.mu);

@@ -166,8 +166,8 @@ fn a_number_beyond_its_interval_is_told_in_engineering_terms() {
     assert_eq!(status, 1);
     let answer: Value = serde_json::from_str(&out).unwrap();
     let number = &answer["numbers"][0];
-    assert_eq!((&number["old"], &number["new"]), (&2.31.into(), &2.35.into()));
-    let errors = number["standard_errors"].as_f64().unwrap();
+    assert_eq!(number["values"], serde_json::json!([2.31, 2.35]));
+    let errors = number["measure"]["standard_errors"].as_f64().unwrap();
     assert!((errors - 3.099).abs() < 1e-3, "{errors}");
 }
 

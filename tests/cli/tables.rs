@@ -5,8 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use rocking_common::table::columns::{
-    BAND, COUNTS, Column, FORCES, HISTORY, IDA, Layout, SCHEMA,
-    SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS, TABLES,
+    BAND, BLOCKS, COUNTS, Column, FORCES, FRAGILITIES, HISTORY, IDA, Layout,
+    SCHEMA, SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS, TABLES,
 };
 
 use super::support::{at2, folder, motion, run};
@@ -24,7 +24,8 @@ fn page() -> String {
          infinity. An empty cell of\nnumbers is missing. `im` is the name of \
          an intensity measure; a number is an\n`intensity`. An index of \
          records carries no schema: its other columns are\nattributes of the \
-         records.\n"
+         records. A level is a number that many rows share and that none \
+         lacks.\n"
     );
     for table in TABLES {
         writeln!(
@@ -77,6 +78,7 @@ fn holds(place: &Path, file: &str, layout: &Layout, extra: &[&str]) {
         for (column, cell) in layout.columns.iter().zip(&row) {
             let fits = match column.cells {
                 "text" => cell.parse::<f64>().is_err(),
+                "level" => cell.parse::<f64>().is_ok(),
                 "number" => cell.is_empty() || cell.parse::<f64>().is_ok(),
                 "count" => cell.parse::<u64>().is_ok(),
                 "flag" => cell.parse::<bool>().is_ok(),
@@ -93,10 +95,12 @@ fn holds(place: &Path, file: &str, layout: &Layout, extra: &[&str]) {
 fn tables_of_commands_have_the_columns_of_the_registry() {
     let samples = motion(9.0);
     let record = at2("0.02", samples.len(), &samples);
+    let blocks: Vec<&str> = BLOCKS.names().collect();
+    let blocks = format!("{}\n,0.1,3,,,0.92,\n", blocks.join(","));
     let files = [
         ("a.at2", record.as_str()),
         ("sample.txt", "1.2\n1.5\n1.9\n2.6\n"),
-        ("blocks.csv", "alpha,p\n0.1,3\n"),
+        ("blocks.csv", &blocks),
     ];
     let place = folder("tables", &files);
     for command in [
@@ -106,6 +110,8 @@ fn tables_of_commands_have_the_columns_of_the_registry() {
         "stripes --ida ida.csv --levels 1.2,1.4 --at 0.01 --counts n.csv",
         "fragility fit --sample sample.txt --bootstrap 20 --band 1:2:0.5 \
          --band-csv band.csv",
+        "fragility export --sample sample.txt --im pga --blocks blocks.csv \
+         --format csv --out e.csv",
         "sweep plan --blocks blocks.csv --suite a.at2 --out plan --step-im \
          0.5 --demands 0.5,1 --rows",
         "sweep run plan",
@@ -122,6 +128,7 @@ fn tables_of_commands_have_the_columns_of_the_registry() {
         ("forces.csv", &FORCES),
         ("n.csv", &COUNTS),
         ("band.csv", &BAND),
+        ("e.csv", &FRAGILITIES),
         ("f.csv", &SWEEP_FRAGILITIES),
         ("r.csv", &SWEEP_ROWS),
     ] {

@@ -53,7 +53,7 @@ const CORE: Edges = &[
 /// The modules of the texts that other programs read.
 const EXCHANGE: Edges = &[
     ("columns", &[]),
-    ("format", &["fragility", "table"]),
+    ("format", &["columns", "fragility", "table"]),
     ("fragility", &[]),
     ("ida", &["columns", "read", "table"]),
     ("read", &["columns"]),

@@ -14,7 +14,7 @@ mod merge;
 mod plan;
 mod tile;
 
-pub use content::{Content, Kind};
+pub use content::Content;
 pub use cost::Tile;
 pub use export::fragilities;
 pub use merge::merge;

@@ -4,6 +4,7 @@ use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::statistics::Lognormal;
 
 use super::ExchangeError;
+use crate::columns::FRAGILITIES;
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number, optional};
 
@@ -91,10 +92,7 @@ pub(super) fn pact(
 
 /// All parameters, with units.
 pub(super) fn csv(fragilities: &[BlockFragility]) -> String {
-    let mut table = Table::headed(
-        "id,alpha_rad,p_rad_s,eta,limit_state,im,unit,shift,median,\
-         dispersion,origin",
-    );
+    let mut table = Table::of(&FRAGILITIES);
     for one in fragilities {
         for state in &one.limit_states {
             let fragility = &state.fragility;

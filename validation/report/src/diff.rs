@@ -18,12 +18,14 @@ mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde::Serialize;
+
 pub use change::{Change, Measure};
 pub use input::{DiffError, Results};
 pub use item::{Content, Item, Limit};
 
 /// Everything of one kind that two sets of results say differently.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
     /// Items found on both sides.
     pub compared: usize,
@@ -45,11 +47,12 @@ pub struct Comparison {
 }
 
 /// Something on one side only.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Presence {
     /// What it is listed under.
     pub group: String,
     /// What it is.
+    #[serde(rename = "what")]
     pub words: String,
     /// Whether it counts: a claim, a case, or something lost.
     pub significant: bool,

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::measure::GroundArgs;
 use super::names;
-use super::shared::JsonArg;
+use super::shared::{JsonArg, positive};
 use super::with_threads;
 use super::{Failure, input};
 use rocking_common::files::Outputs;
@@ -113,10 +113,8 @@ impl FromStr for Levels {
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let number = |field: &str| {
-            let value = field.trim().parse().ok();
-            value.filter(|x: &f64| *x > 0.0 && x.is_finite()).ok_or_else(
-                || format!("found `{field}`: expected a positive number"),
-            )
+            let place = |expected| format!("found `{field}`: {expected}");
+            positive(field).map_err(place)
         };
         let parts: Vec<&str> = text.split(':').collect();
         let [first, last, step] = parts.as_slice() else {

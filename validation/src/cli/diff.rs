@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
+use serde::Serialize;
+
 use super::shared::JsonArg;
 use super::study::REPORT;
 use super::{Failure, print, say};
-use rocking_report::diff::{Results, compare};
+use rocking_report::diff::{Comparison, Results, compare};
 
 /// What changed between two results, and whether it matters.
 ///
@@ -39,6 +41,14 @@ pub struct Args {
     json: JsonArg,
 }
 
+#[derive(Serialize)]
+struct Shown<'a> {
+    identical: bool,
+    significant: usize,
+    #[serde(flatten)]
+    comparison: &'a Comparison,
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -59,7 +69,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let (old, new) = (Results::read(&args.old)?, Results::read(&args.new)?);
     let comparison = compare(&old, &new, args.relative)?;
     if args.json.json {
-        args.json.show(&comparison.json())?;
+        args.json.show(&Shown {
+            identical: comparison.is_identical(),
+            significant: comparison.significant(),
+            comparison: &comparison,
+        })?;
     } else if args.markdown {
         print(&comparison.markdown(args.all))?;
     } else {

@@ -76,10 +76,20 @@ pub struct ExcitationArgs {
     #[arg(long, value_name = "F", conflicts_with_all = ["pga", "im", "free"])]
     scale: Option<f64>,
     /// Scale to this peak ground acceleration in g.
-    #[arg(long, value_name = "G", conflicts_with_all = ["im", "free"])]
+    #[arg(
+        long,
+        value_name = "G",
+        value_parser = positive,
+        conflicts_with_all = ["im", "free"]
+    )]
     pga: Option<f64>,
     /// Scale to this dimensionless intensity.
-    #[arg(long, value_name = "X", conflicts_with = "free")]
+    #[arg(
+        long,
+        value_name = "X",
+        value_parser = positive,
+        conflicts_with = "free"
+    )]
     im: Option<f64>,
     /// Which intensity: PGA/(g tan alpha) or p PGV/(g tan alpha); g alpha
     /// for Eq. 2 [default: pga].
@@ -89,15 +99,29 @@ pub struct ExcitationArgs {
 
 /// The excitation, owned.
 #[derive(Clone, Debug)]
-pub enum Ground {
-    /// A record as given, a factor on it, and remarks on it.
-    Factor(Accelerogram, f64, Remarks),
-    /// A record scaled to a peak (g), and remarks on it.
-    Peak(NormalisedRecord, f64, Remarks),
+enum Motion {
+    /// A record as given, and a factor on it.
+    Factor(Accelerogram, f64),
+    /// A record scaled to a peak (g).
+    Peak(NormalisedRecord, f64),
     /// A pulse.
     Pulse(Pulse),
-    /// Free motion from an initial ratio.
-    Free(f64),
+    /// None.
+    Free,
+}
+
+/// The excitation, and what is said of it.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    motion: Motion,
+    /// Peak ground acceleration, g.
+    pub pga_g: f64,
+    /// Sampling interval of a record, s.
+    pub dt_s: Option<f64>,
+    /// Initial rotation over the slenderness angle.
+    pub initial_ratio: f64,
+    /// Remarks on the record, if it is one.
+    pub remarks: Option<Remarks>,
 }
 
 impl ExcitationArgs {
@@ -114,8 +138,6 @@ impl ExcitationArgs {
         p: f64,
     ) -> Result<Ground, Failure> {
         self.refuse_unused()?;
-        self.pga.map(|pga| positive("--pga", pga)).transpose()?;
-        self.im.map(|im| positive("--im", im)).transpose()?;
         if let Some(scale) = self.scale
             && !scale.is_finite()
         {
@@ -130,7 +152,8 @@ impl ExcitationArgs {
                     "--initial-ratio {ratio}: expected a number in (0, 1)"
                 )));
             }
-            return Ok(Ground::Free(ratio));
+            let ground = Ground::of(Motion::Free, 0.0);
+            return Ok(Ground { initial_ratio: ratio, ..ground });
         }
         if let Some(path) = &self.record {
             let options = self.reading.options(gravity_m_s2);
@@ -144,19 +167,22 @@ impl ExcitationArgs {
             let unit = NormalisedRecord::new(&record);
             let target =
                 self.target_pga_g(threshold, p, unit.velocity_ratio_s());
-            return match target {
+            let dt_s = Some(record.dt_s());
+            let ground = match target {
                 None => {
                     let factor = self.scale.unwrap_or(1.0);
-                    Ok(Ground::Factor(record, factor, remarks))
+                    let pga_g = record.pga_g() * factor.abs();
+                    Ground::of(Motion::Factor(record, factor), pga_g)
                 }
                 Some(_) if !(unit.pga_g() > 0.0) => {
-                    Err(Failure::input(format!(
+                    return Err(Failure::input(format!(
                         "{}: all samples are zero and cannot be scaled",
                         path.display()
-                    )))
+                    )));
                 }
-                Some(pga_g) => Ok(Ground::Peak(unit, pga_g, remarks)),
+                Some(pga_g) => Ground::of(Motion::Peak(unit, pga_g), pga_g),
             };
+            return Ok(Ground { dt_s, remarks: Some(remarks), ..ground });
         }
         let pulse = Pulse::try_new_si(self.pulse_kind()?, gravity_m_s2)?;
         let ratio_s = pulse.pgv_g_s() / pulse.pga_g();
@@ -166,7 +192,8 @@ impl ExcitationArgs {
             (None, Some(scale)) => pulse.scaled(scale)?,
             (None, None) => pulse,
         };
-        Ok(Ground::Pulse(pulse))
+        let pga_g = pulse.pga_g();
+        Ok(Ground::of(Motion::Pulse(pulse), pga_g))
     }
 
     /// Peak ground acceleration asked for, g.
@@ -249,59 +276,23 @@ impl ExcitationArgs {
 }
 
 impl Ground {
+    fn of(motion: Motion, pga_g: f64) -> Self {
+        let (dt_s, initial_ratio, remarks) = (None, 0.0, None);
+        Self { motion, pga_g, dt_s, initial_ratio, remarks }
+    }
+
     /// What moves the ground.
     #[must_use]
     pub fn excitation(&self) -> Excitation<'_> {
-        match self {
-            Self::Factor(record, factor, _) => {
+        match &self.motion {
+            Motion::Factor(record, factor) => {
                 Excitation::Record(ScaledRecord::by_factor(record, *factor))
             }
-            Self::Peak(unit, pga_g, _) => {
+            Motion::Peak(unit, pga_g) => {
                 Excitation::Record(ScaledRecord::to_pga(unit, *pga_g))
             }
-            Self::Pulse(pulse) => Excitation::Pulse(pulse),
-            Self::Free(_) => Excitation::Free,
-        }
-    }
-
-    /// Peak ground acceleration, g.
-    #[must_use]
-    pub fn pga_g(&self) -> f64 {
-        match self {
-            Self::Factor(record, factor, _) => record.pga_g() * factor.abs(),
-            Self::Peak(_, pga_g, _) => *pga_g,
-            Self::Pulse(pulse) => pulse.pga_g(),
-            Self::Free(_) => 0.0,
-        }
-    }
-
-    /// Sampling interval of a record, s.
-    #[must_use]
-    pub fn dt_s(&self) -> Option<f64> {
-        match self {
-            Self::Factor(record, ..) => Some(record.dt_s()),
-            Self::Peak(unit, ..) => Some(unit.dt_s()),
-            Self::Pulse(_) | Self::Free(_) => None,
-        }
-    }
-
-    /// Initial rotation over the slenderness angle.
-    #[must_use]
-    pub fn initial_ratio(&self) -> f64 {
-        match self {
-            Self::Free(ratio) => *ratio,
-            _ => 0.0,
-        }
-    }
-
-    /// Remarks on the record, if it is one.
-    #[must_use]
-    pub fn remarks(&self) -> Option<&Remarks> {
-        match self {
-            Self::Factor(_, _, remarks) | Self::Peak(_, _, remarks) => {
-                Some(remarks)
-            }
-            Self::Pulse(_) | Self::Free(_) => None,
+            Motion::Pulse(pulse) => Excitation::Pulse(pulse),
+            Motion::Free => Excitation::Free,
         }
     }
 }

@@ -21,7 +21,7 @@ use super::names;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::scene::{BlockArgs, ModelArgs};
-use super::shared::{JsonArg, ThreadsArg};
+use super::shared::{JsonArg, ThreadsArg, positive};
 use super::show::shown;
 use super::way::WayArgs;
 use super::{Failure, SOFTWARE, logged, progress, say};
@@ -116,7 +116,7 @@ enum Component {
 /// # Errors
 /// [`Failure`] for bad input; no file is written then.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let gravity_m_s2 = args.model.gravity_m_s2()?;
+    let gravity_m_s2 = args.model.gravity_m_s2;
     let block = args.block.block(gravity_m_s2)?;
     let analysis = args.analysis(block)?;
     let way = args.way.way()?;
@@ -127,7 +127,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let out = outputs.open(&args.out)?;
     let forces_out = outputs.open_some(args.forces.forces.as_ref())?;
     let chosen = args.chosen(&suite)?;
-    let remarks = remarks_on(&chosen);
+    let remarked: Vec<Remarked<'_>> =
+        chosen.iter().map(|member| Remarked::from(*member)).collect();
+    let remarks = Remarks::of(&remarked);
     args.reading.judge(suite.set_aside(), &remarks)?;
     let records: Vec<NormalisedRecord> = chosen
         .iter()
@@ -148,9 +150,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         .run(|| args.forces.pivot(&records, &table, &analysis))?
         .map_err(curve_refused)?;
     let processing = words(&processing);
-    let job = Job { args, table: &table, processing, remarks };
+    let processing = processing.as_deref();
     let is_standard = out.is_standard();
-    out.write(job.csv(&analysis, gravity_m_s2))?;
+    let about = (processing.unwrap_or("none"), SOFTWARE);
+    let codes = |record: &str| remarks.codes(record);
+    let rows = IdaTable::of(&table, &analysis, gravity_m_s2, about, codes);
+    out.write(rows.csv())?;
     if let (Some(out), Some(pivot)) = (forces_out, &pivot) {
         out.write(forces::csv(pivot, &table))?;
     }
@@ -159,7 +164,18 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if !as_json {
         summary.curves.clear();
     }
-    let text = shown(as_json, &job.shown(&suite, summary, pivot))?;
+    let found = Shown {
+        suite: suite.name(),
+        study_components: suite.study_rule().to_string(),
+        processing,
+        remarks: &remarks,
+        set_aside: suite.set_aside(),
+        highest_im: HIGHEST_IM,
+        order: args.order,
+        summary,
+        pivot,
+    };
+    let text = shown(as_json, &found)?;
     if is_standard {
         eprint!("{}", printable(&text));
         return Ok(());
@@ -167,25 +183,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     say(&text)
 }
 
-fn remarks_on(chosen: &[&SuiteMember]) -> Remarks {
-    let chosen = chosen.iter().map(|member| Remarked::from(*member));
-    Remarks::of(&chosen.collect::<Vec<_>>())
-}
-
-/// A table and what it was made of.
-struct Job<'a> {
-    args: &'a Args,
-    table: &'a [IdaCurve],
-    processing: Option<String>,
-    remarks: Remarks,
-}
-
-/// What is shown of it.
+/// What is shown of a table.
 #[derive(Serialize)]
 struct Shown<'a> {
     suite: &'a str,
     study_components: String,
-    processing: &'a Option<String>,
+    processing: Option<&'a str>,
     remarks: &'a Remarks,
     set_aside: &'a SetAside,
     highest_im: f64,
@@ -205,7 +208,7 @@ impl Args {
             Some(im) => Resurrections::To(im),
             None => Resurrections::Multiple(3.0),
         });
-        let model = self.model.model();
+        let model = self.model.model;
         if self.order.is_some() && model == Model::Linearized {
             return Err(Failure::input(
                 "--order is for Eq. 1; --model linearized has no choice of it",
@@ -215,7 +218,7 @@ impl Args {
             block,
             restitution: self.model.restitution(&block)?,
             model,
-            overturning: self.model.overturning(),
+            overturning: self.model.overturn,
             grid,
             adjust: self.by,
             refine: self.refine.map_or(Some(REFINEMENT), |width| width.0),
@@ -259,40 +262,9 @@ impl Args {
 struct Refine(Option<f64>);
 
 fn refine(text: &str) -> Result<Refine, String> {
-    match text.parse() {
+    match positive(text) {
         _ if text == "none" => Ok(Refine(None)),
-        Ok(width) if width > 0.0 && f64::is_finite(width) => {
-            Ok(Refine(Some(width)))
-        }
-        _ => Err("expected a positive number, or none".to_owned()),
-    }
-}
-
-impl Job<'_> {
-    fn shown<'s>(
-        &'s self,
-        suite: &'s Suite,
-        summary: IdaSummary,
-        pivot: Option<PivotForces>,
-    ) -> Shown<'s> {
-        Shown {
-            suite: suite.name(),
-            study_components: suite.study_rule().to_string(),
-            processing: &self.processing,
-            remarks: &self.remarks,
-            set_aside: suite.set_aside(),
-            highest_im: HIGHEST_IM,
-            order: self.args.order,
-            summary,
-            pivot,
-        }
-    }
-
-    /// The table: one row an analysis, by record, then level.
-    fn csv(&self, analysis: &Analysis, gravity_m_s2: f64) -> String {
-        let processing = self.processing.as_deref().unwrap_or("none");
-        let about = (processing, SOFTWARE);
-        let remarks = |record: &str| self.remarks.codes(record);
-        IdaTable::of(self.table, analysis, gravity_m_s2, about, remarks).csv()
+        Ok(width) => Ok(Refine(Some(width))),
+        Err(expected) => Err(format!("{expected}, or none")),
     }
 }

@@ -28,17 +28,13 @@ impl LimitArgs {
     }
 }
 
-/// The flag that raises the limit which a scene passed, if it did.
-fn flag(error: &SceneError) -> Option<&'static str> {
-    match error {
-        SceneError::Work { what: "impacts", .. } => Some("--most-impacts"),
-        SceneError::Work { .. } => Some("--most-steps"),
-        _ => None,
-    }
-}
-
+/// Names the flag that raises the limit which a scene passed, if it did.
 fn with_flag(failure: Failure, error: &SceneError) -> Failure {
-    let Some(flag) = flag(error) else { return failure };
+    let flag = match error {
+        SceneError::Work { what: "impacts", .. } => "--most-impacts",
+        SceneError::Work { .. } => "--most-steps",
+        _ => return failure,
+    };
     let Failure { message, status } = failure;
     Failure { message: format!("{message} by {flag}"), status }
 }

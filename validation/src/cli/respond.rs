@@ -103,22 +103,22 @@ struct Setting<'a> {
 /// # Errors
 /// [`Failure`] for bad input.
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let gravity_m_s2 = args.model.gravity_m_s2()?;
+    let gravity_m_s2 = args.model.gravity_m_s2;
     let block: Block = args.block.block(gravity_m_s2)?;
     let restitution = args.model.restitution(&block)?;
-    let threshold = uplift_threshold(&block, args.model.model());
+    let threshold = uplift_threshold(&block, args.model.model);
     let p_rad_s = block.frequency_rad_s();
     let ground = args.excitation.ground(gravity_m_s2, threshold, p_rad_s)?;
     let mut outputs = Outputs::of(args.excitation.inputs());
     let history = outputs.open_some(args.history.as_ref())?;
     let plot = outputs.open_some(args.plot.as_ref())?;
     let scene = Scene {
-        model: args.model.model(),
-        overturning: args.model.overturning(),
-        initial_ratio: ground.initial_ratio(),
+        model: args.model.model,
+        overturning: args.model.overturn,
+        initial_ratio: ground.initial_ratio,
         ..Scene::new(block, restitution, ground.excitation())
     };
-    let interval_s = ground.dt_s().unwrap_or(HISTORY_INTERVAL_S);
+    let interval_s = ground.dt_s.unwrap_or(HISTORY_INTERVAL_S);
     let work_limit = args.limit.limit(WorkLimit::default());
     let observe = Observe {
         events: true,
@@ -136,7 +136,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     if let Some(out) = history {
         out.write(history_csv(&scene, &response))?;
     }
-    let (excitation, pga_g) = (args.excitation.name(), ground.pga_g());
+    let (excitation, pga_g) = (args.excitation.name(), ground.pga_g);
     if let Some(out) = plot {
         out.write(response_svg(&scene, &response, &excitation, pga_g))?;
     }
@@ -171,7 +171,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             gravity_m_s2,
             excitation,
             processing: args.excitation.processing()?,
-            remarks: ground.remarks(),
+            remarks: ground.remarks.as_ref(),
             pga_g,
             intensity_pga: pga_g / threshold,
         },

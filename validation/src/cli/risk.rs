@@ -54,7 +54,7 @@ pub struct Args {
         long,
         value_name = "X",
         requires = "dispersion",
-        conflicts_with_all = ["SourceArgs", "BlockArgs", "method"]
+        conflicts_with_all = ["SourceArgs", "IdaArgs", "BlockArgs", "method"]
     )]
     median: Option<f64>,
     /// Dispersion of the fragility, of the logarithm above the shift.

@@ -82,17 +82,22 @@ pub struct ModelArgs {
         value_parser = names::model(),
         default_value_t = Model::Nonlinear
     )]
-    model: Model,
+    pub model: Model,
     /// When the block counts as overturned.
     #[arg(
         long,
         value_parser = names::overturning(),
         default_value_t = Overturning::Alpha
     )]
-    overturn: Overturning,
+    pub overturn: Overturning,
     /// Gravity in m/s2, where sizes or SI records meet it.
-    #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
-    gravity: f64,
+    #[arg(
+        long = "gravity",
+        value_name = "G",
+        value_parser = positive,
+        default_value_t = STANDARD_GRAVITY_M_S2
+    )]
+    pub gravity_m_s2: f64,
 }
 
 /// Restitution as it is written on the command line.
@@ -131,31 +136,11 @@ impl Eta {
 }
 
 impl ModelArgs {
-    /// Gravity in m/s2.
-    ///
-    /// # Errors
-    /// [`Failure`] unless it is positive and finite.
-    pub fn gravity_m_s2(&self) -> Result<f64, Failure> {
-        positive("--gravity", self.gravity)
-    }
-
     /// Restitution of a block.
     ///
     /// # Errors
     /// [`Failure`] for a coefficient outside (0, 1].
     pub fn restitution(&self, block: &Block) -> Result<Restitution, Failure> {
         self.eta.restitution(block)
-    }
-
-    /// Equation of motion.
-    #[must_use]
-    pub fn model(&self) -> Model {
-        self.model
-    }
-
-    /// Overturning criterion.
-    #[must_use]
-    pub fn overturning(&self) -> Overturning {
-        self.overturn
     }
 }

@@ -6,15 +6,13 @@ use serde::Serialize;
 use super::show::show;
 use super::{Failure, with_threads};
 
-/// The value of a flag, where it is positive and finite.
+/// The value of a flag that is positive and finite.
 ///
 /// # Errors
-/// [`Failure`] where it is not.
-pub fn positive(flag: &str, value: f64) -> Result<f64, Failure> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(value);
-    }
-    Err(Failure::input(format!("{flag} {value}: expected a positive number")))
+/// What is expected, for any other text.
+pub fn positive(text: &str) -> Result<f64, &'static str> {
+    let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    number.filter(|x| *x > 0.0).ok_or("expected a positive number")
 }
 
 /// How a result is shown.

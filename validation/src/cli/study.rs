@@ -59,7 +59,12 @@ pub struct Args {
     overturn: Overturning,
     /// Width in dimensionless intensity to which arms B and C bisect the
     /// first overturning.
-    #[arg(long, value_name = "TOL", default_value_t = 1e-4)]
+    #[arg(
+        long,
+        value_name = "TOL",
+        value_parser = positive,
+        default_value_t = 1e-4
+    )]
     refine: f64,
     /// Arms of the intensity grid: A the paper's 0.01 g, B refined, C the
     /// same dimensionless steps for every block.
@@ -262,7 +267,7 @@ fn plan(args: &Args) -> Result<Plan, Failure> {
     let setup = Setup {
         restitution: Restitution::constant(args.eta)?,
         overturning: args.overturn,
-        tolerance: positive("--refine", args.refine)?,
+        tolerance: args.refine,
         way: args.way.way()?,
     };
     Ok(Plan { setup, arms })

@@ -16,7 +16,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 
 use super::fragility::export::FileArgs;
 use super::reading::ReadArgs;
-use super::shared::{JsonArg, ThreadsArg};
+use super::shared::{JsonArg, ThreadsArg, positive};
 use super::{Failure, SOFTWARE, blocks, names, note, print, say, until};
 use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use rocking_common::suites::inputs::read_suite;
@@ -219,11 +219,6 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Action::Design(args) => surrogate::design(args),
         Action::Fit(args) => surrogate::fit(args),
     }
-}
-
-fn positive(text: &str) -> Result<f64, &'static str> {
-    let number = text.parse().ok().filter(|x: &f64| x.is_finite());
-    number.filter(|x| *x > 0.0).ok_or("expected a positive number")
 }
 
 fn share(text: &str) -> Result<f64, &'static str> {

@@ -1,7 +1,9 @@
-//! What the tables of a sweep hold: their columns, and of what kind each is.
+//! What the tables of a sweep hold.
 
 use super::plan::Plan;
-use rocking_common::table::columns::SCHEMA_COLUMN;
+use rocking_common::table::columns::{
+    SCHEMA_COLUMN, SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS,
+};
 
 /// What a file of a tile holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,60 +15,6 @@ pub enum Content {
     /// A row a level of a curve, and one for its refined end.
     Rows,
 }
-
-/// What the cells of a column are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Numbers of which many rows share each; never missing.
-    Level,
-    /// Numbers that hardly repeat; an empty cell is a missing one.
-    Value,
-    /// Whole numbers.
-    Count,
-    /// `true` or `false`.
-    Flag,
-    /// Text.
-    Text,
-}
-
-use Kind::{Count, Flag, Level, Text, Value};
-
-/// Columns that every table begins with.
-const BLOCK: [(&str, Kind); 4] =
-    [("id", Text), ("alpha_rad", Level), ("p_rad_s", Level), ("eta", Level)];
-
-const FRAGILITIES: [(&str, Kind); 12] = [
-    ("im", Text),
-    ("demand", Level),
-    ("records", Count),
-    ("reached", Count),
-    ("shift", Level),
-    ("median", Value),
-    ("dispersion", Value),
-    ("median_low", Value),
-    ("median_high", Value),
-    ("dispersion_low", Value),
-    ("dispersion_high", Value),
-    ("unresolved", Count),
-];
-
-/// Those before the capacities at the plan's demands.
-const CAPACITIES: [(&str, Kind); 5] = [
-    ("record", Text),
-    ("velocity_factor", Value),
-    ("first_overturning", Value),
-    ("analyses", Count),
-    ("unresolved", Count),
-];
-
-const ROWS: [(&str, Kind); 6] = [
-    ("record", Text),
-    ("intensity_pga", Level),
-    ("pga_g", Level),
-    ("edp", Value),
-    ("refined", Flag),
-    ("resolved", Flag),
-];
 
 impl Content {
     /// All of them.
@@ -93,21 +41,19 @@ impl Content {
         }
     }
 
-    /// Name and kind of each column.
+    /// Name of each column, and what its cells are in the registry.
     #[must_use]
-    pub fn columns(self, plan: &Plan) -> Vec<(String, Kind)> {
-        let own: &[(&str, Kind)] = match self {
-            Self::Fragilities => &FRAGILITIES,
-            Self::Capacities => &CAPACITIES,
-            Self::Rows => &ROWS,
+    pub fn columns(self, plan: &Plan) -> Vec<(String, &'static str)> {
+        let (layout, demands) = match self {
+            Self::Fragilities => (&SWEEP_FRAGILITIES, &[][..]),
+            Self::Capacities => (&SWEEP_CAPACITIES, &plan.demands[..]),
+            Self::Rows => (&SWEEP_ROWS, &[][..]),
         };
-        let demands = match self {
-            Self::Capacities => plan.demands.as_slice(),
-            Self::Fragilities | Self::Rows => &[],
-        };
-        let fixed = BLOCK.iter().chain(own).map(|(n, k)| ((*n).into(), *k));
-        let at = demands.iter().map(|d| (format!("intensity_at_{d}"), Value));
-        let schema = [(SCHEMA_COLUMN.into(), Level)];
-        fixed.chain(at).chain(schema).collect()
+        let own = layout.columns.iter();
+        let own = own.map(|column| (column.name.into(), column.cells));
+        let at = demands.iter();
+        let at = at.map(|d| (format!("intensity_at_{d}"), "number"));
+        let schema = [(SCHEMA_COLUMN.into(), "level")];
+        own.chain(at).chain(schema).collect()
     }
 }

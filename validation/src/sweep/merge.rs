@@ -86,21 +86,19 @@ fn as_parquet(
     body: Bodies<'_>,
     file: &mut (dyn io::Write + Send),
 ) -> io::Result<()> {
-    use rocking_parquet::{Kind as Of, Table, Writer};
-
-    use super::content::Kind;
+    use rocking_parquet::{Kind, Table, Writer};
 
     let plan = &planned.plan;
     let columns = content.columns(plan);
-    let columns: Vec<(&str, Of)> = columns
+    let columns: Vec<(&str, Kind)> = columns
         .iter()
-        .map(|(name, kind)| {
-            let kind = match kind {
-                Kind::Level => Of::Level,
-                Kind::Value => Of::Value,
-                Kind::Count => Of::Count,
-                Kind::Flag => Of::Flag,
-                Kind::Text => Of::Text,
+        .map(|(name, cells)| {
+            let kind = match *cells {
+                "level" => Kind::Level,
+                "count" => Kind::Count,
+                "flag" => Kind::Flag,
+                "text" => Kind::Text,
+                _ => Kind::Value,
             };
             (name.as_str(), kind)
         })

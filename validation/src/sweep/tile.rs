@@ -170,7 +170,12 @@ fn fill(
     curves: &[IdaCurve],
 ) -> Result<(), Failure> {
     let parameters = block.cells();
-    let name = [&[block.id.to_string()], &parameters[..]].concat();
+    let mut row = |cells: &[&dyn ToString], more: &[String]| {
+        let cells = cells.iter().map(|cell| cell.to_string());
+        let own = [block.id.to_string()].into_iter();
+        let own = own.chain(parameters.clone()).chain(cells);
+        table.row(own.chain(more.to_vec()));
+    };
     match content {
         Content::Rows => {
             for curve in curves {
@@ -178,15 +183,11 @@ fn fill(
                 let scanned = curve.points.iter().map(|point| (point, false));
                 let all = scanned.chain(refined.iter().map(|p| (p, true)));
                 for (point, refined) in all {
+                    let name: &dyn ToString = &curve.record;
                     let numbers = [point.im, point.pga_g, point.edp()];
-                    let flags = [refined, point.told.resolved];
-                    let cells = name
-                        .iter()
-                        .cloned()
-                        .chain([curve.record.clone()])
-                        .chain(numbers.map(|x| x.to_string()))
-                        .chain(flags.map(|x| x.to_string()));
-                    table.row(cells);
+                    let [im, pga_g, edp] = numbers.each_ref();
+                    let resolved = &point.told.resolved;
+                    row(&[name, im, pga_g, edp, &refined, resolved], &[]);
                 }
             }
         }
@@ -194,17 +195,13 @@ fn fill(
             for curve in curves {
                 let first =
                     curve.overturning.map_or(f64::INFINITY, |o| o.im());
-                let numbers = [curve.velocity_factor(block.p_rad_s), first];
+                let factor = curve.velocity_factor(block.p_rad_s);
+                let counts = (&curve.analyses, &unresolved(curve));
                 let found = capacities(plan, curve)?;
-                let counts = [curve.analyses, unresolved(curve) as u64];
-                let cells = name
-                    .iter()
-                    .cloned()
-                    .chain([curve.record.clone()])
-                    .chain(numbers.map(|x| x.to_string()))
-                    .chain(counts.map(|x| x.to_string()))
-                    .chain(found.iter().map(ToString::to_string));
-                table.row(cells);
+                let found: Vec<String> =
+                    found.iter().map(ToString::to_string).collect();
+                let name: &dyn ToString = &curve.record;
+                row(&[name, &factor, &first, counts.0, counts.1], &found);
             }
         }
         Content::Fragilities => {
@@ -227,16 +224,10 @@ fn fill(
                         .zip(&factors)
                         .map(|(own, factor)| own[k] * factor)
                         .collect();
-                    let numbers =
+                    let mut numbers =
                         fragility(plan, &parameters, &sample, &factors);
-                    let cells = name
-                        .iter()
-                        .cloned()
-                        .chain([im.to_string(), demand.to_string()])
-                        .chain([sample.len().to_string()])
-                        .chain(numbers)
-                        .chain([open.to_string()]);
-                    table.row(cells);
+                    numbers.push(open.to_string());
+                    row(&[&im, demand, &sample.len()], &numbers);
                 }
             }
         }

@@ -1,5 +1,7 @@
 //! Whether two values differ, and by how many of their uncertainties.
 
+use serde::Serialize;
+
 use super::item::{Content, Item, Limit};
 use super::words::{pair, percent, plain};
 
@@ -10,7 +12,8 @@ const STANDARD_ERRORS: f64 = 1.959_963_985;
 const LAST_DIGIT: f64 = 1e-8;
 
 /// What a change is measured by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// Standard errors: the part of the 95 % interval on the side of the
     /// change over 1.96.
@@ -26,7 +29,7 @@ pub enum Measure {
 }
 
 /// One thing that differs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Change {
     /// What it belongs to.
     pub owner: String,
@@ -35,6 +38,7 @@ pub struct Change {
     /// What it is listed under.
     pub group: String,
     /// What it is, in words.
+    #[serde(rename = "what")]
     pub words: String,
     /// Old value, with the digits that tell it from the new one.
     pub old: String,
@@ -47,6 +51,7 @@ pub struct Change {
     /// What the change is measured by.
     pub measure: Measure,
     /// Change over what is allowed: above 1 is significant.
+    #[serde(rename = "change_over_limit")]
     pub rank: f64,
     /// Whether it matters.
     pub significant: bool,

@@ -1,11 +1,9 @@
-//! A comparison for people, for a pull request and for machines.
+//! A comparison for people, and for a pull request.
 
 use std::fmt::Write as _;
 
-use serde_json::{Value, json};
-
 use super::words::percent;
-use super::{Change, Comparison, Measure, Presence};
+use super::{Change, Comparison, Measure};
 
 /// Changes that are listed unless all are wanted: of those within their
 /// uncertainty, and of those beyond it in a group that state none.
@@ -153,65 +151,6 @@ impl Comparison {
         }
         out
     }
-
-    /// For machines.
-    #[must_use]
-    pub fn json(&self) -> Value {
-        let list = |changes: &[Change]| -> Vec<Value> {
-            changes.iter().map(machine).collect()
-        };
-        let presences = |list: &[Presence]| -> Vec<Value> {
-            list.iter()
-                .map(|one| {
-                    json!({
-                        "group": one.group,
-                        "what": one.words,
-                        "significant": one.significant,
-                    })
-                })
-                .collect()
-        };
-        json!({
-            "identical": self.is_identical(),
-            "significant": self.significant(),
-            "compared": self.compared,
-            "settings": list(&self.settings),
-            "verdicts": list(&self.verdicts),
-            "numbers": list(&self.numbers),
-            "texts": list(&self.texts),
-            "appeared": presences(&self.appeared),
-            "vanished": presences(&self.vanished),
-            "not_compared": self.not_compared,
-        })
-    }
-}
-
-fn machine(change: &Change) -> Value {
-    let (old, new) = match change.values {
-        Some((old, new)) => (json!(old), json!(new)),
-        None => (json!(change.old), json!(change.new)),
-    };
-    let errors = match change.measure {
-        Measure::StandardErrors(n) => Some(n),
-        _ => None,
-    };
-    let tolerances = match change.measure {
-        Measure::Tolerances(n) => Some(n),
-        _ => None,
-    };
-    json!({
-        "group": change.group,
-        "owner": change.owner,
-        "name": change.name,
-        "what": change.words,
-        "old": old,
-        "new": new,
-        "relative": change.relative,
-        "standard_errors": errors,
-        "tolerances": tolerances,
-        "change_over_limit": change.rank,
-        "significant": change.significant,
-    })
 }
 
 fn table(out: &mut String, title: &str, changes: &[&Change]) {

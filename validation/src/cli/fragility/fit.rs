@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::{ArgGroup, Args as ClapArgs};
-use rocking::capacity::InversionRule;
 use rocking::intensity::IntensityMeasure;
 use rocking::procedures::fit::Band;
 use rocking::procedures::{
@@ -13,7 +12,7 @@ use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 use serde::Serialize;
 
-use super::source;
+use super::source::{self, IdaArgs};
 use crate::cli::capacities::Levels;
 use crate::cli::names;
 use crate::cli::shared::{JsonArg, ThreadsArg};
@@ -36,20 +35,8 @@ pub(super) struct Args {
     /// for one censored at an unknown limit; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
-    /// Table of `rocking ida`; `-` is standard input.
-    #[arg(long, value_name = "FILE", requires = "at")]
-    ida: Option<PathBuf>,
-    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
-    #[arg(
-        long,
-        value_name = "LEVELS",
-        requires = "ida",
-        allow_hyphen_values = true
-    )]
-    at: Option<Levels>,
-    /// Which capacity is made of several crossings [default: median].
-    #[arg(long, value_parser = names::crossing(), requires = "ida")]
-    point: Option<InversionRule>,
+    #[command(flatten)]
+    ida: IdaArgs,
     /// Intensity measure of --ida [default: pga], or of a sample that does
     /// not say it.
     #[arg(long, value_name = "MEASURE")]
@@ -152,7 +139,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     options.draws =
         args.bootstrap.map(|replicates| Draws { replicates, seed });
     options.band = args.band.as_ref().map_or(Vec::new(), |b| b.0.clone());
-    match (&args.sample, &args.ida) {
+    match (&args.sample, &args.ida.ida) {
         (Some(path), _) => of_sample(args, path, &options),
         (None, Some(path)) => of_levels(args, path, &options),
         (None, None) => Err(Failure::input("expected --sample or --ida")),
@@ -189,8 +176,7 @@ fn of_levels(
 ) -> Result<(), Failure> {
     let measure = source::in_table(args.im.as_ref())?;
     let curves = input::ida(path, measure)?.1.into_curves();
-    let rule = args.point.unwrap_or(InversionRule::Median);
-    let at = args.at.as_ref().map_or(&[][..], |levels| &levels.0);
+    let (at, rule) = args.ida.levels();
     let found = args.threads.run(|| fit_levels(&curves, at, rule, options))?;
     let levels = found.at(path.display())?;
     let unit = measure.words().to_owned();

@@ -36,20 +36,8 @@ pub struct SourceArgs {
     /// rising damage.
     #[arg(long, value_name = "FILE")]
     sample: Vec<PathBuf>,
-    /// Table of `rocking ida`, with a limit state at each level of --at.
-    #[arg(
-        long,
-        value_name = "FILE",
-        requires = "at",
-        conflicts_with = "sample"
-    )]
-    ida: Option<PathBuf>,
-    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
-    #[arg(long, value_name = "LEVELS", requires = "ida")]
-    at: Option<Levels>,
-    /// Which capacity is made of several crossings [default: median].
-    #[arg(long, value_parser = names::crossing(), requires = "ida")]
-    point: Option<InversionRule>,
+    #[command(flatten)]
+    ida: IdaArgs,
     /// Table of counts, columns im,exceeded,n; again for each limit state.
     #[arg(
         long,
@@ -90,8 +78,46 @@ pub struct SourceArgs {
     #[arg(long, value_name = "NAME")]
     limit_state: Vec<Id>,
     /// Gravity in m/s2.
-    #[arg(long, value_name = "G", default_value_t = STANDARD_GRAVITY_M_S2)]
+    #[arg(
+        long,
+        value_name = "G",
+        value_parser = positive,
+        default_value_t = STANDARD_GRAVITY_M_S2
+    )]
     gravity: f64,
+}
+
+/// Capacities of a table of `rocking ida`.
+#[derive(clap::Args)]
+pub struct IdaArgs {
+    /// Table of `rocking ida`; `-` is standard input.
+    #[arg(
+        long,
+        value_name = "FILE",
+        requires = "at",
+        conflicts_with = "sample"
+    )]
+    pub ida: Option<PathBuf>,
+    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas; each is a
+    /// limit state.
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        requires = "ida",
+        allow_hyphen_values = true
+    )]
+    at: Option<Levels>,
+    /// Which capacity is made of several crossings [default: median].
+    #[arg(long, value_parser = names::crossing(), requires = "ida")]
+    point: Option<InversionRule>,
+}
+
+impl IdaArgs {
+    /// The EDP levels, and the rule for several crossings.
+    pub(super) fn levels(&self) -> (&[f64], InversionRule) {
+        let at = self.at.as_ref().map_or(&[][..], |levels| &levels.0);
+        (at, self.point.unwrap_or(InversionRule::Median))
+    }
 }
 
 /// What is fitted, or the surface that was.
@@ -127,7 +153,7 @@ impl SourceArgs {
     #[must_use]
     pub fn inputs(&self) -> Vec<PathBuf> {
         let many = self.sample.iter().chain(&self.counts);
-        many.chain(&self.ida).chain(&self.blocks).cloned().collect()
+        many.chain(&self.ida.ida).chain(&self.blocks).cloned().collect()
     }
 
     /// Reads every file, each once.
@@ -135,7 +161,7 @@ impl SourceArgs {
     /// # Errors
     /// [`Failure`] for a file or a block that is refused.
     pub fn open(&self) -> Result<Source, Failure> {
-        let gravity_m_s2 = positive("--gravity", self.gravity)?;
+        let gravity_m_s2 = self.gravity;
         let rows = match (&self.blocks, self.block.given(), &self.id) {
             (Some(path), ..) => blocks::read(path, gravity_m_s2)?,
             (None, None, None) => Vec::new(),
@@ -158,7 +184,7 @@ impl SourceArgs {
     }
 
     fn levels(&self) -> Result<Vec<Level>, Failure> {
-        if let Some(path) = &self.ida {
+        if let Some(path) = &self.ida.ida {
             return self.ida(path);
         }
         let samples = self.sample.iter().map(|path| self.sample(path));
@@ -201,9 +227,8 @@ impl SourceArgs {
             eta: Some(table.setting.eta),
             model: Some(table.setting.model),
         };
-        let rule = self.point.unwrap_or(InversionRule::Median);
         let curves = curves.into_curves();
-        let at = self.at.as_ref().map_or(&[][..], |levels| &levels.0);
+        let (at, rule) = self.ida.levels();
         let words: Vec<String> = at.iter().map(f64::to_string).collect();
         let origin = format!(
             "{} capacities, {} at EDP {}, {rule} crossing{}",
@@ -286,35 +311,32 @@ impl Level {
         options: &FitOptions,
         block: Option<&Block>,
     ) -> Result<Lognormal, Failure> {
-        let at = |e: &dyn std::fmt::Display| {
-            Failure::input(format!("{}: {e}", self.place))
+        let place = &self.place;
+        let refused = |expected: &str| {
+            Err(Failure::input(format!("{place}: {expected}")))
         };
-        let found = match (&self.values, options.shift, block) {
+        match (&self.values, options.shift, block) {
             (Values::Sample(sample), ..) => {
-                fit_sample(sample, options).map(|found| found.fitted)
+                Ok(fit_sample(sample, options).at(place)?.fitted)
             }
             (Values::Counts(stripes), Shift::Given(shift), _)
                 if options.method == FitMethod::MaximumLikelihood =>
             {
-                fit_stripes(stripes, shift).map(|found| found.fitted)
+                Ok(fit_stripes(stripes, shift).at(place)?.fitted)
             }
-            (Values::Counts(_), ..) => {
-                let expected = "counts: expected --shift with a number and \
-                                --method mle";
-                return Err(at(&expected));
-            }
+            (Values::Counts(_), ..) => refused(
+                "counts: expected --shift with a number and --method mle",
+            ),
             (Values::Surface(model), _, Some(block))
                 if *options == FitOptions::default() =>
             {
-                let (alpha, p) =
-                    (block.slenderness_rad(), block.frequency_rad_s());
-                return model.at(alpha, p).map_err(|e| at(&e));
+                let alpha_rad = block.slenderness_rad();
+                model.at(alpha_rad, block.frequency_rad_s()).at(place)
             }
             (Values::Surface(_), ..) => {
-                return Err(at(&"expected a block and no flag of a fit"));
+                refused("expected a block and no flag of a fit")
             }
-        };
-        found.map_err(|e| at(&e))
+        }
     }
 
     /// The number of units of the block's own intensity measure in one of

@@ -7,6 +7,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, IdaCurve, IdaError};
 use rocking::procedures::{PivotForces, pivot_forces};
 
+use crate::cli::shared::positive;
 use rocking_common::table::{Table, columns::FORCES};
 
 /// Forces at the pivot of every analysis.
@@ -19,20 +20,13 @@ pub(super) struct ForcesArgs {
         long,
         value_name = "MU,..",
         value_delimiter = ',',
-        value_parser = coefficient
+        value_parser = positive
     )]
     friction: Vec<f64>,
     /// Table of the friction and the least normal force N/(m g) that each
     /// analysis needs.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) forces: Option<PathBuf>,
-}
-
-fn coefficient(text: &str) -> Result<f64, String> {
-    match text.trim().parse() {
-        Ok(mu) if mu > 0.0 && f64::is_finite(mu) => Ok(mu),
-        _ => Err("expected positive numbers, such as 0.3,0.5".to_owned()),
-    }
 }
 
 impl ForcesArgs {

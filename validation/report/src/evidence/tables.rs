@@ -264,7 +264,8 @@ mod tests {
 
     #[test]
     fn every_pulse_has_a_row_with_its_errors() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
+        let folder =
+            concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
         let proof = super::super::Proof::read(folder.as_ref()).unwrap();
         let table = similarity(proof.results()).unwrap();
         assert!(table.rows.len() > 10);

@@ -115,7 +115,12 @@ fn a_failed_or_missing_case_is_red() {
     let first = |number: u32| number == 1;
     let one = requirement.standing(all, &yes, &yes, &first);
     assert_eq!(one.missing, ["Figure 2"]);
-    let empty = requirement.standing(Some(&snapshot::Results::new()), &yes, &yes, &drawn);
+    let empty = requirement.standing(
+        Some(&snapshot::Results::new()),
+        &yes,
+        &yes,
+        &drawn,
+    );
     assert_eq!(empty.missing.len(), 3);
     let not_run = requirement.standing(None, &yes, &yes, &drawn);
     assert!(!not_run.is_met() && not_run.missing.is_empty());

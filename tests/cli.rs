@@ -17,15 +17,13 @@ mod limits;
 mod means;
 #[path = "cli/order.rs"]
 mod order;
-#[path = "cli/support.rs"]
-mod support;
 #[path = "cli/sweep.rs"]
 mod sweep;
 #[path = "cli/texts.rs"]
 mod texts;
 
-use support::{
-    answer, at2, folder, json, motion, refused, refused_for, rocking,
+use super::support::{
+    self, answer, at2, folder, json, motion, refused, refused_for, rocking,
 };
 
 const BLOCK: &str = "--alpha 0.1 --p 3";

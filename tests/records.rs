@@ -3,11 +3,12 @@
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_common::suites::inputs;
+
+use super::support::{self, outcome};
 
 #[path = "records/aside.rs"]
 mod aside;
@@ -112,9 +113,7 @@ const AT2: &str = "PEER NGA STRONG MOTION DATABASE RECORD\n\
 
 /// A fresh folder with the given files.
 fn folder(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = support::folder(&format!("records-{name}"), &[]);
     for (file, bytes) in files {
         std::fs::write(folder.join(file), bytes).unwrap();
     }
@@ -123,15 +122,8 @@ fn folder(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
 
 /// Exit status, standard output and standard error of `rocking records`.
 fn records(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .arg("records")
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let status = output.status.code().unwrap();
-    (status, text(output.stdout), text(output.stderr))
+    let mut command = support::rocking(folder, "records");
+    outcome(command.args(arguments).output().unwrap())
 }
 
 #[test]

@@ -1,21 +1,15 @@
 //! Suites written as files, and read back.
 
 use std::path::Path;
-use std::process::Command;
 
 use rocking::record::{Accelerogram, ReadOptions};
 use rocking_common::suites::inputs;
 
-use super::folder;
+use super::{folder, support::run};
 
 fn rocking(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let out = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let error = String::from_utf8(out.stderr).unwrap();
-    (out.status.code().unwrap(), error)
+    let (status, _, error) = run(folder, &arguments.join(" "));
+    (status, error)
 }
 
 #[test]

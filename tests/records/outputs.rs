@@ -3,9 +3,9 @@
 
 use std::io::Write as _;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
-use super::{AT2, folder};
+use super::{AT2, folder, outcome, support};
 
 /// Exit status, standard output and standard error of the program, with
 /// `input` as its standard input.
@@ -14,9 +14,7 @@ pub fn rocking(
     arguments: &str,
     input: &str,
 ) -> (i32, String, String) {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
+    let mut child = support::rocking(folder, arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -24,9 +22,7 @@ pub fn rocking(
         .unwrap();
     // A program that refuses its arguments closes its input.
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-    let done = child.wait_with_output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (done.status.code().unwrap(), text(done.stdout), text(done.stderr))
+    outcome(child.wait_with_output().unwrap())
 }
 
 /// A wave of `cycles` with an offset (both in g), as two columns.

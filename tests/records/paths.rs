@@ -4,11 +4,7 @@ use super::*;
 
 /// Status and standard error of a command in `folder`.
 fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
-    let out = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .args(args)
-        .current_dir(folder)
-        .output()
-        .unwrap();
+    let out = support::rocking(folder, "").args(args).output().unwrap();
     (out.status.code(), String::from_utf8(out.stderr).unwrap())
 }
 

@@ -29,14 +29,18 @@ fn infinite_values_meet_only_the_methods_that_take_them() {
         assert_eq!(error, FitError::Infinite { censored: 2, n: 24 });
     }
     // 2 of 24 leave no finite 95 % quantile.
-    let error = fit(&sample, 0.0, FitMethod::Trimmed(quantile_type)).unwrap_err();
+    let error =
+        fit(&sample, 0.0, FitMethod::Trimmed(quantile_type)).unwrap_err();
     assert!(matches!(error, FitError::InfiniteQuantile { .. }));
     assert!(fit(&sample, 0.0, FitMethod::Quantile(quantile_type)).is_ok());
-    let censored = fit(&sample, 0.0, FitMethod::Censored(quantile_type)).unwrap();
+    let censored =
+        fit(&sample, 0.0, FitMethod::Censored(quantile_type)).unwrap();
     assert_eq!((censored.n, censored.n_kept), (24, 22));
     // Two records beyond the largest move the fit up and widen it.
     let complete = ExtendedSample::try_new(&X).unwrap();
-    let plain = fit(&complete, 0.0, FitMethod::MaximumLikelihood).unwrap().distribution;
+    let plain = fit(&complete, 0.0, FitMethod::MaximumLikelihood)
+        .unwrap()
+        .distribution;
     assert!(censored.distribution.log_mean() > plain.log_mean());
     assert!(censored.distribution.dispersion() > plain.dispersion());
     assert_eq!(plain.area_distance(&sample), None);

@@ -63,7 +63,9 @@ pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
             (place("anderson-darling"), found.anderson_darling, row[9]),
         ];
         let columns = parameters.iter().zip(&row[2..]);
-        values.extend(columns.map(|(own, text)| (place("parameters"), *own, *text)));
+        values.extend(
+            columns.map(|(own, text)| (place("parameters"), *own, *text)),
+        );
         for (name, own, text) in values {
             answer.put(&name, [own], [number(CHOICE, text)?]);
         }

@@ -137,23 +137,11 @@ fn results_are_accepted_in_the_root_of_the_repository_alone() {
 fn unknown_flags_are_refused_by_every_command() {
     let place = folder("flags", &[]);
     let help = answer(&place, "--help");
-    let list = help.split("Commands:").nth(1).unwrap();
-    let list = list.split("Options:").next().unwrap();
-    let commands: Vec<&str> = list
-        .lines()
-        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
-        .filter_map(|line| line.split_whitespace().next())
-        .collect();
+    let commands = texts::subcommands(&help);
     assert!(commands.len() >= 11, "{commands:?}");
     for command in commands {
-        if command != "help" {
-            let error = refused(&place, &format!("{command} --no-such 1"));
-            assert!(error.contains("--no-such"), "{command}: {error}");
-        }
-        if command != "help" {
-            let text = answer(&place, &format!("{command} --help"));
-            assert!(text.contains("Usage: rocking"), "{command}");
-        }
+        let error = refused(&place, &format!("{command} --no-such 1"));
+        assert!(error.contains("--no-such"), "{command}: {error}");
     }
     assert!(refused(&place, "no-such-command").contains("no-such-command"));
 }
@@ -221,7 +209,7 @@ fn uplift_begins_just_above_intensity_one() {
     let sine = "--pulse half-sine --amplitude-m-s2 3 --omega-rad-s \
                 6.283185307179586";
     for (excitation, peak_s) in [("--record peak.at2", 0.4), (sine, 0.25)] {
-        for alpha in ["0.05", "0.1", "0.2500001", "0.7"] {
+        for alpha in ["0.05", "0.2500001"] {
             for model in ["nonlinear", "linearized"] {
                 let at = |im: &str| {
                     let arguments = format!(

@@ -33,7 +33,7 @@ fn help_of_every_command() {
 }
 
 /// The commands that a help lists.
-fn subcommands(help: &str) -> Vec<String> {
+pub fn subcommands(help: &str) -> Vec<String> {
     let Some((_, list)) = help.split_once("\nCommands:\n") else {
         return Vec::new();
     };

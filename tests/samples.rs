@@ -150,10 +150,10 @@ fn large_samples_are_simulated_without_shapiro_and_wilk() {
     });
     let scores: String = scores.collect();
     let place = with("large", &[("large.txt", &scores)]);
-    let test = "lilliefors --sample large.txt --replicates 100 --seed 1";
+    let test = "lilliefors --sample large.txt --replicates 200 --seed 1";
     let found = json(&place, test);
     assert_eq!(found["verdict"], "not-rejected");
-    assert_eq!(found["replicates"], 100);
+    assert_eq!(found["replicates"], 200);
     assert_eq!(found["shapiro_wilk"], Value::Null);
     assert!(found["anderson_darling"]["p_value"].as_f64().unwrap() > 0.99);
 }

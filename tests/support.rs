@@ -60,6 +60,15 @@ pub fn refused(folder: &Path, arguments: &str) -> String {
     error
 }
 
+/// Standard error of a command that must fail, after it listed what it could
+/// read.
+#[track_caller]
+pub fn failure(folder: &Path, arguments: &str) -> String {
+    let (status, _, error) = run(folder, arguments);
+    assert_eq!(status, 2, "{arguments}: {error}");
+    error
+}
+
 /// The refusal has these words.
 #[track_caller]
 pub fn refused_with(folder: &Path, arguments: &str, words: &str) {

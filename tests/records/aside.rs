@@ -5,10 +5,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
-use serde_json::Value;
-
-use super::outputs::rocking;
-use super::{AT2, folder};
+use super::{AT2, answer, failure, folder, json, run};
 
 const IDA: &str = "ida --alpha 0.1 --p 3 --step-g 0.05 --out ida.csv";
 
@@ -54,11 +51,9 @@ fn what_is_set_aside_is_in_every_result() {
     let row = format!("set aside               {WORDS}\n");
     for suite in ["mix", "mix.zip"] {
         let ida = format!("{IDA} --suite {suite}");
-        let (status, out, error) = rocking(&folder, &ida, "");
-        assert_eq!((status, error.as_str()), (0, ""), "{suite}");
+        let out = answer(&folder, &ida);
         assert!(out.contains(&row), "{out}");
-        let (_, out, _) = rocking(&folder, &format!("{ida} --json"), "");
-        let found: Value = serde_json::from_str(&out).unwrap();
+        let found = json(&folder, &format!("{ida} --json"));
         assert_eq!(found["set_aside"]["files"], 5);
         let codes = &found["set_aside"]["codes"];
         let code = |k: usize| (&codes[k]["code"], &codes[k]["files"]);
@@ -78,14 +73,13 @@ fn what_is_set_aside_is_in_every_result() {
                 format!("\nset aside: {WORDS}\n"),
             ),
         ] {
-            let (status, out, error) = rocking(&folder, &command, "");
-            assert_eq!((status, error.as_str()), (0, ""), "{command}");
+            let out = answer(&folder, &command);
             assert!(out.contains(&told), "{command}: {out}");
             let _ = fs::remove_dir_all(folder.join("out"));
             let _ = fs::remove_dir_all(folder.join("plan"));
         }
         let cav = format!("capacities --ida ida.csv --suite {suite} --im cav");
-        let (status, _, error) = rocking(&folder, &cav, "");
+        let (status, _, error) = run(&folder, &cav);
         assert_eq!(status, 0, "{error}");
         assert_eq!(error, format!("rocking: set aside: {WORDS}\n"));
         for command in [
@@ -99,7 +93,7 @@ fn what_is_set_aside_is_in_every_result() {
             format!("study --ordinary {suite} --pulse {suite} --out out"),
         ] {
             let strict = format!("{command} --strict");
-            let (status, _, error) = rocking(&folder, &strict, "");
+            let (status, _, error) = run(&folder, &strict);
             let told = format!("rocking: --strict: set aside: {WORDS}");
             assert_eq!(status, 2, "{strict}");
             assert!(error.starts_with(&told), "{strict}: {error}");
@@ -110,7 +104,7 @@ fn what_is_set_aside_is_in_every_result() {
     let index = "file\nA_000.AT2\nA_090.AT2\n";
     fs::write(folder.join("mix/index.csv"), index).unwrap();
     let (status, out, _) =
-        rocking(&folder, &format!("{IDA} --suite mix/index.csv"), "");
+        run(&folder, &format!("{IDA} --suite mix/index.csv"));
     assert!(status == 0 && !out.contains("set aside"), "{out}");
 }
 
@@ -128,14 +122,12 @@ fn links_to_nothing_and_folders_are_told() {
     }
     std::os::unix::fs::symlink("nowhere", folder.join("lp/d.AT2")).unwrap();
     let ida = format!("{IDA} --suite lp");
-    let (status, out, _) = rocking(&folder, &ida, "");
-    assert_eq!(status, 0);
+    let out = answer(&folder, &ida);
     let told = "1 link to nothing (first: d.AT2)\n";
     assert!(out.contains(&format!("set aside               {told}")), "{out}");
-    let (_, out, _) = rocking(&folder, "records lp", "");
+    let (_, out, _) = run(&folder, "records lp");
     assert!(out.contains("set aside: lp/d.AT2: a link to nothing: expected"));
-    let (status, _, error) = rocking(&folder, "records dup", "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, "records dup");
     assert_eq!(
         error,
         "rocking: dup: no readable record in it: expected at least one; set \
@@ -166,21 +158,19 @@ fn a_name_that_comes_twice_in_a_zip_is_told() {
     }
     fs::write(folder.join("two.zip"), &bytes).unwrap();
     let told = "1 under a name that comes again (first: A_0.csv)";
-    let (status, out, error) = rocking(&folder, "records two.zip", "");
-    assert_eq!((status, error.as_str()), (0, ""));
+    let out = answer(&folder, "records two.zip");
     assert!(out.contains(told), "{out}");
     // The last one is read, as by what unpacks it.
     assert!(out.contains("0.20000") && !out.contains("0.10000"), "{out}");
     let ida = format!("{IDA} --suite two.zip --strict");
-    let (status, _, error) = rocking(&folder, &ida, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, &ida);
     assert!(error.contains(told), "{error}");
 }
 
 /// A folder of one record of this name, and what the program says of it.
 fn named(name: &str, command: &str) -> (i32, String, String) {
     let folder = folder("aside-names", &[(name, AT2.as_bytes())]);
-    rocking(&folder, command, "")
+    run(&folder, command)
 }
 
 #[cfg(unix)]
@@ -209,12 +199,10 @@ fn a_name_that_breaks_a_line_or_computes_is_refused() {
         "aside-escape",
         &[("a.AT2", AT2.as_bytes()), ("\u{1b}[31m\n.txt", b"no\n")],
     );
-    let (status, out, _) = rocking(&folder, "records .", "");
+    let (status, out, _) = run(&folder, "records .");
     assert!(status == 0 && !out.contains('\u{1b}'), "{out:?}");
     assert!(out.contains("(first: \\u001b[31m\\u000a.txt)"), "{out}");
-    let (status, out, _) = rocking(&folder, "records . --json", "");
-    assert_eq!(status, 0);
-    let found: Value = serde_json::from_str(&out).unwrap();
+    let found = json(&folder, "records . --json");
     assert_eq!(found["set_aside"][0]["file"], "./\u{1b}[31m\n.txt");
 }
 
@@ -222,7 +210,7 @@ fn a_name_that_breaks_a_line_or_computes_is_refused() {
 #[test]
 fn a_record_of_a_table_has_a_name_that_a_sample_can_hold() {
     let folder = folder("aside-table", &[("a.AT2", AT2.as_bytes())]);
-    let run = |command: &str| rocking(&folder, command, "");
+    let run = |command: &str| super::run(&folder, command);
     assert_eq!(run(&format!("{IDA} --suite .")).0, 0);
     let capacities = "capacities --ida ida.csv --levels 1 --at 1 --out c.txt";
     assert_eq!(run(capacities).0, 0);

@@ -96,7 +96,8 @@ fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
             found.push((path.clone(), Vec::new()));
             found.extend(tree(&path));
         } else {
-            found.push((path.clone(), fs::read(&path).unwrap()));
+            // A link may lead to nothing.
+            found.push((path.clone(), fs::read(&path).unwrap_or_default()));
         }
     }
     found.sort();

@@ -3,7 +3,9 @@
 use serde_json::Value;
 
 use rocking::block::{Block, Restitution};
-use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
+use rocking::excitation::{
+    Excitation, Pulse, PulseKind, PulseName, PulseParameter, ScaledRecord,
+};
 use rocking::integrator::{
     Impact, Model, Observe, Outcome, Overturning, Response, Scene, respond,
 };
@@ -40,49 +42,36 @@ fn cases(file: &Value) -> &[Value] {
     cases
 }
 
-/// A pulse of a trajectory, in m/s2.
+/// A pulse of a trajectory, in m/s2; none of a record.
 fn pulse(forcing: &Value) -> Option<PulseKind> {
-    let get = |key: &str| number(&forcing[key]);
-    Some(match forcing["kind"].as_str().unwrap() {
-        "one_sine" => PulseKind::OneSine {
-            amplitude: get("a_p"),
-            omega_rad_s: get("omega"),
-        },
-        "half_sine" => PulseKind::HalfSine {
-            amplitude: get("a_p"),
-            omega_rad_s: get("omega"),
-        },
-        "one_cosine" => PulseKind::OneCosine {
-            amplitude: get("a_p"),
-            omega_rad_s: get("omega"),
-        },
-        "rectangular" => PulseKind::Rectangle {
-            amplitude: get("a_p"),
-            duration_s: get("t_d"),
-        },
-        "triangular" => PulseKind::Triangle {
-            amplitude: get("a_p"),
-            duration_s: get("t_d"),
-        },
-        "ricker_sym" => PulseKind::RickerSymmetric {
-            amplitude: get("a_p"),
-            period_s: get("T_p"),
-            cycles: get("n_Tp"),
-        },
-        "ricker_anti" => PulseKind::RickerAntisymmetric {
-            amplitude: get("a_p"),
-            period_s: get("T_p"),
-            cycles: get("n_Tp"),
-        },
-        "mavroeidis" => PulseKind::MavroeidisPapageorgiou {
-            velocity: get("A_v"),
-            frequency_hz: get("f_p"),
-            gamma: get("gamma"),
-            phase_rad: get("nu"),
-        },
+    use PulseName as N;
+    use PulseParameter as P;
+    let name = match forcing["kind"].as_str().unwrap() {
+        "one_sine" => N::OneSine,
+        "half_sine" => N::HalfSine,
+        "one_cosine" => N::OneCosine,
+        "rectangular" => N::Rectangle,
+        "triangular" => N::Triangle,
+        "ricker_sym" => N::RickerSymmetric,
+        "ricker_anti" => N::RickerAntisymmetric,
+        "mavroeidis" => N::MavroeidisPapageorgiou,
         "sampled" => return None,
         other => panic!("{other}"),
-    })
+    };
+    let key = |parameter| match parameter {
+        P::Amplitude => "a_p",
+        P::Omega => "omega",
+        P::Duration => "t_d",
+        P::Period => "T_p",
+        P::Cycles => "n_Tp",
+        P::Velocity => "A_v",
+        P::Frequency => "f_p",
+        P::Gamma => "gamma",
+        P::Phase => "nu",
+    };
+    let kind =
+        name.kind(|parameter| Ok::<_, ()>(number(&forcing[key(parameter)])));
+    Some(kind.unwrap())
 }
 
 /// An impact of a motion: number, time and speed before it. `bounds` are

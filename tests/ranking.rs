@@ -141,6 +141,14 @@ fn a_ranking_tells_the_dispersion_of_the_fits_and_the_slopes() {
         close(&own["slopes"][1]["slope"], slope(&km), 1e-9);
     }
     assert_eq!(out["measures"][0]["ratio_to_first"]["point"], 1.0);
+    // Arias intensity goes with the square of a motion: its root is ranked.
+    let by = "--ida ida.csv --suite suite.csv --at 1 --im arias";
+    let sample = text(&place, &format!("capacities {by} --out -"));
+    fs::write(place.join("sample.txt"), sample).unwrap();
+    let fit = json(&place, "fragility fit --sample sample.txt");
+    let root = 0.5 * fit["fitted"]["dispersion"].as_f64().unwrap();
+    let ranked = json(&place, &format!("rank {by} --bootstrap 20"));
+    close(&ranked["measures"][0]["dispersion"]["point"], root, 1e-11);
     // The drawing has every measure, and the numbers of the table.
     text(&place, &format!("{words} --plot rank.svg"));
     let drawn = fs::read_to_string(place.join("rank.svg")).unwrap();

@@ -392,7 +392,7 @@ fn no_bytes_make_a_reader_panic() {
     };
     // A long run of the same: ROCKING_ROUNDS=100000000.
     let rounds = std::env::var("ROCKING_ROUNDS").ok();
-    let rounds = rounds.map_or(40_000, |n| n.parse().unwrap());
+    let rounds = rounds.map_or(20_000, |n| n.parse().unwrap());
     for round in 0..rounds {
         let mut bytes = seeds[round % seeds.len()].clone().into_bytes();
         for _ in 0..=draw(4) {

@@ -196,21 +196,6 @@ fn a_merge_replaces_no_file_of_its_plan_and_a_plan_has_an_end() {
 }
 
 #[test]
-fn a_study_takes_no_curves_of_a_sweep_that_lacks_some() {
-    let place = planned("sweep-study", 2);
-    let names = ["plan: this sweep keeps no rows", "--rows"];
-    refused_for(&place, "study --sweep plan --out report", &names);
-    answer(
-        &place,
-        "sweep plan --blocks blocks.csv --suite records --out kept --rows \
-         --tile-minutes 1e-9",
-    );
-    let names = ["kept/tiles/rows-00000.csv: missing", "run the sweep again"];
-    refused_for(&place, "study --sweep kept --out report", &names);
-    assert!(!place.join("report").exists());
-}
-
-#[test]
 fn a_block_alone_asks_the_surrogate_which_refuses_what_it_does_not_know() {
     let place = folder("sweep-surrogate", &[]);
     let found = json(&place, "fragility surface --alpha 0.15 --p 3 --json");

@@ -33,7 +33,8 @@ fn exported_suites_are_read_back_bit_for_bit() {
         }
     }
     // Once more into the same folder, which is no longer empty.
-    let error = refused(&folder, "suite export --out out");
+    let again = "suite export --out out --suite out/pulse.csv";
+    let error = refused(&folder, again);
     assert!(error.contains("cannot write out"), "{error}");
     // One of one's own, and a file changed behind the index's back.
     answer(&folder, "suite export --out mine --suite out/pulse.csv");

@@ -181,9 +181,10 @@ fn each_reader_has_its_own_unit_of_velocity() {
     };
     let (pelicun, pact) = (at(Format::Pelicun), at(Format::Pact));
     let metres = crate::table::number(median);
-    let law = format!("lognormal,{metres},0.713");
+    let law = format!("lognormal,{metres},0.713,");
     assert!(pelicun.contains(&format!(",mps,0,1,{law}")), "{pelicun}");
-    assert!(pact.contains(&format!(",PGV,m/s,yes,{metres},0.713")), "{pact}");
+    let law_and_end = format!(",PGV,m/s,yes,{metres},0.713\n");
+    assert!(pact.contains(&law_and_end), "{pact}");
 }
 
 #[test]

@@ -4,11 +4,12 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::ExitCode;
+use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use rocking_proof::cases::{Case, Cost, FAMILIES, WrongModel, load_all};
 use rocking_proof::methods::{METHODS, digits, digits_csv};
-use rocking_proof::verdict::{run_all, run_case, snapshot};
+use rocking_proof::verdict::{Outcome, run_case, snapshot};
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
@@ -20,16 +21,31 @@ fn main() -> ExitCode {
         }
     };
     let mut trials = coverage(&cases);
-    trials.extend(
-        cases.into_iter().filter(|case| case.cost == Cost::Quick).map(trial),
-    );
+    let quick = cases.into_iter().filter(|case| case.cost == Cost::Quick);
+    let judged = |case| Arc::new(Judged { case, outcome: OnceLock::new() });
+    let quick: Vec<Arc<Judged>> = quick.map(judged).collect();
+    trials.extend(quick.iter().cloned().map(trial));
+    // Last, when the outcomes are known.
+    trials.extend(snapshots(quick));
     libtest_mimic::run(&arguments, trials).exit_code()
 }
 
-fn trial(case: Case) -> Trial {
-    let kind = case.kind.name();
-    Trial::test(case.id.clone(), move || {
-        let outcome = run_case(&case);
+/// A case that is run once, whoever asks for its outcome.
+struct Judged {
+    case: Case,
+    outcome: OnceLock<Outcome>,
+}
+
+impl Judged {
+    fn outcome(&self) -> &Outcome {
+        self.outcome.get_or_init(|| run_case(&self.case))
+    }
+}
+
+fn trial(judged: Arc<Judged>) -> Trial {
+    let kind = judged.case.kind.name();
+    Trial::test(judged.case.id.clone(), move || {
+        let (case, outcome) = (&judged.case, judged.outcome());
         if outcome.verdict.is_accepted() {
             return Ok(());
         }
@@ -118,38 +134,43 @@ fn coverage(cases: &[Case]) -> Vec<Trial> {
         });
         idle
     });
-    trials.push(Trial::test("snapshot/validation-json", move || {
-        let quick: Vec<Case> = load_all()
-            .map_err(|e| e.to_string())?
-            .into_iter()
-            .filter(|case| case.cost == Cost::Quick)
-            .collect();
-        let path = root.join("reports/data/validation.json");
-        let found = std::fs::read_to_string(&path).unwrap_or_default();
-        if found == snapshot::text(&quick, &run_all(&quick)) {
-            Ok(())
-        } else {
-            Err(Failed::from(
-                "reports/data/validation.json is stale: see what changed \
-                 with `rocking validate --check --out reports`, accept it \
-                 with `cargo run --release -- accept`",
-            ))
-        }
-    }));
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    trials.push(Trial::test("snapshot/precision-csv", move || {
-        let path = root.join("reports/data/precision.csv");
-        let found = std::fs::read_to_string(&path).unwrap_or_default();
-        if found == digits_csv(&digits().map_err(|e| e.to_string())?) {
-            Ok(())
-        } else {
-            Err(Failed::from(
-                "reports/data/precision.csv is stale: accept it with \
-                 `cargo run --release -- accept`",
-            ))
-        }
-    }));
     trials
+}
+
+/// The committed results, byte for byte.
+fn snapshots(quick: Vec<Arc<Judged>>) -> [Trial; 2] {
+    let committed = |name: &str| {
+        let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../reports/data");
+        std::fs::read_to_string(Path::new(data).join(name)).unwrap_or_default()
+    };
+    let validation = move || {
+        let cases: Vec<Case> = quick.iter().map(|j| j.case.clone()).collect();
+        let outcomes = quick.iter().map(|j| j.outcome().clone());
+        let outcomes: Vec<Outcome> = outcomes.collect();
+        let own = snapshot::text(&cases, &outcomes);
+        if committed("validation.json") == own {
+            return Ok(());
+        }
+        Err(Failed::from(
+            "reports/data/validation.json is stale: see what changed with \
+             `rocking validate --check --out reports`, accept it with \
+             `cargo run --release -- accept`",
+        ))
+    };
+    let precision = move || {
+        let own = digits_csv(&digits().map_err(|e| e.to_string())?);
+        if committed("precision.csv") == own {
+            return Ok(());
+        }
+        Err(Failed::from(
+            "reports/data/precision.csv is stale: accept it with \
+             `cargo run --release -- accept`",
+        ))
+    };
+    [
+        Trial::test("snapshot/validation-json", validation),
+        Trial::test("snapshot/precision-csv", precision),
+    ]
 }
 
 /// Shows every file below a folder.

@@ -17,8 +17,6 @@ mod limits;
 mod means;
 #[path = "cli/order.rs"]
 mod order;
-#[path = "cli/support.rs"]
-mod support;
 #[path = "cli/sweep.rs"]
 mod sweep;
 #[path = "cli/tables.rs"]
@@ -26,8 +24,8 @@ mod tables;
 #[path = "cli/texts.rs"]
 mod texts;
 
-use support::{
-    answer, at2, folder, json, motion, refused, refused_for, rocking,
+use super::support::{
+    self, answer, at2, folder, json, motion, refused, refused_for, rocking,
 };
 
 const BLOCK: &str = "--alpha 0.1 --p 3";
@@ -109,7 +107,8 @@ fn bad_numbers_are_refused_with_their_flag() {
         ("study --eta 1.1 --out report", "1.1"),
         ("study --refine -1 --out report", "-1"),
     ] {
-        refused_for(&place, arguments, &[name]);
+        let error = refused(&place, arguments);
+        assert!(error.contains(name), "{arguments}: {error}");
     }
     for (flag, value) in [
         ("--eta", "0"),
@@ -122,7 +121,8 @@ fn bad_numbers_are_refused_with_their_flag() {
         ("--until", "-1"),
     ] {
         let arguments = format!("respond {BLOCK} {sine} {flag} {value}");
-        refused_for(&place, &arguments, &[value]);
+        let error = refused(&place, &arguments);
+        assert!(error.contains(value), "{arguments}: {error}");
     }
 }
 
@@ -146,8 +146,6 @@ fn unknown_flags_are_refused_by_every_command() {
     for command in commands {
         let error = refused(&place, &format!("{command} --no-such 1"));
         assert!(error.contains("--no-such"), "{command}: {error}");
-        let text = answer(&place, &format!("{command} --help"));
-        assert!(text.contains("Usage: rocking"), "{command}");
     }
     assert!(refused(&place, "no-such-command").contains("no-such-command"));
 }
@@ -215,7 +213,7 @@ fn uplift_begins_just_above_intensity_one() {
     let sine = "--pulse half-sine --amplitude-m-s2 3 --omega-rad-s \
                 6.283185307179586";
     for (excitation, peak_s) in [("--record peak.at2", 0.4), (sine, 0.25)] {
-        for alpha in ["0.05", "0.1", "0.2500001", "0.7"] {
+        for alpha in ["0.05", "0.2500001"] {
             for model in ["nonlinear", "linearized"] {
                 let at = |im: &str| {
                     let arguments = format!(

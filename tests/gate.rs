@@ -29,5 +29,7 @@ mod samples;
 mod stop;
 #[path = "study.rs"]
 mod study;
+#[path = "support.rs"]
+mod support;
 #[path = "trials.rs"]
 mod trials;

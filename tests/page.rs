@@ -7,6 +7,7 @@ mod browser;
 #[path = "page/print.rs"]
 mod print;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -166,6 +167,7 @@ fn every_claim_case_and_caption_is_on_paper() {
     for selector in ["caption", "figcaption", "th", "td"] {
         let all = words(&mut browser, selector);
         assert!(all.len() > 20, "{selector}");
+        let all: BTreeSet<String> = all.into_iter().collect();
         for text in all.iter().filter(|text| !printed.has_end(text)) {
             missing.push(format!("{selector}: {text}"));
         }

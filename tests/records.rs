@@ -2,12 +2,13 @@
 //! own everywhere.
 
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::PathBuf;
 
 use rocking::record::{self, ReadOptions, Suite, SuiteOptions};
 use rocking::units::{AccelerationUnit, STANDARD_GRAVITY_M_S2};
 use rocking_common::suites::inputs;
+
+use super::support::{self, answer, failure, json, outcome, refused, run};
 
 #[path = "records/aside.rs"]
 mod aside;
@@ -112,26 +113,11 @@ const AT2: &str = "PEER NGA STRONG MOTION DATABASE RECORD\n\
 
 /// A fresh folder with the given files.
 fn folder(name: &str, files: &[(&str, &[u8])]) -> PathBuf {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = support::folder(&format!("records-{name}"), &[]);
     for (file, bytes) in files {
         std::fs::write(folder.join(file), bytes).unwrap();
     }
     folder
-}
-
-/// Exit status, standard output and standard error of `rocking records`.
-fn records(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .arg("records")
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let status = output.status.code().unwrap();
-    (status, text(output.stdout), text(output.stderr))
 }
 
 #[test]
@@ -149,62 +135,52 @@ fn bad_input_gives_one_message_and_status_2() {
         ("good.AT2", AT2.as_bytes()),
     ];
     let folder = folder("bad", &files);
-    let cases: [(&[&str], &str); 10] = [
+    let cases: [(&str, &str); 10] = [
         (
-            &["cut.AT2"],
+            "cut.AT2",
             "rocking: cut.AT2:5:49: \".1000000\": expected 7 decimals and an exponent of 4 characters, as the file's first number\n",
         ),
+        ("empty.AT2", "rocking: empty.AT2: empty file: expected a record\n"),
         (
-            &["empty.AT2"],
-            "rocking: empty.AT2: empty file: expected a record\n",
-        ),
-        (
-            &["nan.AT2"],
+            "nan.AT2",
             "rocking: nan.AT2:5:28: \"NaN\": expected a finite number\n",
         ),
         (
-            &["negative.AT2"],
+            "negative.AT2",
             "rocking: negative.AT2:4: sampling interval \"-.0100 SEC\": expected a positive number of seconds\n",
         ),
+        ("binary", "rocking: binary: byte 0x02 at offset 4: expected text\n"),
         (
-            &["binary"],
-            "rocking: binary: byte 0x02 at offset 4: expected text\n",
-        ),
-        (
-            &["column.txt"],
+            "column.txt",
             "rocking: column.txt: no sampling interval in the file: expected it to be given in s, as --dt or in a column `dt_s` of an index\n",
         ),
         (
-            &["column.txt", "--dt", "-0.01"],
+            "column.txt --dt -0.01",
             "rocking: column.txt: sampling interval \"-0.01\": expected a positive number of seconds\n",
         ),
         (
-            &["good.AT2", "--gravity", "-9.81"],
+            "good.AT2 --gravity -9.81",
             "rocking: good.AT2: gravity -9.81 m/s2: expected a positive number\n",
         ),
         (
-            &["good.AT2", "--dt", "0.02"],
+            "good.AT2 --dt 0.02",
             "rocking: good.AT2: sampling interval 0.02 s was given: expected 0.01 s, which the file states\n",
         ),
         (
-            &["missing.AT2"],
+            "missing.AT2",
             "rocking: missing.AT2: cannot be read: No such file or directory (os error 2)\n",
         ),
     ];
     for (arguments, expected) in cases {
-        let (status, out, error) = records(&folder, arguments);
-        assert_eq!((status, error.as_str()), (2, expected));
-        assert_eq!(out, "", "{arguments:?}");
+        let error = refused(&folder, &format!("records {arguments}"));
+        assert_eq!(error, expected);
     }
-    for arguments in
-        [&["--unknown"][..], &["good.AT2", "--units", "ft/s2"], &[]]
-    {
-        let (status, out, error) = records(&folder, arguments);
-        assert_eq!((status, out.as_str()), (2, ""), "{arguments:?}");
+    for arguments in ["--unknown", "good.AT2 --units ft/s2", ""] {
+        let error = refused(&folder, &format!("records {arguments}"));
         assert!(error.starts_with("error:"), "{error}");
     }
     // All that can be read is listed before the refusals count.
-    let (status, out, error) = records(&folder, &["good.AT2", "cut.AT2"]);
+    let (status, out, error) = run(&folder, "records good.AT2 cut.AT2");
     assert_eq!(status, 2);
     assert!(out.contains("good.AT2  at2 "), "{out}");
     assert_eq!(error.lines().count(), 1);
@@ -215,7 +191,7 @@ fn a_folder_without_records_is_refused() {
     let files: [(&str, &[u8]); 2] =
         [("README", b"About these records.\n"), (".hidden", b"0.1\n")];
     let folder = folder("none", &files);
-    let (status, out, error) = records(&folder, &["."]);
+    let (status, out, error) = run(&folder, "records .");
     assert_eq!(status, 2);
     assert!(out.contains("./README:1: begins with"), "{out}");
     assert_eq!(
@@ -242,15 +218,11 @@ fn a_folder_of_pairs_is_a_suite() {
     assert_eq!(study, ["A_000.AT2", "B_E.AT2"]);
     assert_eq!(suite.both().len(), 1);
     assert_eq!(suite.set_aside().all().len(), 2);
-    assert_eq!(suite.name(), "suite");
-    let (status, out, error) = records(&folder, &["../suite"]);
-    assert_eq!((status, error.as_str()), (0, ""));
-    let row = "  suite        3      1                 2  the component whose";
-    assert!(out.contains(row), "{out}");
+    assert_eq!(suite.name(), "records-suite");
+    let out = answer(&folder, "records ../records-suite");
+    assert!(out.contains("the component whose"), "{out}");
     assert!(out.contains("README:1: begins with"), "{out}");
-    let (status, out, _) = records(&folder, &["--json", "."]);
-    assert_eq!(status, 0);
-    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let json = json(&folder, "records --json .");
     let first = &json["records"][0];
     assert_eq!(first["file"], "A_000.AT2");
     assert_eq!(first["npts"], 4);
@@ -279,10 +251,8 @@ fn an_index_may_state_checksums() {
         ("wrong.csv", wrong.as_bytes()),
     ];
     let folder = folder("sums", &files);
-    let (status, _, error) = records(&folder, &["right.csv"]);
-    assert_eq!((status, error.as_str()), (0, ""));
-    let (status, _, error) = records(&folder, &["wrong.csv"]);
-    assert_eq!(status, 2);
+    answer(&folder, "records right.csv");
+    let error = failure(&folder, "records wrong.csv");
     assert!(error.contains("wrong.csv:2: a.txt has sha256 1036"), "{error}");
 }
 
@@ -325,27 +295,24 @@ fn a_zip_is_read_as_the_folder_in_it() {
     let whole = std::fs::read(folder.join("peer.zip")).unwrap();
     let half = &whole[..whole.len() / 2];
     std::fs::write(folder.join("half.zip"), half).unwrap();
-    let (status, out, error) = records(&folder, &["half.zip"]);
-    assert_eq!((status, out.as_str()), (2, ""));
+    let error = refused(&folder, "records half.zip");
     assert_eq!(
         error,
         "rocking: half.zip: cannot be read: the archive is cut: expected a list of its files at its end\n"
     );
-    let (status, _, error) = records(&folder, &["peer.zip", "--json"]);
-    assert_eq!((status, error.as_str()), (0, ""));
+    answer(&folder, "records peer.zip --json");
     // A damaged file does not take the room of those after it.
     let mut damaged = std::fs::read(folder.join("flat.zip")).unwrap();
     let name = b"in/A_000.AT2";
     let at = damaged.windows(name.len()).position(|w| w == name).unwrap();
     damaged[at + name.len() + 40] ^= 0xff;
     std::fs::write(folder.join("damaged.zip"), damaged).unwrap();
-    let (status, out, error) = records(&folder, &["damaged.zip"]);
+    let (status, out, error) = run(&folder, "records damaged.zip");
     assert_eq!(status, 2, "{out}");
     assert!(error.contains("A_000.AT2"), "{error}");
     assert!(!error.contains("A_090.AT2") && !error.contains("unpacks"));
     let zeros = "0\n".repeat(1 << 20);
     pack("bomb.zip", &[("a.txt", AT2), ("b.txt", &zeros), ("c.txt", AT2)]);
-    let (status, _, error) = records(&folder, &["bomb.zip"]);
-    assert_eq!(status, 2);
+    let error = failure(&folder, "records bomb.zip");
     assert!(error.contains("b.txt: cannot be read: unpacks to more"));
 }

@@ -2,22 +2,13 @@
 //! what of the committed report can be held without a study.
 
 use std::path::PathBuf;
-use std::process::{Command, Output};
 
 use rocking_common::suites::StudySuite;
 use rocking_report::evidence::{Proof, charts};
 use rocking_report::{input, output};
 use serde_json::Value;
 
-fn study(folder: &PathBuf, args: &[&str]) -> Output {
-    std::fs::create_dir_all(folder).expect("folder");
-    Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .arg("study")
-        .args(args)
-        .current_dir(folder)
-        .output()
-        .expect("run")
-}
+use super::support;
 
 fn folder(name: &str) -> PathBuf {
     let own = format!("rocking-study-{name}-{}", std::process::id());
@@ -27,19 +18,12 @@ fn folder(name: &str) -> PathBuf {
 #[track_caller]
 fn refused(name: &str, args: &[&str], words: &[&str]) {
     let folder = folder(name);
-    let output = study(&folder, args);
-    let message = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{message}");
+    std::fs::create_dir_all(&folder).expect("folder");
+    let command = format!("study {}", args.join(" "));
+    let message = support::refused(&folder, &command);
     for word in words {
         assert!(message.contains(word), "{word:?} not in {message:?}");
     }
-    assert!(output.stdout.is_empty());
-    let left: Vec<_> = std::fs::read_dir(&folder)
-        .expect("folder")
-        .map(|entry| entry.expect("entry").file_name())
-        .filter(|file| file != "input")
-        .collect();
-    assert!(left.is_empty(), "left behind: {left:?}");
     std::fs::remove_dir_all(&folder).expect("clean");
 }
 
@@ -103,16 +87,8 @@ fn a_folder_that_no_study_wrote() {
                 .expect("folder");
             std::fs::write(path, "mine\n").expect("write");
         }
-        let output = study(&folder, &args);
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{files:?}");
         let told = format!("cannot write input: it holds {told}, which no");
-        assert!(message.contains(&told), "{message}");
-        for file in files {
-            let text = std::fs::read_to_string(input.join(file));
-            assert_eq!(text.expect("read"), "mine\n", "{file}");
-        }
-        std::fs::remove_dir_all(&folder).expect("clean");
+        refused("stranger", &args, &[&told]);
     }
 }
 

@@ -101,7 +101,7 @@ fn a_second_top_near_the_saddle_has_its_error() {
 #[test]
 fn a_scene_follows_from_its_address() {
     for stratum in Stratum::ALL {
-        for index in 0..8 {
+        for index in 0..2 {
             let (a, b) = (trial(stratum, index), trial(stratum, index));
             assert_eq!(a.unwrap(), b.unwrap());
         }

@@ -28,6 +28,15 @@ fn refusal(text: &str) -> String {
     read_text(text).expect_err("a refusal").to_string()
 }
 
+/// Every text is refused with a message that begins so.
+#[track_caller]
+fn refused_with<T: AsRef<str>>(cases: &[(T, &str)]) {
+    for (text, expected) in cases {
+        let found = refusal(text.as_ref());
+        assert!(found.starts_with(expected), "{found}");
+    }
+}
+
 const SEVEN: &str = "   .1000000E-02  -.2000000E-02   .3000000E-02   \
     .4000000E-02  -.5000000E-02\n   .6000000E-02   .7000000E-02\n";
 
@@ -261,7 +270,6 @@ fn resorce_reads_glued_numbers() {
             "test:7:15: \"-1.3000000E-4\": expected a number of 14",
         ),
         (text.replace(": 6", ": 7"), "test:8: 6 samples: expected 7"),
-        (text.replace("-1.9613300E+00", "-1.9613300E-00"), ""),
         (
             text.replace("-1.9613300E+00", "-1.8613300E+00"),
             "test:8: largest absolute sample 1.86133 m/s2: expected 1.96133",
@@ -273,14 +281,9 @@ fn resorce_reads_glued_numbers() {
         ),
         (text.replace(": 0.005", ": -0.005"), "test:3: \"Time Increment (s)"),
     ];
-    for (text, expected) in cases {
-        if expected.is_empty() {
-            assert!(read_text(&text).is_ok());
-            continue;
-        }
-        let found = refusal(&text);
-        assert!(found.starts_with(expected), "{found}");
-    }
+    refused_with(&cases);
+    let negative = text.replace("-1.9613300E+00", "-1.9613300E-00");
+    assert!(read_text(&negative).is_ok());
 }
 
 #[test]
@@ -389,7 +392,7 @@ fn no_bytes_make_a_reader_panic() {
     };
     // A long run of the same: ROCKING_ROUNDS=100000000.
     let rounds = std::env::var("ROCKING_ROUNDS").ok();
-    let rounds = rounds.map_or(40_000, |n| n.parse().unwrap());
+    let rounds = rounds.map_or(20_000, |n| n.parse().unwrap());
     for round in 0..rounds {
         let mut bytes = seeds[round % seeds.len()].clone().into_bytes();
         for _ in 0..=draw(4) {

@@ -253,9 +253,9 @@ impl Lognormal {
     /// shift: none where the shifts differ.
     ///
     /// The largest difference lies where the densities are equal. With z the
-    /// score in F, that in G is r z + d with r = beta_F/beta_G and d = (mu_F
-    /// - mu_G)/beta_G, and the densities are equal where z^2 - (r z + d)^2 =
-    /// -2 ln r.
+    /// score in F, r = `beta_F/beta_G` and d = `(mu_F - mu_G)/beta_G`, the
+    /// score in G is r z + d, and the densities are equal where
+    /// `z^2 - (r z + d)^2 = -2 ln r`.
     ///
     /// ```
     /// use rocking::statistics::Lognormal;

@@ -288,7 +288,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         refused_for(&place, arguments, &["flawed.json", words]);
     }
     let flawed = [
-        ("\"pass\"", "\"good\"", "pass, fail"),
+        ("\"pass\"", "\"good\"", "`pass`, `fail`"),
         ("\"values\": 1 ", "\"values\": 1, \"x\": 1 ", "unknown field `x`"),
         ("\"values\": 1 ", "\"values\": -1 ", "case free-rocking/one"),
         ("\"absolute\"", "\"abs\"", "exact, absolute, relative"),

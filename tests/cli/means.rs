@@ -42,7 +42,7 @@ fn prepared(name: &str) -> std::path::PathBuf {
 fn no_command_takes_threads_that_it_does_not_ask_for() {
     let place = prepared("threads");
     for command in [
-        "validate --family free-rocking",
+        "validate --family block-geometry",
         "suite export --out export",
         "records suite",
         "records suite --intensity",

@@ -122,7 +122,7 @@ fn limited(place: &Path, arguments: &str, kib: usize) -> (bool, String) {
 fn without_room_it_says_so_and_leaves_nothing_half_written() {
     let place = planned("sweep-room", 60);
     let all = "sweep plan --blocks blocks.csv --suite records --out plan \
-               --step-im 0.002 --tile-minutes 1e9";
+               --step-im 0.02 --tile-minutes 1e9";
     fs::remove_dir_all(place.join("plan")).unwrap();
     answer(&place, all);
     // The tile of capacities is larger than 8 KiB.

@@ -43,7 +43,7 @@ fn help_of_every_command() {
 
 /// The commands that a help lists: rows of two words or more under any
 /// heading but the last, which has the options.
-pub(super) fn subcommands(help: &str) -> Vec<String> {
+pub fn subcommands(help: &str) -> Vec<String> {
     let lists = help.split_once("\nOptions:\n").map_or("", |(own, _)| own);
     let lists = lists.split_once("\nUsage:").map_or("", |(_, own)| own);
     let rows = lists.lines().filter_map(|row| {

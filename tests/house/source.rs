@@ -9,7 +9,9 @@ pub fn tokens(source: &str) -> Vec<String> {
     let mut at = 0;
     while at < chars.len() {
         let rest = &chars[at..];
-        let starts = |text: &str| rest.starts_with(&to_chars(text));
+        let starts = |text: &str| {
+            text.chars().enumerate().all(|(k, c)| rest.get(k) == Some(&c))
+        };
         if starts("//") {
             at += length_until(rest, "\n", 2);
         } else if starts("/*") {

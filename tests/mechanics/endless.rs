@@ -80,7 +80,7 @@ fn endures(kind: PulseKind, model: Model, share: f64) {
     let told = format!("{kind:?} {model:?} {share}");
     let pulse = Pulse::try_new(kind).unwrap();
     let of = scene(model, 0.92, Excitation::Pulse(&pulse));
-    let few = WorkLimit { impacts: 100_000, steps: 100_000 };
+    let few = WorkLimit { impacts: 20_000, steps: 20_000 };
     let observe = Observe { work_limit: few, ..Observe::default() };
     let cycles = match kind {
         PulseKind::MavroeidisPapageorgiou { gamma, .. } => gamma,
@@ -149,7 +149,7 @@ fn a_block_that_never_rests_is_refused_within_a_record_and_after() {
         let block = Block::try_new(0.2, 2.0).unwrap();
         let pga = uplift_threshold(&block, model) * 1.000_001;
         let within = Excitation::Record(ScaledRecord::to_pga(&record, pga));
-        let few = WorkLimit { impacts: 10_000, ..WorkLimit::default() };
+        let few = WorkLimit { impacts: 1000, ..WorkLimit::default() };
         let plain = Observe { work_limit: few, ..Observe::default() };
         let logged = Observe { events: true, ..plain };
         for observe in [plain, logged] {
@@ -205,7 +205,7 @@ fn a_level_that_is_refused_is_named_and_the_same_in_lanes() {
             model,
             grid: Grid::Im { step: 1e-6 },
             highest_im: 1.000_001_5,
-            work_limit: WorkLimit { impacts: 20_000, steps: 1 << 40 },
+            work_limit: WorkLimit { impacts: 2000, steps: 1 << 40 },
             ..Analysis::paper(block, eta)
         };
         let alone = curve(&record, &analysis);
@@ -214,7 +214,7 @@ fn a_level_that_is_refused_is_named_and_the_same_in_lanes() {
         };
         assert_eq!((name.as_str(), *im), ("push", 1.000_001));
         let text = format!("{source}");
-        assert!(text.starts_with("more than 20000 impacts by "), "{text}");
+        assert!(text.starts_with("more than 2000 impacts by "), "{text}");
         let many = vec![record.clone(); 20];
         let together = curves(&many, &[analysis], &Batch::default());
         assert_eq!(together.unwrap_err(), alone.unwrap_err());

@@ -5,10 +5,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
-use serde_json::Value;
-
-use super::outputs::rocking;
-use super::{AT2, folder};
+use super::{AT2, answer, failure, folder, json, run};
 
 const IDA: &str = "ida --alpha 0.1 --p 3 --step-g 0.05 --out ida.csv";
 
@@ -54,11 +51,9 @@ fn what_is_set_aside_is_in_every_result() {
     let row = "set aside\n  files                         5\n";
     for suite in ["mix", "mix.zip"] {
         let ida = format!("{IDA} --suite {suite}");
-        let (status, out, error) = rocking(&folder, &ida, "");
-        assert_eq!((status, error.as_str()), (0, ""), "{suite}");
+        let out = answer(&folder, &ida);
         assert!(out.contains(row), "{out}");
-        let (_, out, _) = rocking(&folder, &format!("{ida} --json"), "");
-        let found: Value = serde_json::from_str(&out).unwrap();
+        let found = json(&folder, &format!("{ida} --json"));
         assert_eq!(found["set_aside"]["files"], 5);
         let codes = &found["set_aside"]["codes"];
         let code = |k: usize| (&codes[k]["code"], &codes[k]["files"]);
@@ -74,17 +69,13 @@ fn what_is_set_aside_is_in_every_result() {
             ),
             (format!("suite export --suite {suite} --out out"), row.into()),
         ] {
-            let (status, out, error) = rocking(&folder, &command, "");
-            assert_eq!((status, error.as_str()), (0, ""), "{command}");
+            let out = answer(&folder, &command);
             assert!(out.contains(&told), "{command}: {out}");
             let _ = fs::remove_dir_all(folder.join("out"));
             let _ = fs::remove_dir_all(folder.join("plan"));
         }
         let cav = format!("capacities --ida ida.csv --suite {suite} --im cav");
-        let (status, out, error) =
-            rocking(&folder, &format!("{cav} --json"), "");
-        assert_eq!((status, error.as_str()), (0, ""));
-        let own: Value = serde_json::from_str(&out).unwrap();
+        let own = json(&folder, &cav);
         assert_eq!(own["set_aside"], found["set_aside"]);
         for command in [
             ida,
@@ -97,7 +88,7 @@ fn what_is_set_aside_is_in_every_result() {
             format!("study --ordinary {suite} --pulse {suite} --out out"),
         ] {
             let strict = format!("{command} --strict");
-            let (status, _, error) = rocking(&folder, &strict, "");
+            let (status, _, error) = run(&folder, &strict);
             let told = format!("rocking: --strict: set aside: {WORDS}");
             assert_eq!(status, 2, "{strict}");
             assert!(error.starts_with(&told), "{strict}: {error}");
@@ -108,7 +99,7 @@ fn what_is_set_aside_is_in_every_result() {
     let index = "file\nA_000.AT2\nA_090.AT2\n";
     fs::write(folder.join("mix/index.csv"), index).unwrap();
     let (status, out, _) =
-        rocking(&folder, &format!("{IDA} --suite mix/index.csv"), "");
+        run(&folder, &format!("{IDA} --suite mix/index.csv"));
     assert_eq!(status, 0);
     assert!(out.contains("set aside\n  files                         0\n"));
 }
@@ -127,13 +118,11 @@ fn links_to_nothing_and_folders_are_told() {
     }
     std::os::unix::fs::symlink("nowhere", folder.join("lp/d.AT2")).unwrap();
     let ida = format!("{IDA} --suite lp");
-    let (status, out, _) = rocking(&folder, &ida, "");
-    assert_eq!(status, 0);
+    let out = answer(&folder, &ida);
     assert!(out.contains("    link      1  d.AT2\n"), "{out}");
-    let (_, out, _) = rocking(&folder, "records lp", "");
+    let (_, out, _) = run(&folder, "records lp");
     assert!(out.contains("lp/d.AT2: a link to nothing: expected"), "{out}");
-    let (status, _, error) = rocking(&folder, "records dup", "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, "records dup");
     assert_eq!(
         error,
         "rocking: dup: no readable record in it: expected at least one; set \
@@ -164,24 +153,21 @@ fn a_name_that_comes_twice_in_a_zip_is_told() {
     }
     fs::write(folder.join("two.zip"), &bytes).unwrap();
     let told = "1 under a name that comes again (first: A_0.csv)";
-    let (status, out, error) = rocking(&folder, "records two.zip", "");
-    assert_eq!((status, error.as_str()), (0, ""));
+    let out = answer(&folder, "records two.zip");
     assert!(out.contains("doubled"), "{out}");
     // The last one is read, as by what unpacks it.
-    let (_, out, _) = rocking(&folder, "records two.zip --json", "");
-    let found: Value = serde_json::from_str(&out).unwrap();
+    let found = json(&folder, "records two.zip --json");
     let pga = |k: usize| found["records"][k]["pga_g"].as_f64().unwrap();
     assert_eq!([pga(0), pga(1)], [0.2, 0.4]);
     let ida = format!("{IDA} --suite two.zip --strict");
-    let (status, _, error) = rocking(&folder, &ida, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, &ida);
     assert!(error.contains(told), "{error}");
 }
 
 /// A folder of one record of this name, and what the program says of it.
 fn named(name: &str, command: &str) -> (i32, String, String) {
     let folder = folder("aside-names", &[(name, AT2.as_bytes())]);
-    rocking(&folder, command, "")
+    run(&folder, command)
 }
 
 #[cfg(unix)]
@@ -210,12 +196,10 @@ fn a_name_that_breaks_a_line_or_computes_is_refused() {
         "aside-escape",
         &[("a.AT2", AT2.as_bytes()), ("\u{1b}[31m\n.txt", b"no\n")],
     );
-    let (status, out, _) = rocking(&folder, "records .", "");
+    let (status, out, _) = run(&folder, "records .");
     assert!(status == 0 && !out.contains('\u{1b}'), "{out:?}");
     assert!(out.contains("./\\u001b[31m\\u000a.txt"), "{out}");
-    let (status, out, _) = rocking(&folder, "records . --json", "");
-    assert_eq!(status, 0);
-    let found: Value = serde_json::from_str(&out).unwrap();
+    let found = json(&folder, "records . --json");
     assert_eq!(found["set_aside"][0]["file"], "./\u{1b}[31m\n.txt");
 }
 
@@ -223,7 +207,7 @@ fn a_name_that_breaks_a_line_or_computes_is_refused() {
 #[test]
 fn a_record_of_a_table_has_a_name_that_a_sample_can_hold() {
     let folder = folder("aside-table", &[("a.AT2", AT2.as_bytes())]);
-    let run = |command: &str| rocking(&folder, command, "");
+    let run = |command: &str| super::run(&folder, command);
     assert_eq!(run(&format!("{IDA} --suite .")).0, 0);
     let capacities = "capacities --ida ida.csv --levels 1 --at 1 --out c.txt";
     assert_eq!(run(capacities).0, 0);

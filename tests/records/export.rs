@@ -1,29 +1,14 @@
 //! Suites written as files, and read back.
 
-use std::path::Path;
-use std::process::Command;
-
 use rocking::record::{Accelerogram, ReadOptions};
 use rocking_common::suites::inputs;
 
-use super::folder;
-
-fn rocking(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let out = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let error = String::from_utf8(out.stderr).unwrap();
-    (out.status.code().unwrap(), error)
-}
+use super::{answer, folder, refused};
 
 #[test]
 fn exported_suites_are_read_back_bit_for_bit() {
     let folder = folder("export", &[]);
-    let (status, error) =
-        rocking(&folder, &["suite", "export", "--out", "out"]);
-    assert_eq!((status, error.as_str()), (0, ""));
+    answer(&folder, "suite export --out out");
     let suites = [
         ("ordinary", rocking_synthesis::ordinary().unwrap()),
         ("pulse", rocking_synthesis::pulse().unwrap()),
@@ -48,14 +33,11 @@ fn exported_suites_are_read_back_bit_for_bit() {
         }
     }
     // Once more into the same folder, which is no longer empty.
-    let (status, error) =
-        rocking(&folder, &["suite", "export", "--out", "out"]);
-    assert_eq!(status, 2);
+    let again = "suite export --out out --suite out/pulse.csv";
+    let error = refused(&folder, again);
     assert!(error.contains("cannot write out"), "{error}");
     // One of one's own, and a file changed behind the index's back.
-    let mine =
-        ["suite", "export", "--out", "mine", "--suite", "out/pulse.csv"];
-    assert_eq!(rocking(&folder, &mine), (0, String::new()));
+    answer(&folder, "suite export --out mine --suite out/pulse.csv");
     let same = |a: &str, b: &str| {
         std::fs::read(folder.join(a)).unwrap()
             == std::fs::read(folder.join(b)).unwrap()
@@ -68,21 +50,10 @@ fn exported_suites_are_read_back_bit_for_bit() {
     let error = inputs::read_suite(&index, ReadOptions::default());
     let error = error.unwrap_err().to_string();
     assert!(error.contains("has sha256"), "{error}");
-    let processed = [
-        "suite",
-        "export",
-        "--out",
-        "x",
-        "--suite",
-        "out/pulse.csv",
-        "--demean",
-    ];
-    assert_eq!(rocking(&folder, &processed), (0, String::new()));
+    answer(&folder, "suite export --out x --suite out/pulse.csv --demean");
     let text = std::fs::read_to_string(folder.join("x/pulse.csv")).unwrap();
     assert!(text.contains(",processing,") && text.contains("mean removed"));
-    let (status, error) =
-        rocking(&folder, &["suite", "export", "--out", "y", "--demean"]);
-    assert_eq!(status, 2);
+    let error = refused(&folder, "suite export --out y --demean");
     assert!(error.contains("--demean is not used without --suite"));
     let left: Vec<_> = std::fs::read_dir(&folder)
         .unwrap()

@@ -5,7 +5,7 @@ use rocking::intensity::velocity_pulse::{candidates, pulse};
 use rocking::record::Suite;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::{folder, options, real, records};
+use super::{answer, folder, json, options, real, refused};
 
 /// The pulse periods of the index are those of Shahi and Baker's own list,
 /// for motions turned and processed by their database.
@@ -82,17 +82,8 @@ fn pair(name: &str) -> std::path::PathBuf {
 #[test]
 fn measures_and_pulses_of_a_pair_are_listed() {
     let folder = pair("measures");
-    let arguments = [
-        "--json",
-        "--intensity",
-        "--periods",
-        "0.5,1",
-        "--pulses",
-        "suite.csv",
-    ];
-    let (status, out, error) = records(&folder, &arguments);
-    assert_eq!(status, 0, "{error}");
-    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let listed = "records suite.csv --intensity --periods 0.5,1 --pulses";
+    let json = json(&folder, listed);
     let first = &json["intensity"][0];
     assert!((first["pga_g"].as_f64().unwrap() - 0.2).abs() < 1e-6);
     assert_eq!(json["periods_s"][1], 1.0);
@@ -108,20 +99,10 @@ fn measures_and_pulses_of_a_pair_are_listed() {
     let pulse = pulses.iter().find(|row| row["pulse"] == true).unwrap();
     let period = pulse["period_s"].as_f64().unwrap();
     assert!((period - 2.0).abs() < 0.4, "{period}");
-    let (status, out, error) = records(
+    let out = answer(
         &folder,
-        &[
-            "--intensity",
-            "--pulses",
-            "--dt",
-            "0.01",
-            "--units",
-            "g",
-            "one.txt",
-            "other.txt",
-        ],
+        "records --intensity --pulses --dt 0.01 --units g one.txt other.txt",
     );
-    assert_eq!(status, 0, "{error}");
     for word in ["arias intensity (m/s)", "RotD50", "geometric mean", "pulses"]
     {
         assert!(out.contains(word), "{word} not in {out}");
@@ -133,33 +114,27 @@ fn a_displacement_of_a_drifting_baseline_is_remarked() {
     // A hundredth of g too much: 0.5 a t^2 is 19.6 m after 20 s.
     let text = "0.01\n".repeat(2000);
     let folder = folder("drift", &[("raw.txt", text.as_bytes())]);
-    let listed = |own: &[&str]| {
-        let rest = ["--intensity", "--dt", "0.01", "--units", "g", "raw.txt"];
-        let (status, out, error) = records(&folder, &[own, &rest].concat());
-        assert_eq!(status, 0, "{error}");
-        out
-    };
-    let words = "PGD 19.6 m: no baseline correction; see --high-pass";
-    assert!(listed(&[]).contains(words), "{}", listed(&[]));
-    let json: serde_json::Value =
-        serde_json::from_str(&listed(&["--json"])).unwrap();
+    let words = "records raw.txt --intensity --dt 0.01 --units g";
+    let listed = |own: &str| answer(&folder, &format!("{words} {own}"));
+    let drift = "PGD 19.6 m: no baseline correction; see --high-pass";
+    assert!(listed("").contains(drift), "{}", listed(""));
+    let json = json(&folder, words);
     let remarks = json["remarks"].as_array().unwrap();
     assert!(remarks.iter().any(|r| r["code"] == "drift"), "{remarks:?}");
-    assert!(!listed(&["--high-pass", "0.5"]).contains("drift"));
+    assert!(!listed("--high-pass 0.5").contains("drift"));
 }
 
 #[test]
 fn what_cannot_be_asked_for_is_refused() {
     let folder = pair("refused-measures");
-    let refused = |own: &[&str], word: &str| {
-        let arguments = [own, &["--dt", "0.01", "--units", "g", "one.txt"]];
-        let (status, out, error) = records(&folder, &arguments.concat());
-        assert_eq!(status, 2, "{own:?}");
+    for (own, word) in [
+        ("--pulses", "two components"),
+        ("--periods 1", "--intensity"),
+        ("--intensity --periods -1", "period -1"),
+        ("--intensity --periods 0", "period 0"),
+    ] {
+        let words = format!("records one.txt --dt 0.01 --units g {own}");
+        let error = refused(&folder, &words);
         assert!(error.contains(word), "{error}");
-        assert!(out.is_empty());
-    };
-    refused(&["--pulses"], "two components");
-    refused(&["--periods", "1"], "--intensity");
-    refused(&["--intensity", "--periods", "-1"], "period -1");
-    refused(&["--intensity", "--periods", "0"], "period 0");
+    }
 }

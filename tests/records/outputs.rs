@@ -3,9 +3,9 @@
 
 use std::io::Write as _;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 
-use super::{AT2, folder};
+use super::{AT2, answer, failure, folder, json, outcome, refused, support};
 
 /// Exit status, standard output and standard error of the program, with
 /// `input` as its standard input.
@@ -14,9 +14,7 @@ pub fn rocking(
     arguments: &str,
     input: &str,
 ) -> (i32, String, String) {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .current_dir(folder)
-        .args(arguments.split_whitespace())
+    let mut child = support::rocking(folder, arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -24,9 +22,7 @@ pub fn rocking(
         .unwrap();
     // A program that refuses its arguments closes its input.
     let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-    let done = child.wait_with_output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (done.status.code().unwrap(), text(done.stdout), text(done.stderr))
+    outcome(child.wait_with_output().unwrap())
 }
 
 /// A wave of `cycles` with an offset (both in g), as two columns.
@@ -48,8 +44,7 @@ fn remarks_travel_to_every_result() {
         [("a_E.csv", clean.as_bytes()), ("b_E.csv", offset.as_bytes())];
     let folder = folder("remarks", &files);
     let ida = format!("{IDA} --suite . --out ida.out");
-    let (status, out, error) = rocking(&folder, &ida, "");
-    assert_eq!((status, error.as_str()), (0, ""));
+    let out = answer(&folder, &ida);
     let told = "mean is 25.0 % of PGA: instrument offset? PGA is \
                 4.000e-1 g, and 3.000e-1 g without the mean (--demean)";
     let row = "  records                       1\n  of                            2\n";
@@ -57,8 +52,7 @@ fn remarks_travel_to_every_result() {
     let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
     let of_b = table.lines().find(|line| line.starts_with("b_E,")).unwrap();
     assert!(of_b.contains(",end-velocity offset,0.92,"), "{of_b}");
-    let (_, out, _) = rocking(&folder, &format!("{ida} --json"), "");
-    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let json = json(&folder, &format!("{ida} --json"));
     assert_eq!(json["remarks"]["codes"][0]["code"], "offset");
     assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
     let respond = "respond --alpha 0.1 --p 3 --record b_E.csv";
@@ -68,8 +62,7 @@ fn remarks_travel_to_every_result() {
     std::fs::remove_file(folder.join("ida.out")).unwrap();
     for command in [&*ida, respond, "records b_E.csv"] {
         let strict = format!("{command} --strict");
-        let (status, _, error) = rocking(&folder, &strict, "");
-        assert_eq!(status, 2, "{command}");
+        let error = failure(&folder, &strict);
         assert!(error.contains("--strict: remarks on 1 of "), "{error}");
     }
     let strict = format!("{ida} --strict --demean --high-pass 0.1");
@@ -77,8 +70,7 @@ fn remarks_travel_to_every_result() {
     // A folder's file whose direction nothing tells; an index chooses it.
     let offset = folder.join("b_E.csv");
     std::fs::rename(offset, folder.join("b.csv")).unwrap();
-    let (status, _, error) = rocking(&folder, &strict, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, &strict);
     let words = "1 of 2 records (direction 1); b: direction: neither the";
     assert!(error.contains(words), "{error}");
     std::fs::write(folder.join("index.csv"), "file\na_E.csv\nb.csv").unwrap();
@@ -103,8 +95,7 @@ fn both_components_of_one_file_are_kept() {
         text.iter().enumerate().map(|(i, d)| channel(i + 1, d)).collect();
     let folder = folder("channels", &[("x.v2", text.as_bytes())]);
     let both = format!("{IDA} --suite . --component both --out ida.out");
-    let (status, out, error) = rocking(&folder, &both, "");
-    assert_eq!((status, error.as_str()), (0, ""));
+    let out = answer(&folder, &both);
     assert!(out.contains("\nrecords                         2\n"), "{out}");
 }
 
@@ -122,8 +113,7 @@ fn an_input_is_never_an_output() {
         "respond --alpha 0.1 --p 3 --record x.AT2 --history x.AT2".to_owned(),
     ];
     for command in commands {
-        let (status, out, error) = rocking(&folder, &command, "");
-        assert_eq!((status, out.as_str()), (2, ""), "{command}");
+        let error = refused(&folder, &command);
         assert!(error.contains("is read: expected another"), "{error}");
     }
     for (file, bytes) in files {
@@ -131,12 +121,10 @@ fn an_input_is_never_an_output() {
     }
     // Told before the work, which would take an hour.
     let command = format!("{IDA} --suite x.AT2 --step-im 1e-5 --out no/x");
-    let (status, _, error) = rocking(&folder, &command, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, &command);
     assert!(error.contains("cannot write no/x"), "{error}");
     let command = format!("{IDA} --suite x.AT2 --step-im 1e-9 --out x");
-    let (status, _, error) = rocking(&folder, &command, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, &command);
     assert!(error.contains("1.0e11 levels up to the highest IM"), "{error}");
 }
 
@@ -161,8 +149,7 @@ fn two_outputs_never_go_to_one_file() {
             format!("{ida} --out {one} --forces {other}"),
             format!("{respond} --history {one} --plot {other}"),
         ] {
-            let (status, out, error) = rocking(&folder, &command, "");
-            assert_eq!((status, out.as_str()), (2, ""), "{command}");
+            let error = refused(&folder, &command);
             let told = format!(
                 "cannot write {other}: another output goes there: expected \
                  a file of its own"
@@ -223,19 +210,16 @@ fn tables_and_samples_know_what_they_are() {
     write("one.txt", &sample);
     write("two.txt", &(lines.join("\n") + "\n"));
     let compare = "compare --a one.txt --b two.txt";
-    let (status, out, _) = rocking(&folder, compare, "");
-    assert_eq!(status, 0);
+    let out = answer(&folder, compare);
     assert!(out.starts_with("paired by name                  yes\n"), "{out}");
     let equal = "sign test\n  above                         0\n  \
                  below                         0\n";
     assert!(out.contains(equal), "{out}");
     write("two.txt", &sample.replace("# a\n", "# z\n"));
-    let (status, _, error) = rocking(&folder, compare, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, compare);
     assert!(error.contains("record a is not in the other file"), "{error}");
     write("two.txt", &sample.replace("EDP 1,", "EDP 0.5,"));
-    let (status, _, error) = rocking(&folder, compare, "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, compare);
     assert!(error.contains("as the other file"), "{error}");
 }
 
@@ -246,19 +230,15 @@ fn one_line_a_cause() {
     let files: Vec<(&str, &[u8])> =
         names.iter().map(|n| (n.as_str(), &b"0.1\n0.2\n"[..])).collect();
     let folder = folder("causes", &files);
-    let (status, _, error) = rocking(&folder, "records .", "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, "records .");
     assert_eq!(error.lines().count(), 1, "{error}");
     assert!(error.contains("--dt") && error.contains("and 11 more files"));
     let (status, ..) = rocking(&folder, "records . --dt 0.01 --units g", "");
     assert_eq!(status, 0);
     for device in ["/dev/zero", "."] {
-        let (status, _, error) =
-            rocking(&folder, &format!("capacities --ida {device}"), "");
-        assert_eq!(status, 2);
+        let error = failure(&folder, &format!("capacities --ida {device}"));
         assert!(error.contains("expected one, or - for"), "{error}");
     }
-    let (status, _, error) = rocking(&folder, "records /dev/zero", "");
-    assert_eq!(status, 2);
+    let error = failure(&folder, "records /dev/zero");
     assert!(error.contains("a device or pipe: expected a file"), "{error}");
 }

@@ -2,23 +2,12 @@
 
 use super::*;
 
-/// Status and standard error of a command in `folder`.
-fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
-    let out = Command::new(env!("CARGO_BIN_EXE_rocking"))
-        .args(args)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    (out.status.code(), String::from_utf8(out.stderr).unwrap())
-}
-
-/// Arguments of an analysis of `suite` into `out`.
-fn ida<'a>(suite: &'a str, out: &'a str) -> Vec<&'a str> {
-    let mut args = "ida --alpha 0.1 --p 3 --step-im 1 --dt 0.01 --units g"
-        .split(' ')
-        .collect::<Vec<_>>();
-    args.extend(["--suite", suite, "--out", out]);
-    args
+/// An analysis of `suite` into `out`.
+fn ida(suite: &str, out: &str) -> String {
+    format!(
+        "ida --alpha 0.1 --p 3 --step-im 1 --dt 0.01 --units g --suite \
+         {suite} --out {out}"
+    )
 }
 
 #[test]
@@ -29,20 +18,17 @@ fn messages_name_the_path_that_was_given() {
         ("good.txt", b"0.1\n-0.2\n0.1\n"),
     ];
     let folder = folder("paths", &files);
-    let (status, error) = run(&folder, &ida("bad.txt", "x.csv"));
-    assert_eq!(status, Some(2));
+    let error = failure(&folder, &ida("bad.txt", "x.csv"));
     assert_eq!(error, "rocking: bad.txt:2: \"0.2x\": expected a number\n");
-    let (status, error) = run(&folder, &ida("hall_UP.txt", "x.csv"));
-    assert_eq!(status, Some(2));
+    let error = failure(&folder, &ida("hall_UP.txt", "x.csv"));
     assert!(error.starts_with("rocking: hall_UP.txt: no readable"), "{error}");
-    let (status, error) = run(&folder, &ida("good.txt", "none/x.csv"));
-    assert_eq!(status, Some(2));
+    let error = failure(&folder, &ida("good.txt", "none/x.csv"));
     assert_eq!(
         error,
         "rocking: cannot write none/x.csv: there is no folder none\n"
     );
-    let (status, error) = run(&folder, &ida("good.txt", "x.csv"));
-    assert_eq!(status, Some(0), "{error}");
+    let (status, _, error) = run(&folder, &ida("good.txt", "x.csv"));
+    assert_eq!(status, 0, "{error}");
 }
 
 #[cfg(unix)]
@@ -65,12 +51,9 @@ fn a_folder_may_hold_names_that_are_no_utf_8() {
 fn an_open_last_line_is_told_with_the_results() {
     let open: (&str, &[u8]) = ("hall_NS.txt", b"0.1\n-0.25\n0.125\n0\n0.5");
     let folder = folder("open", &[open]);
-    let mut args = ida("hall_NS.txt", "x.csv");
-    let (status, error) = run(&folder, &args);
-    assert_eq!((status, error.as_str()), (Some(0), ""));
-    args.push("--strict");
-    let (status, error) = run(&folder, &args);
-    assert_eq!(status, Some(2));
+    let ida = ida("hall_NS.txt", "x.csv");
+    answer(&folder, &ida);
+    let error = failure(&folder, &format!("{ida} --strict"));
     assert!(error.contains("last-line 1"), "{error}");
 }
 
@@ -78,23 +61,8 @@ fn an_open_last_line_is_told_with_the_results() {
 #[test]
 fn a_vertical_that_is_named_is_told() {
     let folder = folder("vertical", &[("hall_UD.txt", b"0.1\n-0.2\n0.1\n")]);
-    let (status, error) = run(
-        &folder,
-        &[
-            "respond",
-            "--alpha",
-            "0.1",
-            "--p",
-            "3",
-            "--dt",
-            "0.01",
-            "--units",
-            "g",
-            "--record",
-            "hall_UD.txt",
-            "--strict",
-        ],
-    );
-    assert_eq!(status, Some(2));
+    let respond = "respond --alpha 0.1 --p 3 --dt 0.01 --units g --record \
+                   hall_UD.txt --strict";
+    let error = failure(&folder, respond);
     assert!(error.contains("vertical 1"), "{error}");
 }

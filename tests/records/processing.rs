@@ -6,7 +6,7 @@ use rocking::record::{Accelerogram, Format, Processing, ReadOptions};
 use rocking_common::suites::inputs;
 use sha2::{Digest as _, Sha256};
 
-use super::{folder, records};
+use super::{answer, failure, folder, json};
 
 fn fixture(name: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures").join(name)
@@ -93,21 +93,15 @@ fn a_drawing_and_the_words_go_with_the_processing() {
     let zip = fixture("records/ridgecrest.zip");
     let zip = zip.to_str().unwrap();
     let folder = folder("processing", &[]);
-    let (status, out, error) =
-        records(&folder, &[zip, "--demean", "--high-pass", "0.1"]);
-    assert_eq!((status, error.as_str()), (0, ""));
+    let out =
+        answer(&folder, &format!("records {zip} --demean --high-pass 0.1"));
     assert!(out.contains(" mean removed; Butterworth high-pass"));
-    let (status, out, _) =
-        records(&folder, &[zip, "--json", "--high-pass", "0.1"]);
-    assert_eq!(status, 0);
-    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let json = json(&folder, &format!("records {zip} --json --high-pass 0.1"));
     let words = json["processing"].as_str().unwrap();
     assert!(words.contains("60 s of zeros"), "{words}");
-    let (status, _, error) = records(&folder, &[zip, "--plot", "x.svg"]);
-    assert_eq!(status, 2);
+    let error = failure(&folder, &format!("records {zip} --plot x.svg"));
     assert!(error.contains("--plot: 6 records: expected one"), "{error}");
-    let (status, _, error) = records(&folder, &[zip, "--high-pass", "-1"]);
-    assert_eq!(status, 2);
+    let error = failure(&folder, &format!("records {zip} --high-pass -1"));
     assert!(error.contains("corner -1 Hz: expected a positive"), "{error}");
     let wave: String = (0..3000)
         .map(|i| 0.01 * f64::from(i))
@@ -115,9 +109,7 @@ fn a_drawing_and_the_words_go_with_the_processing() {
         .collect();
     let wave = format!("t_s,a_g\n{wave}");
     std::fs::write(folder.join("wave.csv"), wave).unwrap();
-    let (status, _, error) =
-        records(&folder, &["wave.csv", "--plot", "wave.svg"]);
-    assert_eq!((status, error.as_str()), (0, ""));
+    answer(&folder, "records wave.csv --plot wave.svg");
     let svg = std::fs::read_to_string(folder.join("wave.svg")).unwrap();
     assert!(svg.contains("Response spectrum") && svg.len() < 150_000);
 }

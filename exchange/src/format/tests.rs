@@ -184,8 +184,10 @@ fn each_reader_has_its_own_unit_of_velocity() {
     };
     let (pelicun, pact) = (at(Format::Pelicun), at(Format::Pact));
     let metres = crate::table::number(median);
-    assert!(pelicun.contains(&format!(",mps,0,1,lognormal,{metres},")));
-    assert!(pact.contains(&format!(",PGV,m/s,yes,{metres},")));
+    let law = format!("lognormal,{metres},0.713,");
+    assert!(pelicun.contains(&format!(",mps,0,1,{law}")), "{pelicun}");
+    let law_and_end = format!(",PGV,m/s,yes,{metres},0.713\n");
+    assert!(pact.contains(&law_and_end), "{pact}");
 }
 
 #[test]

@@ -1,27 +1,5 @@
 use super::*;
 
-const NUMPY: &str = include_str!("../../../fixtures/oracles/quantiles.csv");
-/// The data of `fixtures/oracles/quantiles.py`.
-const DATA: [f64; 11] =
-    [0.3, 1.1, 1.7, 2.0, 2.0, 3.9, 5.2, 8.8, 13.0, 40.0, 41.5];
-
-#[test]
-fn all_nine_types_agree_with_numpy() {
-    let mut count = 0;
-    for line in NUMPY.lines().skip(1) {
-        let f: Vec<&str> = line.split(',').collect();
-        let n: usize = f[0].parse().unwrap();
-        let quantile_type = QuantileType::try_new(f[1].parse().unwrap());
-        let sample = Sample::try_new(&DATA[..n]).unwrap();
-        let p = f[2].parse().unwrap();
-        let ours = quantile_type.unwrap().of(&sample, p).unwrap();
-        let theirs: f64 = f[3].parse().unwrap();
-        assert!((ours - theirs).abs() <= 1e-13 * theirs, "{line}: {ours}");
-        count += 1;
-    }
-    assert_eq!(count, 4 * 9 * 12);
-}
-
 #[test]
 fn infinities_count_only_with_positive_weight() {
     let inf = f64::INFINITY;

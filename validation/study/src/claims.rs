@@ -269,7 +269,7 @@ mod tests {
         let named: BTreeSet<Measure> =
             declared().iter().filter_map(|claim| claim.measure).collect();
         for measure in Measure::ALL {
-            assert!(named.contains(&measure), "{measure:?}: no claim");
+            assert!(named.contains(measure), "{measure:?}: no claim");
         }
         assert_eq!(named.len(), Measure::ALL.len());
     }

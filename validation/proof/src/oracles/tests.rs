@@ -1,6 +1,6 @@
 //! The oracles against references of 40 digits.
 
-use rocking::excitation::PulseKind;
+use rocking::excitation::{PulseName as N, PulseParameter as P};
 use serde_json::Value;
 
 use super::{free_rocking, linear, overturning, rectangular, square};
@@ -63,44 +63,31 @@ fn validates_pulses_in_the_linear_equation() {
     ));
     for case in list(&all["cases"]) {
         let get = |key: &str| number(&case[key]);
-        let amplitude = case["A"].as_str().map_or(0.0, |_| get("A"));
-        let omega_rad_s = || number(&case["Omega"]);
-        let duration_s = || number(&case["tau_d"]);
-        let (period_s, cycles) = (|| number(&case["tau_p"]), 4.0);
-        let pulse = match case["pulse"].as_str().expect("a name") {
-            "one_sine" => {
-                PulseKind::OneSine { amplitude, omega_rad_s: omega_rad_s() }
-            }
-            "half_sine" => {
-                PulseKind::HalfSine { amplitude, omega_rad_s: omega_rad_s() }
-            }
-            "one_cosine" => {
-                PulseKind::OneCosine { amplitude, omega_rad_s: omega_rad_s() }
-            }
-            "rectangular" => {
-                PulseKind::Rectangle { amplitude, duration_s: duration_s() }
-            }
-            "triangular" => {
-                PulseKind::Triangle { amplitude, duration_s: duration_s() }
-            }
-            "ricker_sym" => PulseKind::RickerSymmetric {
-                amplitude,
-                period_s: period_s(),
-                cycles,
-            },
-            "ricker_anti" => PulseKind::RickerAntisymmetric {
-                amplitude,
-                period_s: period_s(),
-                cycles,
-            },
-            "mavroeidis" => PulseKind::MavroeidisPapageorgiou {
-                velocity: get("A_v"),
-                frequency_hz: get("f_p"),
-                gamma: get("gamma"),
-                phase_rad: get("nu"),
-            },
+        let name = match case["pulse"].as_str().expect("a name") {
+            "one_sine" => N::OneSine,
+            "half_sine" => N::HalfSine,
+            "one_cosine" => N::OneCosine,
+            "rectangular" => N::Rectangle,
+            "triangular" => N::Triangle,
+            "ricker_sym" => N::RickerSymmetric,
+            "ricker_anti" => N::RickerAntisymmetric,
+            "mavroeidis" => N::MavroeidisPapageorgiou,
             other => panic!("pulse {other}"),
         };
+        let pulse = name.kind(|parameter| -> Result<f64, ()> {
+            Ok(match parameter {
+                P::Amplitude => get("A"),
+                P::Omega => get("Omega"),
+                P::Duration => get("tau_d"),
+                P::Period => get("tau_p"),
+                P::Cycles => 4.0,
+                P::Velocity => get("A_v"),
+                P::Frequency => get("f_p"),
+                P::Gamma => get("gamma"),
+                P::Phase => get("nu"),
+            })
+        });
+        let pulse = pulse.expect("a pulse");
         let found = linear::respond(pulse, get("eta"), 6);
         let expected = &case["expected"];
         let uplift = found.uplift.expect("uplift");

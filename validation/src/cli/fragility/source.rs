@@ -131,7 +131,8 @@ enum Values {
 struct Level {
     /// The file, or what stands for it.
     place: String,
-    im: IntensityMeasure,
+    /// The measure, or why there is none.
+    im: Result<IntensityMeasure, String>,
     setting: SampleSetting,
     values: Values,
     origin: String,
@@ -198,19 +199,17 @@ impl SourceArgs {
         let place = path.display().to_string();
         let setting = file.setting();
         let n = file.values().len();
-        let Some(im) = file.im(self.im.as_ref())? else {
-            return Err(Failure::input(match file.of() {
-                Some(of) => format!(
-                    "{place}: a sample of {of}: expected an intensity measure"
-                ),
-                None => format!(
-                    "{place}: it does not say its measure: expected --im"
-                ),
-            }));
-        };
-        let origin = match file.of() {
-            Some(of) => format!("{n} capacities, {of}"),
-            None => unstated_origin(n, &im),
+        let im = file.im(self.im.as_ref())?.ok_or_else(|| match file.of() {
+            Some(of) => format!(
+                "{place}: a sample of {of}: expected an intensity measure"
+            ),
+            None => {
+                format!("{place}: it does not say its measure: expected --im")
+            }
+        });
+        let origin = match (file.of(), &im) {
+            (None, Ok(im)) => unstated_origin(n, im),
+            (of, _) => format!("{n} capacities, {}", of.unwrap_or_default()),
         } + &setting.to_string();
         let values = Values::Sample(file.censored()?);
         Ok(Level { place, im, setting, values, origin })
@@ -242,7 +241,7 @@ impl SourceArgs {
             Ok(Level {
                 values: Values::Sample(values.at(&place)?),
                 place: place.clone(),
-                im: im.clone(),
+                im: Ok(im.clone()),
                 setting,
                 origin: origin.clone(),
             })
@@ -260,7 +259,7 @@ impl SourceArgs {
         );
         Ok(Level {
             place: path.display().to_string(),
-            im,
+            im: Ok(im),
             setting: SampleSetting::default(),
             values: Values::Counts(stripes),
             origin,
@@ -297,7 +296,7 @@ fn surface(suite: SuiteKind) -> Result<Level, Failure> {
     };
     Ok(Level {
         place: "--surrogate".to_owned(),
-        im: IntensityMeasure::Pga,
+        im: Ok(IntensityMeasure::Pga),
         setting,
         values: Values::Surface(model),
         origin: format!("{ORIGIN}, {suite} suite"),
@@ -305,6 +304,10 @@ fn surface(suite: SuiteKind) -> Result<Level, Failure> {
 }
 
 impl Level {
+    fn im(&self) -> Result<&IntensityMeasure, Failure> {
+        self.im.as_ref().map_err(Failure::input)
+    }
+
     /// The fit in the unit of the values.
     fn fit(
         &self,
@@ -346,7 +349,7 @@ impl Level {
             Failure::input(format!("{}: {}: {what}", row.place, self.place))
         };
         let setting = &self.setting;
-        let intensity = self.im.dimensionless();
+        let intensity = self.im()?.dimensionless();
         setting.holds_for(&row.block, intensity).map_err(at)?;
         if let (Some(own), Some(eta)) = (setting.eta, row.eta)
             && own != eta
@@ -394,14 +397,17 @@ impl Source {
         let is_own = im.is_none_or(|im| im.dimensionless().is_none())
             && self.rows.is_empty();
         let own = self.samples.values().chain(&self.levels);
-        for level in own.filter(|level| im.is_some_and(|im| level.im != *im)) {
-            return Err(Failure::input(format!(
-                "{}: a sample of {}, a hazard curve of {}: expected the same \
-                 measure",
-                level.place,
-                level.im.words(),
-                im.map_or_else(String::new, ToString::to_string),
-            )));
+        for level in own {
+            if let Some(im) = im
+                && level.im()? != im
+            {
+                return Err(Failure::input(format!(
+                    "{}: a sample of {}, a hazard curve of {im}: expected \
+                     the same measure",
+                    level.place,
+                    level.im()?.words(),
+                )));
+            }
         }
         let blocks: Vec<(Option<Id>, Vec<LimitState>)> = if is_own {
             let laws = self.levels.iter();
@@ -459,12 +465,13 @@ impl Source {
         };
         let (mut laws, mut origins) = (Vec::new(), Vec::new());
         for level in &own {
-            if level.im != first.im {
+            let (im, expected) = (level.im()?, first.im()?);
+            if im != expected {
                 return Err(Failure::input(format!(
                     "{}: a sample of {}: expected one of {}, as the first",
                     level.place,
-                    level.im.words(),
-                    first.im.words(),
+                    im.words(),
+                    expected.words(),
                 )));
             }
             let unit = level.unit(row, self.gravity_m_s2)?;
@@ -476,7 +483,7 @@ impl Source {
             id: row.id.clone(),
             block: row.block,
             eta: row.eta.or(first.setting.eta),
-            im: first.im.clone(),
+            im: first.im()?.clone(),
             limit_states: self.named(laws)?,
             origin: origins.join("; "),
         })

@@ -1,7 +1,7 @@
 //! Families of distributions beside each other, against SciPy and mpmath.
 
 use rocking::statistics::ExtendedSample;
-use rocking::statistics::choice::{Model, candidate};
+use rocking::statistics::choice::{Distribution, Model, candidate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 use serde::Deserialize;
 
@@ -43,14 +43,32 @@ pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
             found.bic += 2.0 * (found.log_likelihood - value);
             found.log_likelihood = value;
         }
-        for (name, own, text) in [
-            ("log-likelihood", found.log_likelihood, row[5]),
-            ("aic", found.aic, row[6]),
-            ("bic", found.bic, row[7]),
-            ("kolmogorov", found.kolmogorov, row[8]),
-            ("anderson-darling", found.anderson_darling, row[9]),
-        ] {
-            answer.put(name, [own], [number(CHOICE, text)?]);
+        let (kind, parameters) = match found.distribution {
+            Distribution::Lognormal(own) => {
+                ("", vec![own.log_mean(), own.dispersion()])
+            }
+            Distribution::Rival { fit, .. } => {
+                ("", vec![fit.shape, fit.scale])
+            }
+            Distribution::ExtremeValue(own) => {
+                ("extreme-", vec![own.location, own.scale, own.shape])
+            }
+            _ => ("", Vec::new()),
+        };
+        let place = |name: &str| format!("{kind}{name}");
+        let mut values = vec![
+            ("log-likelihood".into(), found.log_likelihood, row[5]),
+            ("aic".into(), found.aic, row[6]),
+            ("bic".into(), found.bic, row[7]),
+            (place("kolmogorov"), found.kolmogorov, row[8]),
+            (place("anderson-darling"), found.anderson_darling, row[9]),
+        ];
+        let columns = parameters.iter().zip(&row[2..]);
+        values.extend(
+            columns.map(|(own, text)| (place("parameters"), *own, *text)),
+        );
+        for (name, own, text) in values {
+            answer.put(&name, [own], [number(CHOICE, text)?]);
         }
     }
     Ok(answer)

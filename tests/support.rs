@@ -1,11 +1,13 @@
-//! Running the binary in a folder of its own.
+//! The program under test, run in a folder of its own as a user runs it.
 
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 use serde_json::Value;
+
+use super::compare::near;
 
 /// A command of the binary under test, in a folder.
 pub fn rocking(folder: &Path, arguments: &str) -> Command {
@@ -15,25 +17,41 @@ pub fn rocking(folder: &Path, arguments: &str) -> Command {
 }
 
 /// Exit status, standard output and standard error.
-pub fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let output = rocking(folder, arguments).output().unwrap();
+pub fn outcome(output: Output) -> (i32, String, String) {
     let text = |bytes| String::from_utf8(bytes).unwrap();
     let status = output.status.code().unwrap();
     (status, text(output.stdout), text(output.stderr))
 }
 
+pub fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
+    outcome(rocking(folder, arguments).output().unwrap())
+}
+
 /// Standard output of a command that must succeed.
+#[track_caller]
 pub fn answer(folder: &Path, arguments: &str) -> String {
     let (status, out, error) = run(folder, arguments);
     assert_eq!((status, error.as_str()), (0, ""), "{arguments}");
     out
 }
 
+/// The same with `--json`, read.
+#[track_caller]
 pub fn json(folder: &Path, arguments: &str) -> Value {
-    serde_json::from_str(&answer(folder, arguments)).unwrap()
+    let more = if arguments.contains("--json") { "" } else { " --json" };
+    let text = answer(folder, &format!("{arguments}{more}"));
+    serde_json::from_str(&text).unwrap()
+}
+
+/// Fails unless a number of an answer is this, within a share of it.
+#[track_caller]
+pub fn close(value: &Value, expected: f64, tolerance: f64) {
+    let limit = tolerance * expected.abs();
+    near("number printed", value.as_f64().unwrap(), expected, limit);
 }
 
 /// Standard error of a command that must be refused and leave no trace.
+#[track_caller]
 pub fn refused(folder: &Path, arguments: &str) -> String {
     let before = tree(folder);
     let (status, out, error) = run(folder, arguments);
@@ -42,7 +60,24 @@ pub fn refused(folder: &Path, arguments: &str) -> String {
     error
 }
 
-/// A refusal is one message of one line and names this.
+/// Standard error of a command that must fail, after it listed what it could
+/// read.
+#[track_caller]
+pub fn failure(folder: &Path, arguments: &str) -> String {
+    let (status, _, error) = run(folder, arguments);
+    assert_eq!(status, 2, "{arguments}: {error}");
+    error
+}
+
+/// The refusal has these words.
+#[track_caller]
+pub fn refused_with(folder: &Path, arguments: &str, words: &str) {
+    let error = refused(folder, arguments);
+    assert!(error.contains(words), "{arguments}: no {words} in {error}");
+}
+
+/// The refusal is one message of one line and has these names.
+#[track_caller]
 pub fn refused_for(folder: &Path, arguments: &str, names: &[&str]) {
     let error = refused(folder, arguments);
     assert!(error.starts_with("rocking: "), "{arguments}: {error}");
@@ -61,7 +96,8 @@ fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
             found.push((path.clone(), Vec::new()));
             found.extend(tree(&path));
         } else {
-            found.push((path.clone(), fs::read(&path).unwrap()));
+            // A link may lead to nothing.
+            found.push((path.clone(), fs::read(&path).unwrap_or_default()));
         }
     }
     found.sort();
@@ -70,7 +106,8 @@ fn tree(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 
 /// A fresh folder with the given files.
 pub fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(name);
+    let folder =
+        Path::new(env!("CARGO_TARGET_TMPDIR")).join("gate").join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
     for (file, text) in files {

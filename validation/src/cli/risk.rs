@@ -21,18 +21,15 @@ use super::{Failure, input, note};
 /// frequency is a power of the intensity. OpenQuake interpolates linearly
 /// and finds 10 to 17 % more on a curve of 20 points. Beyond the last point
 /// nothing is assumed: lower and upper are bounds of that truncation and no
-/// confidence interval. Where the fragility at the first point is not 0,
-/// weaker motions add to the frequency.
+/// confidence interval.
 #[derive(ClapArgs)]
 #[command(group = ArgGroup::new("fragility").required(true).multiple(true)
     .args(["median", "sample", "ida", "counts", "surrogate", "blocks"]))]
 #[command(after_help = "Examples:\n  \
     rocking risk --hazard hazard.csv --median 0.43 --dispersion 0.71 \
     --shift 0.15\n  \
-    rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \\\n      \
-    --alpha 0.15 --p 3\n\n\
-    A hazard curve:\n  \
-    pga_g,annual_frequency\n  0.05,0.02\n  0.2,0.002\n  1,0.00003")]
+    rocking risk --hazard hazard.csv --sample capacities.txt --shift 1 \
+    --alpha 0.15 --p 3")]
 pub struct Args {
     /// Hazard curve, CSV; `-` is standard input.
     #[arg(long, value_name = "HAZARD.csv")]
@@ -45,8 +42,7 @@ pub struct Args {
         allow_hyphen_values = true
     )]
     site: Option<(f64, f64)>,
-    /// Years of the probabilities: of those printed [default: 50], and of a
-    /// hazard curve's that does not say its own.
+    /// Years of probabilities, also of a curve's without its own [default: 50].
     #[arg(long, value_name = "T")]
     years: Option<f64>,
     /// Median of the fragility, in the unit of the hazard curve.

@@ -366,13 +366,13 @@ fn merge(args: &MergeArgs) -> Result<(), Failure> {
             "this plan keeps no rows; expected a plan of `--rows`",
         ));
     }
-    Ok(sweep::merge(&planned, args.what, &args.out)?)
+    sweep::merge(&planned, args.what, &args.out)
 }
 
 fn export(args: &ExportArgs) -> Result<(), Failure> {
     let planned = Planned::read(&args.dir)?;
     args.file.write(planned.files(), || {
-        Ok(sweep::fragilities(&planned, args.im, &args.demand)?)
+        sweep::fragilities(&planned, args.im, &args.demand)
     })
 }
 

@@ -32,13 +32,12 @@ use rocking_exchange::sample::SampleSetting;
 /// Where fragilities come from, and of which blocks they are.
 #[derive(clap::Args)]
 pub struct SourceArgs {
-    /// Sample of capacities; again for each limit state, in the order of
-    /// rising damage.
+    /// Sample of capacities; again for each limit state, by rising damage.
     #[arg(long, value_name = "FILE")]
     sample: Vec<PathBuf>,
     #[command(flatten)]
     ida: IdaArgs,
-    /// Table of counts, columns im,exceeded,n; again for each limit state.
+    /// Table of counts, intensity,exceeded,n; again for each limit state.
     #[arg(
         long,
         value_name = "FILE.csv",
@@ -55,13 +54,11 @@ pub struct SourceArgs {
         conflicts_with_all = ["sample", "ida", "counts", "im"]
     )]
     surrogate: Option<SuiteKind>,
-    /// Intensity measure of --ida [default: pga], of --counts, or of a sample
-    /// that does not say it.
+    /// Measure of --ida [default: pga], --counts, or a sample without one.
     #[arg(long, value_name = "MEASURE")]
     im: Option<IntensityMeasure>,
-    /// Table of blocks: alpha,p or width_m,height_m, and where wanted id,
-    /// eta and sample (files beside the table separated by `;`, in place of
-    /// --sample).
+    /// Table of blocks: alpha,p or width_m,height_m, and where wanted
+    /// id, eta, sample.
     #[arg(
         long,
         value_name = "BLOCKS.csv",
@@ -73,8 +70,7 @@ pub struct SourceArgs {
     /// Name of the block [default: from alpha and p].
     #[arg(long, value_name = "NAME")]
     id: Option<Id>,
-    /// Name of the limit state; again for each [default: exceeded, of several
-    /// LS1, LS2, ..].
+    /// Name of the limit state; again for each [default: exceeded, or LS1, ..].
     #[arg(long, value_name = "NAME")]
     limit_state: Vec<Id>,
     /// Gravity in m/s2.
@@ -98,8 +94,7 @@ pub struct IdaArgs {
         conflicts_with = "sample"
     )]
     pub ida: Option<PathBuf>,
-    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas; each is a
-    /// limit state.
+    /// EDP levels of --ida, FIRST:LAST:STEP or separated by commas.
     #[arg(
         long,
         value_name = "LEVELS",

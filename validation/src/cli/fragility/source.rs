@@ -49,7 +49,7 @@ pub struct SourceArgs {
     /// Which capacity is made of several crossings [default: median].
     #[arg(long, value_parser = names::crossing(), requires = "ida")]
     point: Option<InversionRule>,
-    /// Table of counts, columns im,exceeded,n; again for each limit state.
+    /// Table of counts, columns intensity,exceeded,n; again for each limit state.
     #[arg(
         long,
         value_name = "FILE.csv",

@@ -240,7 +240,7 @@ def origins(folder):
     # How many of 40 records overturn at each intensity.
     counts = ["0,40", "4,40", "6,40", "13,40", "20,40", "31,40"]
     lines = [f"{1.2 + 0.4 * k},{row}\n" for k, row in enumerate(counts)]
-    (folder / "counts.csv").write_text("im,exceeded,n\n" + "".join(lines))
+    (folder / "counts.csv").write_text("intensity,exceeded,n\n" + "".join(lines))
     shutil.copy(ROOT / "fixtures/records/ridgecrest.zip",
                 folder / "records.zip")
     block = ["--alpha", ALPHA, "--p", P]

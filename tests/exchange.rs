@@ -251,6 +251,9 @@ fn a_hazard_curve_that_is_none_is_refused_with_its_line() {
     }
     let other = "pgv_m_s,annual_frequency\n0.1,0.1\n0.2,0.05\n";
     fs::write(place.join("pgv.csv"), other).unwrap();
+    for flag in ["--sample capacities.txt", "--gravity 9.8", "--id a"] {
+        refused(&place, &format!("{risk} {flag}"), "cannot be used");
+    }
     let risk = "risk --hazard pgv.csv --sample capacities.txt";
     refused(
         &place,
@@ -315,7 +318,7 @@ fn the_tour_of_the_readme_runs() {
     assert!(output.status.success(), "{error}");
     let said = String::from_utf8_lossy(&output.stdout);
     for words in
-        ["need friction > 0.5", "delta low", "truncation lower", "SA(1 s)"]
+        ["friction  need more", "delta low", "truncation lower", "SA(1 s)"]
     {
         assert!(said.contains(words), "no `{words}` in {said}");
     }

@@ -34,10 +34,6 @@ const PLAIN: [&str; 8] = [
 
 /// Parts that a door still names, by its file. The list only shrinks.
 const STILL: &[(&str, &[&str])] = &[
-    (
-        "python/src/statistics.rs",
-        &["bootstrap", "boxplot", "lilliefors", "lognormal", "paired"],
-    ),
     ("validation/src/cli/lilliefors.rs", &["lilliefors"]),
     (
         "validation/study/src/questions/equivalence.rs",

@@ -50,7 +50,10 @@ pub struct Args {
         long,
         value_name = "X",
         requires = "dispersion",
-        conflicts_with_all = ["SourceArgs", "IdaArgs", "BlockArgs", "method"]
+        conflicts_with_all = [
+            "sample", "ida", "counts", "surrogate", "im", "blocks",
+            "BlockArgs", "id", "limit_state", "gravity", "method"
+        ]
     )]
     median: Option<f64>,
     /// Dispersion of the fragility, of the logarithm above the shift.

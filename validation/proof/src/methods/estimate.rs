@@ -8,12 +8,10 @@ use rocking::streams::Streams;
 use serde::Deserialize;
 
 use super::method::{Answer, Context};
-use crate::arithmetic::decimal;
 use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};
 use crate::error::MethodError;
 use crate::references;
-use crate::references::TRAJECTORIES;
 use crate::scene::{Forcing, Model, Overturning, Scene};
 
 #[derive(Deserialize)]
@@ -116,27 +114,18 @@ fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> Comparison {
 fn against_references(
     arithmetic: Arithmetic,
 ) -> Result<Vec<Comparison>, MethodError> {
-    let file = &TRAJECTORIES;
-    let all = file.read()?;
     let mut found = Vec::new();
     let unit = match arithmetic {
         Arithmetic::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
         _ => f64::EPSILON,
     };
-    for case in file.list(&all, "cases")? {
-        let expected = file.get(case, "expected")?;
-        for (criterion, key) in [
-            (Overturning::Alpha, "first_reaches_alpha"),
-            (Overturning::HalfPi, "overturned_pi_over_2"),
-        ] {
-            let scene = references::scene(case, criterion)?;
-            let run = WideTrace::run(&scene, arithmetic)?;
-            let over = expected[key] == true;
-            let peak = &expected["peak_abs_theta_over_alpha"];
-            let peak = peak.as_str().and_then(decimal);
+    for case in references::trajectories()? {
+        for criterion in [Overturning::Alpha, Overturning::HalfPi] {
+            let run = WideTrace::run(&case.scene(criterion)?, arithmetic)?;
+            let over = case.expected.overturned(criterion);
             let truth = WideTrace {
-                overturned_s: over.then_some(run.peak_ratio),
-                peak_ratio: peak.unwrap_or(run.peak_ratio),
+                overturned_s: over.map(|t| t.wide),
+                peak_ratio: case.expected.peak.wide,
                 ..run.clone()
             };
             found.push(compare(&run, &truth, unit));

@@ -10,6 +10,18 @@ use crate::engine;
 use crate::error::MethodError;
 use crate::scene::{Engine, Scene};
 
+/// Reads the fields of a case's input into variables of the same names.
+macro_rules! input {
+    ($context:expr; $($(#[$note:meta])* $field:ident: $type:ty),+ $(,)?) => {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Input {
+            $($(#[$note])* $field: $type),+
+        }
+        let Input { $($field),+ } = $context.input()?;
+    };
+}
+
 /// Numbers by name.
 pub type Quantities = BTreeMap<String, Vec<f64>>;
 

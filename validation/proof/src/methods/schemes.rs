@@ -8,7 +8,6 @@ use crate::cases::WrongModel;
 use crate::error::MethodError;
 use crate::naive::{Events, Naive, Rules};
 use crate::references;
-use crate::references::TRAJECTORIES;
 use crate::scene::{Engine as _, Forcing, Overturning};
 
 #[derive(Deserialize)]
@@ -60,13 +59,10 @@ fn error(
     divisions: &[u32],
     finer: u32,
 ) -> Result<f64, MethodError> {
-    let file = &TRAJECTORIES;
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Overturning::HalfPi)?;
-        let expected = file.get(case, "expected")?;
-        let due = file.column(file.list(expected, "impacts")?, "t")?;
+        let scene = case.scene(Overturning::HalfPi)?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {
             return Err(MethodError::Input(format!("`{entry}`: no record")));
         };
@@ -79,9 +75,9 @@ fn error(
             };
             let rules = Rules { events, step_p, ..Rules::default() };
             let trace = Naive(rules).respond(&scene)?;
-            let pairs = trace.impacts.iter().zip(&due).take(input.impacts);
-            for (impact, time_s) in pairs {
-                let off = (impact.time_s - time_s) * scene.frequency_rad_s;
+            let pairs = trace.impacts.iter().zip(&case.expected.impacts);
+            for (impact, due) in pairs.take(input.impacts) {
+                let off = (impact.time_s - due.t.near) * scene.frequency_rad_s;
                 sum += off * off;
                 count += 1.0;
             }

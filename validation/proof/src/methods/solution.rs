@@ -125,8 +125,7 @@ pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Overturning::Alpha)?;
-        let scene = context.altered(&scene);
+        let scene = context.altered(&case.scene(Overturning::Alpha)?);
         let work = engine::respond(&scene, &Observe::default())?.work;
         for (name, count) in [
             ("steps", work.steps),

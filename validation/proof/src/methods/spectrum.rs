@@ -1,13 +1,12 @@
 //! Overturning edges of one-sine pulses in Eq. 2.
 
 use serde::Deserialize;
-use serde_json::Value;
 
 use super::method::{Answer, Context};
 use crate::cases::WrongModel;
 use crate::edge::{self, around};
 use crate::error::MethodError;
-use crate::references::SPECTRUM;
+use crate::references::{Band, Digits, SPECTRUM, SpectrumRow};
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
 #[derive(Deserialize)]
@@ -43,18 +42,13 @@ struct Edge {
 /// within 1e-6 of the reference.
 pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
-    let all = SPECTRUM.read()?;
-    let mut found = None;
-    for row in SPECTRUM.list(&all, "table")? {
-        if SPECTRUM.f64(row, "eta")? == input.eta
-            && SPECTRUM.f64(row, "Omega")? == input.omega_over_p
-        {
-            found = Some(row);
-        }
-    }
+    let is = |row: &&SpectrumRow| {
+        (row.eta.near, row.omega.near) == (input.eta, input.omega_over_p)
+    };
+    let found = SPECTRUM.read()?.table.iter().rfind(is);
     let row = found.ok_or_else(|| SPECTRUM.lacks("no such row"))?;
     let mut answer = Answer::default();
-    let edges = table(row, input.eta)?;
+    let edges = table(row);
     for edge in &edges {
         let mut criterion = edge.criterion;
         if context.wrong == Some(WrongModel::OtherCriterion) {
@@ -103,48 +97,30 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-fn table(row: &Value, eta: f64) -> Result<Vec<Edge>, MethodError> {
-    let file = &SPECTRUM;
+fn table(row: &SpectrumRow) -> Vec<Edge> {
     let mut edges = Vec::new();
-    let mut add = |name: &str, amplitude, criterion, flip| {
-        edges.push(Edge { name: name.to_owned(), amplitude, criterion, flip });
+    let mut add = |name: &str, amplitude: Digits, criterion, flip| {
+        let (name, amplitude) = (name.to_owned(), amplitude.near);
+        edges.push(Edge { name, amplitude, criterion, flip });
     };
     let divergence = Overturning::HalfPi;
-    add(
-        "mode-2",
-        file.f64(row, "mode2_lower")?,
-        divergence,
-        Flip::WithoutImpact,
-    );
-    let first_sign = file.f64(row, "mode2_lower_alpha_criterion")?;
+    add("mode-2", row.mode2_lower, divergence, Flip::WithoutImpact);
+    let first_sign = row.mode2_lower_alpha_criterion;
     add("mode-2-alpha", first_sign, Overturning::Alpha, Flip::WithoutImpact);
-    if let Some(lower) = file.optional(row, "mode1_lower")? {
+    if let Some(lower) = row.mode1_lower {
         add("mode-1-lower", lower, divergence, Flip::Overturns);
     }
     // Without loss, mode 1 goes over into mode 2: no fate flips there.
-    if let Some(upper) = file.optional(row, "mode1_upper")?
-        && eta < 1.0
+    if let Some(upper) = row.mode1_upper
+        && row.eta.near < 1.0
     {
         add("mode-1-upper", upper, divergence, Flip::Stands);
     }
-    if let Some(bands) = row.get("multi_impact_bands") {
-        for band in bands.as_array().into_iter().flatten() {
-            let n = file.f64(band, "n_impacts")?;
-            let lower = file.f64(band, "lower")?;
-            let upper = file.f64(band, "upper")?;
-            add(
-                &format!("{n}-impacts-lower"),
-                lower,
-                divergence,
-                Flip::Overturns,
-            );
-            add(
-                &format!("{n}-impacts-upper"),
-                upper,
-                divergence,
-                Flip::Stands,
-            );
-        }
+    for Band { n_impacts: n, lower, upper } in &row.multi_impact_bands {
+        let name = format!("{n}-impacts-lower");
+        add(&name, *lower, divergence, Flip::Overturns);
+        let name = format!("{n}-impacts-upper");
+        add(&name, *upper, divergence, Flip::Stands);
     }
-    Ok(edges)
+    edges
 }

@@ -149,8 +149,7 @@ pub(crate) struct Expected {
     pub faster: BTreeMap<String, f64>,
     t_first_abs_theta_eq_alpha: Option<Digits>,
     t_abs_theta_eq_pi_over_2: Option<Digits>,
-    #[serde(rename = "peak_abs_theta_over_alpha")]
-    pub peak: Digits,
+    peak_abs_theta_over_alpha: String,
     pub t_peak: Option<Digits>,
     pub rest_times: Vec<Digits>,
     pub checkpoints: Vec<Checkpoint>,
@@ -183,6 +182,11 @@ impl Expected {
             Overturning::Alpha => self.t_first_abs_theta_eq_alpha,
             Overturning::HalfPi => self.t_abs_theta_eq_pi_over_2,
         }
+    }
+
+    /// The peak; none where the file says that pi/2 is reached.
+    pub fn peak(&self) -> Option<Digits> {
+        self.peak_abs_theta_over_alpha.clone().try_into().ok()
     }
 
     /// The impacts before it overturns, where a run ends.

@@ -144,9 +144,9 @@ fn reference(case: &Case) -> Result<(Scene, WideTrace), MethodError> {
     let truth = WideTrace {
         uplift_s: due.uplifts.first().map(|u| u.t.wide),
         impacts: due.impacts_until(criterion),
-        peak_ratio: match overturned_s {
-            Some(_) => DoubleDouble::zero(),
-            None => due.peak.wide,
+        peak_ratio: match (overturned_s, due.peak()) {
+            (None, Some(peak)) => peak.wide,
+            _ => DoubleDouble::zero(),
         },
         overturned_s,
         rest_s: None,

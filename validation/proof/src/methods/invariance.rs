@@ -158,24 +158,18 @@ fn twin(
     Ok(twin)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DefectInput {
-    omega_over_p: f64,
-    amplitude: f64,
-    /// `g-tan-alpha` or `g-alpha`.
-    over: String,
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: f64,
-}
-
 /// Relative change of the first peak of Eq. 1 against Eq. 2 as alpha grows,
 /// and the order of that change between the two smallest alphas.
 pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
-    let input: DefectInput = context.input()?;
-    let p = input.frequency_rad_s;
+    input! { context;
+        omega_over_p: f64, amplitude: f64,
+        /// `g-tan-alpha` or `g-alpha`.
+        over: String,
+        slenderness_rad: Vec<f64>, frequency_rad_s: f64,
+    }
+    let p = frequency_rad_s;
     let first_speed = |alpha: f64, equation| -> Result<f64, MethodError> {
-        let over = match (equation, input.over.as_str()) {
+        let over = match (equation, over.as_str()) {
             (Model::Linearized, _) | (_, "g-alpha") => alpha,
             (_, "g-tan-alpha") => libm::tan(alpha),
             (_, other) => {
@@ -188,8 +182,8 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
                 [alpha, p, 9.81],
                 0.92,
                 Forcing::Pulse(PulseKind::OneSine {
-                    amplitude: input.amplitude * 9.81 * over,
-                    omega_rad_s: input.omega_over_p * p,
+                    amplitude: amplitude * 9.81 * over,
+                    omega_rad_s: omega_over_p * p,
                 }),
             )
         };
@@ -198,12 +192,12 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
         Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
     };
     let mut changes = Vec::new();
-    for &alpha in &input.slenderness_rad {
+    for &alpha in &slenderness_rad {
         let linear = first_speed(alpha, Model::Linearized)?;
         let speed = first_speed(alpha, Model::Nonlinear)?;
         changes.push(speed / linear - 1.0);
     }
-    let [a, b, ..] = input.slenderness_rad.as_slice() else {
+    let [a, b, ..] = slenderness_rad.as_slice() else {
         return Err(MethodError::Input("two slendernesses".to_owned()));
     };
     let order = libm::log((changes[1] / changes[0]).abs()) / libm::log(b / a);
@@ -211,14 +205,6 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     answer.see("order", [order]);
     answer.see("change", changes);
     Ok(answer)
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BiasInput {
-    slenderness_rad: Vec<f64>,
-    frequencies_rad_s: Vec<f64>,
-    intensity: f64,
 }
 
 /// Median over a suite's records of the peak over that of alpha = 0.10 at an
@@ -230,15 +216,16 @@ struct BiasInput {
 /// only by its square: theta/sin(alpha) follows one equation. What is left
 /// grows with (p t)^2, t the time of uplift.
 pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
-    let input: BiasInput = context.input()?;
+    input! { context;
+        slenderness_rad: Vec<f64>, frequencies_rad_s: Vec<f64>, intensity: f64,
+    }
     let suite = rocking_synthesis::pulse()
         .map_err(|e| MethodError::Oracle(e.to_string()))?;
     let mut answer = Answer::default();
     let mut left = Vec::new();
-    for &p in &input.frequencies_rad_s {
+    for &p in &frequencies_rad_s {
         let peak = |alpha: f64, record: &Accelerogram| {
-            let factor =
-                input.intensity * 9.81 * libm::tan(alpha) / record.pga_g();
+            let factor = intensity * 9.81 * libm::tan(alpha) / record.pga_g();
             let scene = Scene::new(
                 [alpha, p, 9.81],
                 0.92,
@@ -254,7 +241,7 @@ pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
             Ok::<_, MethodError>(context.engine.respond(&scene)?.peak_ratio)
         };
         let mut worst: f64 = 0.0;
-        for &alpha in &input.slenderness_rad {
+        for &alpha in &slenderness_rad {
             let mut ratios = Vec::new();
             for pair in &suite {
                 let record = &pair.components[0];

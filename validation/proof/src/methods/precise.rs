@@ -44,11 +44,12 @@ impl Errors {
     }
 
     /// The peak's relative error; the error itself where none is due.
-    fn peak(&mut self, found: DoubleDouble, due: DoubleDouble) {
-        let size = due.to_f64();
+    fn peak(&mut self, found: DoubleDouble, due: Option<Digits>) {
+        let due = due.map(|peak| peak.wide);
+        let size = due.map_or(f64::NAN, DoubleDouble::to_f64);
         let unit = if size > 0.0 { 1.0 / size } else { 1.0 };
         let name = "relative-error-of-peak";
-        self.compare(name, Some(found), Some(due), unit);
+        self.compare(name, Some(found), due, unit);
     }
 
     /// When the criterion of a scene is met.
@@ -123,7 +124,7 @@ fn put_trajectory(
     if due.overturned(criterion).is_some() {
         return;
     }
-    errors.peak(trace.peak_ratio, due.peak.wide);
+    errors.peak(trace.peak_ratio, due.peak());
     for (key, level) in [("1e-3", 1e-3), ("1e-6", 1e-6), ("1e-9", 1e-9)] {
         let bound = level * (p * scene.slenderness_rad);
         let speeds = trace.impacts.iter().map(|i| i.1.to_f64());
@@ -240,7 +241,7 @@ pub(super) fn rectangular_pulse(
         let listed: Vec<_> =
             case.impacts.iter().map(|hit| hit.wide([1.0; 2])).collect();
         errors.impacts(&trace.impacts, &listed, p);
-        errors.peak(trace.peak_ratio, peak.wide);
+        errors.peak(trace.peak_ratio, Some(peak));
         if let Some(rest) = case.settling_time {
             let rest = Some(rest.wide);
             errors.compare("error-of-rest-time-p", trace.rest_s, rest, p);

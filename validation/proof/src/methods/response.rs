@@ -65,7 +65,8 @@ pub(super) fn trajectory(context: &Context) -> Result<Answer, MethodError> {
     put("alpha-time-p", first.overturned_s, alpha);
     if half_pi.is_none() {
         put("peak-time-p", trace.peak_time_s, due.t_peak);
-        answer.put("peak-ratio", [trace.peak_ratio], [due.peak.near]);
+        let peak = due.peak().map(|peak| peak.near);
+        answer.put("peak-ratio", [trace.peak_ratio], peak);
     }
     answer.put("uplifts", [trace.uplifts as f64], [due.n_uplifts]);
     let side = uplift.map_or(0.0, |u| u.side);

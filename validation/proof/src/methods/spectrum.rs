@@ -1,22 +1,11 @@
 //! Overturning edges of one-sine pulses in Eq. 2.
 
-use serde::Deserialize;
-
 use super::method::{Answer, Context};
 use crate::cases::WrongModel;
 use crate::edge::{self, around};
 use crate::error::MethodError;
 use crate::references::{Band, Digits, SPECTRUM, SpectrumRow};
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    eta: f64,
-    omega_over_p: f64,
-    /// Block: alpha (rad), p (rad/s), g (m/s2).
-    block: [f64; 3],
-}
 
 /// What flips at an edge.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -41,9 +30,13 @@ struct Edge {
 /// Every edge at one frequency, found again by bisecting the engine's fate
 /// within 1e-6 of the reference.
 pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
+    input! { context;
+        eta: f64, omega_over_p: f64,
+        /// Block: alpha (rad), p (rad/s), g (m/s2).
+        block: [f64; 3],
+    }
     let is = |row: &&SpectrumRow| {
-        (row.eta.near, row.omega.near) == (input.eta, input.omega_over_p)
+        (row.eta.near, row.omega.near) == (eta, omega_over_p)
     };
     let found = SPECTRUM.read()?.table.iter().rfind(is);
     let row = found.ok_or_else(|| SPECTRUM.lacks("no such row"))?;
@@ -58,20 +51,20 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
             };
         }
         let is_above = |amplitude: f64| -> Result<bool, MethodError> {
-            let [alpha, p, g] = input.block;
+            let [alpha, p, g] = block;
             let scene = Scene {
                 model: Model::Linearized,
                 overturning: criterion,
 
                 // The saddle holds a block for 28/p at most when the
                 // amplitude is 1e-12 from the edge.
-                until_s: Some((7.0 / input.omega_over_p + 100.0) / p),
+                until_s: Some((7.0 / omega_over_p + 100.0) / p),
                 ..Scene::new(
                     [alpha, p, g],
-                    input.eta,
+                    eta,
                     Forcing::Pulse(PulseKind::OneSine {
                         amplitude: amplitude * g * alpha,
-                        omega_rad_s: input.omega_over_p * p,
+                        omega_rad_s: omega_over_p * p,
                     }),
                 )
             };

@@ -5,14 +5,12 @@ use rocking::statistics::choice::{Model, candidate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
+use super::cells::{Csv, csv, refused};
 use crate::cases::WrongModel;
 use crate::error::MethodError;
 use crate::methods::method::{Answer, Context};
 
-const CHOICE: &str = "fixtures/oracles/choice.csv";
-const CHOICE_CSV: &str =
-    include_str!("../../../../../fixtures/oracles/choice.csv");
+const CHOICE: Csv = csv!("oracles/choice.csv");
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,11 +25,12 @@ pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
     let sample = ExtendedSample::try_new(&input.sample).map_err(refused)?;
     let mut answer = Answer::default();
-    for row in rows(CHOICE_CSV, CHOICE, &input.name)? {
+    for row in CHOICE.rows(&input.name)? {
         let mut models = Model::ALL.into_iter();
-        let model = models.find(|model| model.to_string() == row[1]);
-        let model = model
-            .ok_or_else(|| MethodError::Input(format!("model {}", row[1])))?;
+        let model = models.find(|model| model.to_string() == row.text(1));
+        let model = model.ok_or_else(|| {
+            MethodError::Input(format!("model {}", row.text(1)))
+        })?;
         let mut found = candidate(&sample, 0.0, model).map_err(refused)?;
         if (context.wrong, model)
             == (Some(WrongModel::OtherDivisor), Model::Lognormal)
@@ -43,15 +42,14 @@ pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
             found.bic += 2.0 * (found.log_likelihood - value);
             found.log_likelihood = value;
         }
-        for (name, own, text) in [
-            ("log-likelihood", found.log_likelihood, row[5]),
-            ("aic", found.aic, row[6]),
-            ("bic", found.bic, row[7]),
-            ("kolmogorov", found.kolmogorov, row[8]),
-            ("anderson-darling", found.anderson_darling, row[9]),
-        ] {
-            answer.put(name, [own], [number(CHOICE, text)?]);
-        }
+        let quantities = [
+            ("log-likelihood", found.log_likelihood),
+            ("aic", found.aic),
+            ("bic", found.bic),
+            ("kolmogorov", found.kolmogorov),
+            ("anderson-darling", found.anderson_darling),
+        ];
+        row.put(&mut answer, 5, &quantities)?;
     }
     Ok(answer)
 }

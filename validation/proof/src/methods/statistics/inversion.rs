@@ -1,27 +1,21 @@
 //! Inversion of response curves, on examples in exact rationals.
 
 use rocking::capacity::{InversionRule, ResponseCurve};
-use serde::Deserialize;
 
 use super::cells::refused;
 use crate::cases::WrongModel;
 use crate::error::MethodError;
 use crate::methods::method::{Answer, Context};
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// (IM, EDP), the first with EDP 0.
-    curve: Vec<(f64, f64)>,
-    overturning: Option<f64>,
-    levels: Vec<f64>,
-}
-
 /// Capacities at the levels by every rule, and the number of crossings.
 pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let mut vertices = input.curve.clone();
-    let mut overturning = input.overturning;
+    input! { context;
+        /// (IM, EDP), the first with EDP 0.
+        curve: Vec<(f64, f64)>,
+        overturning: Option<f64>, levels: Vec<f64>,
+    }
+    let mut vertices = curve.clone();
+    let mut overturning = overturning;
     if context.wrong == Some(WrongModel::OverturningAsAnAngle)
         && let Some(im) = overturning.take()
     {
@@ -34,7 +28,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
     let mut put = |name: &str, value: f64| {
         answer.see(name, [value]);
     };
-    for level in input.levels {
+    for level in levels {
         // Strictly above instead of at or above.
         let level = match context.wrong {
             Some(WrongModel::OpenCrossings) => level * (1.0 + f64::EPSILON),

@@ -4,9 +4,8 @@ use std::convert::Infallible;
 
 use rocking::excitation::{PulseName, PulseParameter};
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use crate::edge::{around, edge};
-use crate::error::MethodError;
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};

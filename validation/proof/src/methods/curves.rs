@@ -18,9 +18,7 @@ use rocking::number::octuple::Octuple;
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::scene::{EngineError, Forcing};
 use crate::trials::{Stratum, trial};
 
@@ -63,7 +61,7 @@ static FOUND: Mutex<BTreeMap<u64, Arc<Vec<Level>>>> =
 pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
     let Input { first_hops } = context.input()?;
     let found = all(first_hops)?;
-    let at_landing = context.wrong == Some(WrongModel::RoundingAtTheLanding);
+    let at_landing = context.is(WrongModel::RoundingAtTheLanding);
     let resolved = |level: &Level, point: &IdaPoint| {
         if at_landing {
             level.at_landing < FLAGGED

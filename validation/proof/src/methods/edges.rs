@@ -4,9 +4,8 @@
 use rocking::block::{Block, Restitution};
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use crate::edge::{self, around};
-use crate::error::MethodError;
 use crate::oracles::overturning;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 

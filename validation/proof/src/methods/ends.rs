@@ -5,10 +5,9 @@ use rocking::integrator::{Assessment, Certified, Observe, Outcome, Response};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
 use crate::engine::{certify, respond};
-use crate::error::MethodError;
 use crate::scene::{Forcing, Overturning, PulseKind, Scene};
 use crate::trials::{Reading, Seen};
 

@@ -7,10 +7,8 @@ use rocking::number::double::DoubleDouble;
 use rocking::streams::Streams;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine::{Arithmetic, WideTrace};
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{Forcing, Model, Overturning, Scene};
 
@@ -50,10 +48,7 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
             return Err(MethodError::Input(format!("arithmetic `{other}`")));
         }
     };
-    let factor = match context.wrong {
-        Some(WrongModel::EstimateHundredth) => 0.01,
-        _ => 1.0,
-    };
+    let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
     let all = if input.scenes == 0 {
         against_references(arithmetic)?
     } else {

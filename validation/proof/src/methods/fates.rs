@@ -2,11 +2,10 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context, input_of};
+use super::method::{Answer, Context, MethodError, input_of};
 use super::wrong::scale;
 use crate::cases::Case;
 use crate::engine::Core;
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{
     Engine as _, Forcing, Model, Overturning, PulseKind, Scene,

@@ -3,10 +3,8 @@
 
 use rocking::integrator::{Forces, Observe};
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine;
-use crate::error::MethodError;
 use crate::scene::{Forcing, Model, Scene};
 
 /// R p^2/g of a rectangle.
@@ -90,10 +88,8 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
                     ),
                     Model::Linearized => (-phi, phi * phi - top * top),
                 };
-                let speed2 = match context.wrong {
-                    Some(WrongModel::WithoutCentripetal) => 0.0,
-                    _ => speed2,
-                };
+                let speed2 =
+                    context.or(WrongModel::WithoutCentripetal, 0.0, speed2);
                 let (s, c) = libm::sincos(phi);
                 let h = ARM * (push * c + speed2 * s);
                 let n = 1.0 + ARM * (push * s - speed2 * c);

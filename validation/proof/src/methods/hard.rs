@@ -5,11 +5,10 @@ use rocking::number::Real as _;
 use serde::Deserialize;
 
 use super::fates::Samples;
-use super::method::{Answer, Context, input_of};
+use super::method::{Answer, Context, MethodError, input_of};
 use super::wrong::scale;
 use crate::cases::Case;
 use crate::engine::{Arithmetic, WideTrace};
-use crate::error::MethodError;
 use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
 use crate::references;

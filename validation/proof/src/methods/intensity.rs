@@ -7,9 +7,7 @@ use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 
 const EXPECTED: &str = "fixtures/oracles/intensity.csv";
 const EXPECTED_CSV: &str =
@@ -115,14 +113,8 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
             periods.push((text, parse(text)?));
         }
     }
-    let stretch = match context.wrong {
-        Some(WrongModel::PeriodOnePercentLong) => 1.01,
-        _ => 1.0,
-    };
-    let damping = match context.wrong {
-        Some(WrongModel::NoDamping) => 0.0,
-        _ => 0.05,
-    };
+    let stretch = context.or(WrongModel::PeriodOnePercentLong, 1.01, 1.0);
+    let damping = context.or(WrongModel::NoDamping, 0.0, 0.05);
     let settings = Settings::try_new(
         STANDARD_GRAVITY_M_S2,
         damping,
@@ -134,7 +126,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         Some(motion) => Some(motion.record(Some(&first))?),
         None => None,
     };
-    if context.wrong == Some(WrongModel::VelocityForAcceleration) {
+    if context.is(WrongModel::VelocityForAcceleration) {
         first = velocity(&first).unwrap_or(first);
         second = second.as_ref().and_then(velocity);
     }
@@ -149,10 +141,11 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
                 }
                 _ => pair.rotd50,
             };
-            let mean = match context.wrong {
-                Some(WrongModel::Rotd50ForGeometricMean) => rotd50.clone(),
-                _ => pair.geometric_mean,
-            };
+            let mean = context.or(
+                WrongModel::Rotd50ForGeometricMean,
+                rotd50.clone(),
+                pair.geometric_mean,
+            );
             let [one, two] = pair.components;
             found.extend([
                 ("first", one),

@@ -4,10 +4,9 @@
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use super::wrong::scale;
 use crate::engine::Core;
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
 

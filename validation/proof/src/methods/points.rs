@@ -1,8 +1,7 @@
 //! States along a trajectory: checkpoints, the turning point of every hop,
 //! and the end of a pulse.
 
-use super::method::{Answer, Context};
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError};
 use crate::references::{self, LINEAR_PULSES};
 use crate::scene::Overturning;
 

@@ -6,11 +6,9 @@ use std::collections::BTreeMap;
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::arithmetic::decimal;
-use crate::cases::WrongModel;
 use crate::engine::{Arithmetic, WideTrace};
-use crate::error::MethodError;
 use crate::references::{self, Digits, Expected, LINEAR_PULSES, RECT_PULSE};
 use crate::scene::{Forcing, Model, Overturning, Scene};
 

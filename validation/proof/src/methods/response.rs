@@ -1,7 +1,6 @@
 //! Single responses against references: impacts, peaks, rest, overturning.
 
-use super::method::{Answer, Context};
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError};
 use crate::references::{
     self, Digits, FREE_ROCKING, Hit, LINEAR_PULSES, RECT_PULSE,
 };

@@ -3,9 +3,7 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::naive::{Events, Naive, Rules};
 use crate::references;
 use crate::scene::{Engine as _, Forcing, Overturning};
@@ -29,7 +27,7 @@ struct Input {
 /// set the impacts anywhere in a step.
 pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
-    let late = context.wrong == Some(WrongModel::OrderTooLow);
+    let late = context.is(WrongModel::OrderTooLow);
     let mut answer = Answer::default();
     for (name, events) in [
         ("step-ends-rotation-kept", Events::StepEndsRotationKept),

@@ -4,10 +4,8 @@
 use std::f64::consts::PI;
 
 use super::closed_forms::{flip, linear_scene, overturns_at_once};
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::edge::{around, edge};
-use crate::error::MethodError;
 use crate::oracles::overturning::sine_without_impact;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
@@ -62,10 +60,11 @@ pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
     for &half_cycles in &half_cycles {
         for &omega in &omega_over_p {
             let exact = sine_without_impact(half_cycles, omega);
-            let due = match context.wrong {
-                Some(WrongModel::SemiInfiniteSine) => semi_infinite(omega),
-                _ => exact,
-            };
+            let due = context.or(
+                WrongModel::SemiInfiniteSine,
+                semi_infinite(omega),
+                exact,
+            );
             let critical = |intervals: u32| {
                 edge(around(exact, 1e-3), 1e-13, |a| {
                     let [alpha, p, g] = block;

@@ -3,10 +3,8 @@
 
 use rocking::integrator::Observe;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine;
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{Forcing, Model, Overturning, Scene, other};
 
@@ -22,10 +20,11 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
         intensity: f64,
         duration_p: f64,
     }
-    let law = match context.wrong {
-        Some(WrongModel::EnergyOfTheOtherEquation) => other(equation),
-        _ => equation,
-    };
+    let law = context.or(
+        WrongModel::EnergyOfTheOtherEquation,
+        other(equation),
+        equation,
+    );
     let mut worst = Vec::new();
     for &alpha in &slenderness_rad {
         for &p in &frequency_rad_s {
@@ -51,7 +50,7 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
             let run = engine::respond(&scene, &observe)?;
             let quiet_s = (on + 1) as f64 * dt_s;
             let eta2 = restitution * restitution;
-            let eta2 = if context.wrong == Some(WrongModel::EtaOnceInEnergy) {
+            let eta2 = if context.is(WrongModel::EtaOnceInEnergy) {
                 restitution
             } else {
                 eta2

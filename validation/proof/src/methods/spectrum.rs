@@ -1,9 +1,7 @@
 //! Overturning edges of one-sine pulses in Eq. 2.
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::edge::{self, around};
-use crate::error::MethodError;
 use crate::references::{Band, Digits, SPECTRUM, SpectrumRow};
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
@@ -44,7 +42,7 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
     let edges = table(row);
     for edge in &edges {
         let mut criterion = edge.criterion;
-        if context.wrong == Some(WrongModel::OtherCriterion) {
+        if context.is(WrongModel::OtherCriterion) {
             criterion = match criterion {
                 Overturning::Alpha => Overturning::HalfPi,
                 Overturning::HalfPi => Overturning::Alpha,
@@ -76,7 +74,7 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
                 Flip::Stands => !over,
             })
         };
-        let range = if context.wrong == Some(WrongModel::PlainBisection) {
+        let range = if context.is(WrongModel::PlainBisection) {
             [1.0, 3.0 * edges[0].amplitude]
         } else {
             around(edge.amplitude, 1e-6)

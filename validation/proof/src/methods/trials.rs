@@ -5,8 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError};
 use crate::trials::{Finding, Reading, SHARES, Stratum, Summary, findings};
 
 #[derive(Deserialize)]

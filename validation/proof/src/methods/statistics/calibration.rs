@@ -22,9 +22,7 @@ use serde::Deserialize;
 
 use super::cells::refused;
 use super::truths::Truth;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 /// Deviation in standard errors, half a printed unit taken off.
 fn gap(difference: f64, rounding: f64, error: f64) -> f64 {

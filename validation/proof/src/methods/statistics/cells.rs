@@ -1,7 +1,6 @@
 //! Numbers of a reference's CSV, and refusals.
 
-use crate::error::MethodError;
-use crate::methods::method::Answer;
+use crate::methods::method::{Answer, MethodError};
 
 /// A refusal of the core where an answer was due.
 pub fn refused(error: impl std::fmt::Display) -> MethodError {

@@ -6,9 +6,7 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 use serde::Deserialize;
 
 use super::cells::{Csv, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const CHOICE: Csv = csv!("oracles/choice.csv");
 

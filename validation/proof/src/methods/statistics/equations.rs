@@ -4,9 +4,7 @@ use libm::{exp, log};
 use rocking::fragility::{c_max, eq5, eq6, eq7};
 
 use super::cells::{Csv, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const FRAGILITY: Csv = csv!("oracles/fragility.csv");
 

@@ -12,9 +12,7 @@ use rocking::statistics::rivals::{self, Family};
 use rocking::statistics::{ExtendedSample, QuantileType, Sample};
 
 use super::cells::{Csv, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const LOGNORMAL: Csv = csv!("oracles/lognormal.csv");
 const RIVALS: Csv = csv!("oracles/rivals.csv");
@@ -35,10 +33,7 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
         _ => QuantileType::try_new(5),
     }
     .map_err(refused)?;
-    let unit = match context.wrong {
-        Some(WrongModel::HalfTheShift) => 0.5,
-        _ => 1.0,
-    };
+    let unit = context.or(WrongModel::HalfTheShift, 0.5, 1.0);
     let mut answer = Answer::default();
     if let Ok(family) = method.parse::<Family>() {
         for row in RIVALS.rows(&method)? {
@@ -152,11 +147,7 @@ pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
 /// Equivalence by t and sign tests, the sign test, Hodges and Lehmann.
 pub(crate) fn paired(context: &Context) -> Result<Answer, MethodError> {
     input!(context; ratios: Vec<f64>, letter: String);
-    let margin = match context.wrong {
-        // 1 -+ m instead of 1/(1 + m) to 1 + m.
-        Some(WrongModel::OtherMargin) => 0.06,
-        _ => 0.05,
-    };
+    let margin = context.or(WrongModel::OtherMargin, 0.06, 0.05);
     let mean = equivalence(&ratios, margin).map_err(refused)?;
     let median = sign_equivalence(&ratios, margin).map_err(refused)?;
     let sign = SignTest::of(&ratios, 1.0);

@@ -3,9 +3,7 @@
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::cells::refused;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 /// Capacities at the levels by every rule, and the number of crossings.
 pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
@@ -16,7 +14,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
     }
     let mut vertices = curve.clone();
     let mut overturning = overturning;
-    if context.wrong == Some(WrongModel::OverturningAsAnAngle)
+    if context.is(WrongModel::OverturningAsAnAngle)
         && let Some(im) = overturning.take()
     {
         // pi/2 at alpha = 0.05, interpolated to.

@@ -8,9 +8,7 @@ use rocking::statistics::{Sample, normal};
 use rocking::streams::{Streams, standard_normal};
 
 use super::cells::{Csv, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const EXACT: Csv = csv!("oracles/lilliefors_exact.csv");
 
@@ -114,10 +112,10 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
         for ((level, value), error) in levels.iter().zip(values).zip(errors) {
             let (mut ours, own) =
                 table.critical_value(*n, *level).map_err(refused)?;
-            if context.wrong == Some(WrongModel::PlainKolmogorov) {
+            if context.is(WrongModel::PlainKolmogorov) {
                 // Asymptotic points of the fully specified distribution.
                 ours = (-0.5 * libm::log(0.5 * level) / *n as f64).sqrt();
-            } else if context.wrong == Some(WrongModel::InterpolatedInN) {
+            } else if context.is(WrongModel::InterpolatedInN) {
                 ours = linear_in_n(*n, *level)?;
             }
             let both = (own * own + error * error).sqrt() + rounding;
@@ -186,10 +184,7 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
         .map(|(n, _)| n)
         .filter(|n| *n >= least_n)
         .collect();
-    let terms = match context.wrong {
-        Some(WrongModel::TwoTerms) => 2,
-        _ => 3,
-    };
+    let terms = context.or(WrongModel::TwoTerms, 2, 3);
     let mut constants = Vec::new();
     let mut misfits = Vec::new();
     for level in levels {
@@ -232,7 +227,7 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
 pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
     input!(context; draws: usize);
     let streams = Streams::new("two ziggurats", 0);
-    let other = u64::from(context.wrong == Some(WrongModel::NextStream));
+    let other = u64::from(context.is(WrongModel::NextStream));
     let (mut ours, mut theirs) = (streams.stream(other), streams.stream(0));
     let mut worst: f64 = 0.0;
     for _ in 0..draws {

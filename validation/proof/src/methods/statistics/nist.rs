@@ -3,9 +3,7 @@
 use rocking::statistics::Sample;
 
 use super::cells::{Csv, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const UNIVARIATE: Csv = csv!("nist/univariate.csv");
 
@@ -29,10 +27,7 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
         }
         _ => sample.sum_of_squares(),
     };
-    let divisor = match context.wrong {
-        Some(WrongModel::OtherDivisor) => n,
-        _ => n - 1.0,
-    };
+    let divisor = context.or(WrongModel::OtherDivisor, n, n - 1.0);
     let mut answer = Answer::default();
     let deviation = (squares / divisor).sqrt();
     let quantities =

@@ -3,9 +3,7 @@
 use rocking::statistics::{Proportion, normal};
 
 use super::cells::{Csv, Row, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const PROPORTION: Csv = csv!("oracles/proportion.csv");
 
@@ -31,15 +29,12 @@ pub(crate) fn intervals(context: &Context) -> Result<Answer, MethodError> {
     let mut answer = Answer::default();
     for (successes, trials) in counts {
         let one = Proportion::try_new(successes, trials).map_err(refused)?;
-        let count = match context.wrong {
-            Some(WrongModel::PointwiseIntervals) => 1,
-            _ => together,
-        };
+        let count = context.or(WrongModel::PointwiseIntervals, 1, together);
         let all = vec![one; count];
         let band = Proportion::band(&all, LEVEL).map_err(refused)?;
         let first = band.first().copied();
         let mut ends = first.unwrap_or((f64::NAN, f64::NAN));
-        if context.wrong == Some(WrongModel::WilsonInterval) {
+        if context.is(WrongModel::WilsonInterval) {
             let level = 1.0 - (1.0 - LEVEL) / count as f64;
             ends = wilson(one.share(), trials, level);
         }

@@ -8,9 +8,7 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
 
 use super::cells::{Csv, csv, refused};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const RISK: Csv = csv!("oracles/risk.csv");
 
@@ -37,10 +35,11 @@ pub(crate) fn annual_frequency(
             _ => right,
         };
         let found = hazard.annual_frequency(&fragility);
-        let least = match context.wrong {
-            Some(WrongModel::NothingBeyond) => found.covered,
-            _ => found.truncation_lower,
-        };
+        let least = context.or(
+            WrongModel::NothingBeyond,
+            found.covered,
+            found.truncation_lower,
+        );
         answer.put("at-least", [least], [low]);
         answer.put("at-most", [found.truncation_upper], [high]);
         // A difference, of numbers below `high`.

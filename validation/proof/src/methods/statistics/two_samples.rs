@@ -5,9 +5,7 @@ use rocking::statistics::two_sample::kolmogorov_smirnov;
 use serde::Deserialize;
 
 use super::cells::refused;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

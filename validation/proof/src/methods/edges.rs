@@ -1,7 +1,7 @@
 //! Overturning edges of Eq. 1 against those of Eq. 2, where the safe bay of
 //! a one-sine pulse opens, and grazing uplift.
 
-use rocking::block::{Block, Restitution};
+use rocking::block::{Block, BlockError, Restitution};
 use serde::Deserialize;
 
 use super::method::{Answer, Context, MethodError};
@@ -178,6 +178,10 @@ pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
+fn refused(error: BlockError) -> MethodError {
+    MethodError::Input(error.to_string())
+}
+
 /// Table 1 of the paper: R, 2b and 2h from alpha and p.
 pub(super) fn sizes(context: &Context) -> Result<Answer, MethodError> {
     input!(context; slenderness_rad: Vec<f64>, frequency_rad_s: f64);
@@ -188,21 +192,18 @@ pub(super) fn sizes(context: &Context) -> Result<Answer, MethodError> {
             0.92,
             Forcing::NONE,
         ));
-        let refused =
-            |e: rocking::block::BlockError| MethodError::Input(e.to_string());
-        let block = rocking::block::Block::try_new(
-            scene.slenderness_rad,
-            scene.frequency_rad_s,
-        )
-        .map_err(refused)?;
-        let size = block.dimensions(scene.gravity_m_s2).map_err(refused)?;
+        let block =
+            Block::try_new(scene.slenderness_rad, scene.frequency_rad_s);
+        let size = block
+            .map_err(refused)?
+            .dimensions(scene.gravity_m_s2)
+            .map_err(refused)?;
         for (name, value) in [
             ("half-diagonal-m", size.half_diagonal_m),
             ("width-m", size.width_m),
             ("height-m", size.height_m),
         ] {
-            let list = answer.observed.entry(name.to_owned()).or_default();
-            list.push(value);
+            answer.see(name, [value]);
         }
     }
     Ok(answer)
@@ -212,8 +213,6 @@ pub(super) fn sizes(context: &Context) -> Result<Answer, MethodError> {
 /// a constant one takes.
 pub(super) fn restitution(context: &Context) -> Result<Answer, MethodError> {
     input!(context; slenderness_rad: Vec<f64>, eta: f64);
-    let refused =
-        |e: rocking::block::BlockError| MethodError::Input(e.to_string());
     let mut answer = Answer::default();
     for &alpha in &slenderness_rad {
         let scene = context.altered(&Scene::new(

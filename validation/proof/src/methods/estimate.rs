@@ -5,22 +5,11 @@ use rayon::prelude::*;
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking::streams::Streams;
-use serde::Deserialize;
 
 use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine::{Arithmetic, WideTrace};
 use crate::references;
 use crate::scene::{Forcing, Model, Overturning, Scene};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Random scenes; none: the reference trajectories.
-    #[serde(default)]
-    scenes: u64,
-    /// `double` or `double-double`.
-    arithmetic: String,
-}
 
 /// One scene's verdict.
 enum Comparison {
@@ -40,8 +29,14 @@ const SHARES: [(&str, usize); 3] =
 
 /// Error of the peak over its estimate, over many scenes.
 pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let arithmetic = match input.arithmetic.as_str() {
+    input! { context;
+        /// Random scenes; none: the reference trajectories.
+        #[serde(default)]
+        scenes: u64,
+        /// `double` or `double-double`.
+        arithmetic: String,
+    }
+    let arithmetic = match arithmetic.as_str() {
         "double" => Arithmetic::Double,
         "double-double" => Arithmetic::DoubleDouble,
         other => {
@@ -49,11 +44,11 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
         }
     };
     let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
-    let all = if input.scenes == 0 {
+    let all = if scenes == 0 {
         against_references(arithmetic)?
     } else {
         let streams = Streams::new("error estimate", 0);
-        (0..input.scenes)
+        (0..scenes)
             .into_par_iter()
             .map(|k| {
                 let scene = drawn(&streams, k);
@@ -78,15 +73,12 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
     let exceeded = ratios.iter().filter(|r| !(**r <= 1.0)).count();
     answer.put("estimates-exceeded", [exceeded as f64], [0.0]);
     answer.put("sure-of-a-wrong-fate", [wrong], [0.0]);
-    let mut see = |name: &str, value: f64| {
-        answer.see(name, [value]);
-    };
-    see("peaks-compared", ratios.len() as f64);
-    see("fates-left-open", open);
+    answer.see("peaks-compared", [ratios.len() as f64]);
+    answer.see("fates-left-open", [open]);
     for (name, percent) in SHARES {
         let last = ratios.len().saturating_sub(1);
         let ratio = ratios.get(last * percent / 100);
-        see(name, ratio.copied().unwrap_or(f64::NAN));
+        answer.see(name, [ratio.copied().unwrap_or(f64::NAN)]);
     }
     Ok(answer)
 }

@@ -88,12 +88,10 @@ pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
     let scene = scene_of(context.case)?;
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
-    let mut see = |name: &str, values: Vec<f64>| {
-        answer.see(name, values);
-    };
-    see("peak-ratio", vec![trace.peak_ratio]);
-    see("uplifts", vec![trace.uplifts as f64]);
-    see("overturned", vec![f64::from(trace.overturned_s.is_some())]);
+    answer.see("peak-ratio", [trace.peak_ratio]);
+    answer.see("uplifts", [trace.uplifts as f64]);
+    let over = f64::from(trace.overturned_s.is_some());
+    answer.see("overturned", [over]);
     Ok(answer)
 }
 

@@ -159,11 +159,9 @@ fn differences(
         ..Observe::default()
     };
     let run = engine::respond(scene, &observe)?;
-    let arm = match context.wrong {
-        // The radius of a slender rod of the same p.
-        Some(WrongModel::InertiaOfAPoint) => g / (p * p),
-        _ => ARM * g / (p * p),
-    };
+    // The radius of a slender rod of the same p, or the block's.
+    let share = context.or(WrongModel::InertiaOfAPoint, 1.0, ARM);
+    let arm = share * g / (p * p);
     let place = |theta: f64| {
         let phi = alpha - theta.abs();
         let x = arm * (libm::sin(alpha) - libm::sin(phi));

@@ -15,17 +15,6 @@ const EXPECTED_CSV: &str =
 const PAIR_CSV: &str =
     include_str!("../../../../fixtures/oracles/intensity-pair.csv");
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Name of the motion in the file of expected values.
-    motion: String,
-    /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`.
-    of: Vec<String>,
-    first: Motion,
-    second: Option<Motion>,
-}
-
 /// How a component is made.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, tag = "kind", rename_all = "kebab-case")]
@@ -97,13 +86,19 @@ fn refused(error: IntensityError) -> MethodError {
 
 /// Measures of one or two components.
 pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
+    input! { context;
+        /// Name of the motion in the file of expected values.
+        motion: String,
+        /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`.
+        of: Vec<String>,
+        first: Motion, second: Option<Motion>,
+    }
     let rows: Vec<[&str; 4]> = EXPECTED_CSV
         .lines()
         .filter_map(|line| {
             <[&str; 4]>::try_from(line.split(',').collect::<Vec<_>>()).ok()
         })
-        .filter(|row| row[0] == input.motion)
+        .filter(|row| row[0] == motion)
         .collect();
     let mut periods: Vec<(&str, f64)> = Vec::new();
     for row in &rows {
@@ -121,8 +116,8 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         periods.iter().map(|(_, t)| stretch * t).collect(),
     )
     .map_err(refused)?;
-    let mut first = input.first.record(None)?;
-    let mut second = match &input.second {
+    let mut first = first.record(None)?;
+    let mut second = match &second {
         Some(motion) => Some(motion.record(Some(&first))?),
         None => None,
     };
@@ -160,7 +155,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         }
     }
     let mut answer = Answer::default();
-    for of in &input.of {
+    for of in &of {
         let measures = found.iter().find(|(name, _)| name == of);
         let Some((_, measures)) = measures else {
             return Err(MethodError::Input(format!("no measures of `{of}`")));
@@ -178,9 +173,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
                 Some(_) => "spectral-acceleration-g".to_owned(),
                 None => row[2].replace('_', "-"),
             };
-            let expected = parse(row[3])?;
-            answer.see(&name, [own]);
-            answer.expected.entry(name).or_default().push(expected);
+            answer.put(&name, [own], [parse(row[3])?]);
         }
     }
     Ok(answer)

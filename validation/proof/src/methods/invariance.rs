@@ -10,21 +10,6 @@ use crate::engine::Core;
 use crate::references;
 use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    change: Change,
-    equation: Model,
-    record: String,
-    /// PGA over the uplift threshold.
-    intensity: f64,
-    /// Samples kept; the record then ends with a jump.
-    #[serde(default)]
-    samples: Option<usize>,
-    /// Blocks: alpha (rad), p (rad/s), eta.
-    blocks: Vec<[f64; 3]>,
-}
-
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Change {
@@ -47,15 +32,24 @@ const SHIFT: usize = 64;
 
 /// A record and its changed twin on several blocks.
 pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let (dt_s, mut record) = references::record(&input.record)?;
-    if let Some(count) = input.samples {
+    input! { context;
+        change: Change, equation: Model, record: String,
+        /// PGA over the uplift threshold.
+        intensity: f64,
+        /// Samples kept; the record then ends with a jump.
+        #[serde(default)]
+        samples: Option<usize>,
+        /// Blocks: alpha (rad), p (rad/s), eta.
+        blocks: Vec<[f64; 3]>,
+    }
+    let (dt_s, mut record) = references::record(&record)?;
+    if let Some(count) = samples {
         record.truncate(count);
     }
     let mut answer = Answer::default();
-    for [alpha, p, eta] in input.blocks.iter().copied() {
+    for [alpha, p, eta] in blocks.iter().copied() {
         let mut scene = Scene {
-            model: input.equation,
+            model: equation,
             ..Scene::new(
                 [alpha, p, 9.81],
                 eta,
@@ -63,16 +57,16 @@ pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
             )
         };
         let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let factor = input.intensity * scene.threshold_m_s2() / peak;
+        let factor = intensity * scene.threshold_m_s2() / peak;
         scale(&mut scene.forcing, factor);
         let expected = Core.respond(&scene)?;
-        let twin = twin(&scene, input.change, peak)?;
+        let twin = twin(&scene, change, peak)?;
         let observed = context.engine.respond(&twin)?;
-        let shift_s = match input.change {
+        let shift_s = match change {
             Change::Shift => SHIFT as f64 * dt_s,
             _ => 0.0,
         };
-        let mirror = match input.change {
+        let mirror = match change {
             Change::Mirror => -1.0,
             _ => 1.0,
         };

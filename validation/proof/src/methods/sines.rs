@@ -26,10 +26,9 @@ pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
     let mut ratios = Vec::new();
     for &omega in &omega_over_p {
         let classic = semi_infinite(omega);
-        let condition = match context.wrong {
-            Some(WrongModel::SemiInfiniteSine) => classic,
-            _ => sine_without_impact(1, omega),
-        };
+        let exact = sine_without_impact(1, omega);
+        let condition =
+            context.or(WrongModel::SemiInfiniteSine, classic, exact);
         let found = flip(condition, |a| {
             let pulse =
                 PulseKind::HalfSine { amplitude: a, omega_rad_s: omega };

@@ -3,27 +3,22 @@
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::choice::{Model, candidate};
 use rocking::statistics::lognormal::{FitMethod, fit};
-use serde::Deserialize;
 
 use super::cells::{Csv, csv, refused};
 use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const CHOICE: Csv = csv!("oracles/choice.csv");
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    sample: Vec<f64>,
-    /// The sample as the file names it.
-    name: String,
-}
-
 /// Likelihood, criteria and distances of every family in the file.
 pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let sample = ExtendedSample::try_new(&input.sample).map_err(refused)?;
+    input! { context;
+        sample: Vec<f64>,
+        /// The sample as the file names it.
+        name: String,
+    }
+    let sample = ExtendedSample::try_new(&sample).map_err(refused)?;
     let mut answer = Answer::default();
-    for row in CHOICE.rows(&input.name)? {
+    for row in CHOICE.rows(&name)? {
         let mut models = Model::ALL.into_iter();
         let model = models.find(|model| model.to_string() == row.text(1));
         let model = model.ok_or_else(|| {

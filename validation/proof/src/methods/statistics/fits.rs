@@ -28,11 +28,8 @@ pub(crate) fn fits(context: &Context) -> Result<Answer, MethodError> {
         method: String,
     }
     let sample = ExtendedSample::try_new(&sample).map_err(refused)?;
-    let quantile_type = match context.wrong {
-        Some(WrongModel::OtherQuantileType) => QuantileType::try_new(7),
-        _ => QuantileType::try_new(5),
-    }
-    .map_err(refused)?;
+    let number = context.or(WrongModel::OtherQuantileType, 7, 5);
+    let quantile_type = QuantileType::try_new(number).map_err(refused)?;
     let unit = context.or(WrongModel::HalfTheShift, 0.5, 1.0);
     let mut answer = Answer::default();
     if let Ok(family) = method.parse::<Family>() {
@@ -123,10 +120,8 @@ pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
     let sample = Sample::try_new(&logs).map_err(refused)?;
     let rows = NORMALITY.rows(&letter)?;
     let d = Statistic::try_new(&sample).map_err(refused)?;
-    let d = match context.wrong {
-        Some(WrongModel::UpperSideOnly) => d.d_plus.min(d.d_minus),
-        _ => d.d,
-    };
+    let smaller = d.d_plus.min(d.d_minus);
+    let d = context.or(WrongModel::UpperSideOnly, smaller, d.d);
     let a = anderson_darling(&sample).map_err(refused)?;
     let w = cramer_von_mises(&sample).map_err(refused)?;
     let s = shapiro_wilk(&sample).map_err(refused)?;
@@ -147,6 +142,7 @@ pub(crate) fn tests(context: &Context) -> Result<Answer, MethodError> {
 /// Equivalence by t and sign tests, the sign test, Hodges and Lehmann.
 pub(crate) fn paired(context: &Context) -> Result<Answer, MethodError> {
     input!(context; ratios: Vec<f64>, letter: String);
+    // 1 -+ m instead of 1/(1 + m) to 1 + m.
     let margin = context.or(WrongModel::OtherMargin, 0.06, 0.05);
     let mean = equivalence(&ratios, margin).map_err(refused)?;
     let median = sign_equivalence(&ratios, margin).map_err(refused)?;

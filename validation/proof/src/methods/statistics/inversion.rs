@@ -23,17 +23,12 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
     let curve =
         ResponseCurve::try_new(&vertices, overturning).map_err(refused)?;
     let mut answer = Answer::default();
-    let mut put = |name: &str, value: f64| {
-        answer.see(name, [value]);
-    };
     for level in levels {
         // Strictly above instead of at or above.
-        let level = match context.wrong {
-            Some(WrongModel::OpenCrossings) => level * (1.0 + f64::EPSILON),
-            _ => level,
-        };
+        let above = level * (1.0 + f64::EPSILON);
+        let level = context.or(WrongModel::OpenCrossings, above, level);
         let crossings = curve.crossings(level).map_err(refused)?;
-        put("crossings", crossings.all().len() as f64);
+        answer.see("crossings", [crossings.all().len() as f64]);
         for named in InversionRule::ALL {
             let rule = match (context.wrong, named) {
                 (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
@@ -41,7 +36,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
                 }
                 _ => named,
             };
-            put(named.name(), crossings.capacity(rule).im());
+            answer.see(named.name(), [crossings.capacity(rule).im()]);
         }
     }
     Ok(answer)

@@ -125,8 +125,7 @@ pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
     }
     for n in [44, 86] {
         let (_, own) = table.critical_value(n, 0.05).map_err(refused)?;
-        let seen = answer.observed.entry("own-error".into()).or_default();
-        seen.push(own);
+        answer.see("own-error", [own]);
     }
     Ok(answer)
 }

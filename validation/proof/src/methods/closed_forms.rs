@@ -22,7 +22,6 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
         release: Vec<f64>,
         impacts: usize,
     }
-    let equation = equation;
     let mut answer = Answer::default();
     for &alpha in &slenderness_rad {
         for &p in &frequency_rad_s {

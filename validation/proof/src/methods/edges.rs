@@ -106,9 +106,9 @@ pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
     input!(context; eta: f64, omega_over_p: f64, block: [f64; 3]);
     let pulse = OneSine {
         equation: Model::Linearized,
-        block: block,
+        block,
         omega: omega_over_p,
-        eta: eta,
+        eta,
     };
     let upper = overturning::mode_1_upper(omega_over_p, eta)
         .ok_or_else(|| MethodError::Oracle("no mode 1".to_owned()))?;

@@ -71,7 +71,6 @@ pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
         intensity: f64,
         impacts: usize,
     }
-    let equation = equation;
     let (p, alpha) = (frequency_rad_s, slenderness_rad);
     let mut scene = Scene {
         model: equation,

@@ -47,7 +47,7 @@ pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
         record.truncate(count);
     }
     let mut answer = Answer::default();
-    for [alpha, p, eta] in blocks.iter().copied() {
+    for [alpha, p, eta] in blocks {
         let mut scene = Scene {
             model: equation,
             ..Scene::new(

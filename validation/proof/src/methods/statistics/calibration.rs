@@ -55,7 +55,6 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
         reference: Vec<u64>,
         rounding: f64,
     }
-    let (n, level) = (n, level);
     let critical = match context.wrong {
         // Of the fully specified distribution, asymptotically.
         Some(WrongModel::PlainKolmogorov) => {

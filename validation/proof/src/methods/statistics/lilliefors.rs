@@ -20,7 +20,6 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
         /// Error of the exact values.
         error: f64,
     }
-    let n = n;
     let streams = Streams::new("case, lilliefors null", 0);
     let mut statistics: Vec<f64> = (0..replicates)
         .into_par_iter()

@@ -1,6 +1,9 @@
 //! Registry of what a case can ask to be computed, and how wrong models go
 //! wrong.
 
+#[macro_use]
+mod method;
+
 mod closed_forms;
 mod convergence;
 mod curves;
@@ -13,7 +16,6 @@ mod forces;
 mod hard;
 mod intensity;
 mod invariance;
-mod method;
 mod points;
 mod precise;
 mod response;

@@ -1,21 +1,25 @@
 //! High-precision references, embedded; every number is a decimal string
-//! with 36 or 40 digits and is read to the nearest double.
+//! with 36 or 40 digits.
 
-use std::sync::LazyLock;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
-use rocking::excitation::{PulseName, PulseParameter};
+use rocking::excitation::{PulseName, PulseParameter as P};
 use rocking::number::double::DoubleDouble;
+use rocking::number::{Number as _, Real as _};
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::arithmetic::decimal;
 use crate::error::MethodError;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene, rescaled};
 
-/// An embedded file.
-pub(crate) struct Reference {
-    pub file: &'static str,
+/// An embedded file, read once.
+pub(crate) struct Reference<T> {
+    file: &'static str,
     text: &'static str,
+    read: OnceLock<T>,
 }
 
 macro_rules! reference {
@@ -26,315 +30,440 @@ macro_rules! reference {
                 "../../../fixtures/references/",
                 $name
             )),
+            read: OnceLock::new(),
         }
     };
 }
 
-pub(crate) const TRAJECTORIES: Reference = reference!("trajectories.json");
-pub(crate) const RECORDS: Reference = reference!("records.json");
-pub(crate) const LINEAR_PULSES: Reference = reference!("linear_pulses.json");
-pub(crate) const FREE_ROCKING: Reference = reference!("free_rocking.json");
-pub(crate) const RECT_PULSE: Reference = reference!("rect_pulse.json");
-pub(crate) const SPECTRUM: Reference =
+static TRAJECTORIES: Reference<Cases<Trajectory>> =
+    reference!("trajectories.json");
+static RECORDS: Reference<BTreeMap<String, Record>> =
+    reference!("records.json");
+pub(crate) static LINEAR_PULSES: Reference<Cases<LinearPulse>> =
+    reference!("linear_pulses.json");
+pub(crate) static FREE_ROCKING: Reference<Cases<FreeRocking>> =
+    reference!("free_rocking.json");
+pub(crate) static RECT_PULSE: Reference<Cases<RectangularPulse>> =
+    reference!("rect_pulse.json");
+pub(crate) static SPECTRUM: Reference<Spectrum> =
     reference!("linear_overturning_spectrum.json");
 
-impl Reference {
-    pub fn read(&self) -> Result<Value, MethodError> {
-        serde_json::from_str(self.text).map_err(|e| self.lacks(e))
+impl<T: DeserializeOwned> Reference<T> {
+    /// What the file holds.
+    pub fn read(&self) -> Result<&T, MethodError> {
+        if let Some(read) = self.read.get() {
+            return Ok(read);
+        }
+        let read = serde_json::from_str(self.text);
+        let read = read.map_err(|error| self.lacks(error))?;
+        Ok(self.read.get_or_init(|| read))
     }
 
     pub fn lacks(&self, what: impl std::fmt::Display) -> MethodError {
         MethodError::Reference { file: self.file, what: what.to_string() }
     }
+}
 
-    /// The field `key` of `value`.
-    pub fn get<'a>(
-        &self,
-        value: &'a Value,
-        key: &str,
-    ) -> Result<&'a Value, MethodError> {
-        value.get(key).ok_or_else(|| self.lacks(format!("no field `{key}`")))
+impl<T> Reference<Cases<T>>
+where
+    Cases<T>: DeserializeOwned,
+{
+    /// The entry of this number among the file's cases.
+    pub fn entry(&self, number: usize) -> Result<&T, MethodError> {
+        let found = self.read()?.cases.get(number);
+        found.ok_or_else(|| self.lacks(format!("no entry {number}")))
+    }
+}
+
+/// A file of cases.
+#[derive(Deserialize)]
+pub(crate) struct Cases<T> {
+    pub cases: Vec<T>,
+}
+
+/// A decimal of a file: the nearest double, and the decimal to the last bits
+/// of a double-double.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(try_from = "String")]
+pub(crate) struct Digits {
+    pub near: f64,
+    pub wide: DoubleDouble,
+}
+
+impl TryFrom<String> for Digits {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let both = text.parse().ok().zip(decimal(&text));
+        let (near, wide) = both.ok_or(format!("`{text}` is no decimal"))?;
+        Ok(Self { near, wide })
+    }
+}
+
+/// An impact: its time, and the speed before it.
+#[derive(Deserialize)]
+pub(crate) struct Hit {
+    #[serde(alias = "tau")]
+    pub t: Digits,
+    #[serde(alias = "theta_dot_before", alias = "phi_dot_before")]
+    speed: Digits,
+}
+
+impl Hit {
+    pub fn speed(&self) -> f64 {
+        self.speed.near.abs()
     }
 
-    /// The list `key` of `value`.
-    pub fn list<'a>(
-        &self,
-        value: &'a Value,
-        key: &str,
-    ) -> Result<&'a [Value], MethodError> {
-        let found = self.get(value, key)?.as_array();
-        found
-            .map(Vec::as_slice)
-            .ok_or_else(|| self.lacks(format!("`{key}` is no list")))
+    /// Time and speed, each times a unit.
+    pub fn wide(&self, units: [f64; 2]) -> (DoubleDouble, DoubleDouble) {
+        let [time, speed] = units.map(DoubleDouble::from_f64);
+        (self.t.wide * time, self.speed.wide.abs() * speed)
     }
+}
 
-    /// A number, from JSON or from the first word of a string.
-    pub fn number(&self, value: &Value) -> Result<f64, MethodError> {
-        let text = value.as_str().and_then(|s| s.split_whitespace().next());
-        let read = match text {
-            Some(word) => word.parse().ok(),
-            None => value.as_f64(),
-        };
-        read.ok_or_else(|| self.lacks(format!("`{value}` is no number")))
-    }
+/// A trajectory under a record or a pulse.
+#[derive(Deserialize)]
+pub(crate) struct Trajectory {
+    name: String,
+    model: String,
+    alpha: Digits,
+    p: Digits,
+    eta: Digits,
+    g: Digits,
+    forcing: Ground,
+    pub expected: Expected,
+    /// What a careful double-precision code was off by.
+    pub attainable_float64: BTreeMap<String, Value>,
+}
 
-    /// The number `key` of `value`.
-    pub fn f64(&self, value: &Value, key: &str) -> Result<f64, MethodError> {
-        self.number(self.get(value, key)?)
-    }
+/// What the block does.
+#[derive(Deserialize)]
+pub(crate) struct Expected {
+    pub n_uplifts: f64,
+    pub uplifts: Vec<Uplift>,
+    pub impacts: Vec<Hit>,
+    #[serde(rename = "peak_of_hop_before_impact")]
+    pub hops: Vec<Hop>,
+    /// Numbers of impacts above a speed over p alpha.
+    #[serde(rename = "n_impacts_with_speed_over_p_alpha_above")]
+    pub faster: BTreeMap<String, f64>,
+    t_first_abs_theta_eq_alpha: Option<Digits>,
+    t_abs_theta_eq_pi_over_2: Option<Digits>,
+    peak_abs_theta_over_alpha: String,
+    pub t_peak: Option<Digits>,
+    pub rest_times: Vec<Digits>,
+    pub checkpoints: Vec<Checkpoint>,
+}
 
-    /// The number `key` of `value`, which may be null.
-    pub fn optional(
-        &self,
-        value: &Value,
-        key: &str,
-    ) -> Result<Option<f64>, MethodError> {
-        match self.get(value, key)? {
-            Value::Null => Ok(None),
-            found => self.number(found).map(Some),
+#[derive(Deserialize)]
+pub(crate) struct Uplift {
+    pub t: Digits,
+    pub side: f64,
+}
+
+#[derive(Deserialize)]
+pub(crate) struct Hop {
+    pub t: Digits,
+    pub side: f64,
+    pub abs_theta_over_alpha: Digits,
+}
+
+#[derive(Deserialize)]
+pub(crate) struct Checkpoint {
+    pub t: Digits,
+    pub theta: Digits,
+    pub theta_dot: Digits,
+}
+
+impl Expected {
+    /// When the block overturns by a criterion.
+    pub fn overturned(&self, criterion: Overturning) -> Option<Digits> {
+        match criterion {
+            Overturning::Alpha => self.t_first_abs_theta_eq_alpha,
+            Overturning::HalfPi => self.t_abs_theta_eq_pi_over_2,
         }
     }
 
-    /// The number `key` of `value` to the last bits of a double-double.
-    pub fn wide(
-        &self,
-        value: &Value,
-        key: &str,
-    ) -> Result<DoubleDouble, MethodError> {
-        let found = self.get(value, key)?;
-        let number = found.as_str().and_then(decimal);
-        number.ok_or_else(|| self.lacks(format!("`{found}` is no decimal")))
+    /// The peak; none where the file says that pi/2 is reached.
+    pub fn peak(&self) -> Option<Digits> {
+        self.peak_abs_theta_over_alpha.clone().try_into().ok()
     }
 
-    /// The numbers `key` of every entry of a list.
-    pub fn column(
+    /// The impacts before it overturns, where a run ends.
+    pub fn impacts_until(
         &self,
-        entries: &[Value],
-        key: &str,
-    ) -> Result<Vec<f64>, MethodError> {
-        entries.iter().map(|entry| self.f64(entry, key)).collect()
+        criterion: Overturning,
+    ) -> Vec<(DoubleDouble, DoubleDouble)> {
+        let end = self.overturned(criterion);
+        let before = |t: DoubleDouble| end.is_none_or(|end| t < end.wide);
+        let all = self.impacts.iter().map(|hit| hit.wide([1.0; 2]));
+        all.filter(|(t, _)| before(*t)).collect()
     }
 }
 
-/// Input of a case: a named trajectory.
+/// A ground motion: its kind, and those parameters that the kind has.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Named {
-    pub entry: String,
+struct Ground {
+    #[serde(alias = "pulse")]
+    kind: String,
+    #[serde(alias = "A")]
+    a_p: Option<Digits>,
+    #[serde(alias = "Omega")]
+    omega: Option<Digits>,
+    #[serde(alias = "tau_d")]
+    t_d: Option<Digits>,
+    #[serde(alias = "tau_p", rename = "T_p")]
+    t_p: Option<Digits>,
+    #[serde(rename = "n_Tp")]
+    cycles: Option<f64>,
+    #[serde(rename = "A_v")]
+    a_v: Option<Digits>,
+    f_p: Option<Digits>,
+    gamma: Option<Digits>,
+    nu: Option<Digits>,
+    dt: Option<Digits>,
+    acc: Option<Samples>,
+    record: Option<String>,
 }
 
-/// Input of a case: an entry by its place in the file.
+/// Samples, or where they stand.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Numbered {
-    pub entry: usize,
+#[serde(untagged)]
+enum Samples {
+    Here(Vec<Digits>),
+    Elsewhere(String),
 }
 
-/// Input of a case: a pulse in Eq. 2 by its place in the file, and blocks:
-/// alpha (rad), p (rad/s), g (m/s2).
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct PulseOnBlocks {
-    pub entry: usize,
-    pub blocks: Vec<[f64; 3]>,
-}
-
-/// The entry of this number among a file's cases.
-pub(crate) fn entry(
-    file: &Reference,
-    number: usize,
-) -> Result<Value, MethodError> {
-    let all = file.read()?;
-    let found = file.list(&all, "cases")?.get(number).cloned();
-    found.ok_or_else(|| file.lacks(format!("no entry {number}")))
-}
-
-/// A block (alpha, p, g) in Eq. 2 under the pulse of a dimensionless case of
-/// `linear_pulses.json`.
-pub(crate) fn linear_scene(
-    case: &Value,
-    [alpha, p, g]: [f64; 3],
-    criterion: Overturning,
-) -> Result<Scene, MethodError> {
-    let file = &LINEAR_PULSES;
-    let fields = Fields {
-        kind: "pulse",
-        amplitude: "A",
-        omega: "Omega",
-        duration: "tau_d",
-        period: "tau_p",
-        cycles: None,
-    };
-    let pulse = pulse(file, case, &fields)?
-        .ok_or_else(|| file.lacks(format!("pulse {}", case["pulse"])))?;
-    Ok(Scene {
-        model: Model::Linearized,
-        overturning: criterion,
-        ..Scene::new(
-            [alpha, p, g],
-            file.f64(case, "eta")?,
-            Forcing::Pulse(rescaled(pulse, g * alpha, p)),
-        )
-    })
-}
-
-/// What the fields of a pulse are called in a file.
-struct Fields {
-    kind: &'static str,
-    amplitude: &'static str,
-    omega: &'static str,
-    duration: &'static str,
-    period: &'static str,
-    /// Of a Ricker pulse's length in periods; 4 where there is none.
-    cycles: Option<&'static str>,
-}
-
-/// The pulse of an entry; none where its kind is not that of a pulse.
-fn pulse(
-    file: &Reference,
-    value: &Value,
-    fields: &Fields,
-) -> Result<Option<PulseKind>, MethodError> {
-    use PulseParameter as P;
-    let name = match file.get(value, fields.kind)?.as_str() {
-        Some("one_sine") => PulseName::OneSine,
-        Some("half_sine") => PulseName::HalfSine,
-        Some("one_cosine") => PulseName::OneCosine,
-        Some("rectangular") => PulseName::Rectangle,
-        Some("triangular") => PulseName::Triangle,
-        Some("ricker_sym") => PulseName::RickerSymmetric,
-        Some("ricker_anti") => PulseName::RickerAntisymmetric,
-        Some("mavroeidis") => PulseName::MavroeidisPapageorgiou,
-        _ => return Ok(None),
-    };
-    let kind = name.kind(|parameter| {
-        let key = match (parameter, fields.cycles) {
-            (P::Cycles, None) => return Ok(4.0),
-            (P::Cycles, Some(cycles)) => cycles,
-            (P::Amplitude, _) => fields.amplitude,
-            (P::Omega, _) => fields.omega,
-            (P::Duration, _) => fields.duration,
-            (P::Period, _) => fields.period,
-            (P::Velocity, _) => "A_v",
-            (P::Frequency, _) => "f_p",
-            (P::Gamma, _) => "gamma",
-            (P::Phase, _) => "nu",
+impl Ground {
+    /// The pulse; none where the kind is not that of a pulse.
+    fn pulse(&self) -> Result<Option<PulseKind>, MethodError> {
+        let name = match self.kind.as_str() {
+            "one_sine" => PulseName::OneSine,
+            "half_sine" => PulseName::HalfSine,
+            "one_cosine" => PulseName::OneCosine,
+            "rectangular" => PulseName::Rectangle,
+            "triangular" => PulseName::Triangle,
+            "ricker_sym" => PulseName::RickerSymmetric,
+            "ricker_anti" => PulseName::RickerAntisymmetric,
+            "mavroeidis" => PulseName::MavroeidisPapageorgiou,
+            _ => return Ok(None),
         };
-        file.f64(value, key)
-    });
-    kind.map(Some)
+        let kind = name.kind(|parameter| {
+            let found = match parameter {
+                P::Amplitude => self.a_p,
+                P::Omega => self.omega,
+                P::Duration => self.t_d,
+                P::Period => self.t_p,
+                // A Ricker pulse is 4 periods long where nothing is said.
+                P::Cycles => return Ok(self.cycles.unwrap_or(4.0)),
+                P::Velocity => self.a_v,
+                P::Frequency => self.f_p,
+                P::Gamma => self.gamma,
+                P::Phase => self.nu,
+            };
+            found.map(|found| found.near).ok_or_else(|| self.lacks())
+        });
+        kind.map(Some)
+    }
+
+    fn forcing(&self) -> Result<Forcing, MethodError> {
+        if let Some(pulse) = self.pulse()? {
+            return Ok(Forcing::Pulse(pulse));
+        }
+        let acceleration_m_s2 = match (&self.acc, &self.record) {
+            (Some(Samples::Here(acc)), _) => nearest(acc),
+            (Some(Samples::Elsewhere(place)), Some(name))
+                if place.ends_with(name) =>
+            {
+                record(name)?.1
+            }
+            _ => return Err(self.lacks()),
+        };
+        let dt_s = self.dt.ok_or_else(|| self.lacks())?.near;
+        Ok(Forcing::Samples { dt_s, acceleration_m_s2 })
+    }
+
+    fn lacks(&self) -> MethodError {
+        TRAJECTORIES.lacks(format!("ground motion of kind `{}`", self.kind))
+    }
 }
 
-/// The block and pulse of an entry of `rect_pulse.json`.
-pub(crate) fn rectangular_scene(
-    case: &Value,
-    criterion: Overturning,
-) -> Result<Scene, MethodError> {
-    let file = &RECT_PULSE;
-    Ok(Scene {
-        overturning: criterion,
-        ..Scene::new(
-            [
-                file.f64(case, "alpha")?,
-                file.f64(case, "p")?,
-                file.f64(&file.read()?, "g")?,
-            ],
-            file.f64(case, "eta")?,
-            Forcing::Pulse(PulseKind::Rectangle {
-                amplitude: file.f64(case, "a0")?,
-                duration_s: file.f64(case, "td")?,
-            }),
-        )
-    })
+/// The nearest doubles of a list.
+pub(crate) fn nearest(list: &[Digits]) -> Vec<f64> {
+    list.iter().map(|digits| digits.near).collect()
 }
 
-/// The file of trajectories, read once.
-static READ: LazyLock<Result<Value, MethodError>> =
-    LazyLock::new(|| TRAJECTORIES.read());
+/// The trajectories, in their order.
+pub(crate) fn trajectories() -> Result<&'static [Trajectory], MethodError> {
+    TRAJECTORIES.read().map(|file| file.cases.as_slice())
+}
 
 /// The trajectory of this name.
-pub(crate) fn trajectory(name: &str) -> Result<&'static Value, MethodError> {
-    let file = READ.as_ref().map_err(Clone::clone)?;
-    let named = |case: &&Value| case["name"] == name;
-    TRAJECTORIES
-        .list(file, "cases")?
-        .iter()
-        .find(named)
-        .ok_or_else(|| TRAJECTORIES.lacks(format!("no case `{name}`")))
-}
-
-/// What a careful double-precision code was off by on the trajectory of this
-/// name.
-pub(crate) fn attainable_float64(
+pub(crate) fn trajectory(
     name: &str,
-) -> Result<&'static Value, MethodError> {
-    TRAJECTORIES.get(trajectory(name)?, "attainable_float64")
+) -> Result<&'static Trajectory, MethodError> {
+    let found = trajectories()?.iter().find(|case| case.name == name);
+    found.ok_or_else(|| TRAJECTORIES.lacks(format!("no case `{name}`")))
 }
 
-/// The scene of a trajectory.
-pub(crate) fn scene(
-    case: &Value,
-    criterion: Overturning,
-) -> Result<Scene, MethodError> {
-    let file = &TRAJECTORIES;
-    let equation = match case["model"].as_str() {
-        Some("nonlinear") => Model::Nonlinear,
-        Some("linear") => Model::Linearized,
-        _ => return Err(file.lacks("model neither nonlinear nor linear")),
-    };
-    Ok(Scene {
-        model: equation,
-        overturning: criterion,
-        ..Scene::new(
-            [
-                file.f64(case, "alpha")?,
-                file.f64(case, "p")?,
-                file.f64(case, "g")?,
-            ],
-            file.f64(case, "eta")?,
-            forcing(file.get(case, "forcing")?)?,
-        )
-    })
-}
-
-fn forcing(value: &Value) -> Result<Forcing, MethodError> {
-    let file = &TRAJECTORIES;
-    let fields = Fields {
-        kind: "kind",
-        amplitude: "a_p",
-        omega: "omega",
-        duration: "t_d",
-        period: "T_p",
-        cycles: Some("n_Tp"),
-    };
-    if let Some(pulse) = pulse(file, value, &fields)? {
-        return Ok(Forcing::Pulse(pulse));
-    }
-    match file.get(value, "kind")?.as_str() {
-        Some("sampled") => Ok(Forcing::Samples {
-            dt_s: file.f64(value, "dt")?,
-            acceleration_m_s2: samples(value)?,
-        }),
-        kind => Err(file.lacks(format!("forcing of kind {kind:?}"))),
+impl Trajectory {
+    pub fn scene(&self, criterion: Overturning) -> Result<Scene, MethodError> {
+        let equation = match self.model.as_str() {
+            "nonlinear" => Model::Nonlinear,
+            "linear" => Model::Linearized,
+            _ => return Err(TRAJECTORIES.lacks("another model")),
+        };
+        let block = [self.alpha, self.p, self.g].map(|digits| digits.near);
+        Ok(Scene {
+            model: equation,
+            overturning: criterion,
+            ..Scene::new(block, self.eta.near, self.forcing.forcing()?)
+        })
     }
 }
 
-fn samples(value: &Value) -> Result<Vec<f64>, MethodError> {
-    let file = &TRAJECTORIES;
-    if file.get(value, "acc")?.is_array() {
-        let list = file.list(value, "acc")?;
-        return list.iter().map(|a| file.number(a)).collect();
-    }
-    let name = file.get(value, "record")?.as_str().unwrap_or_default();
-    record(name).map(|(_, samples)| samples)
+/// A synthetic record.
+#[derive(Deserialize)]
+struct Record {
+    dt: Digits,
+    acc: Vec<Digits>,
 }
 
 /// A synthetic record: interval in s and samples in m/s2.
 pub(crate) fn record(name: &str) -> Result<(f64, Vec<f64>), MethodError> {
-    let records = RECORDS.read()?;
-    let record = RECORDS.get(&records, name)?;
-    let list = RECORDS.list(record, "acc")?;
-    let samples: Result<_, _> =
-        list.iter().map(|a| RECORDS.number(a)).collect();
-    Ok((RECORDS.f64(record, "dt")?, samples?))
+    let found = RECORDS.read()?.get(name);
+    let record = found.ok_or_else(|| RECORDS.lacks(format!("no `{name}`")))?;
+    Ok((record.dt.near, nearest(&record.acc)))
+}
+
+/// A pulse on a block in Eq. 2: p t, theta/alpha and a/(g alpha).
+#[derive(Deserialize)]
+pub(crate) struct LinearPulse {
+    #[serde(flatten)]
+    ground: Ground,
+    eta: Digits,
+    pub expected: LinearExpected,
+}
+
+/// What the block does.
+#[derive(Deserialize)]
+pub(crate) struct LinearExpected {
+    pub uplift_tau: Digits,
+    pub side: f64,
+    pub state_at_pulse_end: Option<LinearEnd>,
+    pub impacts: Vec<Hit>,
+    #[serde(rename = "peak_of_hop_before_impact")]
+    pub hops: Vec<Digits>,
+    pub verdict: Option<String>,
+    #[serde(rename = "tau_first_abs_phi_eq_1")]
+    pub overturned: Option<Digits>,
+}
+
+#[derive(Deserialize)]
+pub(crate) struct LinearEnd {
+    #[serde(rename = "E_plus")]
+    pub growing: Digits,
+    #[serde(rename = "E_minus")]
+    pub decaying: Digits,
+}
+
+impl LinearPulse {
+    /// A block (alpha, p, g) under the pulse.
+    pub fn scene(
+        &self,
+        [alpha, p, g]: [f64; 3],
+        criterion: Overturning,
+    ) -> Result<Scene, MethodError> {
+        let pulse = self.ground.pulse()?.ok_or_else(|| self.ground.lacks())?;
+        let forcing = Forcing::Pulse(rescaled(pulse, g * alpha, p));
+        Ok(Scene {
+            model: Model::Linearized,
+            overturning: criterion,
+            ..Scene::new([alpha, p, g], self.eta.near, forcing)
+        })
+    }
+}
+
+/// A release, and what follows in both equations.
+#[derive(Deserialize)]
+pub(crate) struct FreeRocking {
+    pub alpha: Digits,
+    pub p: Digits,
+    pub eta: Digits,
+    pub theta0: Digits,
+    pub nonlinear: FreeExpected,
+    pub linear: FreeExpected,
+}
+
+#[derive(Deserialize)]
+pub(crate) struct FreeExpected {
+    pub impacts: Vec<Hit>,
+    pub settling_time: Digits,
+}
+
+/// A rectangular pulse in Eq. 1.
+#[derive(Deserialize)]
+pub(crate) struct RectangularPulse {
+    alpha: Digits,
+    pub p: Digits,
+    eta: Digits,
+    a0: Digits,
+    td: Digits,
+    t_theta_eq_alpha: Option<Digits>,
+    t_theta_eq_pi_over_2: Option<Digits>,
+    #[serde(default)]
+    pub impacts: Vec<Hit>,
+    pub peak_over_alpha: Option<Digits>,
+    pub t_peak: Option<Digits>,
+    pub settling_time: Option<Digits>,
+}
+
+impl RectangularPulse {
+    pub fn scene(&self, criterion: Overturning) -> Scene {
+        let pulse = PulseKind::Rectangle {
+            amplitude: self.a0.near,
+            duration_s: self.td.near,
+        };
+        let block = [self.alpha.near, self.p.near, 9.81];
+        Scene {
+            overturning: criterion,
+            ..Scene::new(block, self.eta.near, Forcing::Pulse(pulse))
+        }
+    }
+
+    /// When the block overturns by a criterion.
+    pub fn overturned(&self, criterion: Overturning) -> Option<Digits> {
+        match criterion {
+            Overturning::Alpha => self.t_theta_eq_alpha,
+            Overturning::HalfPi => self.t_theta_eq_pi_over_2,
+        }
+    }
+}
+
+/// Edges of overturning under one-sine pulses in Eq. 2.
+#[derive(Deserialize)]
+pub(crate) struct Spectrum {
+    pub table: Vec<SpectrumRow>,
+}
+
+/// The edges at one restitution and frequency.
+#[derive(Deserialize)]
+pub(crate) struct SpectrumRow {
+    pub eta: Digits,
+    #[serde(rename = "Omega")]
+    pub omega: Digits,
+    pub mode2_lower: Digits,
+    pub mode2_lower_alpha_criterion: Digits,
+    pub mode1_lower: Option<Digits>,
+    pub mode1_upper: Option<Digits>,
+    #[serde(default)]
+    pub multi_impact_bands: Vec<Band>,
+}
+
+/// A band of overturning after some impacts.
+#[derive(Deserialize)]
+pub(crate) struct Band {
+    pub n_impacts: u32,
+    pub lower: Digits,
+    pub upper: Digits,
 }

@@ -4,7 +4,7 @@
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use crate::references::attainable_float64;
+use crate::references::trajectory;
 use rocking_common::words::rounded;
 
 /// A quantity of which the reference lists the error.
@@ -70,8 +70,8 @@ impl Attainable {
     /// list, because the motion lacks the quantity, counts as 0.
     fn largest(&self, of: &[Quantity]) -> Result<f64, String> {
         let entry = self.entry.as_ref().map_err(String::clone)?;
-        let errors =
-            attainable_float64(entry).map_err(|error| error.to_string())?;
+        let case = trajectory(entry).map_err(|error| error.to_string())?;
+        let errors = &case.attainable_float64;
         let found = of.iter().filter_map(|q| errors.get(q.key()));
         Ok(found.fold(0.0, |largest, error| {
             let error = error.as_f64().unwrap_or(f64::NAN);

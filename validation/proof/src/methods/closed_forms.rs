@@ -3,11 +3,9 @@
 use std::convert::Infallible;
 
 use rocking::excitation::{PulseName, PulseParameter};
-use serde::Deserialize;
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use crate::edge::{around, edge};
-use crate::error::MethodError;
 use crate::oracles::overturning;
 use crate::oracles::rectangular::Rectangular;
 use crate::oracles::{free_rocking, linear};
@@ -15,27 +13,20 @@ use crate::scene::{
     Engine, Forcing, Model, Overturning, PulseKind, Scene, Trace, rescaled,
 };
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FreeInput {
-    equation: Model,
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: Vec<f64>,
-    restitution: Vec<f64>,
-    /// Rotation at release over alpha.
-    release: Vec<f64>,
-    impacts: usize,
-}
-
 /// Free rocking of every combination of block, loss and release.
 pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
-    let input: FreeInput = context.input()?;
-    let equation = input.equation;
+    input! { context;
+        equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
+        restitution: Vec<f64>,
+        /// Rotation at release over alpha.
+        release: Vec<f64>,
+        impacts: usize,
+    }
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
-        for &p in &input.frequency_rad_s {
-            for &eta in &input.restitution {
-                for &release in &input.release {
+    for &alpha in &slenderness_rad {
+        for &p in &frequency_rad_s {
+            for &eta in &restitution {
+                for &release in &release {
                     let rotation_rad = release * alpha;
                     let scene = Scene {
                         model: equation,
@@ -50,7 +41,7 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
                         Model::Nonlinear => free_rocking::nonlinear,
                         Model::Linearized => free_rocking::linearized,
                     };
-                    let form = oracle(alpha, eta, rotation_rad, input.impacts);
+                    let form = oracle(alpha, eta, rotation_rad, impacts);
                     put_free(&mut answer, &trace, &form, p);
                 }
             }
@@ -83,29 +74,24 @@ fn put_free(
     );
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PulseInput {
-    pulse: PulseName,
-    amplitudes: Vec<f64>,
-    /// Frequencies over p, or durations or periods times p.
-    scales: Vec<f64>,
-    restitution: Vec<f64>,
-    /// Blocks: alpha (rad), p (rad/s), g (m/s2).
-    blocks: Vec<[f64; 3]>,
-    impacts: usize,
-}
-
 /// Pulses in Eq. 2 over amplitudes and durations.
 pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
-    let input: PulseInput = context.input()?;
+    input! { context;
+        pulse: PulseName, amplitudes: Vec<f64>,
+        /// Frequencies over p, or durations or periods times p.
+        scales: Vec<f64>,
+        restitution: Vec<f64>,
+        /// Blocks: alpha (rad), p (rad/s), g (m/s2).
+        blocks: Vec<[f64; 3]>,
+        impacts: usize,
+    }
     let mut answer = Answer::default();
-    for &a in &input.amplitudes {
-        for &scale in &input.scales {
-            let pulse = pulse(input.pulse, a, scale);
-            for &eta in &input.restitution {
-                let form = linear::respond(pulse, eta, input.impacts);
-                for block in &input.blocks {
+    for &a in &amplitudes {
+        for &scale in &scales {
+            let pulse = shaped(pulse, a, scale);
+            for &eta in &restitution {
+                let form = linear::respond(pulse, eta, impacts);
+                for block in &blocks {
                     let scene = linear_scene(pulse, eta, *block, None);
                     let trace = context.engine.respond(&scene)?;
                     put_pulse(&mut answer, &trace, &form, *block);
@@ -144,7 +130,7 @@ fn put_pulse(
 
 /// The pulse of this name, for a block with p = 1 rad/s and
 /// g alpha = 1 m/s2.
-fn pulse(name: PulseName, amplitude: f64, scale: f64) -> PulseKind {
+fn shaped(name: PulseName, amplitude: f64, scale: f64) -> PulseKind {
     use PulseParameter as P;
     let Ok(kind) = name.kind(|parameter| {
         Ok::<_, Infallible>(match parameter {
@@ -175,21 +161,16 @@ pub(super) fn linear_scene(
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CriticalInput {
-    pulse: PulseName,
-    scales: Vec<f64>,
-    /// Block: alpha (rad), p (rad/s), g (m/s2).
-    block: [f64; 3],
-}
-
 /// Amplitudes at which a pulse overturns without impact.
 pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
-    let input: CriticalInput = context.input()?;
+    input! { context;
+        pulse: PulseName, scales: Vec<f64>,
+        /// Block: alpha (rad), p (rad/s), g (m/s2).
+        block: [f64; 3],
+    }
     let mut answer = Answer::default();
-    for &scale in &input.scales {
-        let condition = match input.pulse {
+    for &scale in &scales {
+        let condition = match pulse {
             PulseName::HalfSine => overturning::sine_without_impact(1, scale),
             PulseName::OneSine => overturning::sine_without_impact(2, scale),
             PulseName::OneCosine => overturning::one_cosine(scale),
@@ -200,9 +181,9 @@ pub(super) fn critical(context: &Context) -> Result<Answer, MethodError> {
             }
         };
         let found = flip(condition, |a| {
-            let pulse = pulse(input.pulse, a, scale);
+            let pulse = shaped(pulse, a, scale);
             let until = Some(200.0);
-            let mut scene = linear_scene(pulse, 0.92, input.block, until);
+            let mut scene = linear_scene(pulse, 0.92, block, until);
             scene.overturning = Overturning::HalfPi;
             overturns_at_once(context.engine, &scene)
         })?;
@@ -228,31 +209,24 @@ pub(super) fn flip(
     edge(around(near, 1e-6), 1e-13, above)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FoldInput {
-    restitution: Vec<f64>,
-    block: [f64; 3],
-}
-
 /// The frequency beyond which a one-sine pulse cannot overturn after an
 /// impact.
 pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
-    let input: FoldInput = context.input()?;
+    input!(context; restitution: Vec<f64>, block: [f64; 3]);
     let mut answer = Answer::default();
-    for &eta in &input.restitution {
+    for &eta in &restitution {
         let (omega, a) = overturning::fold(eta);
         let found = flip(omega, |omega| {
             let pulse =
                 PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
-            let mut scene = linear_scene(pulse, eta, input.block, Some(200.0));
+            let mut scene = linear_scene(pulse, eta, block, Some(200.0));
             scene.overturning = Overturning::HalfPi;
             let trace = context.engine.respond(&scene)?;
             Ok(trace.overturned_s.is_none())
         })?;
         answer.put("fold", [found], [omega]);
         let pulse = PulseKind::OneSine { amplitude: a, omega_rad_s: omega };
-        let scene = linear_scene(pulse, eta, input.block, None);
+        let scene = linear_scene(pulse, eta, block, None);
         let seen = context.state(&scene, scene.forcing.end_s())?;
         answer.put(
             "rotation-at-pulse-end",
@@ -263,22 +237,17 @@ pub(super) fn fold(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RectangularInput {
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: Vec<f64>,
-    /// Acceleration over g tan(alpha).
-    intensity: Vec<f64>,
-}
-
 /// Critical durations of rectangular pulses in Eq. 1.
 pub(super) fn durations(context: &Context) -> Result<Answer, MethodError> {
-    let input: RectangularInput = context.input()?;
+    input! { context;
+        slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
+        /// Acceleration over g tan(alpha).
+        intensity: Vec<f64>,
+    }
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
-        for &p in &input.frequency_rad_s {
-            for &intensity in &input.intensity {
+    for &alpha in &slenderness_rad {
+        for &p in &frequency_rad_s {
+            for &intensity in &intensity {
                 let pull = intensity * libm::tan(alpha);
                 let form =
                     Rectangular { alpha_rad: alpha, frequency_rad_s: p, pull };

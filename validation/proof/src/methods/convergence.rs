@@ -3,10 +3,8 @@
 use rocking::integrator::{Order, Response};
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine;
-use crate::error::MethodError;
 use crate::naive::{Events, Naive, Rules};
 use crate::scene::{Engine as _, EngineError, Forcing, Scene};
 
@@ -35,8 +33,7 @@ pub(super) fn order(context: &Context) -> Result<Answer, MethodError> {
         _ => input.order,
     };
     let order: Order = order.to_string().parse()?;
-    let crude =
-        input.order == 4 && context.wrong == Some(WrongModel::OrderTooLow);
+    let crude = input.order == 4 && context.is(WrongModel::OrderTooLow);
     let run = |division: usize, order: Order| {
         let scene = divided(&input, division);
         if crude && division < FINEST {

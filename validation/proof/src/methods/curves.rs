@@ -16,11 +16,8 @@ use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 use rocking::record::Accelerogram;
-use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::scene::{EngineError, Forcing};
 use crate::trials::{Stratum, trial};
 
@@ -32,13 +29,6 @@ const FLAGGED: f64 = 1e-4;
 
 /// Work of a run in wider arithmetic.
 const WORK: WorkLimit = WorkLimit { impacts: 100_000, steps: 400_000 };
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Scenes whose first hop grazes: this many, from index 0 on.
-    first_hops: u64,
-}
 
 /// A level in every way in which it is analysed.
 #[derive(Clone)]
@@ -61,9 +51,12 @@ static FOUND: Mutex<BTreeMap<u64, Arc<Vec<Level>>>> =
 /// Peaks and fates that a curve calls resolved and that are others in wider
 /// arithmetic; levels of which lanes say something else.
 pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
-    let Input { first_hops } = context.input()?;
+    input! { context;
+        /// Scenes whose first hop grazes: this many, from index 0 on.
+        first_hops: u64,
+    }
     let found = all(first_hops)?;
-    let at_landing = context.wrong == Some(WrongModel::RoundingAtTheLanding);
+    let at_landing = context.is(WrongModel::RoundingAtTheLanding);
     let resolved = |level: &Level, point: &IdaPoint| {
         if at_landing {
             level.at_landing < FLAGGED

@@ -12,7 +12,6 @@ use crate::cases::{Case, CaseError, load_all};
 use crate::engine::{Arithmetic, WideTrace};
 use crate::error::MethodError;
 use crate::references;
-use crate::references::TRAJECTORIES;
 use crate::scene::{Model, Overturning, Scene};
 
 /// Why there is no table.
@@ -137,32 +136,17 @@ fn reference(case: &Case) -> Result<(Scene, WideTrace), MethodError> {
     let entry = case.input.get("entry").and_then(toml::Value::as_str);
     let entry = references::trajectory(entry.unwrap_or_default())?;
     let tangency = case.id.contains("-flip-");
-    let (criterion, key) = if tangency {
-        (Overturning::Alpha, "t_first_abs_theta_eq_alpha")
-    } else {
-        (Overturning::HalfPi, "t_abs_theta_eq_pi_over_2")
-    };
-    let file = &TRAJECTORIES;
-    let scene = references::scene(entry, criterion)?;
-    let expected = file.get(entry, "expected")?;
-    let over = !file.get(expected, key)?.is_null();
-    let mut impacts = Vec::new();
-    for impact in file.list(expected, "impacts")? {
-        let speed = file.wide(impact, "theta_dot_before")?.abs();
-        impacts.push((file.wide(impact, "t")?, speed));
-    }
-    let uplift = file.list(expected, "uplifts")?.first();
-    let overturned_s = over.then(|| file.wide(expected, key)).transpose()?;
-    if let Some(when) = overturned_s {
-        impacts.retain(|(time, _)| *time < when);
-    }
+    let criterion =
+        if tangency { Overturning::Alpha } else { Overturning::HalfPi };
+    let scene = entry.scene(criterion)?;
+    let due = &entry.expected;
+    let overturned_s = due.overturned(criterion).map(|t| t.wide);
     let truth = WideTrace {
-        uplift_s: uplift.map(|u| file.wide(u, "t")).transpose()?,
-        impacts,
-        peak_ratio: if over {
-            DoubleDouble::zero()
-        } else {
-            file.wide(expected, "peak_abs_theta_over_alpha")?
+        uplift_s: due.uplifts.first().map(|u| u.t.wide),
+        impacts: due.impacts_until(criterion),
+        peak_ratio: match (overturned_s, due.peak()) {
+            (None, Some(peak)) => peak.wide,
+            _ => DoubleDouble::zero(),
         },
         overturned_s,
         rest_s: None,

@@ -1,12 +1,11 @@
 //! Overturning edges of Eq. 1 against those of Eq. 2, where the safe bay of
 //! a one-sine pulse opens, and grazing uplift.
 
-use rocking::block::{Block, Restitution};
+use rocking::block::{Block, BlockError, Restitution};
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use crate::edge::{self, around};
-use crate::error::MethodError;
 use crate::oracles::overturning;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
@@ -76,55 +75,42 @@ impl OneSine {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DefectInput {
-    edge: Edge,
-    omega_over_p: f64,
-    /// The edge in Eq. 2, over g alpha.
-    linear: f64,
-    slenderness_rad: Vec<f64>,
-}
-
 /// Relative change of an edge of Eq. 1, over g tan(alpha), against that of
 /// Eq. 2, over g alpha; eta 0.92.
 pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
-    let input: DefectInput = context.input()?;
+    input! { context;
+        edge: Edge, omega_over_p: f64,
+        /// The edge in Eq. 2, over g alpha.
+        linear: f64,
+        slenderness_rad: Vec<f64>,
+    }
     let mut changes = Vec::new();
-    for &alpha in &input.slenderness_rad {
+    for &alpha in &slenderness_rad {
         let pulse = OneSine {
             equation: Model::Nonlinear,
             block: [alpha, 2.0, 9.81],
-            omega: input.omega_over_p,
+            omega: omega_over_p,
             eta: 0.92,
         };
-        let found = pulse.edge(context, input.edge, input.linear, 0.03)?;
-        changes.push(found / input.linear - 1.0);
+        let found = pulse.edge(context, edge, linear, 0.03)?;
+        changes.push(found / linear - 1.0);
     }
     let mut answer = Answer::default();
     answer.see("change", changes);
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BayInput {
-    eta: f64,
-    omega_over_p: f64,
-    block: [f64; 3],
-}
-
 /// The frequency at which the two edges of the bay meet, by |theta| >= alpha:
 /// the upper edge of mode 1 and the lower edge of mode 2.
 pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
-    let input: BayInput = context.input()?;
+    input!(context; eta: f64, omega_over_p: f64, block: [f64; 3]);
     let pulse = OneSine {
         equation: Model::Linearized,
-        block: input.block,
-        omega: input.omega_over_p,
-        eta: input.eta,
+        block,
+        omega: omega_over_p,
+        eta,
     };
-    let upper = overturning::mode_1_upper(input.omega_over_p, input.eta)
+    let upper = overturning::mode_1_upper(omega_over_p, eta)
         .ok_or_else(|| MethodError::Oracle("no mode 1".to_owned()))?;
     let mut answer = Answer::default();
     for (name, edge) in [
@@ -137,31 +123,25 @@ pub(super) fn bay(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct GrazingInput {
-    equation: Model,
-    slenderness_rad: Vec<f64>,
-    omega_over_p: f64,
-    /// Amplitude over the threshold, less 1.
-    excess: Vec<f64>,
-}
-
 /// Grazing uplift: with w = sqrt(2 eps)/Omega the block lifts w before the
 /// crest, peaks 2 w and lands 3 w after it; the peak is
 /// (9/2) eps^2 k/Omega^2 and the landing speed (8/3) (2 eps)^(3/2) k/Omega,
 /// k = sin(alpha)/alpha in Eq. 1 and 1 in Eq. 2. To leading order in w.
 pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
-    let input: GrazingInput = context.input()?;
+    input! { context;
+        equation: Model, slenderness_rad: Vec<f64>, omega_over_p: f64,
+        /// Amplitude over the threshold, less 1.
+        excess: Vec<f64>,
+    }
     let p = 2.0;
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
-        for &excess in &input.excess {
+    for &alpha in &slenderness_rad {
+        for &excess in &excess {
             let mut scene = Scene {
-                model: input.equation,
+                model: equation,
                 ..Scene::new([alpha, p, 9.81], 0.92, Forcing::NONE)
             };
-            let omega = input.omega_over_p;
+            let omega = omega_over_p;
             scene.forcing = Forcing::Pulse(PulseKind::HalfSine {
                 amplitude: (1.0 + excess) * scene.threshold_m_s2(),
                 omega_rad_s: omega * p,
@@ -198,61 +178,46 @@ pub(super) fn grazing(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SizesInput {
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: f64,
+fn refused(error: BlockError) -> MethodError {
+    MethodError::Input(error.to_string())
 }
 
 /// Table 1 of the paper: R, 2b and 2h from alpha and p.
 pub(super) fn sizes(context: &Context) -> Result<Answer, MethodError> {
-    let input: SizesInput = context.input()?;
+    input!(context; slenderness_rad: Vec<f64>, frequency_rad_s: f64);
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
+    for &alpha in &slenderness_rad {
         let scene = context.altered(&Scene::new(
-            [alpha, input.frequency_rad_s, 9.81],
+            [alpha, frequency_rad_s, 9.81],
             0.92,
             Forcing::NONE,
         ));
-        let refused =
-            |e: rocking::block::BlockError| MethodError::Input(e.to_string());
-        let block = rocking::block::Block::try_new(
-            scene.slenderness_rad,
-            scene.frequency_rad_s,
-        )
-        .map_err(refused)?;
-        let size = block.dimensions(scene.gravity_m_s2).map_err(refused)?;
+        let block =
+            Block::try_new(scene.slenderness_rad, scene.frequency_rad_s);
+        let size = block
+            .map_err(refused)?
+            .dimensions(scene.gravity_m_s2)
+            .map_err(refused)?;
         for (name, value) in [
             ("half-diagonal-m", size.half_diagonal_m),
             ("width-m", size.width_m),
             ("height-m", size.height_m),
         ] {
-            let list = answer.observed.entry(name.to_owned()).or_default();
-            list.push(value);
+            answer.see(name, [value]);
         }
     }
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RestitutionInput {
-    slenderness_rad: Vec<f64>,
-    eta: f64,
-}
-
 /// Housner's coefficient of restitution, and the energy that an impact with
 /// a constant one takes.
 pub(super) fn restitution(context: &Context) -> Result<Answer, MethodError> {
-    let input: RestitutionInput = context.input()?;
-    let refused =
-        |e: rocking::block::BlockError| MethodError::Input(e.to_string());
+    input!(context; slenderness_rad: Vec<f64>, eta: f64);
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
+    for &alpha in &slenderness_rad {
         let scene = context.altered(&Scene::new(
             [alpha, 1.0, 9.81],
-            input.eta,
+            eta,
             Forcing::NONE,
         ));
         let block = Block::try_new(scene.slenderness_rad, 1.0);

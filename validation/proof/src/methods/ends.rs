@@ -4,12 +4,10 @@
 use rocking::integrator::{Assessment, Certified, Observe, Outcome, Response};
 use rocking::number::double::DoubleDouble;
 use rocking::number::{Number as _, Real as _};
-use serde::Deserialize;
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use crate::arithmetic::decimal;
 use crate::engine::{certify, respond};
-use crate::error::MethodError;
 use crate::scene::{Forcing, Overturning, PulseKind, Scene};
 use crate::trials::{Reading, Seen};
 
@@ -173,14 +171,6 @@ impl Counts {
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Units in the last place between the double next to an event and the
-    /// end, to either side.
-    ulps: Vec<i64>,
-}
-
 /// A number moved by units in the last place.
 fn moved(x: f64, ulps: i64) -> f64 {
     f64::from_bits(x.to_bits().wrapping_add_signed(ulps))
@@ -188,7 +178,11 @@ fn moved(x: f64, ulps: i64) -> f64 {
 
 /// Overturned before the end or not, lifted before it or not, and how far.
 pub(super) fn ends(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
+    input! { context;
+        /// Units in the last place between the double next to an event and the
+        /// end, to either side.
+        ulps: Vec<i64>,
+    }
     let reading = Reading::of(context.wrong);
     let mut counts = Counts::default();
     for Row { mut scene, values } in rows("end")? {
@@ -200,7 +194,7 @@ pub(super) fn ends(context: &Context) -> Result<Answer, MethodError> {
             Overturning::Alpha => DoubleDouble::one(),
             Overturning::HalfPi => DoubleDouble::right_angle() / alpha,
         };
-        for ulps in input.ulps.iter().flat_map(|k| [-k, *k]) {
+        for ulps in ulps.iter().flat_map(|k| [-k, *k]) {
             for event_s in [lifted_s, over_s] {
                 let until_s = moved(event_s.to_f64(), ulps);
                 let left_s = event_s - DoubleDouble::from_f64(until_s);

@@ -5,26 +5,11 @@ use rayon::prelude::*;
 use rocking::number::Real as _;
 use rocking::number::double::DoubleDouble;
 use rocking::streams::Streams;
-use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::arithmetic::decimal;
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine::{Arithmetic, WideTrace};
-use crate::error::MethodError;
 use crate::references;
-use crate::references::TRAJECTORIES;
 use crate::scene::{Forcing, Model, Overturning, Scene};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Random scenes; none: the reference trajectories.
-    #[serde(default)]
-    scenes: u64,
-    /// `double` or `double-double`.
-    arithmetic: String,
-}
 
 /// One scene's verdict.
 enum Comparison {
@@ -44,23 +29,26 @@ const SHARES: [(&str, usize); 3] =
 
 /// Error of the peak over its estimate, over many scenes.
 pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let arithmetic = match input.arithmetic.as_str() {
+    input! { context;
+        /// Random scenes; none: the reference trajectories.
+        #[serde(default)]
+        scenes: u64,
+        /// `double` or `double-double`.
+        arithmetic: String,
+    }
+    let arithmetic = match arithmetic.as_str() {
         "double" => Arithmetic::Double,
         "double-double" => Arithmetic::DoubleDouble,
         other => {
             return Err(MethodError::Input(format!("arithmetic `{other}`")));
         }
     };
-    let factor = match context.wrong {
-        Some(WrongModel::EstimateHundredth) => 0.01,
-        _ => 1.0,
-    };
-    let all = if input.scenes == 0 {
+    let factor = context.or(WrongModel::EstimateHundredth, 0.01, 1.0);
+    let all = if scenes == 0 {
         against_references(arithmetic)?
     } else {
         let streams = Streams::new("error estimate", 0);
-        (0..input.scenes)
+        (0..scenes)
             .into_par_iter()
             .map(|k| {
                 let scene = drawn(&streams, k);
@@ -85,15 +73,12 @@ pub(super) fn estimate(context: &Context) -> Result<Answer, MethodError> {
     let exceeded = ratios.iter().filter(|r| !(**r <= 1.0)).count();
     answer.put("estimates-exceeded", [exceeded as f64], [0.0]);
     answer.put("sure-of-a-wrong-fate", [wrong], [0.0]);
-    let mut see = |name: &str, value: f64| {
-        answer.see(name, [value]);
-    };
-    see("peaks-compared", ratios.len() as f64);
-    see("fates-left-open", open);
+    answer.see("peaks-compared", [ratios.len() as f64]);
+    answer.see("fates-left-open", [open]);
     for (name, percent) in SHARES {
         let last = ratios.len().saturating_sub(1);
         let ratio = ratios.get(last * percent / 100);
-        see(name, ratio.copied().unwrap_or(f64::NAN));
+        answer.see(name, [ratio.copied().unwrap_or(f64::NAN)]);
     }
     Ok(answer)
 }
@@ -116,27 +101,19 @@ fn compare(run: &WideTrace, truth: &WideTrace, unit: f64) -> Comparison {
 fn against_references(
     arithmetic: Arithmetic,
 ) -> Result<Vec<Comparison>, MethodError> {
-    let file = &TRAJECTORIES;
-    let all = file.read()?;
     let mut found = Vec::new();
     let unit = match arithmetic {
         Arithmetic::DoubleDouble => 2.0 * DoubleDouble::ROUNDOFF,
         _ => f64::EPSILON,
     };
-    for case in file.list(&all, "cases")? {
-        let expected = file.get(case, "expected")?;
-        for (criterion, key) in [
-            (Overturning::Alpha, "first_reaches_alpha"),
-            (Overturning::HalfPi, "overturned_pi_over_2"),
-        ] {
-            let scene = references::scene(case, criterion)?;
-            let run = WideTrace::run(&scene, arithmetic)?;
-            let over = expected[key] == true;
-            let peak = &expected["peak_abs_theta_over_alpha"];
-            let peak = peak.as_str().and_then(decimal);
+    for case in references::trajectories()? {
+        for criterion in [Overturning::Alpha, Overturning::HalfPi] {
+            let run = WideTrace::run(&case.scene(criterion)?, arithmetic)?;
+            let over = case.expected.overturned(criterion);
+            let peak = case.expected.peak();
             let truth = WideTrace {
-                overturned_s: over.then_some(run.peak_ratio),
-                peak_ratio: peak.unwrap_or(run.peak_ratio),
+                overturned_s: over.map(|t| t.wide),
+                peak_ratio: peak.map_or(run.peak_ratio, |peak| peak.wide),
                 ..run.clone()
             };
             found.push(compare(&run, &truth, unit));

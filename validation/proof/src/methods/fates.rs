@@ -2,11 +2,10 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context, input_of};
+use super::method::{Answer, Context, MethodError, input_of};
 use super::wrong::scale;
 use crate::cases::Case;
 use crate::engine::Core;
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{
     Engine as _, Forcing, Model, Overturning, PulseKind, Scene,
@@ -89,38 +88,30 @@ pub(super) fn response(context: &Context) -> Result<Answer, MethodError> {
     let scene = scene_of(context.case)?;
     let trace = context.engine.respond(&scene)?;
     let mut answer = Answer::default();
-    let mut see = |name: &str, values: Vec<f64>| {
-        answer.see(name, values);
-    };
-    see("peak-ratio", vec![trace.peak_ratio]);
-    see("uplifts", vec![trace.uplifts as f64]);
-    see("overturned", vec![f64::from(trace.overturned_s.is_some())]);
+    answer.see("peak-ratio", [trace.peak_ratio]);
+    answer.see("uplifts", [trace.uplifts as f64]);
+    let over = f64::from(trace.overturned_s.is_some());
+    answer.see("overturned", [over]);
     Ok(answer)
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LevelsInput {
-    record: String,
-    slenderness_rad: f64,
-    frequency_rad_s: f64,
-    first_level_g: f64,
-    /// One letter a level of 0.01 g: S survives, R exceeds alpha and comes
-    /// to rest, r exceeds alpha, returns and overturns later, O overturns.
-    letters: String,
 }
 
 /// Fates of one record over levels of 0.01 g, under both criteria.
 pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
-    let input: LevelsInput = context.input()?;
-    let (dt_s, record) = references::record(&input.record)?;
+    input! { context;
+        record: String, slenderness_rad: f64, frequency_rad_s: f64,
+        first_level_g: f64,
+        /// One letter a level of 0.01 g: S survives, R exceeds alpha and comes
+        /// to rest, r exceeds alpha, returns and overturns later, O overturns.
+        letters: String,
+    }
+    let (dt_s, record) = references::record(&record)?;
     let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
     let mut answer = Answer::default();
     answer.put("impact-in-between", [], []);
-    for (k, letter) in input.letters.chars().enumerate() {
-        let level_g = input.first_level_g + 0.01 * k as f64;
+    for (k, letter) in letters.chars().enumerate() {
+        let level_g = first_level_g + 0.01 * k as f64;
         let mut scene = Scene::new(
-            [input.slenderness_rad, input.frequency_rad_s, 9.81],
+            [slenderness_rad, frequency_rad_s, 9.81],
             0.92,
             Forcing::Samples { dt_s, acceleration_m_s2: record.clone() },
         );
@@ -154,21 +145,15 @@ pub(super) fn levels(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SuiteInput {
-    suite: String,
-    slenderness_rad: f64,
-    frequency_rad_s: f64,
-    /// PGA/(g alpha).
-    intensities: Vec<f64>,
-}
-
 /// Eq. 2 on every record of an embedded suite: the scaled record on the
 /// reference block against the record as it is on the adjusted block.
 pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
-    let input: SuiteInput = context.input()?;
-    let suite = match input.suite.as_str() {
+    input! { context;
+        suite: String, slenderness_rad: f64, frequency_rad_s: f64,
+        /// PGA/(g alpha).
+        intensities: Vec<f64>,
+    }
+    let suite = match suite.as_str() {
         "ordinary" => rocking_synthesis::ordinary(),
         "pulse" => rocking_synthesis::pulse(),
         other => return Err(MethodError::Input(format!("suite `{other}`"))),
@@ -178,13 +163,13 @@ pub(super) fn adjustment(context: &Context) -> Result<Answer, MethodError> {
     let mut differences = Vec::new();
     for pair in &suite {
         let record = &pair.components[0];
-        for &im in &input.intensities {
-            let alpha = input.slenderness_rad;
+        for &im in &intensities {
+            let alpha = slenderness_rad;
             let factor = im * alpha / record.pga_g();
             let scene = |slenderness_rad: f64, factor: f64| Scene {
                 model: Model::Linearized,
                 ..Scene::new(
-                    [slenderness_rad, input.frequency_rad_s, 1.0],
+                    [slenderness_rad, frequency_rad_s, 1.0],
                     0.92,
                     Forcing::Samples {
                         dt_s: record.dt_s(),

@@ -2,12 +2,9 @@
 //! the centre of mass changes along a history.
 
 use rocking::integrator::{Forces, Observe};
-use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine;
-use crate::error::MethodError;
 use crate::scene::{Forcing, Model, Scene};
 
 /// R p^2/g of a rectangle.
@@ -21,27 +18,21 @@ fn forces(context: &Context, scene: &Scene) -> Result<Forces, MethodError> {
     run.forces.ok_or_else(|| MethodError::Oracle("no forces".to_owned()))
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct UpliftInput {
-    equation: Model,
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: f64,
-    /// Peak of the record over the threshold.
-    intensity: f64,
-}
-
 /// A record that goes up to `intensity` times the threshold and back.
 pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
-    let input: UpliftInput = context.input()?;
+    input! { context;
+        equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: f64,
+        /// Peak of the record over the threshold.
+        intensity: f64,
+    }
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
-        let block = [alpha, input.frequency_rad_s, 9.81];
+    for &alpha in &slenderness_rad {
+        let block = [alpha, frequency_rad_s, 9.81];
         let mut scene = Scene {
-            model: input.equation,
+            model: equation,
             ..Scene::new(block, 0.92, Forcing::NONE)
         };
-        let peak = input.intensity * scene.threshold_m_s2();
+        let peak = intensity * scene.threshold_m_s2();
         let acceleration_m_s2 = vec![0.0, 0.5 * peak, peak, 0.5 * peak, 0.0];
         scene.forcing = Forcing::Samples { dt_s: 0.01, acceleration_m_s2 };
         let found = forces(context, &scene)?;
@@ -49,9 +40,9 @@ pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
             Model::Nonlinear => libm::tan(alpha),
             Model::Linearized => alpha,
         };
-        let expected = threshold * input.intensity.min(1.0);
+        let expected = threshold * intensity.min(1.0);
         answer.put("friction", [found.friction], [expected]);
-        if input.intensity < 1.0 {
+        if intensity < 1.0 {
             answer.put(
                 "least-normal",
                 [found.least_normal_over_weight],
@@ -62,27 +53,21 @@ pub(super) fn uplift(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FreeInput {
-    equation: Model,
-    slenderness_rad: Vec<f64>,
-    initial_ratio: Vec<f64>,
-}
-
 /// Places at which the energy's orbit is looked at.
 const PLACES: usize = 200_000;
 
 /// Rocking without loss: one orbit, on which the energy tells velocity and
 /// acceleration at every rotation.
 pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
-    let input: FreeInput = context.input()?;
+    input! { context;
+        equation: Model, slenderness_rad: Vec<f64>, initial_ratio: Vec<f64>,
+    }
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
-        for &initial_ratio in &input.initial_ratio {
+    for &alpha in &slenderness_rad {
+        for &initial_ratio in &initial_ratio {
             let p = 3.0;
             let scene = Scene {
-                model: input.equation,
+                model: equation,
                 until_s: Some(20.0 / p),
                 ..Scene::new(
                     [alpha, p, 9.81],
@@ -103,10 +88,8 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
                     ),
                     Model::Linearized => (-phi, phi * phi - top * top),
                 };
-                let speed2 = match context.wrong {
-                    Some(WrongModel::WithoutCentripetal) => 0.0,
-                    _ => speed2,
-                };
+                let speed2 =
+                    context.or(WrongModel::WithoutCentripetal, 0.0, speed2);
                 let (s, c) = libm::sincos(phi);
                 let h = ARM * (push * c + speed2 * s);
                 let n = 1.0 + ARM * (push * s - speed2 * c);
@@ -124,41 +107,33 @@ pub(super) fn free(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MomentumInput {
-    equation: Model,
-    blocks: Vec<[f64; 2]>,
-    restitution: f64,
-    /// Peak over the threshold, and phase of a sample in rad.
-    intensity: f64,
-    phase: f64,
-    dt_p: f64,
-    samples: usize,
-    /// Interval of the differences, times p.
-    interval_p: f64,
-}
-
 /// Second differences of the position of the centre of mass, from the
 /// rotations of a history alone: the pivot gives what they and gravity ask.
 pub(super) fn momentum(context: &Context) -> Result<Answer, MethodError> {
-    let input: MomentumInput = context.input()?;
+    input! { context;
+        equation: Model, blocks: Vec<[f64; 2]>, restitution: f64,
+        /// Peak over the threshold, and phase of a sample in rad.
+        intensity: f64,
+        phase: f64, dt_p: f64, samples: usize,
+        /// Interval of the differences, times p.
+        interval_p: f64,
+    }
     let mut answer = Answer::default();
-    for &[alpha, p] in &input.blocks {
+    for &[alpha, p] in &blocks {
         let mut scene = Scene {
-            model: input.equation,
-            ..Scene::new([alpha, p, 9.81], input.restitution, Forcing::NONE)
+            model: equation,
+            ..Scene::new([alpha, p, 9.81], restitution, Forcing::NONE)
         };
-        let peak = input.intensity * scene.threshold_m_s2();
-        let dt_s = input.dt_p / p;
-        let sample = |k: usize| peak * libm::sin(input.phase * k as f64);
-        let samples: Vec<f64> = (0..input.samples).map(sample).collect();
-        scene.until_s = Some(1.3 * dt_s * input.samples as f64);
+        let peak = intensity * scene.threshold_m_s2();
+        let dt_s = dt_p / p;
+        let sample = |k: usize| peak * libm::sin(phase * k as f64);
+        scene.until_s = Some(1.3 * dt_s * samples as f64);
+        let samples: Vec<f64> = (0..samples).map(sample).collect();
         scene.forcing =
             Forcing::Samples { dt_s, acceleration_m_s2: samples.clone() };
         let found = forces(context, &scene)?;
         let (friction, normal) =
-            differences(context, &scene, &samples, input.interval_p / p)?;
+            differences(context, &scene, &samples, interval_p / p)?;
         answer.put("friction", [found.friction], [friction]);
         answer.put("least-normal", [found.least_normal_over_weight], [normal]);
     }
@@ -184,11 +159,9 @@ fn differences(
         ..Observe::default()
     };
     let run = engine::respond(scene, &observe)?;
-    let arm = match context.wrong {
-        // The radius of a slender rod of the same p.
-        Some(WrongModel::InertiaOfAPoint) => g / (p * p),
-        _ => ARM * g / (p * p),
-    };
+    // The radius of a slender rod of the same p, or the block's.
+    let share = context.or(WrongModel::InertiaOfAPoint, 1.0, ARM);
+    let arm = share * g / (p * p);
     let place = |theta: f64| {
         let phi = alpha - theta.abs();
         let x = arm * (libm::sin(alpha) - libm::sin(phi));

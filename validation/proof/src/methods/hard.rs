@@ -5,37 +5,31 @@ use rocking::number::Real as _;
 use serde::Deserialize;
 
 use super::fates::Samples;
-use super::method::{Answer, Context, input_of};
+use super::method::{Answer, Context, MethodError, input_of};
 use super::wrong::scale;
 use crate::cases::Case;
 use crate::engine::{Arithmetic, WideTrace};
-use crate::error::MethodError;
 use crate::oracles::free_rocking;
 use crate::oracles::rectangular::Rectangular;
 use crate::references;
 use crate::scene::{Forcing, Model, PulseKind, Scene};
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SaddleInput {
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: f64,
-    /// Acceleration over g tan(alpha).
-    intensity: f64,
-    /// Distances of the peak from alpha, over alpha.
-    distances: Vec<f64>,
-}
-
 /// Rectangular pulses in Eq. 1 that leave a block an energy so much below
 /// the saddle that its peak stops at a distance from it, or as much above.
 pub(super) fn saddle(context: &Context) -> Result<Answer, MethodError> {
-    let input: SaddleInput = context.input()?;
-    let p = input.frequency_rad_s;
+    input! { context;
+        slenderness_rad: Vec<f64>, frequency_rad_s: f64,
+        /// Acceleration over g tan(alpha).
+        intensity: f64,
+        /// Distances of the peak from alpha, over alpha.
+        distances: Vec<f64>,
+    }
+    let p = frequency_rad_s;
     let mut answer = Answer::default();
-    for &alpha in &input.slenderness_rad {
-        let pull = input.intensity * libm::tan(alpha);
+    for &alpha in &slenderness_rad {
+        let pull = intensity * libm::tan(alpha);
         let form = Rectangular { alpha_rad: alpha, frequency_rad_s: p, pull };
-        for &distance in &input.distances {
+        for &distance in &distances {
             // A peak at alpha (1 - d) has an energy 2 sin^2(alpha d/2) below
             // the saddle's.
             let half = libm::sin(0.5 * alpha * distance);
@@ -66,31 +60,24 @@ pub(super) fn saddle(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ChatterInput {
-    equation: Model,
-    slenderness_rad: f64,
-    frequency_rad_s: f64,
-    restitution: f64,
-    /// Constant acceleration over the uplift threshold, below 1, that
-    /// follows a jolt.
-    intensity: f64,
-    impacts: usize,
-}
-
 /// Chatter to rest under a constant acceleration: after the first impact
 /// every time, speed and the end of the series are known in closed form.
 pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
-    let input: ChatterInput = context.input()?;
-    let equation = input.equation;
-    let (p, alpha) = (input.frequency_rad_s, input.slenderness_rad);
+    input! { context;
+        equation: Model, slenderness_rad: f64, frequency_rad_s: f64,
+        restitution: f64,
+        /// Constant acceleration over the uplift threshold, below 1, that
+        /// follows a jolt.
+        intensity: f64,
+        impacts: usize,
+    }
+    let (p, alpha) = (frequency_rad_s, slenderness_rad);
     let mut scene = Scene {
         model: equation,
-        ..Scene::new([alpha, p, 9.81], input.restitution, Forcing::NONE)
+        ..Scene::new([alpha, p, 9.81], restitution, Forcing::NONE)
     };
     let threshold = scene.threshold_m_s2();
-    let steady = input.intensity * threshold;
+    let steady = intensity * threshold;
     let mut samples = vec![1.6 * threshold; 12];
     samples.resize(4000, steady);
     let dt_s = 0.01 / p;
@@ -109,12 +96,12 @@ pub(super) fn chatter(context: &Context) -> Result<Answer, MethodError> {
     let form = free_rocking::chatter(
         equation == Model::Nonlinear,
         alpha,
-        input.restitution,
+        restitution,
         steady / 9.81,
         (first.time_s * p, first.speed_before_rad_s / p),
-        input.impacts,
+        impacts,
     );
-    let seen = || trace.impacts.iter().skip(1).take(input.impacts);
+    let seen = || trace.impacts.iter().skip(1).take(impacts);
     answer.put(
         "impact-times-p",
         seen().map(|i| i.time_s * p),

@@ -7,26 +7,13 @@ use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 
 const EXPECTED: &str = "fixtures/oracles/intensity.csv";
 const EXPECTED_CSV: &str =
     include_str!("../../../../fixtures/oracles/intensity.csv");
 const PAIR_CSV: &str =
     include_str!("../../../../fixtures/oracles/intensity-pair.csv");
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Name of the motion in the file of expected values.
-    motion: String,
-    /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`.
-    of: Vec<String>,
-    first: Motion,
-    second: Option<Motion>,
-}
 
 /// How a component is made.
 #[derive(Deserialize)]
@@ -99,13 +86,19 @@ fn refused(error: IntensityError) -> MethodError {
 
 /// Measures of one or two components.
 pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
+    input! { context;
+        /// Name of the motion in the file of expected values.
+        motion: String,
+        /// What is compared: `first`, `second`, `geometric_mean`, `rotd50`.
+        of: Vec<String>,
+        first: Motion, second: Option<Motion>,
+    }
     let rows: Vec<[&str; 4]> = EXPECTED_CSV
         .lines()
         .filter_map(|line| {
             <[&str; 4]>::try_from(line.split(',').collect::<Vec<_>>()).ok()
         })
-        .filter(|row| row[0] == input.motion)
+        .filter(|row| row[0] == motion)
         .collect();
     let mut periods: Vec<(&str, f64)> = Vec::new();
     for row in &rows {
@@ -115,26 +108,20 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
             periods.push((text, parse(text)?));
         }
     }
-    let stretch = match context.wrong {
-        Some(WrongModel::PeriodOnePercentLong) => 1.01,
-        _ => 1.0,
-    };
-    let damping = match context.wrong {
-        Some(WrongModel::NoDamping) => 0.0,
-        _ => 0.05,
-    };
+    let stretch = context.or(WrongModel::PeriodOnePercentLong, 1.01, 1.0);
+    let damping = context.or(WrongModel::NoDamping, 0.0, 0.05);
     let settings = Settings::try_new(
         STANDARD_GRAVITY_M_S2,
         damping,
         periods.iter().map(|(_, t)| stretch * t).collect(),
     )
     .map_err(refused)?;
-    let mut first = input.first.record(None)?;
-    let mut second = match &input.second {
+    let mut first = first.record(None)?;
+    let mut second = match &second {
         Some(motion) => Some(motion.record(Some(&first))?),
         None => None,
     };
-    if context.wrong == Some(WrongModel::VelocityForAcceleration) {
+    if context.is(WrongModel::VelocityForAcceleration) {
         first = velocity(&first).unwrap_or(first);
         second = second.as_ref().and_then(velocity);
     }
@@ -149,10 +136,11 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
                 }
                 _ => pair.rotd50,
             };
-            let mean = match context.wrong {
-                Some(WrongModel::Rotd50ForGeometricMean) => rotd50.clone(),
-                _ => pair.geometric_mean,
-            };
+            let mean = context.or(
+                WrongModel::Rotd50ForGeometricMean,
+                rotd50.clone(),
+                pair.geometric_mean,
+            );
             let [one, two] = pair.components;
             found.extend([
                 ("first", one),
@@ -167,7 +155,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
         }
     }
     let mut answer = Answer::default();
-    for of in &input.of {
+    for of in &of {
         let measures = found.iter().find(|(name, _)| name == of);
         let Some((_, measures)) = measures else {
             return Err(MethodError::Input(format!("no measures of `{of}`")));
@@ -185,9 +173,7 @@ pub(super) fn measures(context: &Context) -> Result<Answer, MethodError> {
                 Some(_) => "spectral-acceleration-g".to_owned(),
                 None => row[2].replace('_', "-"),
             };
-            let expected = parse(row[3])?;
-            answer.see(&name, [own]);
-            answer.expected.entry(name).or_default().push(expected);
+            answer.put(&name, [own], [parse(row[3])?]);
         }
     }
     Ok(answer)

@@ -4,27 +4,11 @@
 use rocking::record::Accelerogram;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
+use super::method::{Answer, Context, MethodError};
 use super::wrong::scale;
 use crate::engine::Core;
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{Engine, Forcing, Model, PulseKind, Scene, Trace};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    change: Change,
-    equation: Model,
-    record: String,
-    /// PGA over the uplift threshold.
-    intensity: f64,
-    /// Samples kept; the record then ends with a jump.
-    #[serde(default)]
-    samples: Option<usize>,
-    /// Blocks: alpha (rad), p (rad/s), eta.
-    blocks: Vec<[f64; 3]>,
-}
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -48,15 +32,24 @@ const SHIFT: usize = 64;
 
 /// A record and its changed twin on several blocks.
 pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let (dt_s, mut record) = references::record(&input.record)?;
-    if let Some(count) = input.samples {
+    input! { context;
+        change: Change, equation: Model, record: String,
+        /// PGA over the uplift threshold.
+        intensity: f64,
+        /// Samples kept; the record then ends with a jump.
+        #[serde(default)]
+        samples: Option<usize>,
+        /// Blocks: alpha (rad), p (rad/s), eta.
+        blocks: Vec<[f64; 3]>,
+    }
+    let (dt_s, mut record) = references::record(&record)?;
+    if let Some(count) = samples {
         record.truncate(count);
     }
     let mut answer = Answer::default();
-    for [alpha, p, eta] in input.blocks.iter().copied() {
+    for [alpha, p, eta] in blocks {
         let mut scene = Scene {
-            model: input.equation,
+            model: equation,
             ..Scene::new(
                 [alpha, p, 9.81],
                 eta,
@@ -64,16 +57,16 @@ pub(super) fn invariance(context: &Context) -> Result<Answer, MethodError> {
             )
         };
         let peak = record.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
-        let factor = input.intensity * scene.threshold_m_s2() / peak;
+        let factor = intensity * scene.threshold_m_s2() / peak;
         scale(&mut scene.forcing, factor);
         let expected = Core.respond(&scene)?;
-        let twin = twin(&scene, input.change, peak)?;
+        let twin = twin(&scene, change, peak)?;
         let observed = context.engine.respond(&twin)?;
-        let shift_s = match input.change {
+        let shift_s = match change {
             Change::Shift => SHIFT as f64 * dt_s,
             _ => 0.0,
         };
-        let mirror = match input.change {
+        let mirror = match change {
             Change::Mirror => -1.0,
             _ => 1.0,
         };
@@ -158,24 +151,18 @@ fn twin(
     Ok(twin)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DefectInput {
-    omega_over_p: f64,
-    amplitude: f64,
-    /// `g-tan-alpha` or `g-alpha`.
-    over: String,
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: f64,
-}
-
 /// Relative change of the first peak of Eq. 1 against Eq. 2 as alpha grows,
 /// and the order of that change between the two smallest alphas.
 pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
-    let input: DefectInput = context.input()?;
-    let p = input.frequency_rad_s;
+    input! { context;
+        omega_over_p: f64, amplitude: f64,
+        /// `g-tan-alpha` or `g-alpha`.
+        over: String,
+        slenderness_rad: Vec<f64>, frequency_rad_s: f64,
+    }
+    let p = frequency_rad_s;
     let first_speed = |alpha: f64, equation| -> Result<f64, MethodError> {
-        let over = match (equation, input.over.as_str()) {
+        let over = match (equation, over.as_str()) {
             (Model::Linearized, _) | (_, "g-alpha") => alpha,
             (_, "g-tan-alpha") => libm::tan(alpha),
             (_, other) => {
@@ -188,8 +175,8 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
                 [alpha, p, 9.81],
                 0.92,
                 Forcing::Pulse(PulseKind::OneSine {
-                    amplitude: input.amplitude * 9.81 * over,
-                    omega_rad_s: input.omega_over_p * p,
+                    amplitude: amplitude * 9.81 * over,
+                    omega_rad_s: omega_over_p * p,
                 }),
             )
         };
@@ -198,12 +185,12 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
         Ok(impact.map_or(f64::NAN, |i| i.speed_before_rad_s / (p * alpha)))
     };
     let mut changes = Vec::new();
-    for &alpha in &input.slenderness_rad {
+    for &alpha in &slenderness_rad {
         let linear = first_speed(alpha, Model::Linearized)?;
         let speed = first_speed(alpha, Model::Nonlinear)?;
         changes.push(speed / linear - 1.0);
     }
-    let [a, b, ..] = input.slenderness_rad.as_slice() else {
+    let [a, b, ..] = slenderness_rad.as_slice() else {
         return Err(MethodError::Input("two slendernesses".to_owned()));
     };
     let order = libm::log((changes[1] / changes[0]).abs()) / libm::log(b / a);
@@ -211,14 +198,6 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
     answer.see("order", [order]);
     answer.see("change", changes);
     Ok(answer)
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BiasInput {
-    slenderness_rad: Vec<f64>,
-    frequencies_rad_s: Vec<f64>,
-    intensity: f64,
 }
 
 /// Median over a suite's records of the peak over that of alpha = 0.10 at an
@@ -230,15 +209,16 @@ struct BiasInput {
 /// only by its square: theta/sin(alpha) follows one equation. What is left
 /// grows with (p t)^2, t the time of uplift.
 pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
-    let input: BiasInput = context.input()?;
+    input! { context;
+        slenderness_rad: Vec<f64>, frequencies_rad_s: Vec<f64>, intensity: f64,
+    }
     let suite = rocking_synthesis::pulse()
         .map_err(|e| MethodError::Oracle(e.to_string()))?;
     let mut answer = Answer::default();
     let mut left = Vec::new();
-    for &p in &input.frequencies_rad_s {
+    for &p in &frequencies_rad_s {
         let peak = |alpha: f64, record: &Accelerogram| {
-            let factor =
-                input.intensity * 9.81 * libm::tan(alpha) / record.pga_g();
+            let factor = intensity * 9.81 * libm::tan(alpha) / record.pga_g();
             let scene = Scene::new(
                 [alpha, p, 9.81],
                 0.92,
@@ -254,7 +234,7 @@ pub(super) fn sine_bias(context: &Context) -> Result<Answer, MethodError> {
             Ok::<_, MethodError>(context.engine.respond(&scene)?.peak_ratio)
         };
         let mut worst: f64 = 0.0;
-        for &alpha in &input.slenderness_rad {
+        for &alpha in &slenderness_rad {
             let mut ratios = Vec::new();
             for pair in &suite {
                 let record = &pair.components[0];

@@ -5,10 +5,24 @@ use std::collections::BTreeMap;
 use rocking::integrator::{HistoryPoint, Observe};
 use serde::de::DeserializeOwned;
 
-use crate::cases::{Case, WrongModel};
+use crate::cases::Case;
 use crate::engine;
-use crate::error::MethodError;
 use crate::scene::{Engine, Scene};
+
+pub(super) use crate::cases::WrongModel;
+pub(super) use crate::error::MethodError;
+
+/// Reads the fields of a case's input into variables of the same names.
+macro_rules! input {
+    ($context:expr; $($(#[$note:meta])* $field:ident: $type:ty),+ $(,)?) => {
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Input {
+            $($(#[$note])* $field: $type),+
+        }
+        let Input { $($field),+ } = $context.input()?;
+    };
+}
 
 /// Numbers by name.
 pub type Quantities = BTreeMap<String, Vec<f64>>;
@@ -63,6 +77,16 @@ impl Context<'_> {
     /// [`MethodError::Input`] for missing, unknown or malformed keys.
     pub fn input<T: DeserializeOwned>(&self) -> Result<T, MethodError> {
         input_of(self.case)
+    }
+
+    /// Whether this is the mistake that is made.
+    pub(super) fn is(&self, wrong: WrongModel) -> bool {
+        self.wrong == Some(wrong)
+    }
+
+    /// `mistaken` where this is the mistake that is made, else `right`.
+    pub(super) fn or<T>(&self, wrong: WrongModel, mistaken: T, right: T) -> T {
+        if self.is(wrong) { mistaken } else { right }
     }
 
     /// The scene as the wrong model sees it, where that changes the input;

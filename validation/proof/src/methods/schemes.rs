@@ -3,12 +3,9 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::naive::{Events, Naive, Rules};
 use crate::references;
-use crate::references::TRAJECTORIES;
 use crate::scene::{Engine as _, Forcing, Overturning};
 
 #[derive(Deserialize)]
@@ -30,7 +27,7 @@ struct Input {
 /// set the impacts anywhere in a step.
 pub(super) fn orders(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
-    let late = context.wrong == Some(WrongModel::OrderTooLow);
+    let late = context.is(WrongModel::OrderTooLow);
     let mut answer = Answer::default();
     for (name, events) in [
         ("step-ends-rotation-kept", Events::StepEndsRotationKept),
@@ -60,13 +57,10 @@ fn error(
     divisions: &[u32],
     finer: u32,
 ) -> Result<f64, MethodError> {
-    let file = &TRAJECTORIES;
     let (mut sum, mut count) = (0.0, 0.0);
     for entry in &input.entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Overturning::HalfPi)?;
-        let expected = file.get(case, "expected")?;
-        let due = file.column(file.list(expected, "impacts")?, "t")?;
+        let scene = case.scene(Overturning::HalfPi)?;
         let Forcing::Samples { dt_s, .. } = scene.forcing else {
             return Err(MethodError::Input(format!("`{entry}`: no record")));
         };
@@ -79,9 +73,9 @@ fn error(
             };
             let rules = Rules { events, step_p, ..Rules::default() };
             let trace = Naive(rules).respond(&scene)?;
-            let pairs = trace.impacts.iter().zip(&due).take(input.impacts);
-            for (impact, time_s) in pairs {
-                let off = (impact.time_s - time_s) * scene.frequency_rad_s;
+            let pairs = trace.impacts.iter().zip(&case.expected.impacts);
+            for (impact, due) in pairs.take(input.impacts) {
+                let off = (impact.time_s - due.t.near) * scene.frequency_rad_s;
                 sum += off * off;
                 count += 1.0;
             }

@@ -3,13 +3,9 @@
 
 use std::f64::consts::PI;
 
-use serde::Deserialize;
-
 use super::closed_forms::{flip, linear_scene, overturns_at_once};
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::edge::{around, edge};
-use crate::error::MethodError;
 use crate::oracles::overturning::sine_without_impact;
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
 
@@ -19,30 +15,25 @@ fn semi_infinite(omega: f64) -> f64 {
     (1.0 + omega * omega).sqrt()
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct HalfInput {
-    omega_over_p: Vec<f64>,
-    /// Block: alpha (rad), p (rad/s), g (m/s2).
-    block: [f64; 3],
-}
-
 /// Housner's sqrt(1 + Omega^2) over the least amplitude at which a half sine
 /// overturns.
 pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
-    let input: HalfInput = context.input()?;
+    input! { context;
+        omega_over_p: Vec<f64>,
+        /// Block: alpha (rad), p (rad/s), g (m/s2).
+        block: [f64; 3],
+    }
     let mut ratios = Vec::new();
-    for &omega in &input.omega_over_p {
+    for &omega in &omega_over_p {
         let classic = semi_infinite(omega);
-        let condition = match context.wrong {
-            Some(WrongModel::SemiInfiniteSine) => classic,
-            _ => sine_without_impact(1, omega),
-        };
+        let exact = sine_without_impact(1, omega);
+        let condition =
+            context.or(WrongModel::SemiInfiniteSine, classic, exact);
         let found = flip(condition, |a| {
             let pulse =
                 PulseKind::HalfSine { amplitude: a, omega_rad_s: omega };
             let until = Some(200.0);
-            let mut scene = linear_scene(pulse, 0.92, input.block, until);
+            let mut scene = linear_scene(pulse, 0.92, block, until);
             scene.overturning = Overturning::HalfPi;
             overturns_at_once(context.engine, &scene)
         })?;
@@ -53,50 +44,41 @@ pub(super) fn approximation(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ManyInput {
-    half_cycles: Vec<u32>,
-    omega_over_p: Vec<f64>,
-    block: [f64; 3],
-    /// Intervals that a half cycle is divided into, and then into twice as
-    /// many.
-    intervals: u32,
-}
-
 /// Least amplitudes at which sines of N half periods overturn without
 /// impact. The core reads such a sine as a record, whose broken line lies
 /// below the curve by the second order of the interval: extrapolated from
 /// two intervals to none.
 pub(super) fn many(context: &Context) -> Result<Answer, MethodError> {
-    let input: ManyInput = context.input()?;
+    input! { context;
+        half_cycles: Vec<u32>, omega_over_p: Vec<f64>, block: [f64; 3],
+        /// Intervals that a half cycle is divided into, and then into twice as
+        /// many.
+        intervals: u32,
+    }
     let mut answer = Answer::default();
-    for &half_cycles in &input.half_cycles {
-        for &omega in &input.omega_over_p {
+    for &half_cycles in &half_cycles {
+        for &omega in &omega_over_p {
             let exact = sine_without_impact(half_cycles, omega);
-            let due = match context.wrong {
-                Some(WrongModel::SemiInfiniteSine) => semi_infinite(omega),
-                _ => exact,
-            };
+            let due = context.or(
+                WrongModel::SemiInfiniteSine,
+                semi_infinite(omega),
+                exact,
+            );
             let critical = |intervals: u32| {
                 edge(around(exact, 1e-3), 1e-13, |a| {
-                    let [alpha, p, g] = input.block;
+                    let [alpha, p, g] = block;
                     let sine = (a * (g * alpha), omega * p, half_cycles);
                     let scene = Scene {
                         model: Model::Linearized,
                         overturning: Overturning::HalfPi,
                         until_s: Some(200.0 / p),
-                        ..Scene::new(
-                            input.block,
-                            0.92,
-                            broken(sine, intervals),
-                        )
+                        ..Scene::new(block, 0.92, broken(sine, intervals))
                     };
                     overturns_at_once(context.engine, &scene)
                 })
             };
-            let coarse = critical(input.intervals)?;
-            let fine = critical(2 * input.intervals)?;
+            let coarse = critical(intervals)?;
+            let fine = critical(2 * intervals)?;
             let found = fine + (fine - coarse) / 3.0;
             answer.put("critical-amplitude", [found], [due]);
         }

@@ -2,55 +2,42 @@
 //! takes.
 
 use rocking::integrator::Observe;
-use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::engine;
-use crate::error::MethodError;
 use crate::references;
 use crate::scene::{Forcing, Model, Overturning, Scene, other};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct EnergyInput {
-    equation: Model,
-    slenderness_rad: Vec<f64>,
-    frequency_rad_s: Vec<f64>,
-    restitution: f64,
-    /// Pulse that sets the block in motion: acceleration over the
-    /// threshold, and duration times p.
-    intensity: f64,
-    duration_p: f64,
-}
 
 /// Energy above the base over that of the saddle, along a history in free
 /// flight, divided by eta^2 for each impact met: it stays what it was when
 /// the pulse ended.
 pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
-    let input: EnergyInput = context.input()?;
-    let law = match context.wrong {
-        Some(WrongModel::EnergyOfTheOtherEquation) => other(input.equation),
-        _ => input.equation,
-    };
+    input! { context;
+        equation: Model, slenderness_rad: Vec<f64>, frequency_rad_s: Vec<f64>,
+        restitution: f64,
+        /// Pulse that sets the block in motion: acceleration over the
+        /// threshold, and duration times p.
+        intensity: f64,
+        duration_p: f64,
+    }
+    let law = context.or(
+        WrongModel::EnergyOfTheOtherEquation,
+        other(equation),
+        equation,
+    );
     let mut worst = Vec::new();
-    for &alpha in &input.slenderness_rad {
-        for &p in &input.frequency_rad_s {
+    for &alpha in &slenderness_rad {
+        for &p in &frequency_rad_s {
             let mut scene = Scene {
-                model: input.equation,
-                until_s: Some((input.duration_p + 12.0) / p),
-                ..Scene::new(
-                    [alpha, p, 9.81],
-                    input.restitution,
-                    Forcing::NONE,
-                )
+                model: equation,
+                until_s: Some((duration_p + 12.0) / p),
+                ..Scene::new([alpha, p, 9.81], restitution, Forcing::NONE)
             };
             // A record of a rectangle and then of zeros: the block flies
             // through intervals of silence, step by step.
             let dt_s = 0.02 / p;
-            let on = (input.duration_p / 0.02).round() as usize;
-            let mut samples =
-                vec![input.intensity * scene.threshold_m_s2(); on];
+            let on = (duration_p / 0.02).round() as usize;
+            let mut samples = vec![intensity * scene.threshold_m_s2(); on];
             samples.resize(on + 800, 0.0);
             scene.forcing =
                 Forcing::Samples { dt_s, acceleration_m_s2: samples };
@@ -62,9 +49,9 @@ pub(super) fn energy(context: &Context) -> Result<Answer, MethodError> {
             };
             let run = engine::respond(&scene, &observe)?;
             let quiet_s = (on + 1) as f64 * dt_s;
-            let eta2 = input.restitution * input.restitution;
-            let eta2 = if context.wrong == Some(WrongModel::EtaOnceInEnergy) {
-                input.restitution
+            let eta2 = restitution * restitution;
+            let eta2 = if context.is(WrongModel::EtaOnceInEnergy) {
+                restitution
             } else {
                 eta2
             };
@@ -113,20 +100,13 @@ fn level(equation: Model, alpha: f64, u: f64, w: f64) -> f64 {
     0.5 * w * w + potential
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WorkInput {
-    entries: Vec<String>,
-}
-
 /// What runs of reference trajectories cost, apart from what they give.
 pub(super) fn work(context: &Context) -> Result<Answer, MethodError> {
-    let input: WorkInput = context.input()?;
+    input!(context; entries: Vec<String>);
     let mut answer = Answer::default();
-    for entry in &input.entries {
+    for entry in &entries {
         let case = references::trajectory(entry)?;
-        let scene = references::scene(case, Overturning::Alpha)?;
-        let scene = context.altered(&scene);
+        let scene = context.altered(&case.scene(Overturning::Alpha)?);
         let work = engine::respond(&scene, &Observe::default())?.work;
         for (name, count) in [
             ("steps", work.steps),

@@ -1,23 +1,9 @@
 //! Overturning edges of one-sine pulses in Eq. 2.
 
-use serde::Deserialize;
-use serde_json::Value;
-
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::edge::{self, around};
-use crate::error::MethodError;
-use crate::references::SPECTRUM;
+use crate::references::{Band, Digits, SPECTRUM, SpectrumRow};
 use crate::scene::{Forcing, Model, Overturning, PulseKind, Scene};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    eta: f64,
-    omega_over_p: f64,
-    /// Block: alpha (rad), p (rad/s), g (m/s2).
-    block: [f64; 3],
-}
 
 /// What flips at an edge.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -42,42 +28,41 @@ struct Edge {
 /// Every edge at one frequency, found again by bisecting the engine's fate
 /// within 1e-6 of the reference.
 pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let all = SPECTRUM.read()?;
-    let mut found = None;
-    for row in SPECTRUM.list(&all, "table")? {
-        if SPECTRUM.f64(row, "eta")? == input.eta
-            && SPECTRUM.f64(row, "Omega")? == input.omega_over_p
-        {
-            found = Some(row);
-        }
+    input! { context;
+        eta: f64, omega_over_p: f64,
+        /// Block: alpha (rad), p (rad/s), g (m/s2).
+        block: [f64; 3],
     }
+    let is = |row: &&SpectrumRow| {
+        (row.eta.near, row.omega.near) == (eta, omega_over_p)
+    };
+    let found = SPECTRUM.read()?.table.iter().rfind(is);
     let row = found.ok_or_else(|| SPECTRUM.lacks("no such row"))?;
     let mut answer = Answer::default();
-    let edges = table(row, input.eta)?;
+    let edges = table(row);
     for edge in &edges {
         let mut criterion = edge.criterion;
-        if context.wrong == Some(WrongModel::OtherCriterion) {
+        if context.is(WrongModel::OtherCriterion) {
             criterion = match criterion {
                 Overturning::Alpha => Overturning::HalfPi,
                 Overturning::HalfPi => Overturning::Alpha,
             };
         }
         let is_above = |amplitude: f64| -> Result<bool, MethodError> {
-            let [alpha, p, g] = input.block;
+            let [alpha, p, g] = block;
             let scene = Scene {
                 model: Model::Linearized,
                 overturning: criterion,
 
                 // The saddle holds a block for 28/p at most when the
                 // amplitude is 1e-12 from the edge.
-                until_s: Some((7.0 / input.omega_over_p + 100.0) / p),
+                until_s: Some((7.0 / omega_over_p + 100.0) / p),
                 ..Scene::new(
                     [alpha, p, g],
-                    input.eta,
+                    eta,
                     Forcing::Pulse(PulseKind::OneSine {
                         amplitude: amplitude * g * alpha,
-                        omega_rad_s: input.omega_over_p * p,
+                        omega_rad_s: omega_over_p * p,
                     }),
                 )
             };
@@ -89,7 +74,7 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
                 Flip::Stands => !over,
             })
         };
-        let range = if context.wrong == Some(WrongModel::PlainBisection) {
+        let range = if context.is(WrongModel::PlainBisection) {
             [1.0, 3.0 * edges[0].amplitude]
         } else {
             around(edge.amplitude, 1e-6)
@@ -103,48 +88,30 @@ pub(super) fn edges(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-fn table(row: &Value, eta: f64) -> Result<Vec<Edge>, MethodError> {
-    let file = &SPECTRUM;
+fn table(row: &SpectrumRow) -> Vec<Edge> {
     let mut edges = Vec::new();
-    let mut add = |name: &str, amplitude, criterion, flip| {
-        edges.push(Edge { name: name.to_owned(), amplitude, criterion, flip });
+    let mut add = |name: &str, amplitude: Digits, criterion, flip| {
+        let (name, amplitude) = (name.to_owned(), amplitude.near);
+        edges.push(Edge { name, amplitude, criterion, flip });
     };
     let divergence = Overturning::HalfPi;
-    add(
-        "mode-2",
-        file.f64(row, "mode2_lower")?,
-        divergence,
-        Flip::WithoutImpact,
-    );
-    let first_sign = file.f64(row, "mode2_lower_alpha_criterion")?;
+    add("mode-2", row.mode2_lower, divergence, Flip::WithoutImpact);
+    let first_sign = row.mode2_lower_alpha_criterion;
     add("mode-2-alpha", first_sign, Overturning::Alpha, Flip::WithoutImpact);
-    if let Some(lower) = file.optional(row, "mode1_lower")? {
+    if let Some(lower) = row.mode1_lower {
         add("mode-1-lower", lower, divergence, Flip::Overturns);
     }
     // Without loss, mode 1 goes over into mode 2: no fate flips there.
-    if let Some(upper) = file.optional(row, "mode1_upper")?
-        && eta < 1.0
+    if let Some(upper) = row.mode1_upper
+        && row.eta.near < 1.0
     {
         add("mode-1-upper", upper, divergence, Flip::Stands);
     }
-    if let Some(bands) = row.get("multi_impact_bands") {
-        for band in bands.as_array().into_iter().flatten() {
-            let n = file.f64(band, "n_impacts")?;
-            let lower = file.f64(band, "lower")?;
-            let upper = file.f64(band, "upper")?;
-            add(
-                &format!("{n}-impacts-lower"),
-                lower,
-                divergence,
-                Flip::Overturns,
-            );
-            add(
-                &format!("{n}-impacts-upper"),
-                upper,
-                divergence,
-                Flip::Stands,
-            );
-        }
+    for Band { n_impacts: n, lower, upper } in &row.multi_impact_bands {
+        let name = format!("{n}-impacts-lower");
+        add(&name, *lower, divergence, Flip::Overturns);
+        let name = format!("{n}-impacts-upper");
+        add(&name, *upper, divergence, Flip::Stands);
     }
-    Ok(edges)
+    edges
 }

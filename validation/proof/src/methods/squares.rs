@@ -3,9 +3,7 @@
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 use crate::oracles::square::{SquareWave, State};
 use crate::scene::{Forcing, Overturning, Scene};
 

@@ -5,18 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError};
 use crate::trials::{Finding, Reading, SHARES, Stratum, Summary, findings};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Stratum: `ordinary`, `extreme` or `grazing`.
-    kind: String,
-    /// Which scenes.
-    scenes: Scenes,
-}
 
 /// Scenes of a stratum.
 #[derive(Deserialize)]
@@ -47,13 +37,18 @@ static FOUND: Mutex<Found> = Mutex::new(BTreeMap::new());
 
 /// Wrong fates and exceeded estimates of runs whose certificate is clear.
 pub(super) fn certificate(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let stratum = Stratum::named(&input.kind).ok_or_else(|| {
+    input! { context;
+        /// Stratum: `ordinary`, `extreme` or `grazing`.
+        kind: String,
+        /// Which scenes.
+        scenes: Scenes,
+    }
+    let stratum = Stratum::named(&kind).ok_or_else(|| {
         let names = Stratum::ALL.map(Stratum::name).join(", ");
-        let found = &input.kind;
+        let found = &kind;
         MethodError::Input(format!("kind `{found}`: expected one of {names}"))
     })?;
-    let found = all(stratum, input.scenes.indices()?)?;
+    let found = all(stratum, scenes.indices()?)?;
     let summary = Summary::of(&found, Reading::of(context.wrong));
     let mut answer = Answer::default();
     for (name, count) in [

@@ -7,9 +7,7 @@ use rocking::record::Accelerogram;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
-use super::method::{Answer, Context};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
+use super::method::{Answer, Context, MethodError, WrongModel};
 
 const EXPECTED: &str = "fixtures/oracles/velocity_pulse.csv";
 const EXPECTED_CSV: &str =
@@ -95,10 +93,11 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         _ => input.component(sin, 2.0)?,
     };
     // PGV enters in cm/s.
-    let gravity_m_s2 = match context.wrong {
-        Some(WrongModel::VelocityInMS) => 0.01 * STANDARD_GRAVITY_M_S2,
-        _ => STANDARD_GRAVITY_M_S2,
-    };
+    let gravity_m_s2 = context.or(
+        WrongModel::VelocityInMS,
+        0.01 * STANDARD_GRAVITY_M_S2,
+        STANDARD_GRAVITY_M_S2,
+    );
     let found = candidates(&first, &second, gravity_m_s2)
         .map_err(|e| MethodError::Oracle(e.to_string()))?;
     let quantities: [(&str, Quantity); 8] = [
@@ -124,7 +123,7 @@ pub(super) fn pulses(context: &Context) -> Result<Answer, MethodError> {
         let expected = row[2..].iter().filter_map(|x| x.parse().ok());
         answer.put(&name.replace('_', "-"), found.iter().map(value), expected);
     }
-    let late = context.wrong == Some(WrongModel::LatePulsesKept);
+    let late = context.is(WrongModel::LatePulsesKept);
     let chosen = if late {
         found.iter().find(|c| c.indicator > 0.0)
     } else {

@@ -22,9 +22,7 @@ use serde::Deserialize;
 
 use super::cells::refused;
 use super::truths::Truth;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 /// Deviation in standard errors, half a printed unit taken off.
 fn gap(difference: f64, rounding: f64, error: f64) -> f64 {
@@ -46,25 +44,17 @@ fn rate_gap(
     (ours, gap(ours - rate, rounding, error))
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RejectionInput {
-    truth: Truth,
-    n: usize,
-    trials: u64,
-    level: f64,
-    /// Lilliefors, Anderson-Darling, Cramer-von Mises, Shapiro-Wilk; those
-    /// that are not given are not judged.
-    rates: Vec<f64>,
-    /// Trials behind each rate, 0 for an exact one.
-    reference: Vec<u64>,
-    rounding: f64,
-}
-
 /// Rejected shares of four tests.
 pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
-    let input: RejectionInput = context.input()?;
-    let (n, level) = (input.n, input.level);
+    input! { context;
+        truth: Truth, n: usize, trials: u64, level: f64,
+        /// Lilliefors, Anderson-Darling, Cramer-von Mises, Shapiro-Wilk; those
+        /// that are not given are not judged.
+        rates: Vec<f64>,
+        /// Trials behind each rate, 0 for an exact one.
+        reference: Vec<u64>,
+        rounding: f64,
+    }
     let critical = match context.wrong {
         // Of the fully specified distribution, asymptotically.
         Some(WrongModel::PlainKolmogorov) => {
@@ -72,48 +62,36 @@ pub(crate) fn rejection(context: &Context) -> Result<Answer, MethodError> {
         }
         _ => Table::embedded().critical_value(n, level).map_err(refused)?.0,
     };
-    let judged = input.rates.len();
-    let found =
-        input.truth.map(&context.case.id, n, input.trials, |values| {
-            let sample = Sample::try_new(values).map_err(refused)?;
-            let d = Statistic::try_new(&sample).map_err(refused)?.d;
-            let mut out = [d > critical, false, false, false];
-            let tests = [anderson_darling, cramer_von_mises, shapiro_wilk];
-            for (out, test) in out[1..].iter_mut().zip(tests).take(judged - 1)
-            {
-                *out = test(&sample).map_err(refused)?.p_value < level;
-            }
-            Ok(out)
-        })?;
+    let judged = rates.len();
+    let found = truth.map(&context.case.id, n, trials, |values| {
+        let sample = Sample::try_new(values).map_err(refused)?;
+        let d = Statistic::try_new(&sample).map_err(refused)?.d;
+        let mut out = [d > critical, false, false, false];
+        let tests = [anderson_darling, cramer_von_mises, shapiro_wilk];
+        for (out, test) in out[1..].iter_mut().zip(tests).take(judged - 1) {
+            *out = test(&sample).map_err(refused)?.p_value < level;
+        }
+        Ok(out)
+    })?;
     let mut answer = Answer::default();
-    let references = input.rates.iter().zip(&input.reference);
+    let references = rates.iter().zip(&reference);
     for (k, (rate, reference)) in references.enumerate() {
         let outcomes: Vec<bool> = found.iter().map(|f| f[k]).collect();
-        let (ours, gap) =
-            rate_gap(&outcomes, *rate, *reference, input.rounding);
+        let (ours, gap) = rate_gap(&outcomes, *rate, *reference, rounding);
         answer.put("rate", [ours], [*rate]);
         answer.put("standardised-gap", [gap], [0.0]);
     }
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CoverageInput {
-    truth: Truth,
-    n: usize,
-    trials: u64,
-    procedure: String,
-    rate: f64,
-    reference: u64,
-    rounding: f64,
-}
-
 /// Share of the samples in which an interval covers the truth, or a test
 /// says what it says with a known probability.
 pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
-    let input: CoverageInput = context.input()?;
-    let procedure = match (context.wrong, input.procedure.as_str()) {
+    input! { context;
+        truth: Truth, n: usize, trials: u64, procedure: String, rate: f64,
+        reference: u64, rounding: f64,
+    }
+    let procedure = match (context.wrong, procedure.as_str()) {
         (Some(WrongModel::NotchForInterval), "exact-interval") => "notch",
         (Some(WrongModel::OtherInterval), "bootstrap-beta") => "normal-beta",
         (Some(WrongModel::OtherInterval), "accelerated-beta") => "normal-beta",
@@ -121,16 +99,12 @@ pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
         (Some(WrongModel::OtherInterval), _) => "notch",
         (_, own) => own,
     };
-    let outcomes = input.truth.map(
-        &context.case.id,
-        input.n,
-        input.trials,
-        |values| covers(procedure, input.truth, context.wrong, values),
-    )?;
-    let (ours, gap) =
-        rate_gap(&outcomes, input.rate, input.reference, input.rounding);
+    let outcomes = truth.map(&context.case.id, n, trials, |values| {
+        covers(procedure, truth, context.wrong, values)
+    })?;
+    let (ours, gap) = rate_gap(&outcomes, rate, reference, rounding);
     let mut answer = Answer::default();
-    answer.put("rate", [ours], [input.rate]);
+    answer.put("rate", [ours], [rate]);
     answer.put("standardised-gap", [gap], [0.0]);
     Ok(answer)
 }

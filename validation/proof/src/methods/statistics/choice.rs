@@ -3,35 +3,27 @@
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::choice::{Distribution, Model, candidate};
 use rocking::statistics::lognormal::{FitMethod, fit};
-use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use super::cells::{Csv, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-const CHOICE: &str = "fixtures/oracles/choice.csv";
-const CHOICE_CSV: &str =
-    include_str!("../../../../../fixtures/oracles/choice.csv");
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    sample: Vec<f64>,
-    /// The sample as the file names it.
-    name: String,
-}
+const CHOICE: Csv = csv!("oracles/choice.csv");
 
 /// Likelihood, criteria and distances of every family in the file.
 pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let sample = ExtendedSample::try_new(&input.sample).map_err(refused)?;
+    input! { context;
+        sample: Vec<f64>,
+        /// The sample as the file names it.
+        name: String,
+    }
+    let sample = ExtendedSample::try_new(&sample).map_err(refused)?;
     let mut answer = Answer::default();
-    for row in rows(CHOICE_CSV, CHOICE, &input.name)? {
+    for row in CHOICE.rows(&name)? {
         let mut models = Model::ALL.into_iter();
-        let model = models.find(|model| model.to_string() == row[1]);
-        let model = model
-            .ok_or_else(|| MethodError::Input(format!("model {}", row[1])))?;
+        let model = models.find(|model| model.to_string() == row.text(1));
+        let model = model.ok_or_else(|| {
+            MethodError::Input(format!("model {}", row.text(1)))
+        })?;
         let mut found = candidate(&sample, 0.0, model).map_err(refused)?;
         if (context.wrong, model)
             == (Some(WrongModel::OtherDivisor), Model::Lognormal)
@@ -56,20 +48,18 @@ pub(crate) fn choice(context: &Context) -> Result<Answer, MethodError> {
             _ => ("", Vec::new()),
         };
         let place = |name: &str| format!("{kind}{name}");
-        let mut values = vec![
-            ("log-likelihood".into(), found.log_likelihood, row[5]),
-            ("aic".into(), found.aic, row[6]),
-            ("bic".into(), found.bic, row[7]),
-            (place("kolmogorov"), found.kolmogorov, row[8]),
-            (place("anderson-darling"), found.anderson_darling, row[9]),
+        let quantities = [
+            ("log-likelihood", found.log_likelihood),
+            ("aic", found.aic),
+            ("bic", found.bic),
+            (&place("kolmogorov"), found.kolmogorov),
+            (&place("anderson-darling"), found.anderson_darling),
         ];
-        let columns = parameters.iter().zip(&row[2..]);
-        values.extend(
-            columns.map(|(own, text)| (place("parameters"), *own, *text)),
-        );
-        for (name, own, text) in values {
-            answer.put(&name, [own], [number(CHOICE, text)?]);
-        }
+        row.put(&mut answer, 5, &quantities)?;
+        let name = place("parameters");
+        let parameters: Vec<_> =
+            parameters.iter().map(|own| (name.as_str(), *own)).collect();
+        row.put(&mut answer, 2, &parameters)?;
     }
     Ok(answer)
 }

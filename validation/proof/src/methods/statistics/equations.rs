@@ -2,36 +2,22 @@
 
 use libm::{exp, log};
 use rocking::fragility::{c_max, eq5, eq6, eq7};
-use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use super::cells::{Csv, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-const FILE: &str = "fixtures/oracles/fragility.csv";
-const CSV: &str =
-    include_str!("../../../../../fixtures/oracles/fragility.csv");
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Median as it stands in the file.
-    median: String,
-}
+const FRAGILITY: Csv = csv!("oracles/fragility.csv");
 
 /// Eq. 7 over constants against 50 digits; Eqs. 5 and 6 of the shifted
 /// lognormal that Eq. 7 is about; its limit and its end.
 pub(crate) fn transforms(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
+    input! { context;
+        /// Median as it stands in the file.
+        median: String,
+    }
     let mut answer = Answer::default();
-    for row in rows(CSV, FILE, &input.median)? {
-        let fields: Vec<f64> =
-            row.iter().map(|f| number(FILE, f)).collect::<Result<_, _>>()?;
-        let &[median, beta, shift, c, expected] = fields.as_slice() else {
-            let what = format!("row `{}`", input.median);
-            return Err(MethodError::Reference { file: FILE, what });
-        };
+    for row in FRAGILITY.rows(&median)? {
+        let [median, beta, shift, c, expected] = row.numbers(0)?;
         let value = match context.wrong {
             Some(WrongModel::Equation7AsPrinted) => {
                 let up = median * exp(c * beta) - shift;

@@ -16,9 +16,7 @@ use rocking::streams::{Streams, standard_normal};
 use serde::Deserialize;
 
 use super::cells::refused;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;

@@ -1,28 +1,20 @@
 //! Inversion of response curves, on examples in exact rationals.
 
 use rocking::capacity::{InversionRule, ResponseCurve};
-use serde::Deserialize;
 
 use super::cells::refused;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// (IM, EDP), the first with EDP 0.
-    curve: Vec<(f64, f64)>,
-    overturning: Option<f64>,
-    levels: Vec<f64>,
-}
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 /// Capacities at the levels by every rule, and the number of crossings.
 pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let mut vertices = input.curve.clone();
-    let mut overturning = input.overturning;
-    if context.wrong == Some(WrongModel::OverturningAsAnAngle)
+    input! { context;
+        /// (IM, EDP), the first with EDP 0.
+        curve: Vec<(f64, f64)>,
+        overturning: Option<f64>, levels: Vec<f64>,
+    }
+    let mut vertices = curve.clone();
+    let mut overturning = overturning;
+    if context.is(WrongModel::OverturningAsAnAngle)
         && let Some(im) = overturning.take()
     {
         // pi/2 at alpha = 0.05, interpolated to.
@@ -31,17 +23,12 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
     let curve =
         ResponseCurve::try_new(&vertices, overturning).map_err(refused)?;
     let mut answer = Answer::default();
-    let mut put = |name: &str, value: f64| {
-        answer.see(name, [value]);
-    };
-    for level in input.levels {
+    for level in levels {
         // Strictly above instead of at or above.
-        let level = match context.wrong {
-            Some(WrongModel::OpenCrossings) => level * (1.0 + f64::EPSILON),
-            _ => level,
-        };
+        let above = level * (1.0 + f64::EPSILON);
+        let level = context.or(WrongModel::OpenCrossings, above, level);
         let crossings = curve.crossings(level).map_err(refused)?;
-        put("crossings", crossings.all().len() as f64);
+        answer.see("crossings", [crossings.all().len() as f64]);
         for named in InversionRule::ALL {
             let rule = match (context.wrong, named) {
                 (Some(WrongModel::FirstForMedian), InversionRule::Median) => {
@@ -49,7 +36,7 @@ pub(crate) fn inversion(context: &Context) -> Result<Answer, MethodError> {
                 }
                 _ => named,
             };
-            put(named.name(), crossings.capacity(rule).im());
+            answer.see(named.name(), [crossings.capacity(rule).im()]);
         }
     }
     Ok(answer)

@@ -6,33 +6,22 @@ use rayon::prelude::*;
 use rocking::statistics::lilliefors::{Statistic, Table};
 use rocking::statistics::{Sample, normal};
 use rocking::streams::{Streams, standard_normal};
-use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use super::cells::{Csv, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-const EXACT: &str = "fixtures/oracles/lilliefors_exact.csv";
-const EXACT_CSV: &str =
-    include_str!("../../../../../fixtures/oracles/lilliefors_exact.csv");
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NullInput {
-    n: usize,
-    replicates: u64,
-    /// Error of the exact values.
-    error: f64,
-}
+const EXACT: Csv = csv!("oracles/lilliefors_exact.csv");
 
 /// Simulated critical values against the exact ones, in units of both
 /// errors together; and the range of D.
 pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
-    let input: NullInput = context.input()?;
-    let n = input.n;
+    input! { context;
+        n: usize, replicates: u64,
+        /// Error of the exact values.
+        error: f64,
+    }
     let streams = Streams::new("case, lilliefors null", 0);
-    let mut statistics: Vec<f64> = (0..input.replicates)
+    let mut statistics: Vec<f64> = (0..replicates)
         .into_par_iter()
         .map(|index| {
             let mut stream = streams.stream(index);
@@ -52,14 +41,14 @@ pub(crate) fn null(context: &Context) -> Result<Answer, MethodError> {
     let count = statistics.len() as f64;
     let at = |rank: f64| statistics[rank.clamp(1.0, count) as usize - 1];
     let mut answer = Answer::default();
-    for row in rows(EXACT_CSV, EXACT, &n.to_string())? {
-        let (level, exact) = (number(EXACT, row[1])?, number(EXACT, row[2])?);
+    for row in EXACT.rows(&n.to_string())? {
+        let [level, exact] = row.numbers(1)?;
         let rank = ((1.0 - level) * (count + 1.0)).ceil();
         let span = (0.2 * level.min(1.0 - level) * count).ceil();
         let spread = (level * (1.0 - level) * count).sqrt();
         let slope = (at(rank + span) - at(rank - span)) / (2.0 * span);
-        let error = (spread * slope).max(input.error);
-        let gap = (at(rank) - exact) / (error + input.error);
+        let own = (spread * slope).max(error);
+        let gap = (at(rank) - exact) / (own + error);
         answer.put("standardised-gap", [gap], [0.0]);
     }
     let largest = at(count) / Statistic::largest(n);
@@ -78,18 +67,12 @@ fn with_divisor_n(sample: &Sample) -> f64 {
     })
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LargestInput {
-    n: Vec<usize>,
-}
-
 /// The largest possible D, by its formula and by the sample that attains it.
 pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
-    let input: LargestInput = context.input()?;
+    input!(context; n: Vec<usize>);
     let mut answer = Answer::default();
     let mut formula = Vec::new();
-    for n in input.n {
+    for n in n {
         formula.push(Statistic::largest(n));
         // k values at one place, the others at another, for the best k.
         let attained = (1..n).fold(0.0, |best: f64, k| {
@@ -110,48 +93,38 @@ pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct TableInput {
-    n: Vec<usize>,
-    levels: Vec<f64>,
-    /// By size, then by level.
-    values: Vec<Vec<f64>>,
-    /// Half a unit of the last digit printed.
-    rounding: f64,
-    /// By size, then by level.
-    errors: Vec<Vec<f64>>,
-}
-
 /// The table against an independent simulation, in combined standard
 /// errors.
 pub(crate) fn table(context: &Context) -> Result<Answer, MethodError> {
-    let input: TableInput = context.input()?;
+    input! { context;
+        n: Vec<usize>, levels: Vec<f64>,
+        /// By size, then by level.
+        values: Vec<Vec<f64>>,
+        /// Half a unit of the last digit printed.
+        rounding: f64,
+        /// By size, then by level.
+        errors: Vec<Vec<f64>>,
+    }
     let table = Table::embedded();
     let mut answer = Answer::default();
-    for ((n, values), errors) in
-        input.n.iter().zip(&input.values).zip(&input.errors)
-    {
-        for ((level, value), error) in
-            input.levels.iter().zip(values).zip(errors)
-        {
+    for ((n, values), errors) in n.iter().zip(&values).zip(&errors) {
+        for ((level, value), error) in levels.iter().zip(values).zip(errors) {
             let (mut ours, own) =
                 table.critical_value(*n, *level).map_err(refused)?;
-            if context.wrong == Some(WrongModel::PlainKolmogorov) {
+            if context.is(WrongModel::PlainKolmogorov) {
                 // Asymptotic points of the fully specified distribution.
                 ours = (-0.5 * libm::log(0.5 * level) / *n as f64).sqrt();
-            } else if context.wrong == Some(WrongModel::InterpolatedInN) {
+            } else if context.is(WrongModel::InterpolatedInN) {
                 ours = linear_in_n(*n, *level)?;
             }
-            let both = (own * own + error * error).sqrt() + input.rounding;
+            let both = (own * own + error * error).sqrt() + rounding;
             let gap = (ours - value) / both;
             answer.put("standardised-gap", [gap], [0.0]);
         }
     }
     for n in [44, 86] {
         let (_, own) = table.critical_value(n, 0.05).map_err(refused)?;
-        let seen = answer.observed.entry("own-error".into()).or_default();
-        seen.push(own);
+        answer.see("own-error", [own]);
     }
     Ok(answer)
 }
@@ -167,24 +140,19 @@ fn linear_in_n(n: usize, level: f64) -> Result<f64, MethodError> {
     Ok(f64::mul_add(share, b - a, a))
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PublishedInput {
-    /// Name of the source, for people.
-    sources: Vec<String>,
-    n: Vec<usize>,
-    values: Vec<f64>,
-}
-
 /// True level of tests that use others' critical values.
 pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
-    let input: PublishedInput = context.input()?;
-    if input.sources.len() != input.values.len() {
+    input! { context;
+        /// Name of the source, for people.
+        sources: Vec<String>,
+        n: Vec<usize>, values: Vec<f64>,
+    }
+    if sources.len() != values.len() {
         return Err(MethodError::Input("sources and values".into()));
     }
     let mut levels = Vec::new();
     let mut by_interpolation = Vec::new();
-    for (n, value) in input.n.iter().zip(&input.values) {
+    for (n, value) in n.iter().zip(&values) {
         let p = Table::embedded().p_value(*n, *value).map_err(refused)?;
         levels.push(match context.wrong {
             Some(WrongModel::PlainKolmogorov) => {
@@ -205,29 +173,19 @@ pub(crate) fn published(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct AsymptoticInput {
-    levels: Vec<f64>,
-    least_n: usize,
-}
-
 /// c0 of D = c0/sqrt(n) - c1/n - c2/n^1.5, fitted to the table by weighted
 /// least squares, and the largest residual in standard errors.
 pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
-    let input: AsymptoticInput = context.input()?;
+    input!(context; levels: Vec<f64>, least_n: usize);
     let sizes: Vec<usize> = Table::sizes()
         .into_iter()
         .map(|(n, _)| n)
-        .filter(|n| *n >= input.least_n)
+        .filter(|n| *n >= least_n)
         .collect();
-    let terms = match context.wrong {
-        Some(WrongModel::TwoTerms) => 2,
-        _ => 3,
-    };
+    let terms = context.or(WrongModel::TwoTerms, 2, 3);
     let mut constants = Vec::new();
     let mut misfits = Vec::new();
-    for level in input.levels {
+    for level in levels {
         let known: Vec<(f64, f64)> = sizes
             .iter()
             .map(|n| Table::embedded().critical_value(*n, level))
@@ -263,20 +221,14 @@ pub(crate) fn asymptotics(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct DrawInput {
-    draws: usize,
-}
-
 /// Our normal variates against `rand_distr`'s on the same stream.
 pub(crate) fn draws(context: &Context) -> Result<Answer, MethodError> {
-    let input: DrawInput = context.input()?;
+    input!(context; draws: usize);
     let streams = Streams::new("two ziggurats", 0);
-    let other = u64::from(context.wrong == Some(WrongModel::NextStream));
+    let other = u64::from(context.is(WrongModel::NextStream));
     let (mut ours, mut theirs) = (streams.stream(other), streams.stream(0));
     let mut worst: f64 = 0.0;
-    for _ in 0..input.draws {
+    for _ in 0..draws {
         let a = standard_normal(&mut ours);
         let b: f64 = StandardNormal.sample(&mut theirs);
         worst = worst.max((a - b).abs());

@@ -1,34 +1,21 @@
 //! NIST's univariate data sets.
 
 use rocking::statistics::Sample;
-use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use super::cells::{Csv, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-const FILE: &str = "fixtures/nist/univariate.csv";
-const CSV: &str = include_str!("../../../../../fixtures/nist/univariate.csv");
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    set: String,
-}
+const UNIVARIATE: Csv = csv!("nist/univariate.csv");
 
 /// Mean and standard deviation of a certified data set.
 pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let rows = rows(CSV, FILE, &input.set)?;
-    let [_, mean, deviation, _, values] = rows[0].as_slice() else {
-        let what = format!("row `{}` has no five fields", input.set);
-        return Err(MethodError::Reference { file: FILE, what });
-    };
-    let values: Vec<f64> = values
-        .split(' ')
-        .map(|v| number(FILE, v))
-        .collect::<Result<_, _>>()?;
+    input!(context; set: String);
+    let row = &UNIVARIATE.rows(&set)?[0];
+    let values = row.text(4).split(' ').map(str::parse);
+    let values: Vec<f64> =
+        values.collect::<Result<_, _>>().map_err(|error| {
+            UNIVARIATE.lacks(format!("values of `{set}`: {error}"))
+        })?;
     let sample = Sample::try_new(&values).map_err(refused)?;
     let n = values.len() as f64;
     let squares = match context.wrong {
@@ -40,15 +27,11 @@ pub(crate) fn moments(context: &Context) -> Result<Answer, MethodError> {
         }
         _ => sample.sum_of_squares(),
     };
-    let divisor = match context.wrong {
-        Some(WrongModel::OtherDivisor) => n,
-        _ => n - 1.0,
-    };
+    let divisor = context.or(WrongModel::OtherDivisor, n, n - 1.0);
     let mut answer = Answer::default();
-    let expected = vec![number(FILE, mean)?];
-    answer.put("mean", [sample.mean()], expected);
-    let observed = vec![(squares / divisor).sqrt()];
-    let expected = vec![number(FILE, deviation)?];
-    answer.put("standard-deviation", observed, expected);
+    let deviation = (squares / divisor).sqrt();
+    let quantities =
+        [("mean", sample.mean()), ("standard-deviation", deviation)];
+    row.put(&mut answer, 1, &quantities)?;
     Ok(answer)
 }

@@ -1,27 +1,13 @@
 //! A probability from a count.
 
 use rocking::statistics::{Proportion, normal};
-use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use super::cells::{Csv, Row, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-const FILE: &str = "fixtures/oracles/proportion.csv";
-const CSV: &str =
-    include_str!("../../../../../fixtures/oracles/proportion.csv");
+const PROPORTION: Csv = csv!("oracles/proportion.csv");
 
 const LEVEL: f64 = 0.95;
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    /// Successes and trials.
-    counts: Vec<(usize, usize)>,
-    /// How many such probabilities are held at once.
-    together: usize,
-}
 
 /// Wilson's interval, which is not exact.
 fn wilson(share: f64, trials: usize, level: f64) -> (f64, f64) {
@@ -34,33 +20,31 @@ fn wilson(share: f64, trials: usize, level: f64) -> (f64, f64) {
 
 /// Exact intervals of probabilities, alone or of many at once.
 pub(crate) fn intervals(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
+    input! { context;
+        /// Successes and trials.
+        counts: Vec<(usize, usize)>,
+        /// How many such probabilities are held at once.
+        together: usize,
+    }
     let mut answer = Answer::default();
-    for (successes, trials) in input.counts {
+    for (successes, trials) in counts {
         let one = Proportion::try_new(successes, trials).map_err(refused)?;
-        let together = match context.wrong {
-            Some(WrongModel::PointwiseIntervals) => 1,
-            _ => input.together,
-        };
-        let all = vec![one; together];
+        let count = context.or(WrongModel::PointwiseIntervals, 1, together);
+        let all = vec![one; count];
         let band = Proportion::band(&all, LEVEL).map_err(refused)?;
         let first = band.first().copied();
         let mut ends = first.unwrap_or((f64::NAN, f64::NAN));
-        if context.wrong == Some(WrongModel::WilsonInterval) {
-            let level = 1.0 - (1.0 - LEVEL) / together as f64;
+        if context.is(WrongModel::WilsonInterval) {
+            let level = 1.0 - (1.0 - LEVEL) / count as f64;
             ends = wilson(one.share(), trials, level);
         }
-        let words = [successes, trials, input.together].map(|k| k.to_string());
-        let wanted = rows(CSV, FILE, &words[0])?
-            .into_iter()
-            .find(|row| row[1] == words[1] && row[2] == words[2])
-            .ok_or_else(|| MethodError::Reference {
-                file: FILE,
-                what: format!("no row `{}`", words.join(",")),
-            })?;
-        let wanted = [number(FILE, wanted[3])?, number(FILE, wanted[4])?];
-        answer.put("low", [ends.0], [wanted[0]]);
-        answer.put("high", [ends.1], [wanted[1]]);
+        let words = [successes, trials, together].map(|k| k.to_string());
+        let rows = PROPORTION.rows(&words[0])?;
+        let is = |row: &&Row| [row.text(1), row.text(2)] == words[1..];
+        let row = rows.iter().find(is).ok_or_else(|| {
+            PROPORTION.lacks(format!("no row `{}`", words.join(",")))
+        })?;
+        row.put(&mut answer, 3, &[("low", ends.0), ("high", ends.1)])?;
     }
     Ok(answer)
 }

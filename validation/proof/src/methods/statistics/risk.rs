@@ -6,41 +6,26 @@ use rocking::fragility::risk::HazardCurve;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 use rocking::statistics::{ExtendedSample, Lognormal, normal};
-use serde::Deserialize;
 
-use super::cells::{number, refused, rows};
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
+use super::cells::{Csv, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-const FILE: &str = "fixtures/oracles/risk.csv";
-const CSV: &str = include_str!("../../../../../fixtures/oracles/risk.csv");
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Hazard {
-    /// Name of the curve in the file.
-    curve: String,
-    /// Its points: intensity, annual frequency.
-    points: Vec<(f64, f64)>,
-}
+const RISK: Csv = csv!("oracles/risk.csv");
 
 /// Annual frequencies under a hazard curve against quadrature over x.
 pub(crate) fn annual_frequency(
     context: &Context,
 ) -> Result<Answer, MethodError> {
-    let input: Hazard = context.input()?;
-    let hazard = HazardCurve::try_new(&input.points).map_err(refused)?;
+    input! { context;
+        /// Name of the curve in the file.
+        curve: String,
+        /// Its points: intensity, annual frequency.
+        points: Vec<(f64, f64)>,
+    }
+    let hazard = HazardCurve::try_new(&points).map_err(refused)?;
     let mut answer = Answer::default();
-    for row in rows(CSV, FILE, &input.curve)? {
-        let fields: Vec<f64> = row[1..]
-            .iter()
-            .map(|f| number(FILE, f))
-            .collect::<Result<_, _>>()?;
-        let &[shift, mu, beta, covered, low, high] = fields.as_slice() else {
-            let what = format!("row `{}`", input.curve);
-            return Err(MethodError::Reference { file: FILE, what });
-        };
+    for row in RISK.rows(&curve)? {
+        let [shift, mu, beta, covered, low, high] = row.numbers(1)?;
         let right = Lognormal::try_new(shift, mu, beta).map_err(refused)?;
         let fragility = match context.wrong {
             Some(WrongModel::WithoutShift) => {
@@ -50,10 +35,11 @@ pub(crate) fn annual_frequency(
             _ => right,
         };
         let found = hazard.annual_frequency(&fragility);
-        let least = match context.wrong {
-            Some(WrongModel::NothingBeyond) => found.covered,
-            _ => found.truncation_lower,
-        };
+        let least = context.or(
+            WrongModel::NothingBeyond,
+            found.covered,
+            found.truncation_lower,
+        );
         answer.put("at-least", [least], [low]);
         answer.put("at-most", [found.truncation_upper], [high]);
         // A difference, of numbers below `high`.
@@ -62,20 +48,16 @@ pub(crate) fn annual_frequency(
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct PowerLaw {
-    /// Exponents of the hazard k0 x^-k, with median and dispersion.
-    exponent_median_dispersion: Vec<(f64, f64, f64)>,
-}
-
 /// Annual frequencies for a power law and a lognormal, which have Cornell's
 /// closed form H(m) exp(k^2 beta^2/2).
 pub(crate) fn cornell(context: &Context) -> Result<Answer, MethodError> {
     const K0: f64 = 1e-4;
-    let input: PowerLaw = context.input()?;
+    input! { context;
+        /// Exponents of the hazard k0 x^-k, with median and dispersion.
+        exponent_median_dispersion: Vec<(f64, f64, f64)>,
+    }
     let mut answer = Answer::default();
-    for (k, median, beta) in input.exponent_median_dispersion {
+    for (k, median, beta) in exponent_median_dispersion {
         let hazard = |x: f64| K0 * exp(-k * log(x));
         let at = |z: f64| median * exp(beta * z);
         // Wide enough for the peak of the integrand, at the score -k beta;
@@ -95,47 +77,38 @@ pub(crate) fn cornell(context: &Context) -> Result<Answer, MethodError> {
     Ok(answer)
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Band {
-    n: usize,
-    replicates: usize,
-    shift: f64,
-    ln_median: f64,
-    dispersion: f64,
-    /// Scores of the intensities.
-    scores: Vec<f64>,
-}
-
 /// Widths of the interval of a probability in scores: by the delta method,
 /// over those by drawing the records anew.
 pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
     const LEVEL: f64 = 0.95;
-    let input: Band = context.input()?;
+    input! { context;
+        n: usize, replicates: usize, shift: f64, ln_median: f64,
+        dispersion: f64,
+        /// Scores of the intensities.
+        scores: Vec<f64>,
+    }
     let truth =
-        Lognormal::try_new(input.shift, input.ln_median, input.dispersion)
-            .map_err(refused)?;
+        Lognormal::try_new(shift, ln_median, dispersion).map_err(refused)?;
     // Values at the quantiles.
-    let place = |k: usize| (k as f64 + 0.5) / input.n as f64;
-    let values: Vec<f64> =
-        (0..input.n).map(|k| truth.quantile(place(k))).collect();
+    let place = |k: usize| (k as f64 + 0.5) / n as f64;
+    let values: Vec<f64> = (0..n).map(|k| truth.quantile(place(k))).collect();
     let fitted = |values: &[f64]| {
         let sample = ExtendedSample::try_new(values).ok()?;
         let method = FitMethod::MaximumLikelihood;
-        Some(fit(&sample, input.shift, method).ok()?.distribution)
+        Some(fit(&sample, shift, method).ok()?.distribution)
     };
     let whole =
         fitted(&values).ok_or_else(|| MethodError::Oracle("no fit".into()))?;
     let name = "cases/interval-of-a-probability";
-    let draws = Bootstrap::new(name, 0, input.n, input.replicates);
+    let draws = Bootstrap::new(name, 0, n, replicates);
     let fits = draws.map(|places| {
         let drawn: Vec<f64> = places.iter().map(|&i| values[i]).collect();
         fitted(&drawn)
     });
     let width = |(low, high)| normal::quantile(high) - normal::quantile(low);
     let mut answer = Answer::default();
-    for score in input.scores {
-        let x = input.shift + exp(input.ln_median + input.dispersion * score);
+    for score in scores {
+        let x = shift + exp(ln_median + dispersion * score);
         let column: Vec<f64> = fits
             .iter()
             .map(|fit| fit.map_or(f64::NAN, |fit| fit.cdf(x)))
@@ -145,9 +118,9 @@ pub(crate) fn interval(context: &Context) -> Result<Answer, MethodError> {
         let found = match context.wrong {
             Some(WrongModel::KnownDispersion) => {
                 let wide = normal::quantile(0.5 * (1.0 + LEVEL));
-                2.0 * wide / (input.n as f64).sqrt()
+                2.0 * wide / (n as f64).sqrt()
             }
-            _ => width(whole.interval_of_cdf(input.n, x, LEVEL)),
+            _ => width(whole.interval_of_cdf(n, x, LEVEL)),
         };
         answer.put("width", [found], [width((drawn.low, drawn.high))]);
     }

@@ -2,25 +2,15 @@
 
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::two_sample::kolmogorov_smirnov;
-use serde::Deserialize;
 
 use super::cells::refused;
-use crate::cases::WrongModel;
-use crate::error::MethodError;
-use crate::methods::method::{Answer, Context};
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    samples: Vec<Vec<f64>>,
-}
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 /// Kolmogorov's and Smirnov's distance of every two of the samples, and its
 /// p-value.
 pub(crate) fn two_samples(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let samples = input
-        .samples
+    input!(context; samples: Vec<Vec<f64>>);
+    let samples = samples
         .iter()
         .map(|values| ExtendedSample::try_new(values).map_err(refused))
         .collect::<Result<Vec<_>, _>>()?;
@@ -37,10 +27,8 @@ pub(crate) fn two_samples(context: &Context) -> Result<Answer, MethodError> {
                 }
                 _ => found.p_value,
             };
-            for (name, own) in [("distance", found.statistic), ("p-value", p)]
-            {
-                answer.see(name, [own]);
-            }
+            answer.see("distance", [found.statistic]);
+            answer.see("p-value", [p]);
         }
     }
     Ok(answer)

@@ -3,16 +3,14 @@
 //! forms.
 
 mod defect;
-mod error;
 mod families;
 mod fates;
 mod proof;
 mod spectrum;
 mod tables;
 
-pub use error::EvidenceError;
 pub use families::families;
-pub use proof::{NOT_RUN, Proof, ProofError};
+pub use proof::{NOT_RUN, Proof};
 
 use crate::page::Family;
 use rocking_common::table::PlainTable;
@@ -22,8 +20,8 @@ use rocking_proof::cases::load_all;
 /// Declared cases with their results, family by family.
 ///
 /// # Errors
-/// [`EvidenceError`] where the cases cannot be read.
-pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
+/// Where the cases cannot be read.
+pub fn shown(proof: &Proof) -> anyhow::Result<Vec<Family>> {
     Ok(families(&load_all()?, proof.results()))
 }
 
@@ -31,10 +29,8 @@ pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
 /// handed in, and critical values beside published ones.
 ///
 /// # Errors
-/// [`EvidenceError`] where the cases cannot be read.
-pub fn checks(
-    proof: Option<&Proof>,
-) -> Result<Vec<PlainTable>, EvidenceError> {
+/// Where the cases cannot be read.
+pub fn checks(proof: Option<&Proof>) -> anyhow::Result<Vec<PlainTable>> {
     let pulses = proof.map(|proof| tables::similarity(proof.results()));
     let mut all: Vec<PlainTable> = pulses.transpose()?.into_iter().collect();
     all.push(tables::critical_values()?);
@@ -44,8 +40,8 @@ pub fn checks(
 /// The figures of the proof.
 ///
 /// # Errors
-/// [`EvidenceError::Engine`] where a scene is refused.
-pub fn charts() -> Result<Vec<Figure>, EvidenceError> {
+/// Where a scene is refused.
+pub fn charts() -> anyhow::Result<Vec<Figure>> {
     Ok(vec![defect::chart()?, spectrum::chart()?, fates::map()?])
 }
 

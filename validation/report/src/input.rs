@@ -5,8 +5,7 @@ use rocking::integrator::Overturning;
 
 use crate::answers;
 use crate::credibility;
-use crate::error::ReportError;
-use crate::evidence::{self, EvidenceError, NOT_RUN, Proof};
+use crate::evidence::{self, NOT_RUN, Proof};
 use crate::findings;
 use crate::head;
 use crate::head::Signatures;
@@ -38,7 +37,7 @@ const LEADING: [u32; 8] = [2, 4, 6, 7, 11, 12, 15, 17];
 /// they were handed in.
 ///
 /// # Errors
-/// [`ReportError`] where a figure cannot be drawn.
+/// Where a figure cannot be drawn.
 pub fn input(
     results: &Results,
     figures: &[Figure],
@@ -47,13 +46,9 @@ pub fn input(
     questions: &[Answer],
     proof: Option<&Proof>,
     signatures: &Signatures,
-) -> Result<ReportInput, ReportError> {
+) -> anyhow::Result<ReportInput> {
     let timings = Timings::kept()?;
-    let recorded = results
-        .embedded()
-        .then(recorded::recorded)
-        .transpose()
-        .map_err(ReportError::Recorded)?;
+    let recorded = results.embedded().then(recorded::recorded).transpose()?;
     let recorded = recorded.as_ref();
     // Of figures that both arms have, those of the paper's grid stand in the
     // annex.
@@ -126,8 +121,7 @@ pub fn input(
     let mut speed = timings.tables();
     let settings = speed.extract_if(.., |t| t.name == "speed-settings");
     let settings: Vec<PlainTable> = settings.collect();
-    let coverage =
-        proof.map(Proof::coverage).transpose().map_err(EvidenceError::from)?;
+    let coverage = proof.map(Proof::coverage).transpose()?;
     Ok(ReportInput {
         title: TITLE.into(),
         subtitle: "Statistical property parameterization of simple rocking \

@@ -8,7 +8,6 @@ use std::path::Path;
 use rocking::block::BlockError;
 
 use crate::answers;
-use crate::error::ReportError;
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
 use crate::input;
@@ -91,12 +90,12 @@ fn laid_out(files: Files) -> Files {
 /// if they were handed in.
 ///
 /// # Errors
-/// [`ReportError`] where a figure cannot be drawn.
+/// Where a figure cannot be drawn.
 pub fn files(
     study: &Study,
     proof: Option<&Proof>,
     signatures: &Signatures,
-) -> Result<Files, ReportError> {
+) -> anyhow::Result<Files> {
     let mut files = Files::new();
     let timed = Timings::kept()?.figure();
     let charts = evidence::charts()?;
@@ -171,11 +170,11 @@ fn single_csv(results: &Results) -> String {
 /// The answers of the page for people, of this study's suites alone.
 ///
 /// # Errors
-/// [`ReportError`] where the kept timings cannot be read.
+/// Where the kept timings cannot be read.
 pub fn answers_text(
     study: &Study,
     proof: Option<&Proof>,
-) -> Result<String, ReportError> {
+) -> anyhow::Result<String> {
     let rows = answers::rows(
         study.results.embedded(),
         &study.findings,

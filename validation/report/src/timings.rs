@@ -76,8 +76,8 @@ impl Timings {
     /// The timings that come with the program.
     ///
     /// # Errors
-    /// [`csv::Error`] where a table has been damaged.
-    pub fn kept() -> Result<Self, csv::Error> {
+    /// Where a table has been damaged.
+    pub fn kept() -> anyhow::Result<Self> {
         let pairs = csv::Reader::from_reader(CONDITIONS.as_bytes())
             .deserialize()
             .collect::<Result<_, _>>();

@@ -1,5 +1,6 @@
 //! The fragilities of a finished sweep, for other programs.
 
+use anyhow::{Context as _, bail};
 use rocking::block::Block;
 use rocking::integrator::Model;
 use rocking::intensity::Intensity;
@@ -8,7 +9,6 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{BlockFragility, Id, LimitState, unit_intensity};
 use serde::Deserialize;
 
-use super::SweepError;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
@@ -33,14 +33,13 @@ struct Row {
 /// the plan: a limit state a demand.
 ///
 /// # Errors
-/// [`SweepError::Tile`] for a tile that is not done, [`SweepError::Demand`]
-/// for a demand that the plan has not, [`SweepError::Censored`] for a block
+/// For a tile that is not done, a demand that the plan has not, and a block
 /// that some record never brings to a demand.
 pub fn fragilities(
     planned: &Planned,
     intensity: Intensity,
     demands: &[f64],
-) -> Result<Vec<BlockFragility>, SweepError> {
+) -> anyhow::Result<Vec<BlockFragility>> {
     let plan = &planned.plan;
     let listed = |demands: &[f64]| {
         let words: Vec<String> = demands.iter().map(f64::to_string).collect();
@@ -48,7 +47,7 @@ pub fn fragilities(
     };
     if let Some(found) = demands.iter().find(|d| !plan.demands.contains(d)) {
         let expected = listed(&plan.demands);
-        return Err(SweepError::Demand { found: *found, expected });
+        bail!("demand {found}: expected some of {expected}, as planned");
     }
     let origin = format!(
         "sweep over {} records, {} at |theta|/alpha {}",
@@ -61,13 +60,11 @@ pub fn fragilities(
         let (state, body) = tile::read(planned, Content::Fragilities, tile);
         let path = planned.tile_path(Content::Fragilities, tile);
         if state != State::Done {
-            return Err(SweepError::Tile { path, state });
+            return Err(state.refused(&path));
         }
         let mut reader = csv::Reader::from_reader(body.as_bytes());
         for row in reader.deserialize() {
-            let row: Row = row.map_err(|e| {
-                SweepError::Statistics(format!("{}: {e}", path.display()))
-            })?;
+            let row: Row = row.with_context(|| path.display().to_string())?;
             if row.im != intensity || !demands.contains(&row.demand) {
                 continue;
             }
@@ -90,20 +87,19 @@ pub fn fragilities(
 }
 
 /// The limit state of a row in the unit of the block's own intensity.
-fn limit_state(row: &Row, block: &Block) -> Result<LimitState, SweepError> {
+fn limit_state(row: &Row, block: &Block) -> anyhow::Result<LimitState> {
     let (Some(median), Some(dispersion)) = (row.median, row.dispersion) else {
-        return Err(SweepError::Censored {
-            id: row.id.clone(),
-            reached: row.reached,
-            records: row.records,
-            demand: row.demand,
-        });
+        let Row { id, reached, records, demand, .. } = row;
+        bail!(
+            "{id}: {reached} of {records} records reach the demand {demand}: \
+             expected all, or a demand that all of them reach"
+        );
     };
     let log_mean = libm::log(median - row.shift);
     let law = Lognormal::try_new(row.shift, log_mean, dispersion)?;
     let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
     let unit = unit_intensity(row.im, block, model, gravity);
     let name = format!("demand_{}", row.demand).replace('.', "_");
-    let name = name.parse().map_err(SweepError::Statistics)?;
+    let name = name.parse().map_err(anyhow::Error::msg)?;
     Ok(LimitState { name, fragility: law.scaled(unit)? })
 }

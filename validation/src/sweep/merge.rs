@@ -4,7 +4,8 @@ use std::cell::RefCell;
 use std::io;
 use std::path::Path;
 
-use super::SweepError;
+use anyhow::bail;
+
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
@@ -15,17 +16,22 @@ use rocking_common::files::Outputs;
 /// same for any number of tasks.
 ///
 /// # Errors
-/// [`SweepError::Tile`] for a tile that is missing, of another plan, or
-/// damaged; [`SweepError::NoParquet`] where the program was built without it.
+/// For a tile that is missing, of another plan, or
+/// damaged; where the program was built without it.
 /// `out` is then as it was.
 pub fn merge(
     planned: &Planned,
     content: Content,
     out: &Path,
-) -> Result<(), SweepError> {
+) -> anyhow::Result<()> {
     let parquet = out.extension().is_some_and(|e| e == "parquet");
     if parquet && !cfg!(feature = "parquet") {
-        return Err(SweepError::NoParquet { path: out.to_owned() });
+        bail!(
+            "{}: this program writes no Parquet; expected another ending for \
+             CSV, or a program built by `cargo install --path validation \
+             --features parquet`",
+            out.display()
+        );
     }
     let output = Outputs::of(planned.files()).open(out)?;
     let refused = RefCell::new(None);
@@ -44,8 +50,7 @@ pub fn merge(
     });
     match refused.into_inner() {
         Some((tile, state)) => {
-            let path = planned.tile_path(content, tile);
-            Err(SweepError::Tile { path, state })
+            Err(state.refused(&planned.tile_path(content, tile)))
         }
         None => Ok(written?),
     }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use anyhow::{Context as _, anyhow, bail};
 use rocking::block::{Block, Restitution};
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
@@ -13,11 +14,14 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
 use serde::{Deserialize, Serialize};
 
-use super::SweepError;
 use super::cost::{self, Cost, Tile};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
 use rocking_common::suites::inputs::{read_suite, sha256_hex};
+
+fn cannot_read(path: &Path) -> String {
+    format!("cannot read {}", path.display())
+}
 
 /// Version of the plan's shape.
 const SCHEMA: u32 = 4;
@@ -30,7 +34,7 @@ const INTENSITIES: usize = 2;
 const SUITE: &str = "suite";
 
 /// Analyses of a plan at most: ten million core-hours and more.
-pub(super) const MOST_ANALYSES: f64 = 1e12;
+const MOST_ANALYSES: f64 = 1e12;
 
 /// Everything that a task must know.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,8 +77,8 @@ impl Given {
     /// The block.
     ///
     /// # Errors
-    /// [`SweepError::Block`] for a block out of range.
-    pub fn block(&self) -> Result<Block, SweepError> {
+    /// For a block out of range.
+    pub fn block(&self) -> anyhow::Result<Block> {
         Ok(Block::try_new(self.alpha_rad, self.p_rad_s)?)
     }
 
@@ -145,21 +149,24 @@ impl Plan {
     /// Writes a plan and packs the suite into its folder.
     ///
     /// # Errors
-    /// [`SweepError::Twice`] for a block that comes again;
-    /// [`SweepError::OtherPlan`] where the folder has another plan already;
-    /// [`SweepError::Work`] for more than 1e12 analyses;
-    /// [`SweepError`] where a record cannot be packed or a file cannot be
+    /// For a block that comes again;
+    /// Where the folder has another plan already;
+    /// For more than 1e12 analyses;
+    /// Where a record cannot be packed or a file cannot be
     /// written.
     pub fn write(
         wanted: &Wanted<'_>,
         folder: &Path,
         software: &str,
-    ) -> Result<Planned, SweepError> {
+    ) -> anyhow::Result<Planned> {
         let mut ids = BTreeMap::new();
         for one in wanted.blocks {
             if let Some(first) = ids.insert(one.cells(), &one.id) {
-                let (first, second) = (first.clone(), one.id.clone());
-                return Err(SweepError::Twice { first, second });
+                bail!(
+                    "{} is the same block as {first}: expected each block, \
+                     by its parameters and eta, once",
+                    one.id
+                );
             }
         }
         let rows: Vec<export::Row<'_>> = export::members(wanted.suite, None)
@@ -178,7 +185,7 @@ impl Plan {
                 let step_im = wanted.levels.step_im(&given.block()?);
                 Ok(Cost::of(given.p_rad_s, &motions, step_im, fits))
             })
-            .collect::<Result<_, SweepError>>()?;
+            .collect::<anyhow::Result<_>>()?;
         let records = files
             .iter()
             .filter(|(path, _)| path.extension().is_some_and(|e| e == "at2"))
@@ -201,23 +208,25 @@ impl Plan {
         let analyses = plan.tiles.iter().map(|tile| tile.analyses as f64);
         let analyses = analyses.fold(0.0, |sum, x| sum + x);
         if !(analyses <= MOST_ANALYSES) {
-            return Err(SweepError::Work { found: analyses });
+            bail!(
+                "about {analyses:e} analyses: expected at most \
+                 {MOST_ANALYSES:e}; a larger step of the levels makes fewer"
+            );
         }
         let text = plan.text();
         let path = folder.join("plan.json");
         match fs::read_to_string(&path) {
             Ok(there) if there == text => return Planned::read(folder),
-            Ok(_) => {
-                return Err(SweepError::OtherPlan { path: folder.into() });
-            }
+            Ok(_) => bail!(
+                "{}: holds another plan; expected an empty folder, or the \
+                 same plan",
+                folder.display()
+            ),
             Err(_) => {}
         }
         for part in [SUITE, "tiles"] {
             let part = folder.join(part);
-            fs::create_dir_all(&part).map_err(|source| SweepError::Read {
-                path: part.clone(),
-                source,
-            })?;
+            fs::create_dir_all(&part).with_context(|| cannot_read(&part))?;
         }
         for (name, content) in files {
             write_atomically(&folder.join(name), content)?;
@@ -274,8 +283,8 @@ impl Plan {
     /// What is run of a block.
     ///
     /// # Errors
-    /// [`SweepError::Block`] for a block out of range.
-    pub fn analysis(&self, given: &Given) -> Result<Analysis, SweepError> {
+    /// For a block out of range.
+    pub fn analysis(&self, given: &Given) -> anyhow::Result<Analysis> {
         let restitution = Restitution::constant(given.eta)?;
         Ok(Analysis {
             grid: self.levels.grid(),
@@ -301,15 +310,18 @@ impl Planned {
     /// Reads the plan of a folder.
     ///
     /// # Errors
-    /// [`SweepError::Read`] where there is none, [`SweepError::Plan`] for
+    /// Where there is none, for
     /// another form.
-    pub fn read(folder: &Path) -> Result<Self, SweepError> {
+    pub fn read(folder: &Path) -> anyhow::Result<Self> {
         let path = folder.join("plan.json");
-        let text = fs::read_to_string(&path).map_err(|source| {
-            SweepError::Read { path: path.clone(), source }
-        })?;
-        let refused =
-            |found: String| SweepError::Plan { path: path.clone(), found };
+        let text =
+            fs::read_to_string(&path).with_context(|| cannot_read(&path))?;
+        let refused = |found: String| {
+            anyhow!(
+                "{}: {found}; expected a plan of `rocking sweep plan`",
+                path.display()
+            )
+        };
         let plan: Plan =
             serde_json::from_str(&text).map_err(|e| refused(e.to_string()))?;
         if plan.schema != SCHEMA {
@@ -332,20 +344,17 @@ impl Planned {
     /// The packed records, each held to the plan's hash.
     ///
     /// # Errors
-    /// [`SweepError::Record`] for a record that is another now.
-    pub fn records(&self) -> Result<Vec<Accelerogram>, SweepError> {
+    /// For a record that is another now.
+    pub fn records(&self) -> anyhow::Result<Vec<Accelerogram>> {
         for (name, expected) in &self.plan.records {
             let path = record_path(&self.folder, name);
-            let bytes = fs::read(&path).map_err(|source| {
-                SweepError::Read { path: path.clone(), source }
-            })?;
+            let bytes = fs::read(&path).with_context(|| cannot_read(&path))?;
             let found = sha256_hex(&bytes);
             if found != *expected {
-                return Err(SweepError::Record {
-                    record: path.display().to_string(),
-                    found,
-                    expected: expected.clone(),
-                });
+                bail!(
+                    "{}: found hash {found}; expected {expected}, as planned",
+                    path.display()
+                );
             }
         }
         let options = ReadOptions {

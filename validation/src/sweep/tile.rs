@@ -2,7 +2,9 @@
 
 use std::fmt;
 use std::fs;
+use std::path::Path;
 
+use anyhow::anyhow;
 use rocking::capacity::InversionRule;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Batch, IdaCurve, Overturned, curves};
@@ -11,7 +13,6 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::lognormal::{FitMethod, fit};
 
-use super::SweepError;
 use super::content::Content;
 use super::plan::{Given, Plan, Planned};
 use rocking_common::files::write_atomically;
@@ -29,6 +30,13 @@ pub enum State {
     Foreign,
     /// Its bytes do not have the sum that it states.
     Damaged,
+}
+
+impl State {
+    /// Why a tile in this state is not read.
+    pub(super) fn refused(self, path: &Path) -> anyhow::Error {
+        anyhow!("{}: {self}; run the sweep again", path.display())
+    }
 }
 
 impl fmt::Display for State {
@@ -98,13 +106,13 @@ pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
 /// each tile that was finished. A tile that is stopped leaves no file.
 ///
 /// # Errors
-/// [`SweepError`] for a record that is another than planned, an analysis
+/// For a record that is another than planned, an analysis
 /// that cannot be done, and a tile that cannot be written.
 pub fn run(
     planned: &Planned,
     task_of: (usize, usize),
     done: &(dyn Fn(usize) + Sync),
-) -> Result<(), SweepError> {
+) -> anyhow::Result<()> {
     let plan = &planned.plan;
     let left = left(planned, task_of);
     if left.is_empty() {
@@ -141,10 +149,9 @@ fn unresolved(curve: &IdaCurve) -> usize {
 }
 
 /// Capacities of a curve at the plan's demands.
-fn capacities(plan: &Plan, curve: &IdaCurve) -> Result<Vec<f64>, SweepError> {
-    let refused = |e: rocking::capacity::CapacityError| {
-        SweepError::Statistics(format!("{}: {e}", curve.record))
-    };
+fn capacities(plan: &Plan, curve: &IdaCurve) -> anyhow::Result<Vec<f64>> {
+    let refused =
+        |e: rocking::capacity::CapacityError| anyhow!("{}: {e}", curve.record);
     let response = curve.response(Overturned::Refined).map_err(refused)?;
     let at = |demand: &f64| {
         let found = response.capacity(*demand, InversionRule::Median);
@@ -159,7 +166,7 @@ fn fill(
     content: Content,
     block: &Given,
     curves: &[IdaCurve],
-) -> Result<(), SweepError> {
+) -> anyhow::Result<()> {
     let parameters = block.cells();
     let name = [&[block.id.to_string()], &parameters[..]].concat();
     match content {

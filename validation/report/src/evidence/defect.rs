@@ -1,4 +1,3 @@
-use super::error::EvidenceError;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
@@ -27,7 +26,7 @@ enum Over {
 }
 
 /// Order of the departure of Eq. 1 from similarity as alpha grows.
-pub(super) fn chart() -> Result<Figure, EvidenceError> {
+pub(super) fn chart() -> anyhow::Result<Figure> {
     let mut panels = Vec::new();
     let mut slopes = Vec::new();
     for (over, title) in [

@@ -6,7 +6,7 @@ use rocking::block::Block;
 
 use super::answers::Answer;
 use super::cases;
-use super::measured::{MeasuredError, parse, read_answers, row, text};
+use super::measured::{parse, read_answers, row, text};
 use super::rest::{Ground, chatter_s};
 
 #[test]
@@ -98,10 +98,13 @@ fn answers_of_other_tools_are_judged_or_refused() {
         assert!(!rows[0].right_fate);
         assert_eq!(rows[0].peak_error, None);
     }
-    let refused = judge(line("other", peak, &all));
-    assert!(matches!(refused, Err(MeasuredError::Case { .. })));
-    let refused = judge(line(name, peak, "1.0 soon"));
-    assert!(matches!(refused, Err(MeasuredError::Times { .. })));
+    for (line, words) in [
+        (line("other", peak, &all), "no such case: other"),
+        (line(name, peak, "1.0 soon"), "\"1.0 soon\": expected numbers"),
+    ] {
+        let refused = judge(line).unwrap_err().to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
     fs::remove_file(&path).expect("removed");
     let none = Answer { peak_ratio: f64::NAN, ..reference.clone() };
     let row = row(["T", "1", "M", "s"], (case, reference), (1.0, 1), &none);

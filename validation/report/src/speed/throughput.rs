@@ -12,7 +12,6 @@ use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
 
-use super::SpeedError;
 use super::cases::ETA;
 use super::clock::process_s;
 use rocking_common::curves::Execution;
@@ -82,11 +81,11 @@ pub fn analyses(
 /// Processor time of `work` on a pool of that many threads.
 ///
 /// # Errors
-/// [`SpeedError`] where threads cannot be started.
+/// Where threads cannot be started.
 pub fn on_threads<T: Send>(
     threads: usize,
     work: impl FnOnce() -> T + Send,
-) -> Result<(f64, T), SpeedError> {
+) -> anyhow::Result<(f64, T)> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(|| {
         let begin = process_s();
@@ -100,11 +99,11 @@ impl Job<'_> {
     /// median: a few seconds of a shared machine may be slow ones.
     ///
     /// # Errors
-    /// [`SpeedError`] for a record that cannot be analysed.
+    /// For a record that cannot be analysed.
     pub fn measure_thrice(
         &self,
         work: &str,
-    ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
+    ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
         let (mut measured, found) = self.measure(work)?;
         let others = [self.measure(work)?.0, self.measure(work)?.0];
         let mut times = [measured.cpu_s, others[0].cpu_s, others[1].cpu_s];
@@ -116,11 +115,11 @@ impl Job<'_> {
     /// Makes the curves, and says how long that took.
     ///
     /// # Errors
-    /// [`SpeedError`] for a record that cannot be analysed.
+    /// For a record that cannot be analysed.
     pub fn measure(
         &self,
         work: &str,
-    ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
+    ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
         let Self { analyses, records, way, threads } = *self;
         let (cpu_s, found) =
             on_threads(threads, || way.curves(records, analyses, &|| ()))?;
@@ -150,12 +149,12 @@ pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
 /// Steps that the analyses of some curves took.
 ///
 /// # Errors
-/// [`SpeedError`] for a record that cannot be analysed.
+/// For a record that cannot be analysed.
 pub fn samples_of(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
     found: &[Vec<IdaCurve>],
-) -> Result<u64, SpeedError> {
+) -> anyhow::Result<u64> {
     let chains: Vec<_> = analyses
         .iter()
         .zip(found)
@@ -163,7 +162,7 @@ pub fn samples_of(
             records.iter().zip(curves).map(move |(r, c)| (a, r, c))
         })
         .collect();
-    let steps: Vec<Result<u64, SpeedError>> = chains
+    let steps: Vec<anyhow::Result<u64>> = chains
         .par_iter()
         .map(|(analysis, record, curve)| {
             let solver = Solver { peak_only: true, ..Solver::default() };
@@ -226,7 +225,7 @@ pub fn kernel(
     model: Model,
     order: Option<Order>,
     step: f64,
-) -> Result<Throughput, SpeedError> {
+) -> anyhow::Result<Throughput> {
     const CHAINS: usize = 64;
     let block = Block::try_new(0.2, 1.0)?;
     let push = (1.0 / step) as usize;
@@ -272,7 +271,7 @@ pub fn kernel(
 ///
 /// # Errors
 /// None in practice: the number of replicates is in range.
-pub fn lilliefors() -> Result<Throughput, SpeedError> {
+pub fn lilliefors() -> anyhow::Result<Throughput> {
     const REPLICATES: u64 = 200_000;
     let (cpu_s, found) =
         on_threads(1, || NullDistribution::simulate(86, REPLICATES, 0))?;

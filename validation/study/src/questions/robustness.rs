@@ -1,6 +1,7 @@
 //! Does an accepted share hang on the size of the suite, on one record, or
 //! on the shift?
 
+use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
@@ -8,7 +9,6 @@ use rocking::streams::{Streams, below};
 
 use super::answer::{Answer, Rows, both, number, word};
 use crate::distributions::BlockSamples;
-use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::estimates::median;
 use crate::normality::{LEVEL, accepted_share, every};
@@ -22,7 +22,7 @@ const SUBSAMPLES: u64 = 200;
 /// Every so many levels enter.
 const STRIDE: usize = 8;
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let (large, small) =
         (results.ordinary.records.len(), results.pulse.records.len());
@@ -31,7 +31,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     for suite in both(results) {
         for intensity in [Intensity::Pga, Intensity::Pgv] {
             let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or(StudyError::NoArm)?;
+            let found = found.ok_or_else(no_arm)?;
             let (mut gains, mut swings, mut moves) =
                 (Vec::new(), Vec::new(), Vec::new());
             for block in &found.blocks {

@@ -75,10 +75,10 @@ pub fn input(
         proof,
         &names,
     );
-    let mut themes = findings::themes(found, recorded, &names);
+    let mut themes = findings::themes(found, recorded);
     for (number, figure) in rest {
-        let id = findings::anchor(findings::theme_of(number));
-        if let Some(one) = themes.iter_mut().find(|t| t.id == id) {
+        let theme = findings::theme_of(number);
+        if let Some(one) = themes.iter_mut().find(|t| t.theme == theme) {
             let leads = LEADING.contains(&number);
             let list = if leads { &mut one.figures } else { &mut one.more };
             list.push(figure);

@@ -1,8 +1,8 @@
 //! The report: one HTML file that reads without network and without
 //! scripts, on a phone, on paper, light or dark.
 //!
-//! [`page`] is a pure function: what it shows arrives as words and numbers
-//! already formatted, and the figures as SVG.
+//! [`page`] is a pure function: findings and cases arrive as they are, the
+//! rest as words and numbers already formatted, and the figures as SVG.
 
 mod figures;
 mod input;
@@ -17,8 +17,7 @@ use input::Part;
 
 pub use figures::ShownFigure;
 pub use input::{
-    Anchor, AnswerRow, Answers, Chapter, Column, Family, Finding, Outcome,
-    ReportInput, ShownCase, Theme,
+    Anchor, AnswerRow, Answers, Chapter, Column, ReportInput, Shown,
 };
 
 const STYLE: &str = include_str!("page/page.css");

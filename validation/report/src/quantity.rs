@@ -3,7 +3,7 @@
 use rocking_common::findings::{
     Claim, ClaimResult, Measured, Quantifier, Region, Unit,
 };
-use rocking_common::words::rounded;
+use rocking_common::words::{rounded, rounded_text};
 
 /// How a number is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -153,6 +153,46 @@ pub fn rule_text(claim: &Claim) -> String {
         Quantifier::AlmostAll => format!("{limits}, in 90 % of cells"),
         Quantifier::Most => format!("{limits}, in most cells"),
     }
+}
+
+/// What stands beside a result: cells, the deciding one, details, how the
+/// interval was made, records needed.
+#[must_use]
+pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
+    let mut remarks = Vec::new();
+    match &result.cells {
+        Some(cells) => remarks.push(format!(
+            "{} of {} cells inside, {} outside{}",
+            cells.inside,
+            cells.deciding,
+            cells.outside,
+            match cells.too_few {
+                0 => String::new(),
+                few => format!(", {few} with fewer than 30 records"),
+            }
+        )),
+        None => remarks.push(result.at.clone()),
+    }
+    if let Some(cell) = &result.deciding_cell {
+        let value = cell_text(claim, cell.measured);
+        remarks.push(format!("deciding: {}, {value}", cell.name));
+    } else if result.cells.is_some() {
+        remarks.push(format!("deciding: {}", result.at));
+    }
+    for detail in &result.details {
+        let ends = detail.measured.interval.map_or(String::new(), |(a, b)| {
+            format!(" ({} to {})", rounded_text(a), rounded_text(b))
+        });
+        let value = rounded_text(detail.measured.value);
+        remarks.push(format!("{}: {value}{ends}", detail.name));
+    }
+    if let Some(interval) = result.interval {
+        remarks.push(format!("95 % interval: {}", interval.words()));
+    }
+    if let Some(needed) = result.records_needed {
+        remarks.push(format!("about {needed} records would decide"));
+    }
+    remarks
 }
 
 #[cfg(test)]

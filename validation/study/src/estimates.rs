@@ -1,14 +1,13 @@
 //! Estimates that tables of the study show: medians, shares of records,
 //! paired ratios.
 
-use crate::results::no_arm;
 use rocking::capacity::InversionRule;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::Pairs;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use crate::analyses::{Apart, SuiteResults};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::capacities;
 use crate::sensitivities::Varied;
 use rocking_common::findings::Measured;

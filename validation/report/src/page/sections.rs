@@ -3,14 +3,14 @@
 use maud::{Markup, html};
 
 use super::figures::{self, ShownFigure};
-use super::input::{
-    Answers, Chapter, Column, Family, Finding, Outcome, Part, ReportInput,
-    Theme,
-};
+use super::input::{Answers, Chapter, Column, Part, ReportInput, Shown};
 use super::table::{self, scrolled};
-use rocking_common::findings::Tested;
+use crate::evidence::families::{Family, rejects, source, tolerance, worst};
+use crate::quantity::{remarks, rule_text, value_text};
+use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
 use rocking_common::paper::Verdict;
 use rocking_common::words::capital;
+use rocking_proof::verdict::snapshot::CaseResult;
 
 /// What the page is about, and who signs for it.
 pub fn head(input: &ReportInput) -> Markup {
@@ -203,12 +203,18 @@ fn legend() -> Markup {
 }
 
 fn counts(column: &Column) -> Markup {
+    let suites = &column.findings.suites;
     html! {
         p {
-            (capital(&column.name)) ", " (column.suites) ": "
-            @for (k, (verdict, count)) in column.counts.iter().enumerate() {
+            (capital(column.name)) ", "
+            @for (k, suite) in suites.iter().enumerate() {
+                @if k > 0 { " + " }
+                (suite.records) " " (suite.kind)
+            }
+            ": "
+            @for (k, verdict) in Verdict::ALL.into_iter().enumerate() {
                 @if k > 0 { ", " }
-                (count) " " (mark(*verdict))
+                (column.findings.count(verdict)) " " (mark(verdict))
             }
             "."
         }
@@ -251,21 +257,49 @@ fn class(verdict: Verdict) -> &'static str {
     }
 }
 
-fn theme(theme: &Theme, columns: &[Column]) -> Markup {
+fn theme(shown: &Shown, columns: &[Column]) -> Markup {
+    let question = shown.theme.question();
     html! {
-        div id=(theme.id) {
-            h3 { (theme.question) }
-            p { (theme.paragraph) }
-            (drawings(&theme.figures))
-            @if !theme.more.is_empty() {
+        div id=(anchor(shown.theme)) {
+            h3 { (question) }
+            p { (shown.paragraph) }
+            (drawings(&shown.figures))
+            @if !shown.more.is_empty() {
                 details {
-                    summary { "Show: " (called(&theme.more)) }
-                    (drawings(&theme.more))
+                    summary { "Show: " (called(&shown.more)) }
+                    (drawings(&shown.more))
                 }
             }
-            (scrolled(&theme.question, findings(theme, columns)))
+            (scrolled(question, findings(shown.theme, columns)))
         }
     }
+}
+
+fn anchor(theme: Theme) -> &'static str {
+    match theme {
+        Theme::Choices => "theme-choices",
+        Theme::SingleRecords => "theme-single-records",
+        Theme::Statistics => "theme-statistics",
+        Theme::Lognormality => "theme-lognormality",
+        Theme::Fragilities => "theme-fragilities",
+    }
+}
+
+/// The findings among the claims about a theme, as the run at hand has them.
+fn about(theme: Theme, columns: &[Column]) -> Vec<&Claim> {
+    let here = columns.last().map_or(&[][..], |c| &c.findings.claims);
+    let own = |c: &&Claim| c.theme == theme && c.kind == Kind::Finding;
+    here.iter().filter(own).collect()
+}
+
+/// What came out on a claim in a column: the claim as that column has it, and
+/// its results.
+fn came_out<'a>(
+    claim: &Claim,
+    column: &'a Column,
+) -> impl Iterator<Item = (&'a Claim, &'a ClaimResult)> {
+    let own = column.findings.claims.iter().find(|c| c.id == claim.id);
+    own.into_iter().flat_map(|own| own.results.iter().map(move |r| (own, r)))
 }
 
 fn called(figures: &[ShownFigure]) -> String {
@@ -276,9 +310,10 @@ fn called(figures: &[ShownFigure]) -> String {
 /// Suites of the columns of a table of findings.
 const SUITES: [Tested; 2] = [Tested::Ordinary, Tested::PulseType];
 
-fn findings(theme: &Theme, columns: &[Column]) -> Markup {
+fn findings(theme: Theme, columns: &[Column]) -> Markup {
+    let claims = about(theme, columns);
     // Claims that share a quotation stand under it.
-    let groups = theme.findings.chunk_by(|a, b| a.quote == b.quote);
+    let groups = claims.chunk_by(|a, b| a.quote == b.quote);
     html! {
         table.cards.findings {
             caption { span.unseen { "Claims and verdicts." } }
@@ -320,32 +355,32 @@ fn findings(theme: &Theme, columns: &[Column]) -> Markup {
     }
 }
 
-fn quotation(f: &Finding) -> Markup {
+fn quotation(claim: &Claim) -> Markup {
     html! {
-        "\u{201c}" (f.quote) "\u{201d} "
-        span.source { (f.source) }
+        "\u{201c}" (claim.quote) "\u{201d} "
+        span.source { "(" (claim.section) ")" }
     }
 }
 
-fn finding(f: &Finding, columns: &[Column]) -> Markup {
+fn finding(claim: &Claim, columns: &[Column]) -> Markup {
     html! {
         td data-label="In plain words" {
-            (f.plain) ": " span.source { (f.rule) }
-            @if !f.criterion.is_empty() {
-                span.source { ". The paper: " (f.criterion) }
+            (claim.plain) ": " span.source { (rule_text(claim)) }
+            @if !claim.criterion.is_empty() {
+                span.source { ". The paper: " (claim.criterion) }
             }
         }
         @for (k, column) in columns.iter().enumerate() {
-            @let own = f.columns.get(k).map_or(&[][..], |all| all);
-            @let both = own.iter().any(|o| o.suite == Tested::Both);
+            @let both = came_out(claim, column)
+                .any(|(_, r)| r.suite == Tested::Both);
             @if both {
                 td data-label=(column.name) colspan=(SUITES.len()) {
-                    (outcomes(own, Tested::Both, k == 0))
+                    (outcomes(claim, column, Tested::Both, k == 0))
                 }
             } @else {
                 @for suite in SUITES {
                     td data-label={ (column.name) ", " (suite.name()) } {
-                        (outcomes(own, suite, k == 0))
+                        (outcomes(claim, column, suite, k == 0))
                     }
                 }
             }
@@ -355,11 +390,20 @@ fn finding(f: &Finding, columns: &[Column]) -> Markup {
 
 /// What came out on a suite, in the arm that stands among the findings: the
 /// first column has the value, the others the verdict alone.
-fn outcomes(all: &[Outcome], suite: Tested, value: bool) -> Markup {
+fn outcomes(
+    claim: &Claim,
+    column: &Column,
+    suite: Tested,
+    value: bool,
+) -> Markup {
+    let first = column.first;
+    let shown = |r: &ClaimResult| {
+        r.suite == suite && r.arm.is_none_or(|arm| arm == first)
+    };
     html! {
-        @for one in all.iter().filter(|o| o.first && o.suite == suite) {
+        @for (own, one) in came_out(claim, column).filter(|(_, r)| shown(r)) {
             @if value {
-                (outcome(one, ""))
+                (outcome(own, one, ""))
             } @else if let Some(verdict) = one.by_equivalence {
                 (short(verdict))
             } @else {
@@ -369,12 +413,12 @@ fn outcomes(all: &[Outcome], suite: Tested, value: bool) -> Markup {
     }
 }
 
-fn outcome(one: &Outcome, place: &str) -> Markup {
+fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
     html! {
         div.outcome {
             @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
             @if !place.is_empty() { span.source { (place) ": " } }
-            (one.value)
+            (value_text(claim, one))
             @if let Some(verdict) = one.by_criterion {
                 "; the paper: " (short(verdict))
             }
@@ -383,22 +427,24 @@ fn outcome(one: &Outcome, place: &str) -> Markup {
 }
 
 fn every_result(input: &ReportInput) -> Markup {
+    let columns = &input.columns;
     html! {
-        @for theme in &input.findings {
-            (scrolled(&format!("{}, every result", theme.question), html! {
+        @for theme in input.findings.iter().map(|shown| shown.theme) {
+            @let question = theme.question();
+            (scrolled(&format!("{question}, every result"), html! {
                 table.cards.findings {
-                    caption { span { (theme.question) } }
+                    caption { span { (question) } }
                     thead {
                         tr {
                             th scope="col" { "Claim and measure" }
-                            @for column in &input.columns {
+                            @for column in columns {
                                 th scope="col" { (column.name) }
                             }
                         }
                     }
                     tbody {
-                        @for f in &theme.findings {
-                            (results(f, &input.columns))
+                        @for claim in about(theme, columns) {
+                            (results(claim, columns))
                         }
                     }
                 }
@@ -407,21 +453,22 @@ fn every_result(input: &ReportInput) -> Markup {
     }
 }
 
-fn results(f: &Finding, columns: &[Column]) -> Markup {
+fn results(claim: &Claim, columns: &[Column]) -> Markup {
     html! {
         tr {
             th scope="row" {
-                a href={ "#finding-" (f.id) } { (f.id) }
-                p.source { (f.measure) }
-                @if !f.remark.is_empty() { p.source { (f.remark) } }
+                a href={ "#finding-" (claim.id) } { (claim.id) }
+                p.source {
+                    (claim.measure) " (" (claim.blocks)
+                    "). Why this limit: " (claim.reason) "."
+                }
+                @if !claim.note.is_empty() { p.source { (claim.note) } }
             }
-            @for (k, column) in columns.iter().enumerate() {
+            @for column in columns {
                 td data-label=(column.name) {
-                    @for one in f.columns.get(k).into_iter().flatten() {
-                        (outcome(one, &one.place))
-                        @if !one.remarks.is_empty() {
-                            p.source { (one.remarks.join("; ")) "." }
-                        }
+                    @for (own, one) in came_out(claim, column) {
+                        (outcome(own, one, &one.place()))
+                        p.source { (remarks(own, one).join("; ")) "." }
                     }
                 }
             }
@@ -455,11 +502,14 @@ fn families(families: &[Family]) -> Markup {
                             }
                         }
                         td data-label="Cases passed" {
-                            (passed(family)) " of " (family.cases.len())
+                            (family.results().filter(|r| r.passed()).count())
+                            " of " (family.cases.len())
                         }
-                        td data-label="Worst share of tolerance" { (family.worst) }
+                        td data-label="Worst share of tolerance" {
+                            (worst(family.results()))
+                        }
                         td data-label="Wrong models rejected" {
-                            (family.rejected)
+                            (family.results().map(|r| r.rejected.len()).sum::<usize>())
                         }
                     }
                 }
@@ -467,10 +517,6 @@ fn families(families: &[Family]) -> Markup {
         }
     };
     scrolled("Families of declared cases", body)
-}
-
-fn passed(family: &Family) -> usize {
-    family.cases.iter().filter(|c| c.passed).count()
 }
 
 fn cases(family: &Family) -> Markup {
@@ -489,19 +535,20 @@ fn cases(family: &Family) -> Markup {
                 }
             }
             tbody {
-                @for c in &family.cases {
+                @for (c, result) in &family.cases {
+                    @let result = result.as_ref();
                     tr {
                         th scope="row" { (c.id) }
                         td data-label="Claim" { (c.claim) }
-                        td data-label="Source" { (c.source) }
+                        td data-label="Source" { (source(c)) }
                         td data-label="Tolerance and why" {
-                            (c.tolerance) " "
-                            span.source { (c.because) }
+                            (tolerance(c)) " "
+                            span.source { (c.tolerance.because) }
                         }
-                        td data-label="Worst share of tolerance" { (c.worst) }
-                        td data-label="Rejects" { (c.rejects) }
+                        td data-label="Worst share of tolerance" { (worst(result)) }
+                        td data-label="Rejects" { (rejects(c, result)) }
                         td data-label="Result" {
-                            @if c.passed {
+                            @if result.is_some_and(CaseResult::passed) {
                                 span.verdict.yes { "✓ passed" }
                             } @else {
                                 span.verdict.no { "✗ failed" }
@@ -515,7 +562,7 @@ fn cases(family: &Family) -> Markup {
     html! {
         div id={ "cases-" (family.name) } {
             h4 { (family.name) }
-            (scrolled(&family.name, body))
+            (scrolled(family.name, body))
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Single records: which are shown, at which level, and how far their
 //! histories and curves are apart. The rules were fixed before any result.
 
-use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::{InversionRule, ResponseCurve};
@@ -9,6 +8,7 @@ use rocking::excitation::NormalisedRecord;
 
 use super::plan::Plan;
 use super::suite::{Apart, ShownHistory, SingleRecords, SuiteResults};
+use crate::results::no_arm;
 use crate::runs::capacities;
 use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, position};
 

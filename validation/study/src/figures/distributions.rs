@@ -1,6 +1,5 @@
 //! Figures 11 to 14: capacities and their tests.
 
-use crate::results::no_arm;
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
@@ -9,6 +8,7 @@ use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
 };
 use crate::results::Results;
+use crate::results::no_arm;
 use crate::ties::critical_on_grid;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,

@@ -1,11 +1,11 @@
 //! Figures 8 and 10: quantiles of the demand given the intensity.
 
-use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 
 use crate::analyses::SuiteResults;
 use crate::estimates::three_quantiles;
+use crate::results::no_arm;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };

@@ -1,13 +1,13 @@
 //! Sections 2 to 4: measures of capacities, the intensities that reach a
 //! demand.
 
-use crate::results::no_arm;
 use libm::tan;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::source::{Found, Prepared, Source, block, ratios};
 use crate::distributions::factors;
 use crate::inference::{Cell, Draw, Replicated};
+use crate::results::no_arm;
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
 use crate::stripes::of_arm;

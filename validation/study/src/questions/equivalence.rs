@@ -1,7 +1,6 @@
 //! What does an equivalence test say where the paper says "conforms to 1.0
 //! with 95 % confidence"?
 
-use crate::results::no_arm;
 use rocking::capacity::InversionRule;
 use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::{
@@ -10,7 +9,7 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::answer::{Answer, Cell, Rows, count, number, word};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::capacities;
 use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{

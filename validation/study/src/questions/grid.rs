@@ -1,13 +1,12 @@
 //! How much of the rejections is the grid of 0.01 g?
 
-use crate::results::no_arm;
 use rocking::capacity::ResponseCurve;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 
 use super::answer::{Answer, Rows, both, count, number, word};
 use crate::fits::{Fits, of_intervals};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::ties::grid_alone;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, position,

@@ -1,10 +1,9 @@
 //! How biased is the inversion by the median point along the vertical?
 
-use crate::results::no_arm;
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
 use super::answer::{Answer, Rows, both, count, number, word};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::capacities;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use rocking_common::words::capital;

@@ -1,6 +1,5 @@
 //! What does an accepted share of levels that share records mean?
 
-use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::statistics::acceptance::{AcceptedShare, NullBand};
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
@@ -13,6 +12,7 @@ use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
 use crate::results::Results;
+use crate::results::no_arm;
 use rocking_common::paper::Intensity;
 use rocking_common::words::capital;
 

@@ -1,7 +1,6 @@
 //! Which intensity measure tells overturning best? The dispersion of the
 //! records' overturning intensities in each measure, over that in PGA.
 
-use crate::results::no_arm;
 use libm::log;
 use rocking::intensity::IntensityMeasure;
 
@@ -9,7 +8,7 @@ use super::answer::{Answer, Rows, both, number, word};
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
 use crate::fits::of_intervals;
 use crate::inference::{Draw, Draws, Replicated, by_cell};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::overturning;
 use rocking_common::findings::{Measured, Region};
 use rocking_common::paper::{

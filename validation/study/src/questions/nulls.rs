@@ -1,6 +1,5 @@
 //! What does an estimated shift do to Figure 14?
 
-use crate::results::no_arm;
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
 use super::answer::{Answer, Rows, both, count, number, word};
@@ -8,7 +7,7 @@ use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::median;
 use crate::normality::{LEVEL, over_critical};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::{Arm, Intensity, demand_index, demands};
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{

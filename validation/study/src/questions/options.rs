@@ -4,7 +4,6 @@
 mod drawing;
 mod summary;
 
-use crate::results::no_arm;
 use summary::{MLE, Summary, trimmed};
 
 use rayon::prelude::*;
@@ -20,7 +19,7 @@ use super::answer::{Answer, Rows, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::estimates::median;
 use crate::fits::{BLOCK, THRESHOLDS};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };

@@ -1,7 +1,6 @@
 //! Does an accepted share hang on the size of the suite, on one record, or
 //! on the shift?
 
-use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
@@ -12,7 +11,7 @@ use crate::distributions::BlockSamples;
 use crate::estimates::mean;
 use crate::estimates::median;
 use crate::normality::{LEVEL, accepted_share, every};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, range};
 

@@ -1,6 +1,5 @@
 //! When does trimming help Eq. 7?
 
-use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::fragility::options::{CONSTANTS, Centre, Recipe};
 use rocking::statistics::lognormal::FitMethod;
@@ -10,7 +9,7 @@ use rocking::streams::{Streams, standard_normal};
 use super::answer::{self, Answer, Cell, Rows, both, number, word};
 use crate::estimates::mean;
 use crate::normality::every;
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 

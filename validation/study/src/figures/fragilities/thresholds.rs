@@ -1,13 +1,12 @@
 //! Figures 15 to 17: the fragilities with the bands that decide the claims.
 
-use crate::results::no_arm;
 use rocking::statistics::Lognormal;
 
 use crate::claims::limit_of;
 use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::figures::Figure;

@@ -1,6 +1,5 @@
 //! The comparison of recorded suites with the embedded ones.
 
-use crate::results::no_arm;
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
@@ -18,6 +17,7 @@ use crate::estimates::three_quantiles;
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
 use crate::results::Results;
+use crate::results::no_arm;
 use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
 use rocking_common::suites::StudySuite;
 

@@ -22,6 +22,23 @@ pub struct PlainTable {
 }
 
 impl PlainTable {
+    /// A table of these rows.
+    pub fn new(
+        name: &str,
+        title: &str,
+        reading: impl Into<String>,
+        header: &[&str],
+        rows: Vec<Vec<String>>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            reading: reading.into(),
+            header: header.iter().map(|cell| (*cell).into()).collect(),
+            rows,
+        }
+    }
+
     /// A table from CSV text.
     #[must_use]
     pub fn from_csv(

@@ -19,6 +19,7 @@ mod words;
 use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::bail;
+use serde::Serialize;
 
 pub use change::{Change, Measure};
 pub use input::Results;
@@ -47,11 +48,12 @@ pub struct Comparison {
 }
 
 /// Something on one side only.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Presence {
     /// What it is listed under.
     pub group: String,
     /// What it is.
+    #[serde(rename = "what")]
     pub words: String,
     /// Whether it counts: a claim, a case, or something lost.
     pub significant: bool,
@@ -59,7 +61,6 @@ pub struct Presence {
 
 impl Comparison {
     /// Number of changes that matter.
-    #[must_use]
     pub fn significant(&self) -> usize {
         let changes = [&self.settings, &self.verdicts, &self.numbers];
         let changed =
@@ -69,7 +70,6 @@ impl Comparison {
     }
 
     /// Whether nothing at all differs.
-    #[must_use]
     pub fn is_identical(&self) -> bool {
         *self
             == Self {

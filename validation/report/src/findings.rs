@@ -6,7 +6,6 @@ use rocking_common::findings::{Claim, Findings, Kind, Theme};
 use rocking_common::table::PlainTable;
 
 /// Where the numbers of the recorded suites come from: name and words.
-#[must_use]
 pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
     let row = |suite: &rocking_common::findings::Suite| {
         let words = format!(
@@ -20,7 +19,6 @@ pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
 
 /// Columns of the page: those of the recorded suites first, where the study
 /// at hand is of the embedded ones.
-#[must_use]
 pub fn columns(here: &Findings, recorded: Option<&Findings>) -> Vec<Column> {
     let first = answers::first_arm(here);
     let one = |name, findings: &Findings| Column {
@@ -38,7 +36,6 @@ pub fn columns(here: &Findings, recorded: Option<&Findings>) -> Vec<Column> {
 }
 
 /// The theme in which a figure of the paper stands.
-#[must_use]
 pub fn theme_of(number: u32) -> Theme {
     match number {
         2..=5 => Theme::SingleRecords,
@@ -50,7 +47,6 @@ pub fn theme_of(number: u32) -> Theme {
 }
 
 /// The themes with what came out about each, without figures.
-#[must_use]
 pub fn themes(here: &Findings, recorded: Option<&Findings>) -> Vec<Shown> {
     let order = [
         Theme::SingleRecords,
@@ -69,7 +65,6 @@ pub fn themes(here: &Findings, recorded: Option<&Findings>) -> Vec<Shown> {
 }
 
 /// What is true by definition or arithmetic, and what describes.
-#[must_use]
 pub fn identities(here: &Findings) -> PlainTable {
     let row = |claim: &Claim| {
         let is = match claim.kind {
@@ -85,10 +80,10 @@ pub fn identities(here: &Findings) -> PlainTable {
     };
     let count = |kind| here.claims.iter().filter(|c| c.kind == kind).count();
     let header = ["the paper's words", "section", "what it is"];
-    PlainTable {
-        name: "identities".into(),
-        title: "Identities and descriptions".into(),
-        reading: format!(
+    PlainTable::new(
+        "identities",
+        "Identities and descriptions",
+        format!(
             "{} of these statements are true by definition or arithmetic: \
              they cannot come out either way. {} describe what could come \
              out either way, but name no measure: they are quoted and not \
@@ -96,7 +91,7 @@ pub fn identities(here: &Findings) -> PlainTable {
             count(Kind::Identity),
             count(Kind::Description),
         ),
-        header: header.map(String::from).into(),
-        rows: here.claims.iter().filter_map(row).collect(),
-    }
+        &header,
+        here.claims.iter().filter_map(row).collect(),
+    )
 }

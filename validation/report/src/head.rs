@@ -35,7 +35,6 @@ pub struct Signatures {
 
 impl Signatures {
     /// Each with what it is.
-    #[must_use]
     pub fn shown(&self) -> Vec<(String, Option<String>)> {
         [
             ("Issued", &self.issued),
@@ -50,7 +49,6 @@ impl Signatures {
 
 /// The paper, the program and its input; whether results of the declared
 /// cases were handed in.
-#[must_use]
 pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
     let mut out = vec![
         ("Paper".into(), PAPER.into()),
@@ -79,7 +77,6 @@ pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
 }
 
 /// Headings of the changelog, newest first, with the version of this one.
-#[must_use]
 pub fn revisions() -> String {
     let headings = CHANGELOG.lines().filter_map(|l| l.strip_prefix("## "));
     let all: Vec<&str> = headings.collect();

@@ -87,29 +87,26 @@ pub fn input(
     let compared = || questions.iter().filter(|q| q.id == "suites");
     let work = [&results.ordinary, &results.pulse].map(answers::work);
     let suites = Chapter {
-        id: "suites",
-        title: "Suites".into(),
         text: compared().map(|q| q.answer.clone()).collect(),
         figures: drawn(figures, |f| f.heading.place == Place::Suites),
-        ..Chapter::default()
+        ..Chapter::titled("suites", "Suites")
     };
     let by_block = Chapter {
-        id: "suites-by-block",
-        title: "Suites: motions, and capacities block by block".into(),
         tables: compared().flat_map(|q| q.tables.clone()).collect(),
         figures: drawn(figures, |f| f.heading.place == Place::SuitesByBlock),
-        ..Chapter::default()
+        ..Chapter::titled(
+            "suites-by-block",
+            "Suites: motions, and capacities block by block",
+        )
     };
     let beyond = Chapter {
-        id: "beyond",
-        title: "Questions beyond the paper".into(),
         tables: questions
             .iter()
             .filter(|q| q.id != "suites")
             .flat_map(|q| answered(q, recorded))
             .collect(),
         figures: drawn(figures, |f| f.heading.place == Place::Beside),
-        ..Chapter::default()
+        ..Chapter::titled("beyond", "Questions beyond the paper")
     };
     let claims = &found.claims;
     let (ledger, mut trust) = (
@@ -161,33 +158,29 @@ pub fn input(
                 .map(shown)
                 .collect(),
             folded: vec![Chapter {
-                id: "checks",
-                title: "Pulses, critical values, departure from similarity"
-                    .into(),
                 tables: evidence::checks(proof)?,
                 figures: drawn(charts, |c| {
                     c.heading.number() == Some(SIMILARITY)
                 }),
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "checks",
+                    "Pulses, critical values, departure from similarity",
+                )
             }],
             ..Chapter::default()
         },
         chapters: vec![
             Chapter {
-                id: "speed",
-                title: "Speed against error".into(),
                 text: vec![timings.plain()],
                 tables: settings,
                 figures: vec![ShownFigure {
                     number: "Speed".into(),
                     ..shown(&timings.figure())
                 }],
-                ..Chapter::default()
+                ..Chapter::titled("speed", "Speed against error")
             },
             suites,
             Chapter {
-                id: "limits",
-                title: "Limits and credibility".into(),
                 text: [
                     limits(results),
                     vec![format!(
@@ -197,64 +190,60 @@ pub fn input(
                     assessment.iter().map(credibility::levels).collect(),
                 ]
                 .concat(),
-                ..Chapter::default()
+                ..Chapter::titled("limits", "Limits and credibility")
             },
             Chapter {
-                id: "provenance",
-                title: "Provenance".into(),
                 list: provenance(results),
-                ..Chapter::default()
+                ..Chapter::titled("provenance", "Provenance")
             },
         ],
         annexes: vec![
             Chapter {
-                id: "blocks",
-                title: "The blocks, and the digits of three precisions".into(),
                 text: work.into(),
                 tables: [
                     vec![table_1()?],
                     proof.map(Proof::digits_table).into_iter().collect(),
                 ]
                 .concat(),
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "blocks",
+                    "The blocks, and the digits of three precisions",
+                )
             },
             Chapter {
-                id: "inference",
-                title: "Coverage of the intervals".into(),
                 tables: coverage.iter().map(|c| c.table()).collect(),
-                ..Chapter::default()
+                ..Chapter::titled("inference", "Coverage of the intervals")
             },
             Chapter {
-                id: "paper-s-grid",
-                title: "Figures on the paper's grid (arm A)".into(),
                 figures: drawn(figures, |f| other(&f)),
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "paper-s-grid",
+                    "Figures on the paper's grid (arm A)",
+                )
             },
             beyond,
             by_block,
             Chapter {
-                id: "credibility",
-                title: "Credibility".into(),
                 tables: assessment,
-                ..Chapter::default()
+                ..Chapter::titled("credibility", "Credibility")
             },
             Chapter {
-                id: "comparison",
-                title: "Comparison with printed numbers".into(),
                 tables: trust,
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "comparison",
+                    "Comparison with printed numbers",
+                )
             },
             Chapter {
-                id: "speed-tried",
-                title: "Speed: other tools, and settings tried".into(),
                 tables: speed,
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "speed-tried",
+                    "Speed: other tools, and settings tried",
+                )
             },
             Chapter {
-                id: "requirements",
-                title: "Requirements".into(),
                 tables: vec![ledger],
-                ..Chapter::default()
+                ..Chapter::titled("requirements", "Requirements")
             },
         ]
         .into_iter()
@@ -311,15 +300,14 @@ pub fn table_1() -> Result<PlainTable, BlockError> {
         .collect::<Result<Vec<Vec<String>>, BlockError>>()?;
     let header =
         ["p (rad/s)", "alpha (rad)", "2b (m)", "2h (m)", "R (m)", "eta"];
-    Ok(PlainTable {
-        name: "table-01".into(),
-        title: "Table 1. The 15 blocks".into(),
-        reading: "Gravity 9.81 m/s2; eta is Housner's coefficient of \
-                  restitution, which the study does not use."
-            .into(),
-        header: header.map(String::from).into(),
+    Ok(PlainTable::new(
+        "table-01",
+        "Table 1. The 15 blocks",
+        "Gravity 9.81 m/s2; eta is Housner's coefficient of \
+                  restitution, which the study does not use.",
+        &header,
         rows,
-    })
+    ))
 }
 
 /// A length in m with three decimals, half a millimetre up as the paper

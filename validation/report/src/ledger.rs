@@ -101,7 +101,6 @@ pub struct Standing {
 
 impl Standing {
     /// Whether all evidence named was executed, and the cases passed.
-    #[must_use]
     pub fn is_met(&self) -> bool {
         self.named
             && !self.not_run
@@ -112,7 +111,6 @@ impl Standing {
 
 impl Requirement {
     /// Whether only tests prove it, whose results are in no file.
-    #[must_use]
     pub fn is_tests_alone(&self) -> bool {
         self.cases.is_empty()
             && self.findings.is_empty()
@@ -123,7 +121,6 @@ impl Requirement {
     /// How it stands, given the results of the declared cases, if there are
     /// any, and whether a claim was measured, a test is part of the gate, a
     /// figure was drawn.
-    #[must_use]
     pub fn standing(
         &self,
         results: Option<&snapshot::Results>,
@@ -220,19 +217,19 @@ pub fn table(
     }
     let header =
         ["requirement", "source", "evidence", "state", "what it leaves open"];
-    Ok(PlainTable {
-        name: "ledger".into(),
-        title: "What was required, and what proves it".into(),
-        reading: format!(
+    Ok(PlainTable::new(
+        "ledger",
+        "What was required, and what proves it",
+        format!(
             "{met} of {} requirements have executed evidence and no failed \
              case; {by_tests} more rest on tests of the gate alone, whose \
              results are not in these files. A finding is evidence that the \
              claim was measured, whatever its verdict.",
             rows.len()
         ),
-        header: header.map(String::from).into(),
+        &header,
         rows,
-    })
+    ))
 }
 
 fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {

@@ -40,7 +40,6 @@ pub const FINDINGS: &str = "data/findings.json";
 /// A study's folder is known by its findings and its page. Results of the
 /// declared cases alone, which a study shows, are no hindrance; hidden files
 /// are none either.
-#[must_use]
 pub fn foreign(folder: &Path) -> Option<String> {
     let read = |name: &str| fs::read(folder.join(name)).ok();
     let findings = read(FINDINGS);
@@ -194,7 +193,6 @@ pub fn answers_text(
 }
 
 /// The findings among the claims as a table for people.
-#[must_use]
 pub fn claims_table(claims: &[Claim]) -> String {
     let mut out = String::new();
     for claim in claims {

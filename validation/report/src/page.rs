@@ -33,7 +33,6 @@ const STYLE: &str = include_str!("page/page.css");
 /// assert!(html.starts_with("<!DOCTYPE html>"));
 /// assert!(html.contains("<h1>A &amp; B</h1>"));
 /// ```
-#[must_use]
 pub fn page(input: &ReportInput) -> String {
     let parts = sections::all(input);
     html! {

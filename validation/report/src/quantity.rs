@@ -67,7 +67,6 @@ impl Scale {
 }
 
 /// Two or three digits that matter; below 0.01 only that it is.
-#[must_use]
 pub fn number(x: f64) -> String {
     if x.is_nan() {
         return "none".into();
@@ -106,7 +105,6 @@ fn of_cells(claim: &Claim) -> bool {
 
 /// A result's value with its interval and unit: `12 % (8 to 17)`. Where the
 /// limit is about one cell of many, it is the share of the cells within it.
-#[must_use]
 pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
     let text = measured(result.measured(), scale(result.unit, region));
@@ -121,14 +119,12 @@ pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
 }
 
 /// The number of a cell of a claim, in the unit of the claim's limit.
-#[must_use]
 pub fn cell_text(claim: &Claim, value: Measured) -> String {
     measured(value, scale(Unit::One, claim.region))
 }
 
 /// Where a claim's values have to lie: `-5 to +5 %, in every cell`; "most"
 /// is more than half.
-#[must_use]
 pub fn rule_text(claim: &Claim) -> String {
     let (Some(quantifier), Some(region)) = (claim.quantifier, claim.region)
     else {
@@ -157,7 +153,6 @@ pub fn rule_text(claim: &Claim) -> String {
 
 /// What stands beside a result: cells, the deciding one, details, how the
 /// interval was made, records needed.
-#[must_use]
 pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
     let mut remarks = Vec::new();
     match &result.cells {

@@ -73,7 +73,6 @@ fn findings(out: &Path, files: &Files) -> anyhow::Result<String> {
 /// What two texts of one file of results say differently, as
 /// [`crate::diff::compare`] finds it; empty where they agree. Results of
 /// another form are replaced all the same, so that is no error.
-#[must_use]
 pub fn compared(path: &Path, old: &str, new: &str, relative: f64) -> String {
     if old == new {
         return String::new();

@@ -79,7 +79,6 @@ impl Change {
     }
 
     /// What the change is measured by, in words; empty where nothing is.
-    #[must_use]
     pub fn measured(&self) -> String {
         match self.measure {
             Measure::StandardErrors(n) if n.is_infinite() => {
@@ -101,7 +100,6 @@ impl Change {
     }
 
     /// Old to new, relative change, measure.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let mut text = format!("{}: {} to {}", self.words, self.old, self.new);
         if let Some(relative) = self.relative {

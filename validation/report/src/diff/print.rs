@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use serde_json::{Value, json};
 
 use super::words::percent;
-use super::{Change, Comparison, Measure, Presence};
+use super::{Change, Comparison, Measure};
 
 /// Changes that are listed unless all are wanted: of those within their
 /// uncertainty, and of those beyond it in a group that state none.
@@ -33,7 +33,6 @@ fn minor(comparison: &Comparison) -> Vec<&Change> {
 
 impl Comparison {
     /// For people; `all` lists changes within their uncertainty too.
-    #[must_use]
     pub fn text(&self, all: bool) -> String {
         let mut out = self.head();
         out.push('\n');
@@ -119,7 +118,6 @@ impl Comparison {
     }
 
     /// Markdown for a pull request.
-    #[must_use]
     pub fn markdown(&self, all: bool) -> String {
         let mut out = format!("## What changed\n\n{}\n", self.head());
         let big = self.numbers.iter().filter(|c| c.significant).collect();
@@ -155,21 +153,9 @@ impl Comparison {
     }
 
     /// For machines.
-    #[must_use]
     pub fn json(&self) -> Value {
         let list = |changes: &[Change]| -> Vec<Value> {
             changes.iter().map(machine).collect()
-        };
-        let presences = |list: &[Presence]| -> Vec<Value> {
-            list.iter()
-                .map(|one| {
-                    json!({
-                        "group": one.group,
-                        "what": one.words,
-                        "significant": one.significant,
-                    })
-                })
-                .collect()
         };
         json!({
             "identical": self.is_identical(),
@@ -179,8 +165,8 @@ impl Comparison {
             "verdicts": list(&self.verdicts),
             "numbers": list(&self.numbers),
             "texts": list(&self.texts),
-            "appeared": presences(&self.appeared),
-            "vanished": presences(&self.vanished),
+            "appeared": self.appeared,
+            "vanished": self.vanished,
             "not_compared": self.not_compared,
         })
     }
@@ -191,13 +177,10 @@ fn machine(change: &Change) -> Value {
         Some((old, new)) => (json!(old), json!(new)),
         None => (json!(change.old), json!(change.new)),
     };
-    let errors = match change.measure {
-        Measure::StandardErrors(n) => Some(n),
-        _ => None,
-    };
-    let tolerances = match change.measure {
-        Measure::Tolerances(n) => Some(n),
-        _ => None,
+    let (errors, tolerances) = match change.measure {
+        Measure::StandardErrors(n) => (Some(n), None),
+        Measure::Tolerances(n) => (None, Some(n)),
+        _ => (None, None),
     };
     json!({
         "group": change.group,

@@ -20,7 +20,6 @@ impl Family {
 
 /// Declared cases with their results, as the snapshot has them: all but those
 /// that are run only with `--full`.
-#[must_use]
 pub fn families(cases: &[Case], results: &Results) -> Vec<Family> {
     let quick = |name: &str| {
         let own = cases.iter().filter(|c| c.family == name);
@@ -32,7 +31,6 @@ pub fn families(cases: &[Case], results: &Results) -> Vec<Family> {
 }
 
 /// Where the expected values of a case come from.
-#[must_use]
 pub fn source(case: &Case) -> String {
     let source = &case.source;
     let note = match source.note.as_str() {
@@ -43,7 +41,6 @@ pub fn source(case: &Case) -> String {
 }
 
 /// The largest share of a tolerance, and the quantity that uses it.
-#[must_use]
 pub fn worst<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> String {
     let worst = results
         .into_iter()
@@ -85,7 +82,6 @@ fn times(margin: f64) -> String {
 }
 
 /// Bounds in words, equal ones together.
-#[must_use]
 pub fn tolerance(case: &Case) -> String {
     let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
     for (quantity, bound) in &case.tolerance.bounds {
@@ -115,7 +111,6 @@ fn words(bound: &Bound) -> String {
 }
 
 /// Wrong models that fail the case, each with its error over the bound.
-#[must_use]
 pub fn rejects(case: &Case, result: Option<&CaseResult>) -> String {
     let texts: Vec<String> = case
         .tolerance

@@ -45,7 +45,6 @@ pub struct Coverage {
 
 impl Coverage {
     /// The shares, in a sentence.
-    #[must_use]
     pub fn words(&self) -> String {
         let (low, high) = range(self.rows.iter().map(|(_, share)| *share));
         format!(
@@ -57,24 +56,22 @@ impl Coverage {
     }
 
     /// The shares, one by one.
-    #[must_use]
     pub fn table(&self) -> PlainTable {
         let row = |(claim, share): &(String, f64)| {
             vec![claim.clone(), "95.0 %".into(), percent(*share, 1)]
         };
         let header = ["interval", "nominal", "found"];
-        PlainTable {
-            name: "coverage".into(),
-            title: "Coverage of the intervals of the findings".into(),
-            reading: "Share of 300 simulated suites, whose truth is known, \
+        PlainTable::new(
+            "coverage",
+            "Coverage of the intervals of the findings",
+            "Share of 300 simulated suites, whose truth is known, \
                       in which the interval holds it. The standard error of \
                       a share is 1.3 %. The interval of a share of cells \
                       follows from the band over all cells and holds more \
-                      often than it says."
-                .into(),
-            header: header.map(String::from).into(),
-            rows: self.rows.iter().map(row).collect(),
-        }
+                      often than it says.",
+            &header,
+            self.rows.iter().map(row).collect(),
+        )
     }
 }
 
@@ -124,13 +121,11 @@ impl Proof {
     }
 
     /// The results by id.
-    #[must_use]
     pub fn results(&self) -> &snapshot::Results {
         &self.results
     }
 
     /// Number of cases that passed.
-    #[must_use]
     pub fn passed(&self) -> usize {
         self.results.values().filter(|case| case.passed()).count()
     }
@@ -153,7 +148,6 @@ impl Proof {
     }
 
     /// Number of wrong models that the cases told from the right one.
-    #[must_use]
     pub fn rejected(&self) -> usize {
         self.results.values().map(|case| case.rejected.len()).sum()
     }
@@ -172,7 +166,6 @@ impl Proof {
     }
 
     /// Share of its tolerance that half of the numbers stay below.
-    #[must_use]
     pub fn middle_margin(&self) -> f64 {
         let margins = self.margins();
         margins.get(margins.len() / 2).copied().unwrap_or(f64::NAN)
@@ -180,7 +173,6 @@ impl Proof {
 
     /// Significant digits that each precision reaches on the hard cases and
     /// the reference trajectories.
-    #[must_use]
     pub fn digits_table(&self) -> PlainTable {
         let mut table = PlainTable::from_csv(
             "table-precision",

@@ -92,6 +92,13 @@ pub struct Chapter {
     pub folded: Vec<Chapter>,
 }
 
+impl Chapter {
+    /// A chapter with nothing in it yet.
+    pub fn titled(id: &'static str, title: &str) -> Self {
+        Self { id, title: title.into(), ..Self::default() }
+    }
+}
+
 /// Findings about one question.
 #[derive(Debug, Clone)]
 pub struct Shown {

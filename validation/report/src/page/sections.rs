@@ -144,22 +144,15 @@ fn drawings(shown: &[ShownFigure]) -> Markup {
 }
 
 fn answers(answers: &Answers, columns: &[Column]) -> Markup {
+    let mut head = vec!["Question", "Answer", "Effect (95 % interval)"];
+    head.extend(columns.iter().map(|column| column.name));
+    head.push("Shown in");
     let body = html! {
         table.cards.answers {
             caption {
                 span.unseen { "Questions, and what the verdicts answer." }
             }
-            thead {
-                tr {
-                    th scope="col" { "Question" }
-                    th scope="col" { "Answer" }
-                    th scope="col" { "Effect (95 % interval)" }
-                    @for column in columns {
-                        th scope="col" { (column.name) }
-                    }
-                    th scope="col" { "Shown in" }
-                }
-            }
+            (table::head(&head))
             tbody {
                 @for row in &answers.rows {
                     tr {
@@ -428,20 +421,15 @@ fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
 
 fn every_result(input: &ReportInput) -> Markup {
     let columns = &input.columns;
+    let mut head = vec!["Claim and measure"];
+    head.extend(columns.iter().map(|column| column.name));
     html! {
         @for theme in input.findings.iter().map(|shown| shown.theme) {
             @let question = theme.question();
             (scrolled(&format!("{question}, every result"), html! {
                 table.cards.findings {
                     caption { span { (question) } }
-                    thead {
-                        tr {
-                            th scope="col" { "Claim and measure" }
-                            @for column in columns {
-                                th scope="col" { (column.name) }
-                            }
-                        }
-                    }
+                    (table::head(&head))
                     tbody {
                         @for claim in about(theme, columns) {
                             (results(claim, columns))
@@ -485,14 +473,10 @@ fn families(families: &[Family]) -> Markup {
                      error as a share of the tolerance."
                 }
             }
-            thead {
-                tr {
-                    th scope="col" { "Family" }
-                    th scope="col" { "Cases passed" }
-                    th scope="col" { "Worst share of tolerance" }
-                    th scope="col" { "Wrong models rejected" }
-                }
-            }
+            (table::head(&[
+                "Family", "Cases passed", "Worst share of tolerance",
+                "Wrong models rejected",
+            ]))
             tbody {
                 @for family in families {
                     tr {
@@ -523,17 +507,10 @@ fn cases(family: &Family) -> Markup {
     let body = html! {
         table.cards {
             caption { span { "Cases of the family " (family.name) "." } }
-            thead {
-                tr {
-                    th scope="col" { "Case" }
-                    th scope="col" { "Claim" }
-                    th scope="col" { "Source" }
-                    th scope="col" { "Tolerance and why" }
-                    th scope="col" { "Worst share of tolerance" }
-                    th scope="col" { "Rejects" }
-                    th scope="col" { "Result" }
-                }
-            }
+            (table::head(&[
+                "Case", "Claim", "Source", "Tolerance and why",
+                "Worst share of tolerance", "Rejects", "Result",
+            ]))
             tbody {
                 @for (c, result) in &family.cases {
                     @let result = result.as_ref();

@@ -33,7 +33,6 @@ pub struct Case {
 
 impl Case {
     /// What is integrated.
-    #[must_use]
     pub fn scene(&self) -> Scene<'_> {
         let record = ScaledRecord::to_pga(&self.record, self.pga_g);
         Scene {
@@ -47,7 +46,6 @@ impl Case {
     }
 
     /// Samples as applied, multiples of gravity.
-    #[must_use]
     pub fn samples_g(&self) -> Vec<f64> {
         self.record.samples().iter().map(|a| a * self.pga_g).collect()
     }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answers::{Answer, COMPARED};
 use super::cases::Case;
+use super::csv;
 use rocking_common::words::rounded;
 
 /// A tool with its setting on one case.
@@ -57,7 +58,6 @@ struct Given {
 }
 
 /// A row from an answer and what it took.
-#[must_use]
 pub fn row(
     [tool, version, method, setting]: [&str; 4],
     (case, reference): (&Case, &Answer),
@@ -124,29 +124,17 @@ pub fn read_answers(
     Ok(rows)
 }
 
-/// Rows of a table as [`text`] writes it.
-///
-/// # Errors
-/// The reader's word on what was wrong.
-pub fn parse(text: &str) -> Result<Vec<Row>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
-}
-
 /// The rows as CSV: times to four digits, errors to three.
 ///
 /// # Errors
 /// None in practice: memory can be written to.
 pub fn text(rows: &[Row]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(Row {
-            cpu_s: rounded(row.cpu_s, 4),
-            peak_error: row.peak_error.map(|e| rounded(e, 3)),
-            impact_error_s: rounded(row.impact_error_s, 3),
-            ..row.clone()
-        })?;
-    }
-    writer.into_inner().map_err(|e| e.into_error().into())
+    csv(rows.iter().map(|row| Row {
+        cpu_s: rounded(row.cpu_s, 4),
+        peak_error: row.peak_error.map(|e| rounded(e, 3)),
+        impact_error_s: rounded(row.impact_error_s, 3),
+        ..row.clone()
+    }))
 }
 
 /// What a tool with its setting came to over the cases.
@@ -183,7 +171,6 @@ pub struct Total {
 
 /// Totals by tool and setting, in the order of the rows; ratios to the times
 /// of `base` (tool, method, setting).
-#[must_use]
 pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
     let label = |row: &Row| {
         [&row.tool, &row.version, &row.method, &row.setting].map(String::clone)

@@ -6,7 +6,8 @@ use rocking::block::Block;
 
 use super::answers::Answer;
 use super::cases;
-use super::measured::{parse, read_answers, row, text};
+use super::measured::{Row, read_answers, row, text};
+use super::parse;
 use super::rest::{Ground, chatter_s};
 
 #[test]
@@ -87,7 +88,7 @@ fn answers_of_other_tools_are_judged_or_refused() {
     assert_eq!(rows[0].impact_error_s, 0.0);
     assert!(rows[0].right_fate && rows[0].same_impacts);
     // Kept to three digits.
-    let back = parse(str(&text(&rows).expect("CSV"))).expect("rows");
+    let back: Vec<Row> = parse(str(&text(&rows).expect("CSV"))).expect("rows");
     assert_eq!(back[0].peak_error, Some(0.25));
     assert_eq!((back.len(), &back[0].case), (1, &case.name));
     // One impact less, the other fate, no answer at all.

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cases::ETA;
 use super::clock::process_s;
+use super::csv;
 use rocking_common::curves::Execution;
 use rocking_common::words::rounded;
 
@@ -38,13 +39,11 @@ pub struct Throughput {
 
 impl Throughput {
     /// Analyses or replicates in a second of processor time.
-    #[must_use]
     pub fn rate_per_s(&self) -> f64 {
         self.count as f64 / self.cpu_s
     }
 
     /// Nanoseconds of processor time a sample.
-    #[must_use]
     pub fn sample_ns(&self) -> Option<f64> {
         self.samples.map(|n| 1e9 * self.cpu_s / n as f64)
     }
@@ -139,7 +138,6 @@ impl Job<'_> {
 }
 
 /// Chains whose first overturning is at another level than those of `base`.
-#[must_use]
 pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
     let level = |c: &IdaCurve| c.overturning.map(|first| first.scanned_im);
     let both = found.iter().flatten().zip(base.iter().flatten());
@@ -199,20 +197,9 @@ fn scene<'a>(
 /// # Errors
 /// None in practice: memory can be written to.
 pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        let cpu_s = rounded(row.cpu_s, 4);
-        writer.serialize(Throughput { cpu_s, ..row.clone() })?;
-    }
-    writer.into_inner().map_err(|e| e.into_error().into())
-}
-
-/// Rows of a table as [`text`] writes it.
-///
-/// # Errors
-/// The reader's word on what was wrong.
-pub fn parse(text: &str) -> Result<Vec<Throughput>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
+    csv(rows
+        .iter()
+        .map(|row| Throughput { cpu_s: rounded(row.cpu_s, 4), ..row.clone() }))
 }
 
 /// The kernel of the lanes with hardly anything else: blocks rock freely

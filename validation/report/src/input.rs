@@ -11,7 +11,7 @@ use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
 use crate::method;
-use crate::page::{Anchor, Answers, Chapter, ReportInput, ShownFigure};
+use crate::page::{Answers, Chapter, ReportInput, ShownFigure};
 use crate::recorded;
 use crate::timings::Timings;
 use rocking_common::findings::Findings;
@@ -61,20 +61,16 @@ pub fn input(
         .filter(|f| !other(f))
         .filter_map(|f| Some((f.heading.number()?, shown(f))))
         .collect();
-    let names: Vec<Anchor> = own
-        .iter()
-        .map(|(number, f)| (*number, (f.name.clone(), f.number.clone())))
-        .collect();
-    let (first, rest): (Vec<_>, Vec<_>) =
-        own.into_iter().partition(|(number, _)| FIRST.contains(number));
     let rows = answers::rows(
         results.embedded(),
         found,
         recorded,
         &timings,
         proof,
-        &names,
+        &own,
     );
+    let (first, rest): (Vec<_>, Vec<_>) =
+        own.into_iter().partition(|(number, _)| FIRST.contains(number));
     let mut themes = findings::themes(found, recorded);
     for (number, figure) in rest {
         let theme = findings::theme_of(number);
@@ -119,6 +115,10 @@ pub fn input(
     let settings = speed.extract_if(.., |t| t.name == "speed-settings");
     let settings: Vec<PlainTable> = settings.collect();
     let coverage = proof.map(Proof::coverage).transpose()?;
+    let only = |id, title: &str, tables| Chapter {
+        tables,
+        ..Chapter::titled(id, title)
+    };
     Ok(ReportInput {
         title: TITLE.into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -210,10 +210,11 @@ pub fn input(
                     "The blocks, and the digits of three precisions",
                 )
             },
-            Chapter {
-                tables: coverage.iter().map(|c| c.table()).collect(),
-                ..Chapter::titled("inference", "Coverage of the intervals")
-            },
+            only(
+                "inference",
+                "Coverage of the intervals",
+                coverage.iter().map(|c| c.table()).collect(),
+            ),
             Chapter {
                 figures: drawn(figures, |f| other(&f)),
                 ..Chapter::titled(
@@ -223,28 +224,14 @@ pub fn input(
             },
             beyond,
             by_block,
-            Chapter {
-                tables: assessment,
-                ..Chapter::titled("credibility", "Credibility")
-            },
-            Chapter {
-                tables: trust,
-                ..Chapter::titled(
-                    "comparison",
-                    "Comparison with printed numbers",
-                )
-            },
-            Chapter {
-                tables: speed,
-                ..Chapter::titled(
-                    "speed-tried",
-                    "Speed: other tools, and settings tried",
-                )
-            },
-            Chapter {
-                tables: vec![ledger],
-                ..Chapter::titled("requirements", "Requirements")
-            },
+            only("credibility", "Credibility", assessment),
+            only("comparison", "Comparison with printed numbers", trust),
+            only(
+                "speed-tried",
+                "Speed: other tools, and settings tried",
+                speed,
+            ),
+            only("requirements", "Requirements", vec![ledger]),
         ]
         .into_iter()
         .filter(|c| !(c.tables.is_empty() && c.figures.is_empty()))
@@ -330,7 +317,6 @@ fn shown(figure: &Figure) -> ShownFigure {
         title: heading.title.clone(),
         reading: figure.reading.clone(),
         svg: figure.svg(),
-        csv_path: format!("data/{}.csv", heading.name),
     }
 }
 

@@ -10,7 +10,7 @@ const STANDARD_ERRORS: f64 = 1.959_963_985;
 const LAST_DIGIT: f64 = 1e-8;
 
 /// What a change is measured by.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Measure {
     /// Standard errors: the part of the 95 % interval on the side of the
     /// change over 1.96.
@@ -22,11 +22,12 @@ pub enum Measure {
     /// The verdict of its case tells.
     Verdict,
     /// Not a number.
+    #[default]
     None,
 }
 
 /// One thing that differs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Change {
     /// What it belongs to.
     pub owner: String,
@@ -119,13 +120,7 @@ fn blank(item: &Item) -> Change {
         name: item.name.clone(),
         group: item.group.clone(),
         words: item.words.clone(),
-        old: String::new(),
-        new: String::new(),
-        values: None,
-        relative: None,
-        measure: Measure::None,
-        rank: 0.0,
-        significant: false,
+        ..Change::default()
     }
 }
 

@@ -8,9 +8,6 @@ use rocking_common::table::PlainTable;
 use super::figures::ShownFigure;
 use crate::evidence::families::Family;
 
-/// A figure on the page: its number, its anchor and what it is called.
-pub type Anchor = (u32, (String, String));
-
 /// Everything the page shows, in its order. Text is plain unless a field
 /// says otherwise; what is empty is left out.
 #[derive(Debug, Clone, Default)]

@@ -215,9 +215,10 @@ fn counts(column: &Column) -> Markup {
 }
 
 fn mark(verdict: Verdict) -> Markup {
+    let (class, sign) = looks(verdict);
     html! {
-        span class=(class(verdict)) {
-            span aria-hidden="true" { (sign(verdict)) " " }
+        span class=(class) {
+            span aria-hidden="true" { (sign) " " }
             (verdict.name())
         }
     }
@@ -225,28 +226,21 @@ fn mark(verdict: Verdict) -> Markup {
 
 /// The verdict as a sign, its name for those who do not see it.
 fn short(verdict: Verdict) -> Markup {
+    let (class, sign) = looks(verdict);
     html! {
-        span class=(class(verdict)) title=(verdict.name()) {
-            span aria-hidden="true" { (sign(verdict)) }
+        span class=(class) title=(verdict.name()) {
+            span aria-hidden="true" { (sign) }
             span.unseen { (verdict.name()) }
         }
     }
 }
 
-/// A sign that stands without colour.
-fn sign(verdict: Verdict) -> &'static str {
+/// Class, and a sign that stands without colour.
+fn looks(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
-        Verdict::Confirmed => "✓",
-        Verdict::NotConfirmed => "✗",
-        Verdict::Inconclusive => "?",
-    }
-}
-
-fn class(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Confirmed => "verdict yes",
-        Verdict::NotConfirmed => "verdict no",
-        Verdict::Inconclusive => "verdict open",
+        Verdict::Confirmed => ("verdict yes", "✓"),
+        Verdict::NotConfirmed => ("verdict no", "✗"),
+        Verdict::Inconclusive => ("verdict open", "?"),
     }
 }
 

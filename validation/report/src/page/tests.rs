@@ -29,7 +29,6 @@ fn made_up() -> ReportInput {
             reading: "Nothing can be seen here, the numbers are made up."
                 .into(),
             svg: figure.svg(),
-            csv_path: format!("data/{}.csv", heading.name),
         }
     };
     let words = |cells: &[&str]| -> Vec<String> {

@@ -38,22 +38,4 @@ impl PlainTable {
             rows,
         }
     }
-
-    /// A table from CSV text.
-    #[must_use]
-    pub fn from_csv(
-        name: &str,
-        title: &str,
-        reading: &str,
-        csv: &str,
-    ) -> Self {
-        let mut lines = csv.lines().map(cells);
-        Self {
-            name: name.into(),
-            title: title.into(),
-            reading: reading.into(),
-            header: lines.next().unwrap_or_default(),
-            rows: lines.collect(),
-        }
-    }
 }

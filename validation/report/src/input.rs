@@ -11,7 +11,7 @@ use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
 use crate::method;
-use crate::page::{Answers, Chapter, ReportInput, ShownFigure};
+use crate::page::{Chapter, ReportInput, ShownFigure};
 use crate::recorded;
 use crate::timings::Timings;
 use rocking_common::findings::Findings;
@@ -130,10 +130,8 @@ pub fn input(
         ]
         .concat(),
         signatures: signatures.shown(),
-        answers: Answers {
-            rows,
-            figures: first.into_iter().map(|(_, f)| f).collect(),
-        },
+        answers: rows,
+        first: first.into_iter().map(|(_, f)| f).collect(),
         columns: findings::columns(found, recorded),
         findings: themes,
         identities: findings::identities(found),
@@ -322,35 +320,26 @@ fn shown(figure: &Figure) -> ShownFigure {
 
 pub(super) fn provenance(results: &Results) -> Vec<(String, String)> {
     let setup = &results.plan.setup;
-    let mut out = vec![
-        ("Revisions".into(), head::revisions()),
-        (
-            "Restitution".into(),
-            format!("{}", setup.restitution.velocity_ratio()),
-        ),
-        (
-            "Overturning".into(),
-            match setup.overturning {
-                Overturning::Alpha => "|theta| reaches alpha".into(),
-                Overturning::HalfPi => "|theta| exceeds pi/2".into(),
-            },
-        ),
-        (
-            "Refinement".into(),
-            format!("{} in dimensionless intensity", setup.tolerance),
-        ),
-    ];
+    let overturning = match setup.overturning {
+        Overturning::Alpha => "|theta| reaches alpha",
+        Overturning::HalfPi => "|theta| exceeds pi/2",
+    };
+    let refinement = format!("{} in dimensionless intensity", setup.tolerance);
     let arms = results.plan.arms.iter();
     let arms: Vec<&str> = arms.map(|arm| arm.words()).collect();
-    out.push(("Arms of the grid".into(), arms.join("; ")));
+    let restitution = setup.restitution.velocity_ratio().to_string();
+    let mut out = vec![
+        ("Revisions".into(), head::revisions()),
+        ("Restitution".into(), restitution),
+        ("Overturning".into(), overturning.into()),
+        ("Refinement".into(), refinement),
+        ("Arms of the grid".into(), arms.join("; ")),
+    ];
     for suite in [&results.ordinary, &results.pulse] {
+        let (records, rule) = (suite.records.len(), &suite.component_rule);
         out.push((
             format!("Suite, {}", suite.kind),
-            format!(
-                "{} records, component: {}",
-                suite.records.len(),
-                suite.component_rule
-            ),
+            format!("{records} records, component: {rule}"),
         ));
         if let Some(remarks) = &suite.remarks {
             let name = format!("Remarks on records, {}", suite.kind);

@@ -16,7 +16,7 @@ use rocking_draw::colour;
 use input::Part;
 
 pub use figures::ShownFigure;
-pub use input::{AnswerRow, Answers, Chapter, Column, ReportInput, Shown};
+pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
 
 const STYLE: &str = include_str!("page/page.css");
 

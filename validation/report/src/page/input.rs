@@ -20,8 +20,10 @@ pub struct ReportInput {
     pub head: Vec<(String, String)>,
     /// What is signed for, and by whom or when if that was given.
     pub signatures: Vec<(String, Option<String>)>,
-    /// The first thing read.
-    pub answers: Answers,
+    /// The questions that a reader asks first, each with its answer.
+    pub answers: Vec<AnswerRow>,
+    /// Drawings beside them.
+    pub first: Vec<ShownFigure>,
     /// Suites of the columns of the answers and findings: those of the run
     /// at hand stand last.
     pub columns: Vec<Column>,
@@ -44,15 +46,6 @@ pub struct ReportInput {
     pub chapters: Vec<Chapter>,
     /// Chapters that are folded on a screen and whole on paper.
     pub annexes: Vec<Chapter>,
-}
-
-/// The questions that a reader asks first, each with its answer.
-#[derive(Debug, Clone, Default)]
-pub struct Answers {
-    /// The questions.
-    pub rows: Vec<AnswerRow>,
-    /// Drawings beside them.
-    pub figures: Vec<ShownFigure>,
 }
 
 /// One question and its answer.

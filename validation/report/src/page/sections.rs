@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::figures::{self, ShownFigure};
-use super::input::{Answers, Chapter, Column, Part, ReportInput, Shown};
+use super::input::{AnswerRow, Chapter, Column, Part, ReportInput, Shown};
 use super::table::{self, scrolled};
 use crate::evidence::families::{Family, rejects, source, tolerance, worst};
 use crate::quantity::{remarks, rule_text, value_text};
@@ -43,8 +43,11 @@ pub fn all(input: &ReportInput) -> Vec<Part> {
                 parts.push(Part { id, title: title.into(), body: body() });
             }
         };
-    add(!i.answers.rows.is_empty(), "answers", "Answers", &|| {
-        answers(&i.answers, &i.columns)
+    add(!i.answers.is_empty(), "answers", "Answers", &|| {
+        html! {
+            (answers(&i.answers, &i.columns))
+            (drawings(&i.first))
+        }
     });
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
         html! {
@@ -143,7 +146,7 @@ fn drawings(shown: &[ShownFigure]) -> Markup {
     }
 }
 
-fn answers(answers: &Answers, columns: &[Column]) -> Markup {
+fn answers(rows: &[AnswerRow], columns: &[Column]) -> Markup {
     let mut head = vec!["Question", "Answer", "Effect (95 % interval)"];
     head.extend(columns.iter().map(|column| column.name));
     head.push("Shown in");
@@ -154,7 +157,7 @@ fn answers(answers: &Answers, columns: &[Column]) -> Markup {
             }
             (table::head(&head))
             tbody {
-                @for row in &answers.rows {
+                @for row in rows {
                     tr {
                         th scope="row" { (row.question) }
                         td data-label="Answer" { strong { (row.answer) } }
@@ -170,10 +173,7 @@ fn answers(answers: &Answers, columns: &[Column]) -> Markup {
             }
         }
     };
-    html! {
-        (scrolled("Questions and answers", body))
-        (drawings(&answers.figures))
-    }
+    scrolled("Questions and answers", body)
 }
 
 fn links(shown: &[(String, String)]) -> Markup {

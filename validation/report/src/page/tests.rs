@@ -42,16 +42,14 @@ fn made_up() -> ReportInput {
             ("Issued".into(), Some("a day".into())),
             ("Approved by".into(), None),
         ],
-        answers: Answers {
-            rows: vec![AnswerRow {
-                question: "Is slenderness normalized out?".into(),
-                answer: "Nearly: for ratios; open for quantiles.".into(),
-                effect: "-0.9 % (-1 to -0.8 %)".into(),
-                columns: vec!["7 results for it".into(); 2],
-                shown: vec![("figure-08".into(), "Figure 8".into())],
-            }],
-            figures: vec![],
-        },
+        answers: vec![AnswerRow {
+            question: "Is slenderness normalized out?".into(),
+            answer: "Nearly: for ratios; open for quantiles.".into(),
+            effect: "-0.9 % (-1 to -0.8 %)".into(),
+            columns: vec!["7 results for it".into(); 2],
+            shown: vec![("figure-08".into(), "Figure 8".into())],
+        }],
+        first: Vec::new(),
         columns: ["recorded suites", "embedded suites"].map(column).into(),
         findings: vec![Shown {
             theme: Theme::Statistics,

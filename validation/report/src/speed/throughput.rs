@@ -38,6 +38,11 @@ pub struct Throughput {
 }
 
 impl Throughput {
+    fn new(work: &str, threads: usize, cpu_s: f64, count: u64) -> Self {
+        let (work, samples, moved) = (work.into(), None, None);
+        Self { work, threads, cpu_s, count, samples, moved }
+    }
+
     /// Analyses or replicates in a second of processor time.
     pub fn rate_per_s(&self) -> f64 {
         self.count as f64 / self.cpu_s
@@ -125,15 +130,7 @@ impl Job<'_> {
         let found = found?;
         let all = found.iter().flatten();
         let count = all.map(|c| c.analyses).fold(0, u64::saturating_add);
-        let measured = Throughput {
-            work: work.into(),
-            threads,
-            cpu_s,
-            count,
-            samples: None,
-            moved: None,
-        };
-        Ok((measured, found))
+        Ok((Throughput::new(work, threads, cpu_s, count), found))
     }
 }
 
@@ -263,12 +260,6 @@ pub fn lilliefors() -> anyhow::Result<Throughput> {
     let (cpu_s, found) =
         on_threads(1, || NullDistribution::simulate(86, REPLICATES, 0))?;
     found?;
-    Ok(Throughput {
-        work: "Lilliefors replicates, n = 86".into(),
-        threads: 1,
-        cpu_s,
-        count: REPLICATES,
-        samples: None,
-        moved: None,
-    })
+    let work = "Lilliefors replicates, n = 86";
+    Ok(Throughput::new(work, 1, cpu_s, REPLICATES))
 }

@@ -135,16 +135,15 @@ impl Failure {
     }
 }
 
-impl<E: std::error::Error> From<E> for Failure {
+impl<E: Into<anyhow::Error>> From<E> for Failure {
     fn from(error: E) -> Self {
-        let mut message = error.to_string();
-        let mut source = error.source();
-        while let Some(inner) = source {
-            let text = inner.to_string();
-            if !message.contains(&text) {
-                message = format!("{message}: {text}");
+        let mut message = String::new();
+        for source in error.into().chain().map(ToString::to_string) {
+            if message.is_empty() {
+                message = source;
+            } else if !message.contains(&source) {
+                message = format!("{message}: {source}");
             }
-            source = inner.source();
         }
         Self::input(message)
     }

@@ -8,31 +8,12 @@ use crate::paper::SuiteKind;
 use std::fmt;
 use std::path::Path;
 
-use rocking::record::{
-    Accelerogram, AccelerogramError, Processing, ProcessingError, ReadOptions,
-    SetAside, SuiteError,
-};
+use rocking::record::{Accelerogram, Processing, ReadOptions, SetAside};
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
-use thiserror::Error;
 
 use inputs::{hex, read_suite};
 use remarks::Remarks;
-
-/// Why a suite of the study could not be had.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum StudySuiteError {
-    /// A suite that was refused.
-    #[error(transparent)]
-    Suite(#[from] SuiteError),
-    /// A record that cannot be processed as asked.
-    #[error(transparent)]
-    Processing(#[from] ProcessingError),
-    /// A synthetic record that is none.
-    #[error(transparent)]
-    Accelerogram(#[from] AccelerogramError),
-}
 
 /// Where the records of a suite come from.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,7 +87,7 @@ impl StudySuite {
     ///
     /// # Errors
     /// None in practice: the samples are finite by construction.
-    pub fn embedded() -> Result<[Self; 2], StudySuiteError> {
+    pub fn embedded() -> anyhow::Result<[Self; 2]> {
         let of = |kind, streams, pairs: Vec<Pair>| Self {
             kind,
             source: Source::Embedded { streams },
@@ -138,13 +119,13 @@ impl StudySuite {
     /// The suite in a folder or an index.
     ///
     /// # Errors
-    /// [`StudySuiteError`] naming the file that was refused, and why.
+    /// Naming the file that was refused, and why.
     pub fn read(
         kind: SuiteKind,
         path: &Path,
         options: ReadOptions,
         processing: &Processing,
-    ) -> Result<Self, StudySuiteError> {
+    ) -> anyhow::Result<Self> {
         let suite = read_suite(path, options)?;
         let suite = suite.processed(processing)?;
         let remarks = Remarks::on(&suite);

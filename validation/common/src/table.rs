@@ -22,21 +22,20 @@ pub struct PlainTable {
 }
 
 impl PlainTable {
-    /// A table from CSV text.
-    #[must_use]
-    pub fn from_csv(
+    /// A table of these rows.
+    pub fn new(
         name: &str,
         title: &str,
-        reading: &str,
-        csv: &str,
+        reading: impl Into<String>,
+        header: &[&str],
+        rows: Vec<Vec<String>>,
     ) -> Self {
-        let mut lines = csv.lines().map(cells);
         Self {
             name: name.into(),
             title: title.into(),
             reading: reading.into(),
-            header: lines.next().unwrap_or_default(),
-            rows: lines.collect(),
+            header: header.iter().map(|cell| (*cell).into()).collect(),
+            rows,
         }
     }
 }

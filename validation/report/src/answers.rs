@@ -2,7 +2,7 @@
 //! one rule, and what stands about every theme and every suite.
 
 use crate::evidence::Proof;
-use crate::page::{Anchor, AnswerRow};
+use crate::page::{AnswerRow, ShownFigure};
 use crate::quantity::{cell_text, rule_text, value_text};
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
@@ -178,7 +178,7 @@ pub(super) fn rows(
     recorded: Option<&Findings>,
     timings: &Timings,
     proof: Option<&Proof>,
-    figures: &[Anchor],
+    figures: &[(u32, ShownFigure)],
 ) -> Vec<AnswerRow> {
     let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
     let lead = recorded.unwrap_or(here);
@@ -202,9 +202,8 @@ pub(super) fn rows(
                 }
             };
             let shown = asked.figures.iter().filter_map(|number| {
-                let (_, (name, _)) =
-                    figures.iter().find(|f| f.0 == *number)?;
-                Some((name.clone(), format!("Figure {number}")))
+                let (_, figure) = figures.iter().find(|f| f.0 == *number)?;
+                Some((figure.name.clone(), format!("Figure {number}")))
             });
             AnswerRow {
                 question: asked.question.into(),
@@ -253,7 +252,7 @@ fn effect(findings: &Findings, asked: &Asked) -> String {
         return String::new();
     };
     let Some(region) = claim.region else { return String::new() };
-    let value = |r: &rocking_common::findings::ClaimResult| {
+    let value = |r: &ClaimResult| {
         r.deciding_cell.as_ref().map_or(r.value, |c| c.measured.value)
     };
     let worst =

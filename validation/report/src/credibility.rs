@@ -128,7 +128,6 @@ pub fn tables(
 }
 
 /// The levels of the assessment, in a sentence.
-#[must_use]
 pub fn levels(assessment: &PlainTable) -> String {
     let of = |row: &Vec<String>| {
         let name = row.first()?.to_lowercase();
@@ -157,10 +156,10 @@ fn comparison(compared: &[Compared], shift: f64) -> PlainTable {
         "|E| / u",
         "what it says",
     ];
-    PlainTable {
-        name: "comparison-error".into(),
-        title: "Comparison error and uncertainty, after ASME V&V 20".into(),
-        reading: "Where the paper prints a number, or says that a ratio is \
+    PlainTable::new(
+        "comparison-error",
+        "Comparison error and uncertainty, after ASME V&V 20",
+        "Where the paper prints a number, or says that a ratio is \
                   1. This compares computation with computation; nothing \
                   here is compared with an experiment, so it validates no \
                   model. With records, E holds the difference between these \
@@ -173,11 +172,10 @@ fn comparison(compared: &[Compared], shift: f64) -> PlainTable {
                   figures of the paper print no number that one could \
                   subtract. Where a small rotation has a closed form, \
                   sin(alpha)/alpha over that of the reference, E is also \
-                  given with it divided out."
-            .into(),
-        header: header.map(String::from).into(),
+                  given with it divided out.",
+        &header,
         rows,
-    }
+    )
 }
 
 fn row(one: &Compared, shift: f64) -> Vec<String> {
@@ -354,16 +352,15 @@ fn assessment(
         ],
     ];
     let header = ["factor", "level", "evidence", "gaps"];
-    PlainTable {
-        name: "credibility-assessment".into(),
-        title: "Credibility, after NASA-STD-7009B".into(),
-        reading: "Levels from 0, insufficient evidence, to 4, by the \
+    PlainTable::new(
+        "credibility-assessment",
+        "Credibility, after NASA-STD-7009B",
+        "Levels from 0, insufficient evidence, to 4, by the \
                   project's own judgement; no one has certified them. The \
-                  least of them bounds what the whole can be trusted for."
-            .into(),
-        header: header.map(String::from).into(),
-        rows: rows.map(|row| row.map(String::from).into()).into(),
-    }
+                  least of them bounds what the whole can be trusted for.",
+        &header,
+        rows.map(|row| row.map(String::from).into()).into(),
+    )
 }
 
 #[cfg(test)]

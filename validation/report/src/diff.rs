@@ -18,10 +18,11 @@ mod words;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use anyhow::bail;
 use serde::Serialize;
 
 pub use change::{Change, Measure};
-pub use input::{DiffError, Results};
+pub use input::Results;
 pub use item::{Content, Item, Limit};
 
 /// Everything of one kind that two sets of results say differently.
@@ -60,7 +61,6 @@ pub struct Presence {
 
 impl Comparison {
     /// Number of changes that matter.
-    #[must_use]
     pub fn significant(&self) -> usize {
         let changes = [&self.settings, &self.verdicts, &self.numbers];
         let changed =
@@ -70,7 +70,6 @@ impl Comparison {
     }
 
     /// Whether nothing at all differs.
-    #[must_use]
     pub fn is_identical(&self) -> bool {
         *self
             == Self {
@@ -156,13 +155,13 @@ fn alone(item: &Item, lost: bool) -> Presence {
 /// change by the share `relative` of itself.
 ///
 /// # Errors
-/// [`DiffError::NothingInCommon`] where no file of one kind is on both
+/// Where no file of one kind is on both
 /// sides.
 pub fn compare(
     old: &Results,
     new: &Results,
     relative: f64,
-) -> Result<Comparison, DiffError> {
+) -> anyhow::Result<Comparison> {
     let mut out = Comparison::default();
     let kinds = [
         ("findings.json", &old.findings, &new.findings),
@@ -184,10 +183,12 @@ pub fn compare(
         }
     }
     if !common {
-        return Err(DiffError::NothingInCommon {
-            old: old.path.clone(),
-            new: new.path.clone(),
-        });
+        bail!(
+            "{} and {} have nothing in common: expected findings on both \
+             sides, or results of cases on both",
+            old.path.display(),
+            new.path.display()
+        );
     }
     for changes in [&mut out.numbers, &mut out.settings, &mut out.verdicts] {
         // What no uncertainty is stated of cannot be ranked among the rest.

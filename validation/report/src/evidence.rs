@@ -3,18 +3,15 @@
 //! forms.
 
 mod defect;
-mod error;
-mod families;
+pub mod families;
 mod fates;
 mod proof;
 mod spectrum;
 mod tables;
 
-pub use error::EvidenceError;
-pub use families::families;
-pub use proof::{NOT_RUN, Proof, ProofError};
+use families::{Family, families};
+pub use proof::{NOT_RUN, Proof};
 
-use crate::page::Family;
 use rocking_common::table::PlainTable;
 use rocking_draw::figures::Figure;
 use rocking_proof::cases::load_all;
@@ -22,8 +19,8 @@ use rocking_proof::cases::load_all;
 /// Declared cases with their results, family by family.
 ///
 /// # Errors
-/// [`EvidenceError`] where the cases cannot be read.
-pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
+/// Where the cases cannot be read.
+pub fn shown(proof: &Proof) -> anyhow::Result<Vec<Family>> {
     Ok(families(&load_all()?, proof.results()))
 }
 
@@ -31,10 +28,8 @@ pub fn shown(proof: &Proof) -> Result<Vec<Family>, EvidenceError> {
 /// handed in, and critical values beside published ones.
 ///
 /// # Errors
-/// [`EvidenceError`] where the cases cannot be read.
-pub fn checks(
-    proof: Option<&Proof>,
-) -> Result<Vec<PlainTable>, EvidenceError> {
+/// Where the cases cannot be read.
+pub fn checks(proof: Option<&Proof>) -> anyhow::Result<Vec<PlainTable>> {
     let pulses = proof.map(|proof| tables::similarity(proof.results()));
     let mut all: Vec<PlainTable> = pulses.transpose()?.into_iter().collect();
     all.push(tables::critical_values()?);
@@ -44,8 +39,8 @@ pub fn checks(
 /// The figures of the proof.
 ///
 /// # Errors
-/// [`EvidenceError::Engine`] where a scene is refused.
-pub fn charts() -> Result<Vec<Figure>, EvidenceError> {
+/// Where a scene is refused.
+pub fn charts() -> anyhow::Result<Vec<Figure>> {
     Ok(vec![defect::chart()?, spectrum::chart()?, fates::map()?])
 }
 
@@ -85,6 +80,6 @@ mod tests {
         let quick = all.iter().filter(|c| c.cost == Cost::Quick).count();
         assert_eq!(cases, quick);
         let shown = families.iter().flat_map(|f| &f.cases);
-        assert!(shown.into_iter().all(|c| c.worst != "no result"));
+        assert!(shown.into_iter().all(|(_, result)| result.is_some()));
     }
 }

@@ -35,7 +35,6 @@ pub struct Signatures {
 
 impl Signatures {
     /// Each with what it is.
-    #[must_use]
     pub fn shown(&self) -> Vec<(String, Option<String>)> {
         [
             ("Issued", &self.issued),
@@ -50,36 +49,30 @@ impl Signatures {
 
 /// The paper, the program and its input; whether results of the declared
 /// cases were handed in.
-#[must_use]
 pub fn head(results: &Results, proved: bool) -> Vec<(String, String)> {
-    let mut out = vec![
-        ("Paper".into(), PAPER.into()),
+    let program = format!(
+        "rocking {}, sha256 of Cargo.lock {}",
+        env!("CARGO_PKG_VERSION"),
+        sha256_hex(LOCK.as_bytes())
+    );
+    let [ordinary, pulse] = [&results.ordinary, &results.pulse].map(|suite| {
+        let (records, sha256) = (suite.records.len(), &suite.sha256);
+        let from = &suite.source;
         (
-            "Program".into(),
-            format!(
-                "rocking {}, sha256 of Cargo.lock {}",
-                env!("CARGO_PKG_VERSION"),
-                sha256_hex(LOCK.as_bytes())
-            ),
-        ),
-    ];
-    for suite in [&results.ordinary, &results.pulse] {
-        out.push((
             format!("Suite, {}", suite.kind),
-            format!(
-                "{}, {} records, sha256 {}",
-                suite.source,
-                suite.records.len(),
-                suite.sha256
-            ),
-        ));
-    }
-    out.push(("Command".into(), command(results, proved)));
-    out
+            format!("{from}, {records} records, sha256 {sha256}"),
+        )
+    });
+    vec![
+        ("Paper".into(), PAPER.into()),
+        ("Program".into(), program),
+        ordinary,
+        pulse,
+        ("Command".into(), command(results, proved)),
+    ]
 }
 
 /// Headings of the changelog, newest first, with the version of this one.
-#[must_use]
 pub fn revisions() -> String {
     let headings = CHANGELOG.lines().filter_map(|l| l.strip_prefix("## "));
     let all: Vec<&str> = headings.collect();

@@ -5,14 +5,13 @@ use rocking::integrator::Overturning;
 
 use crate::answers;
 use crate::credibility;
-use crate::error::ReportError;
-use crate::evidence::{self, EvidenceError, NOT_RUN, Proof};
+use crate::evidence::{self, NOT_RUN, Proof};
 use crate::findings;
 use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
 use crate::method;
-use crate::page::{Anchor, Answers, Chapter, ReportInput, ShownFigure};
+use crate::page::{Chapter, ReportInput, ShownFigure};
 use crate::recorded;
 use crate::timings::Timings;
 use rocking_common::findings::Findings;
@@ -38,7 +37,7 @@ const LEADING: [u32; 8] = [2, 4, 6, 7, 11, 12, 15, 17];
 /// they were handed in.
 ///
 /// # Errors
-/// [`ReportError`] where a figure cannot be drawn.
+/// Where a figure cannot be drawn.
 pub fn input(
     results: &Results,
     figures: &[Figure],
@@ -47,13 +46,9 @@ pub fn input(
     questions: &[Answer],
     proof: Option<&Proof>,
     signatures: &Signatures,
-) -> Result<ReportInput, ReportError> {
+) -> anyhow::Result<ReportInput> {
     let timings = Timings::kept()?;
-    let recorded = results
-        .embedded()
-        .then(recorded::recorded)
-        .transpose()
-        .map_err(ReportError::Recorded)?;
+    let recorded = results.embedded().then(recorded::recorded).transpose()?;
     let recorded = recorded.as_ref();
     // Of figures that both arms have, those of the paper's grid stand in the
     // annex.
@@ -66,24 +61,20 @@ pub fn input(
         .filter(|f| !other(f))
         .filter_map(|f| Some((f.heading.number()?, shown(f))))
         .collect();
-    let names: Vec<Anchor> = own
-        .iter()
-        .map(|(number, f)| (*number, (f.name.clone(), f.number.clone())))
-        .collect();
-    let (first, rest): (Vec<_>, Vec<_>) =
-        own.into_iter().partition(|(number, _)| FIRST.contains(number));
     let rows = answers::rows(
         results.embedded(),
         found,
         recorded,
         &timings,
         proof,
-        &names,
+        &own,
     );
-    let mut themes = findings::themes(found, recorded, &names);
+    let (first, rest): (Vec<_>, Vec<_>) =
+        own.into_iter().partition(|(number, _)| FIRST.contains(number));
+    let mut themes = findings::themes(found, recorded);
     for (number, figure) in rest {
-        let id = findings::anchor(findings::theme_of(number));
-        if let Some(one) = themes.iter_mut().find(|t| t.id == id) {
+        let theme = findings::theme_of(number);
+        if let Some(one) = themes.iter_mut().find(|t| t.theme == theme) {
             let leads = LEADING.contains(&number);
             let list = if leads { &mut one.figures } else { &mut one.more };
             list.push(figure);
@@ -92,29 +83,26 @@ pub fn input(
     let compared = || questions.iter().filter(|q| q.id == "suites");
     let work = [&results.ordinary, &results.pulse].map(answers::work);
     let suites = Chapter {
-        id: "suites",
-        title: "Suites".into(),
         text: compared().map(|q| q.answer.clone()).collect(),
         figures: drawn(figures, |f| f.heading.place == Place::Suites),
-        ..Chapter::default()
+        ..Chapter::titled("suites", "Suites")
     };
     let by_block = Chapter {
-        id: "suites-by-block",
-        title: "Suites: motions, and capacities block by block".into(),
         tables: compared().flat_map(|q| q.tables.clone()).collect(),
         figures: drawn(figures, |f| f.heading.place == Place::SuitesByBlock),
-        ..Chapter::default()
+        ..Chapter::titled(
+            "suites-by-block",
+            "Suites: motions, and capacities block by block",
+        )
     };
     let beyond = Chapter {
-        id: "beyond",
-        title: "Questions beyond the paper".into(),
         tables: questions
             .iter()
             .filter(|q| q.id != "suites")
             .flat_map(|q| answered(q, recorded))
             .collect(),
         figures: drawn(figures, |f| f.heading.place == Place::Beside),
-        ..Chapter::default()
+        ..Chapter::titled("beyond", "Questions beyond the paper")
     };
     let claims = &found.claims;
     let (ledger, mut trust) = (
@@ -126,8 +114,11 @@ pub fn input(
     let mut speed = timings.tables();
     let settings = speed.extract_if(.., |t| t.name == "speed-settings");
     let settings: Vec<PlainTable> = settings.collect();
-    let coverage =
-        proof.map(Proof::coverage).transpose().map_err(EvidenceError::from)?;
+    let coverage = proof.map(Proof::coverage).transpose()?;
+    let only = |id, title: &str, tables| Chapter {
+        tables,
+        ..Chapter::titled(id, title)
+    };
     Ok(ReportInput {
         title: TITLE.into(),
         subtitle: "Statistical property parameterization of simple rocking \
@@ -139,10 +130,8 @@ pub fn input(
         ]
         .concat(),
         signatures: signatures.shown(),
-        answers: Answers {
-            rows,
-            figures: first.into_iter().map(|(_, f)| f).collect(),
-        },
+        answers: rows,
+        first: first.into_iter().map(|(_, f)| f).collect(),
         columns: findings::columns(found, recorded),
         findings: themes,
         identities: findings::identities(found),
@@ -167,33 +156,29 @@ pub fn input(
                 .map(shown)
                 .collect(),
             folded: vec![Chapter {
-                id: "checks",
-                title: "Pulses, critical values, departure from similarity"
-                    .into(),
                 tables: evidence::checks(proof)?,
                 figures: drawn(charts, |c| {
                     c.heading.number() == Some(SIMILARITY)
                 }),
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "checks",
+                    "Pulses, critical values, departure from similarity",
+                )
             }],
             ..Chapter::default()
         },
         chapters: vec![
             Chapter {
-                id: "speed",
-                title: "Speed against error".into(),
                 text: vec![timings.plain()],
                 tables: settings,
                 figures: vec![ShownFigure {
                     number: "Speed".into(),
                     ..shown(&timings.figure())
                 }],
-                ..Chapter::default()
+                ..Chapter::titled("speed", "Speed against error")
             },
             suites,
             Chapter {
-                id: "limits",
-                title: "Limits and credibility".into(),
                 text: [
                     limits(results),
                     vec![format!(
@@ -203,65 +188,48 @@ pub fn input(
                     assessment.iter().map(credibility::levels).collect(),
                 ]
                 .concat(),
-                ..Chapter::default()
+                ..Chapter::titled("limits", "Limits and credibility")
             },
             Chapter {
-                id: "provenance",
-                title: "Provenance".into(),
                 list: provenance(results),
-                ..Chapter::default()
+                ..Chapter::titled("provenance", "Provenance")
             },
         ],
         annexes: vec![
             Chapter {
-                id: "blocks",
-                title: "The blocks, and the digits of three precisions".into(),
                 text: work.into(),
                 tables: [
                     vec![table_1()?],
                     proof.map(Proof::digits_table).into_iter().collect(),
                 ]
                 .concat(),
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "blocks",
+                    "The blocks, and the digits of three precisions",
+                )
             },
+            only(
+                "inference",
+                "Coverage of the intervals",
+                coverage.iter().map(|c| c.table()).collect(),
+            ),
             Chapter {
-                id: "inference",
-                title: "Coverage of the intervals".into(),
-                tables: coverage.iter().map(|c| c.table()).collect(),
-                ..Chapter::default()
-            },
-            Chapter {
-                id: "paper-s-grid",
-                title: "Figures on the paper's grid (arm A)".into(),
                 figures: drawn(figures, |f| other(&f)),
-                ..Chapter::default()
+                ..Chapter::titled(
+                    "paper-s-grid",
+                    "Figures on the paper's grid (arm A)",
+                )
             },
             beyond,
             by_block,
-            Chapter {
-                id: "credibility",
-                title: "Credibility".into(),
-                tables: assessment,
-                ..Chapter::default()
-            },
-            Chapter {
-                id: "comparison",
-                title: "Comparison with printed numbers".into(),
-                tables: trust,
-                ..Chapter::default()
-            },
-            Chapter {
-                id: "speed-tried",
-                title: "Speed: other tools, and settings tried".into(),
-                tables: speed,
-                ..Chapter::default()
-            },
-            Chapter {
-                id: "requirements",
-                title: "Requirements".into(),
-                tables: vec![ledger],
-                ..Chapter::default()
-            },
+            only("credibility", "Credibility", assessment),
+            only("comparison", "Comparison with printed numbers", trust),
+            only(
+                "speed-tried",
+                "Speed: other tools, and settings tried",
+                speed,
+            ),
+            only("requirements", "Requirements", vec![ledger]),
         ]
         .into_iter()
         .filter(|c| !(c.tables.is_empty() && c.figures.is_empty()))
@@ -317,15 +285,14 @@ pub fn table_1() -> Result<PlainTable, BlockError> {
         .collect::<Result<Vec<Vec<String>>, BlockError>>()?;
     let header =
         ["p (rad/s)", "alpha (rad)", "2b (m)", "2h (m)", "R (m)", "eta"];
-    Ok(PlainTable {
-        name: "table-01".into(),
-        title: "Table 1. The 15 blocks".into(),
-        reading: "Gravity 9.81 m/s2; eta is Housner's coefficient of \
-                  restitution, which the study does not use."
-            .into(),
-        header: header.map(String::from).into(),
+    Ok(PlainTable::new(
+        "table-01",
+        "Table 1. The 15 blocks",
+        "Gravity 9.81 m/s2; eta is Housner's coefficient of \
+                  restitution, which the study does not use.",
+        &header,
         rows,
-    })
+    ))
 }
 
 /// A length in m with three decimals, half a millimetre up as the paper
@@ -348,41 +315,31 @@ fn shown(figure: &Figure) -> ShownFigure {
         title: heading.title.clone(),
         reading: figure.reading.clone(),
         svg: figure.svg(),
-        csv_path: format!("data/{}.csv", heading.name),
     }
 }
 
 pub(super) fn provenance(results: &Results) -> Vec<(String, String)> {
     let setup = &results.plan.setup;
-    let mut out = vec![
-        ("Revisions".into(), head::revisions()),
-        (
-            "Restitution".into(),
-            format!("{}", setup.restitution.velocity_ratio()),
-        ),
-        (
-            "Overturning".into(),
-            match setup.overturning {
-                Overturning::Alpha => "|theta| reaches alpha".into(),
-                Overturning::HalfPi => "|theta| exceeds pi/2".into(),
-            },
-        ),
-        (
-            "Refinement".into(),
-            format!("{} in dimensionless intensity", setup.tolerance),
-        ),
-    ];
+    let overturning = match setup.overturning {
+        Overturning::Alpha => "|theta| reaches alpha",
+        Overturning::HalfPi => "|theta| exceeds pi/2",
+    };
+    let refinement = format!("{} in dimensionless intensity", setup.tolerance);
     let arms = results.plan.arms.iter();
     let arms: Vec<&str> = arms.map(|arm| arm.words()).collect();
-    out.push(("Arms of the grid".into(), arms.join("; ")));
+    let restitution = setup.restitution.velocity_ratio().to_string();
+    let mut out = vec![
+        ("Revisions".into(), head::revisions()),
+        ("Restitution".into(), restitution),
+        ("Overturning".into(), overturning.into()),
+        ("Refinement".into(), refinement),
+        ("Arms of the grid".into(), arms.join("; ")),
+    ];
     for suite in [&results.ordinary, &results.pulse] {
+        let (records, rule) = (suite.records.len(), &suite.component_rule);
         out.push((
             format!("Suite, {}", suite.kind),
-            format!(
-                "{} records, component: {}",
-                suite.records.len(),
-                suite.component_rule
-            ),
+            format!("{records} records, component: {rule}"),
         ));
         if let Some(remarks) = &suite.remarks {
             let name = format!("Remarks on records, {}", suite.kind);

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use anyhow::{Context as _, bail};
 use serde::Deserialize;
-use thiserror::Error;
 
 use rocking_common::findings::Claim;
 use rocking_common::paper::Verdict;
@@ -13,6 +13,9 @@ use rocking_proof::verdict::snapshot;
 
 /// The requirements, embedded.
 const REQUIREMENTS: &str = include_str!("../../requirements.toml");
+
+/// Their file.
+const PLACE: &str = "requirements.toml";
 
 /// Who requires something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -61,32 +64,21 @@ struct File {
     requirement: Vec<Requirement>,
 }
 
-/// Why there is no ledger.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum LedgerError {
-    /// The file is not of the expected form.
-    #[error("requirements.toml: {0}")]
-    Form(#[from] toml::de::Error),
-    /// Two requirements have one name.
-    #[error("requirements.toml: two requirements are named `{0}`")]
-    Duplicate(String),
-}
-
 /// The requirements, in the order of the file.
 ///
 /// # Errors
-/// [`LedgerError`] for unknown keys, missing fields and duplicate names.
-pub fn requirements() -> Result<Vec<Requirement>, LedgerError> {
+/// For unknown keys, missing fields and duplicate names.
+pub fn requirements() -> anyhow::Result<Vec<Requirement>> {
     parse(REQUIREMENTS)
 }
 
-fn parse(text: &str) -> Result<Vec<Requirement>, LedgerError> {
-    let file: File = toml::from_str(text)?;
+fn parse(text: &str) -> anyhow::Result<Vec<Requirement>> {
+    let file: File = toml::from_str(text).context(PLACE)?;
     let mut ids = BTreeSet::new();
     for requirement in &file.requirement {
         if !ids.insert(requirement.id.as_str()) {
-            return Err(LedgerError::Duplicate(requirement.id.clone()));
+            let id = &requirement.id;
+            bail!("{PLACE}: two requirements are named `{id}`");
         }
     }
     Ok(file.requirement)
@@ -109,7 +101,6 @@ pub struct Standing {
 
 impl Standing {
     /// Whether all evidence named was executed, and the cases passed.
-    #[must_use]
     pub fn is_met(&self) -> bool {
         self.named
             && !self.not_run
@@ -120,7 +111,6 @@ impl Standing {
 
 impl Requirement {
     /// Whether only tests prove it, whose results are in no file.
-    #[must_use]
     pub fn is_tests_alone(&self) -> bool {
         self.cases.is_empty()
             && self.findings.is_empty()
@@ -131,7 +121,6 @@ impl Requirement {
     /// How it stands, given the results of the declared cases, if there are
     /// any, and whether a claim was measured, a test is part of the gate, a
     /// figure was drawn.
-    #[must_use]
     pub fn standing(
         &self,
         results: Option<&snapshot::Results>,
@@ -194,12 +183,12 @@ fn fit(pattern: &str, id: &str) -> bool {
 /// are those that the run drew.
 ///
 /// # Errors
-/// [`LedgerError`] where the requirements cannot be read.
+/// Where the requirements cannot be read.
 pub fn table(
     results: Option<&snapshot::Results>,
     claims: &[Claim],
     figures: &[Figure],
-) -> Result<PlainTable, LedgerError> {
+) -> anyhow::Result<PlainTable> {
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
     let drawn = |number: u32| {
         let is = |f: &Figure| f.heading.number() == Some(number);
@@ -228,19 +217,19 @@ pub fn table(
     }
     let header =
         ["requirement", "source", "evidence", "state", "what it leaves open"];
-    Ok(PlainTable {
-        name: "ledger".into(),
-        title: "What was required, and what proves it".into(),
-        reading: format!(
+    Ok(PlainTable::new(
+        "ledger",
+        "What was required, and what proves it",
+        format!(
             "{met} of {} requirements have executed evidence and no failed \
              case; {by_tests} more rest on tests of the gate alone, whose \
              results are not in these files. A finding is evidence that the \
              claim was measured, whatever its verdict.",
             rows.len()
         ),
-        header: header.map(String::from).into(),
+        &header,
         rows,
-    })
+    ))
 }
 
 fn evidence(r: &Requirement, standing: &Standing, claims: &[Claim]) -> String {

@@ -3,7 +3,6 @@
 mod answers;
 pub mod credibility;
 pub mod diff;
-pub mod error;
 pub mod evidence;
 pub mod findings;
 pub mod head;
@@ -18,8 +17,6 @@ pub mod recorded;
 pub mod speed;
 pub mod stale;
 pub mod timings;
-
-pub use error::ReportError;
 
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,6 @@ use std::path::Path;
 use rocking::block::BlockError;
 
 use crate::answers;
-use crate::error::ReportError;
 use crate::evidence::{self, Proof};
 use crate::head::Signatures;
 use crate::input;
@@ -41,7 +40,6 @@ pub const FINDINGS: &str = "data/findings.json";
 /// A study's folder is known by its findings and its page. Results of the
 /// declared cases alone, which a study shows, are no hindrance; hidden files
 /// are none either.
-#[must_use]
 pub fn foreign(folder: &Path) -> Option<String> {
     let read = |name: &str| fs::read(folder.join(name)).ok();
     let findings = read(FINDINGS);
@@ -91,12 +89,12 @@ fn laid_out(files: Files) -> Files {
 /// if they were handed in.
 ///
 /// # Errors
-/// [`ReportError`] where a figure cannot be drawn.
+/// Where a figure cannot be drawn.
 pub fn files(
     study: &Study,
     proof: Option<&Proof>,
     signatures: &Signatures,
-) -> Result<Files, ReportError> {
+) -> anyhow::Result<Files> {
     let mut files = Files::new();
     let timed = Timings::kept()?.figure();
     let charts = evidence::charts()?;
@@ -171,11 +169,11 @@ fn single_csv(results: &Results) -> String {
 /// The answers of the page for people, of this study's suites alone.
 ///
 /// # Errors
-/// [`ReportError`] where the kept timings cannot be read.
+/// Where the kept timings cannot be read.
 pub fn answers_text(
     study: &Study,
     proof: Option<&Proof>,
-) -> Result<String, ReportError> {
+) -> anyhow::Result<String> {
     let rows = answers::rows(
         study.results.embedded(),
         &study.findings,
@@ -195,7 +193,6 @@ pub fn answers_text(
 }
 
 /// The findings among the claims as a table for people.
-#[must_use]
 pub fn claims_table(claims: &[Claim]) -> String {
     let mut out = String::new();
     for claim in claims {

@@ -1,8 +1,8 @@
 //! The report: one HTML file that reads without network and without
 //! scripts, on a phone, on paper, light or dark.
 //!
-//! [`page`] is a pure function: what it shows arrives as words and numbers
-//! already formatted, and the figures as SVG.
+//! [`page`] is a pure function: findings and cases arrive as they are, the
+//! rest as words and numbers already formatted, and the figures as SVG.
 
 mod figures;
 mod input;
@@ -16,10 +16,7 @@ use rocking_draw::colour;
 use input::Part;
 
 pub use figures::ShownFigure;
-pub use input::{
-    Anchor, AnswerRow, Answers, Chapter, Column, Family, Finding, Outcome,
-    ReportInput, ShownCase, Theme,
-};
+pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
 
 const STYLE: &str = include_str!("page/page.css");
 
@@ -34,7 +31,6 @@ const STYLE: &str = include_str!("page/page.css");
 /// assert!(html.starts_with("<!DOCTYPE html>"));
 /// assert!(html.contains("<h1>A &amp; B</h1>"));
 /// ```
-#[must_use]
 pub fn page(input: &ReportInput) -> String {
     let parts = sections::all(input);
     html! {

@@ -3,7 +3,7 @@
 use rocking_common::findings::{
     Claim, ClaimResult, Measured, Quantifier, Region, Unit,
 };
-use rocking_common::words::rounded;
+use rocking_common::words::{rounded, rounded_text};
 
 /// How a number is shown.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -67,7 +67,6 @@ impl Scale {
 }
 
 /// Two or three digits that matter; below 0.01 only that it is.
-#[must_use]
 pub fn number(x: f64) -> String {
     if x.is_nan() {
         return "none".into();
@@ -106,7 +105,6 @@ fn of_cells(claim: &Claim) -> bool {
 
 /// A result's value with its interval and unit: `12 % (8 to 17)`. Where the
 /// limit is about one cell of many, it is the share of the cells within it.
-#[must_use]
 pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
     let text = measured(result.measured(), scale(result.unit, region));
@@ -121,14 +119,12 @@ pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
 }
 
 /// The number of a cell of a claim, in the unit of the claim's limit.
-#[must_use]
 pub fn cell_text(claim: &Claim, value: Measured) -> String {
     measured(value, scale(Unit::One, claim.region))
 }
 
 /// Where a claim's values have to lie: `-5 to +5 %, in every cell`; "most"
 /// is more than half.
-#[must_use]
 pub fn rule_text(claim: &Claim) -> String {
     let (Some(quantifier), Some(region)) = (claim.quantifier, claim.region)
     else {
@@ -153,6 +149,45 @@ pub fn rule_text(claim: &Claim) -> String {
         Quantifier::AlmostAll => format!("{limits}, in 90 % of cells"),
         Quantifier::Most => format!("{limits}, in most cells"),
     }
+}
+
+/// What stands beside a result: cells, the deciding one, details, how the
+/// interval was made, records needed.
+pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
+    let mut remarks = Vec::new();
+    match &result.cells {
+        Some(cells) => remarks.push(format!(
+            "{} of {} cells inside, {} outside{}",
+            cells.inside,
+            cells.deciding,
+            cells.outside,
+            match cells.too_few {
+                0 => String::new(),
+                few => format!(", {few} with fewer than 30 records"),
+            }
+        )),
+        None => remarks.push(result.at.clone()),
+    }
+    if let Some(cell) = &result.deciding_cell {
+        let value = cell_text(claim, cell.measured);
+        remarks.push(format!("deciding: {}, {value}", cell.name));
+    } else if result.cells.is_some() {
+        remarks.push(format!("deciding: {}", result.at));
+    }
+    for detail in &result.details {
+        let ends = detail.measured.interval.map_or(String::new(), |(a, b)| {
+            format!(" ({} to {})", rounded_text(a), rounded_text(b))
+        });
+        let value = rounded_text(detail.measured.value);
+        remarks.push(format!("{}: {value}{ends}", detail.name));
+    }
+    if let Some(interval) = result.interval {
+        remarks.push(format!("95 % interval: {}", interval.words()));
+    }
+    if let Some(needed) = result.records_needed {
+        remarks.push(format!("about {needed} records would decide"));
+    }
+    remarks
 }
 
 #[cfg(test)]

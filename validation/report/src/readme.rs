@@ -1,6 +1,6 @@
 //! The answers in the README: those of the page.
 
-use thiserror::Error;
+use anyhow::Context as _;
 
 use crate::answers;
 use crate::evidence::Proof;
@@ -12,43 +12,33 @@ use rocking_common::findings::Findings;
 /// Marks around the table.
 const MARKS: [&str; 2] = ["<!-- results -->\n", "<!-- end of results -->"];
 
-/// Why the table could not be made.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ReadmeError {
-    /// The README has no place for the table.
-    #[error("README.md: expected a table between {:?} and {:?}", MARKS[0], MARKS[1])]
-    Marks,
-    /// The findings of the recorded suites cannot be read.
-    #[error("{0}")]
-    Recorded(String),
-    /// The kept timings cannot be read.
-    #[error("fixtures/speed: {0}")]
-    Timings(#[from] csv::Error),
-}
-
 /// `readme` with the table of these findings and these results of the
 /// declared cases.
 ///
 /// # Errors
-/// [`ReadmeError`] for a README without marks, and for kept files that
+/// For a README without marks, and for kept files that
 /// cannot be read.
 pub fn renewed(
     readme: &str,
     findings: &Findings,
     proof: &Proof,
-) -> Result<String, ReadmeError> {
+) -> anyhow::Result<String> {
     let around = || {
         let (before, rest) = readme.split_once(MARKS[0])?;
         Some((before, rest.split_once(MARKS[1])?.1))
     };
-    let (before, after) = around().ok_or(ReadmeError::Marks)?;
+    let (before, after) = around().with_context(|| {
+        format!(
+            "README.md: expected a table between {:?} and {:?}",
+            MARKS[0], MARKS[1]
+        )
+    })?;
     let table = table(findings, proof)?;
     Ok([before, MARKS[0], &table, MARKS[1], after].concat())
 }
 
-fn table(findings: &Findings, proof: &Proof) -> Result<String, ReadmeError> {
-    let recorded = recorded().map_err(ReadmeError::Recorded)?;
+fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
+    let recorded = recorded()?;
     let timings = Timings::kept()?;
     let rows = answers::rows(
         true,

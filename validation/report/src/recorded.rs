@@ -1,5 +1,7 @@
 //! The committed findings of the recorded suites.
 
+use anyhow::Context as _;
+
 use rocking_common::findings::Findings;
 
 /// Findings of the recorded suites: values, intervals, verdicts, record names
@@ -12,7 +14,8 @@ const RECORDED: &str =
 ///
 /// # Errors
 /// What the reader found instead of findings of this schema.
-pub fn recorded() -> Result<Findings, String> {
+pub fn recorded() -> anyhow::Result<Findings> {
     Findings::parse(RECORDED)
-        .map_err(|e| format!("fixtures/recorded/findings.json: {e}"))
+        .map_err(anyhow::Error::msg)
+        .context("fixtures/recorded/findings.json")
 }

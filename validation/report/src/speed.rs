@@ -14,41 +14,26 @@ pub mod rest;
 pub mod singles;
 pub mod throughput;
 
-use rayon::ThreadPoolBuildError;
-use rocking::block::BlockError;
-use rocking::ida::IdaError;
-use rocking::integrator::SceneError;
-use rocking::record::AccelerogramError;
-use rocking::statistics::lilliefors::LillieforsError;
-use thiserror::Error;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
-use rocking_common::suites::StudySuiteError;
+/// Rows of a table as [`csv`] writes it.
+///
+/// # Errors
+/// The reader's word on what was wrong.
+pub fn parse<T: DeserializeOwned>(text: &str) -> Result<Vec<T>, csv::Error> {
+    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
+}
 
-/// Why something could not be measured.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SpeedError {
-    /// A block outside the model's range.
-    #[error(transparent)]
-    Block(#[from] BlockError),
-    /// A record that is none.
-    #[error(transparent)]
-    Accelerogram(#[from] AccelerogramError),
-    /// A chain that cannot be done.
-    #[error(transparent)]
-    Ida(#[from] IdaError),
-    /// A run that cannot be done.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// A simulation that cannot be done.
-    #[error(transparent)]
-    Lilliefors(#[from] LillieforsError),
-    /// A suite that cannot be made.
-    #[error(transparent)]
-    Suite(#[from] StudySuiteError),
-    /// Threads that cannot be started.
-    #[error(transparent)]
-    Threads(#[from] ThreadPoolBuildError),
+/// Rows as CSV.
+fn csv<T: Serialize>(
+    rows: impl Iterator<Item = T>,
+) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row)?;
+    }
+    writer.into_inner().map_err(|e| e.into_error().into())
 }
 
 #[cfg(test)]

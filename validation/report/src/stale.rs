@@ -4,43 +4,24 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
+use anyhow::Context as _;
 
-use crate::diff::{DiffError, Results, compare};
+use crate::diff::{Results, compare};
 use crate::output::{CASES, FINDINGS, Files};
 use rocking_common::table::cells;
 
 /// Numbers without a stated interval may change by this share.
 const RELATIVE: f64 = 0.01;
 
-/// Why a report cannot be compared.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum StaleError {
-    /// A folder or file that cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
-    Read {
-        /// The path.
-        path: PathBuf,
-        /// What the system said.
-        #[source]
-        source: io::Error,
-    },
-    /// Findings that are none.
-    #[error(transparent)]
-    Diff(#[from] DiffError),
-}
-
 /// What differs between the report in `out` and `files`; `None` if nothing
 /// does. Findings come first, as [`crate::diff`] tells them, then tables by
 /// their first row, then drawings and the page by name.
 ///
 /// # Errors
-/// [`StaleError`] where the report cannot be read.
-pub fn stale(out: &Path, files: &Files) -> Result<Option<String>, StaleError> {
+/// Where the report cannot be read.
+pub fn stale(out: &Path, files: &Files) -> anyhow::Result<Option<String>> {
     let there = names(out)?;
     let mut words = String::new();
     let mut drawn = Vec::new();
@@ -80,19 +61,28 @@ pub fn stale(out: &Path, files: &Files) -> Result<Option<String>, StaleError> {
 }
 
 /// What the findings say differently; empty where they agree.
-fn findings(out: &Path, files: &Files) -> Result<String, StaleError> {
+fn findings(out: &Path, files: &Files) -> anyhow::Result<String> {
     let path = out.join(FINDINGS);
     let Some(new) = files.get(FINDINGS) else { return Ok(String::new()) };
     if !path.exists() {
         return Ok(String::new());
     }
-    let old = read(&path)?;
-    if old == *new {
-        return Ok(String::new());
+    Ok(compared(&path, &text(&read(&path)?), &text(new), RELATIVE))
+}
+
+/// What two texts of one file of results say differently, as
+/// [`crate::diff::compare`] finds it; empty where they agree. Results of
+/// another form are replaced all the same, so that is no error.
+pub fn compared(path: &Path, old: &str, new: &str, relative: f64) -> String {
+    if old == new {
+        return String::new();
     }
-    let old = Results::from_text(&path, &text(&old))?;
-    let new = Results::from_text(&path, &text(new))?;
-    Ok(compare(&old, &new, RELATIVE)?.text(false) + "\n")
+    let attempt = || {
+        let old = Results::from_text(path, old)?;
+        let new = Results::from_text(path, new)?;
+        anyhow::Ok(compare(&old, &new, relative)?.text(false) + "\n")
+    };
+    attempt().unwrap_or_else(|error| format!("not compared: {error:#}\n"))
 }
 
 /// How two tables differ: rows that do, and the first of them by its cells.
@@ -133,16 +123,16 @@ fn rows(old: &str, new: &str) -> String {
 }
 
 /// The files of a report in `out`: its page, its data, its drawings.
-fn names(out: &Path) -> Result<BTreeSet<String>, StaleError> {
+fn names(out: &Path) -> anyhow::Result<BTreeSet<String>> {
     let mut names = BTreeSet::new();
     for folder in ["", "data", "figures"] {
         let path = out.join(folder);
         if !folder.is_empty() && !path.exists() {
             continue;
         }
-        let failed = |source| StaleError::Read { path: path.clone(), source };
-        for entry in fs::read_dir(&path).map_err(failed)? {
-            let entry = entry.map_err(failed)?;
+        let failed = || cannot_read(&path);
+        for entry in fs::read_dir(&path).with_context(failed)? {
+            let entry = entry.with_context(failed)?;
             let name = entry.file_name().to_string_lossy().into_owned();
             if folder.is_empty() {
                 if name == "index.html" {
@@ -156,9 +146,12 @@ fn names(out: &Path) -> Result<BTreeSet<String>, StaleError> {
     Ok(names)
 }
 
-fn read(path: &Path) -> Result<Vec<u8>, StaleError> {
-    fs::read(path)
-        .map_err(|source| StaleError::Read { path: path.to_owned(), source })
+fn read(path: &Path) -> anyhow::Result<Vec<u8>> {
+    fs::read(path).with_context(|| cannot_read(path))
+}
+
+fn cannot_read(path: &Path) -> String {
+    format!("cannot read {}", path.display())
 }
 
 fn text(bytes: &[u8]) -> String {

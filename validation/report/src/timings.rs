@@ -3,9 +3,10 @@
 
 mod tables;
 
-use crate::speed::measured::{self, Total, totals};
+use crate::speed::measured::{Total, totals};
+use crate::speed::parse;
 use crate::speed::singles::BASE;
-use crate::speed::throughput::{self, Throughput};
+use crate::speed::throughput::Throughput;
 use rocking_common::words::{range, rounded};
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
@@ -76,15 +77,12 @@ impl Timings {
     /// The timings that come with the program.
     ///
     /// # Errors
-    /// [`csv::Error`] where a table has been damaged.
-    pub fn kept() -> Result<Self, csv::Error> {
-        let pairs = csv::Reader::from_reader(CONDITIONS.as_bytes())
-            .deserialize()
-            .collect::<Result<_, _>>();
+    /// Where a table has been damaged.
+    pub fn kept() -> anyhow::Result<Self> {
         Ok(Self {
-            singles: totals(&measured::parse(SINGLES)?, BASE),
-            many: throughput::parse(MANY)?,
-            conditions: pairs?,
+            singles: totals(&parse(SINGLES)?, BASE),
+            many: parse(MANY)?,
+            conditions: parse(CONDITIONS)?,
             window_step: table(WINDOW_STEP)?,
         })
     }
@@ -117,7 +115,6 @@ impl Timings {
     }
 
     /// Error against time and work.
-    #[must_use]
     pub fn figure(&self) -> Figure {
         let series = |x: fn(&Total) -> f64, y: fn(&Total) -> f64| {
             let line = |(label, tool, method, without): &(
@@ -219,7 +216,6 @@ impl Timings {
     }
 
     /// Errors against double-double, in a sentence.
-    #[must_use]
     pub fn accuracy(&self) -> String {
         let Some(own) = self.own() else { return String::new() };
         format!(
@@ -235,7 +231,6 @@ impl Timings {
     }
 
     /// The error of the peak, in a few words.
-    #[must_use]
     pub fn error(&self) -> String {
         self.own().map_or(String::new(), |own| {
             format!(
@@ -250,7 +245,6 @@ impl Timings {
 
     /// Whether it is faster than the compiled peer at its best, at no larger
     /// error, and how fast.
-    #[must_use]
     pub fn speed(&self) -> (String, String) {
         let ratio = |work: &str| {
             let ours = self.of_many(work)?.rate_per_s();
@@ -295,7 +289,6 @@ impl Timings {
     }
 
     /// How fast, in a sentence.
-    #[must_use]
     pub fn plain(&self) -> String {
         let peer = || {
             let rate = self.of_many(STOPPED.work)?.rate_per_s();

@@ -16,11 +16,10 @@ use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};
 use rocking_proof::cases::{Cost, load_all};
 use rocking_proof::methods::{self, digits, digits_csv};
 use rocking_proof::verdict::{Outcome, run_all, snapshot};
-use rocking_report::diff::{self, Results};
 use rocking_report::evidence::Proof;
 use rocking_report::output::{FINDINGS, Files};
 use rocking_report::readme;
-use rocking_report::stale::{StaleError, stale};
+use rocking_report::stale::{self, stale};
 
 /// Renews every committed file that holds results of this program: the pins
 /// in tests/pins, reports/, and the table of results in README.md.
@@ -100,11 +99,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let findings = Findings::parse(&findings.unwrap_or_default())
         .map_err(Failure::gate)?;
     let readme = readme::renewed(&file(README)?, &findings, &proof)?;
-    match stale(Path::new(REPORTS), &report) {
-        Ok(differs) => words += &differs.unwrap_or_default(),
-        Err(StaleError::Diff(error)) => words += &not_compared(&error),
-        Err(error) => return Err(error.into()),
-    }
+    words += &stale(Path::new(REPORTS), &report)?.unwrap_or_default();
     for (name, content) in &report {
         put(REPORTS, name, content.clone());
     }
@@ -229,22 +224,11 @@ fn file(path: &str) -> Result<String, Failure> {
 
 /// What the results of the declared cases say differently.
 fn compared(old: &str, new: &str) -> String {
-    if old == new || old.is_empty() {
+    if old.is_empty() {
         return String::new();
     }
-    let path = Path::new(REPORTS).join(CASES);
-    let attempt = || {
-        let old = Results::from_text(&path, old)?;
-        let new = Results::from_text(&path, new)?;
-        // A declared tolerance is stated for every number.
-        Ok(diff::compare(&old, &new, 0.0)?.text(false) + "\n")
-    };
-    attempt().unwrap_or_else(|error| not_compared(&error))
-}
-
-/// Results of another form are replaced all the same.
-fn not_compared(error: &diff::DiffError) -> String {
-    format!("not compared: {error}\n")
+    // A declared tolerance is stated for every number.
+    stale::compared(&Path::new(REPORTS).join(CASES), old, new, 0.0)
 }
 
 /// Those of the files that are not as they are in the folder; adds to `words`

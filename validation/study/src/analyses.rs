@@ -18,7 +18,6 @@ use rocking::block::Block;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 
-use crate::error::StudyError;
 use crate::runs::Setup;
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, REFERENCE, position};
@@ -28,12 +27,12 @@ impl Plan {
     /// Runs everything for one suite.
     ///
     /// # Errors
-    /// [`StudyError`] where an analysis cannot be done.
+    /// Where an analysis cannot be done.
     pub fn run(
         &self,
         suite: &StudySuite,
         progress: &ProgressBar,
-    ) -> Result<SuiteResults, StudyError> {
+    ) -> anyhow::Result<SuiteResults> {
         let records: Vec<NormalisedRecord> = suite
             .motions
             .iter()
@@ -84,7 +83,7 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<(Vec<ArmCurves>, Work), StudyError> {
+    ) -> anyhow::Result<(Vec<ArmCurves>, Work)> {
         let method = Adjust::RecordScaling;
         let done = || progress.inc(1);
         let chains =
@@ -101,7 +100,7 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<ArmCurves>, StudyError> {
+    ) -> anyhow::Result<Vec<ArmCurves>> {
         let drawn = self.drawn();
         let references: Vec<Block> = (0..FREQUENCIES_RAD_S.len())
             .map(|frequency| blocks[position(frequency, REFERENCE)])

@@ -7,8 +7,6 @@ use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
 use rocking::integrator::{Arithmetic, Certified, Certify, Scene, certify};
 
-use crate::error::StudyError;
-
 /// What is known of outcomes and peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certainty {
@@ -60,12 +58,12 @@ impl Ends {
 /// overturnings among them again.
 ///
 /// # Errors
-/// [`StudyError`] where a level cannot be run again.
+/// Where a level cannot be run again.
 pub fn certainty(
     analyses: &[Analysis],
     records: &[NormalisedRecord],
     runs: &[Vec<IdaCurve>],
-) -> Result<Certainty, StudyError> {
+) -> anyhow::Result<Certainty> {
     let mut out = Certainty::default();
     for (analysis, curves) in analyses.iter().zip(runs) {
         out.unresolved +=
@@ -79,7 +77,7 @@ pub fn certainty(
         let fates: Vec<Certified> = open
             .par_iter()
             .map(|(r, point)| again(analysis, &records[*r], point))
-            .collect::<Result<_, StudyError>>()?;
+            .collect::<anyhow::Result<_>>()?;
         let first = |curve: &IdaCurve| {
             curve.overturning.map_or(f64::INFINITY, |first| first.im())
         };
@@ -116,7 +114,7 @@ fn again(
     analysis: &Analysis,
     record: &NormalisedRecord,
     point: &IdaPoint,
-) -> Result<Certified, StudyError> {
+) -> anyhow::Result<Certified> {
     let block = rocking::block::Block::try_new(
         point.slenderness_rad,
         analysis.block.frequency_rad_s(),
@@ -136,7 +134,7 @@ fn next(
     analysis: &Analysis,
     record: &NormalisedRecord,
     point: &IdaPoint,
-) -> Result<f64, StudyError> {
+) -> anyhow::Result<f64> {
     let further = Analysis {
         resurrections: Some(Resurrections::Multiple(3.0)),
         refine: None,

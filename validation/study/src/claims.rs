@@ -6,7 +6,6 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::error::StudyError;
 use crate::inference::{Draws, Replicated, Rule, judge, share};
 use crate::measures::{Measure, Source};
 use crate::results::Results;
@@ -156,11 +155,8 @@ pub fn limit_of(measure: Measure) -> f64 {
 /// All claims, with what came out.
 ///
 /// # Errors
-/// [`StudyError`] where a measure cannot be computed.
-pub fn all(
-    results: &Results,
-    draws: &Draws,
-) -> Result<Vec<Claim>, StudyError> {
+/// Where a measure cannot be computed.
+pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
     let shares = shares::all(results, draws);
     declared()
         .iter()
@@ -173,7 +169,7 @@ fn measured(
     results: &Results,
     draws: &Draws,
     shares: &[Shares],
-) -> Result<Claim, StudyError> {
+) -> anyhow::Result<Claim> {
     let mut found = Vec::new();
     if let (Some(measure), Some(quantifier), Some(region)) =
         (claim.measure, claim.quantifier, claim.region)

@@ -12,7 +12,6 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use serde::Deserialize;
 
 use crate::analyses::Plan;
-use crate::error::StudyError;
 
 const INCH_M: f64 = 0.0254;
 
@@ -54,8 +53,8 @@ impl Item {
     /// The homogeneous block of this size.
     ///
     /// # Errors
-    /// [`StudyError`] for a size that is not positive.
-    pub fn block(&self) -> Result<Block, StudyError> {
+    /// For a size that is not positive.
+    pub fn block(&self) -> anyhow::Result<Block> {
         let (depth, height) = (self.depth_m(), self.height_m());
         Ok(Block::from_dimensions(depth, height, STANDARD_GRAVITY_M_S2)?)
     }
@@ -82,12 +81,12 @@ impl Plan {
     /// Curves of the [`items`], by item, then by record, in the common arm.
     ///
     /// # Errors
-    /// [`StudyError`] where an analysis cannot be done.
+    /// Where an analysis cannot be done.
     pub(super) fn contents(
         &self,
         records: &[NormalisedRecord],
         progress: &ProgressBar,
-    ) -> Result<Vec<Vec<ResponseCurve>>, StudyError> {
+    ) -> anyhow::Result<Vec<Vec<ResponseCurve>>> {
         let blocks: Vec<Block> =
             items().iter().map(Item::block).collect::<Result<_, _>>()?;
         progress.inc_length((blocks.len() * records.len()) as u64);

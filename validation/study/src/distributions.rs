@@ -6,7 +6,6 @@ use rocking::statistics::acceptance::NullBand;
 use rocking::statistics::lilliefors::Assessment;
 
 use crate::analyses::SuiteResults;
-use crate::error::StudyError;
 use crate::normality::{accepted_share, along, null_band};
 use crate::runs::capacities;
 use rocking_common::paper::{
@@ -61,7 +60,7 @@ pub struct Distributions {
 pub fn of_suite(
     suite: &SuiteResults,
     banded: Arm,
-) -> Result<Vec<Distributions>, StudyError> {
+) -> anyhow::Result<Vec<Distributions>> {
     let levels = demands();
     let mut out = Vec::new();
     for arm in &suite.arms {
@@ -93,7 +92,7 @@ fn block(
     position: usize,
     pga: &[Vec<f64>],
     banded: bool,
-) -> Result<BlockSamples, StudyError> {
+) -> anyhow::Result<BlockSamples> {
     let slendernesses = SLENDERNESSES_RAD.len();
     let p_rad_s = FREQUENCIES_RAD_S[position / slendernesses];
     let alpha_rad = SLENDERNESSES_RAD[position % slendernesses];
@@ -124,11 +123,11 @@ fn block(
 /// Samples by level: capacities of all records of a block.
 ///
 /// # Errors
-/// [`StudyError`] for a level that is not positive.
+/// For a level that is not positive.
 fn samples(
     curves: &[ResponseCurve],
     levels: &[f64],
-) -> Result<Vec<Vec<f64>>, StudyError> {
+) -> anyhow::Result<Vec<Vec<f64>>> {
     let by_record: Vec<Vec<f64>> = curves
         .par_iter()
         .map(|curve| capacities(curve, levels, InversionRule::Median))

@@ -7,8 +7,7 @@ use rocking::statistics::paired::Pairs;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
 use crate::analyses::{Apart, SuiteResults};
-use crate::error::StudyError;
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::capacities;
 use crate::sensitivities::Varied;
 use rocking_common::findings::Measured;
@@ -46,7 +45,7 @@ pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
 
 /// 16, 50 and 84 % quantiles of the default type; what was never reached
 /// counts as infinite.
-pub(crate) fn three_quantiles(values: &[f64]) -> Result<[f64; 3], StudyError> {
+pub(crate) fn three_quantiles(values: &[f64]) -> anyhow::Result<[f64; 3]> {
     let sample = ExtendedSample::try_new(values)?;
     let at = |p| QuantileType::default().of_extended(&sample, p);
     Ok([at(0.16)?, at(0.5)?, at(0.84)?])
@@ -94,14 +93,14 @@ pub fn single_rows(suite: &SuiteResults) -> Vec<SingleRow> {
 /// Paired capacities at a demand: another choice over the study's.
 ///
 /// # Errors
-/// [`StudyError`] where a curve cannot be inverted.
+/// Where a curve cannot be inverted.
 pub fn varied_ratios(
     results: &Results,
     varied: &Varied,
     demand: f64,
-) -> Result<Pairs, StudyError> {
+) -> anyhow::Result<Pairs> {
     let curves = results.ordinary.curves(results.plan.common());
-    let base = &curves.ok_or(StudyError::NoArm)?
+    let base = &curves.ok_or_else(no_arm)?
         [position(varied.frequency, varied.slenderness)];
     let (mut a, mut b) = (Vec::new(), Vec::new());
     for (curve, base) in varied.curves.iter().zip(base) {

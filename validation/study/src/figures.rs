@@ -8,7 +8,6 @@ mod single;
 
 pub(crate) use ratios::adjusted_boxes;
 
-use crate::error::StudyError;
 use crate::inference::Draws;
 use crate::results::Results;
 use rocking_draw::figures::Figure;
@@ -17,11 +16,8 @@ use rocking_draw::figures::Figure;
 /// drawn. Bands are of these draws of the records.
 ///
 /// # Errors
-/// [`StudyError`] where a curve cannot be read.
-pub fn all(
-    results: &Results,
-    draws: &Draws,
-) -> Result<Vec<Figure>, StudyError> {
+/// Where a curve cannot be read.
+pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
     let drawn = results.plan.drawn();
     let mut out = vec![single::sketch()];
     let one = results.plan.common();

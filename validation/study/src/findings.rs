@@ -4,7 +4,6 @@ use rocking::record::{AsideCount, SetAside};
 use rocking::statistics::Proportion;
 
 use crate::analyses::{Plan, SuiteResults};
-use crate::error::StudyError;
 use crate::estimates;
 use crate::figures::adjusted_boxes;
 use crate::inference::LEVEL;
@@ -22,12 +21,12 @@ use rocking_draw::figures::Stripe;
 /// All findings of a study.
 ///
 /// # Errors
-/// [`StudyError`] where a number cannot be computed.
+/// Where a number cannot be computed.
 pub fn all(
     results: &Results,
     claims: Vec<Claim>,
     answers: &[Answer],
-) -> Result<Findings, StudyError> {
+) -> anyhow::Result<Findings> {
     Ok(Findings {
         schema: SCHEMA,
         version: env!("CARGO_PKG_VERSION").into(),
@@ -260,7 +259,7 @@ fn single(results: &Results) -> Table {
     }
 }
 
-fn varied(results: &Results) -> Result<Table, StudyError> {
+fn varied(results: &Results) -> anyhow::Result<Table> {
     let mut rows = Vec::new();
     for v in &results.varied {
         let pairs = estimates::varied_ratios(results, v, 1.0)?;
@@ -291,7 +290,7 @@ fn varied(results: &Results) -> Result<Table, StudyError> {
 /// Figure 9, a row a box: usable count with its exact 95 % interval, and
 /// median; the same apart by whether the adjusted slenderness is within the
 /// paper's.
-fn adjustment(results: &Results) -> Result<Table, StudyError> {
+fn adjustment(results: &Results) -> anyhow::Result<Table> {
     let suite = &results.ordinary;
     let mut rows = Vec::new();
     for arm in results.plan.drawn() {
@@ -354,7 +353,7 @@ fn adjustment(results: &Results) -> Result<Table, StudyError> {
 }
 
 /// Of as many records of the kind, how many would be usable.
-fn usable(stripe: &Stripe) -> Result<Measured, StudyError> {
+fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
     let share = Proportion::try_new(stripe.usable, stripe.records)?;
     let (low, high) = share.interval(LEVEL)?;
     let n = stripe.records as f64;

@@ -6,7 +6,6 @@ pub mod certainty;
 pub mod claims;
 pub mod contents;
 pub mod distributions;
-pub mod error;
 pub mod estimates;
 pub mod figures;
 pub mod findings;
@@ -23,5 +22,4 @@ mod stripes;
 mod ties;
 mod whole;
 
-pub use error::StudyError;
 pub use whole::Study;

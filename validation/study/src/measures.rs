@@ -168,7 +168,7 @@ impl Measure {
     /// The cells of the measure; none where what it needs was not run.
     ///
     /// # Errors
-    /// [`StudyError`](crate::error::StudyError) where a curve cannot be read.
+    /// Where a curve cannot be read.
     pub fn prepare(self, source: &Source<'_>) -> Found {
         (self.row().prepare)(source)
     }

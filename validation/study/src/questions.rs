@@ -19,7 +19,6 @@ mod trimming;
 
 pub use answer::Answer;
 
-use crate::error::StudyError;
 use crate::inference::Draws;
 use crate::results::Results;
 use rocking_common::findings::Question;
@@ -27,12 +26,12 @@ use rocking_common::findings::Question;
 /// All answers, in a fixed order.
 ///
 /// # Errors
-/// [`StudyError`] where a number cannot be computed.
+/// Where a number cannot be computed.
 pub fn all(
     results: &Results,
     draws: &Draws,
     full: bool,
-) -> Result<Vec<Answer>, StudyError> {
+) -> anyhow::Result<Vec<Answer>> {
     Ok(vec![
         grid::answer(results)?,
         nulls::answer(results)?,

@@ -1,11 +1,17 @@
 //! What the analyses gave: what claims, questions, figures and findings read.
 
+use anyhow::anyhow;
+
 use crate::analyses::{Plan, SuiteResults};
 use crate::distributions::{BlockSamples, Distributions};
-use crate::error::StudyError;
 use crate::inference::Draws;
 use crate::sensitivities::Varied;
 use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
+
+/// Refuses to read an arm that was not run.
+pub(crate) fn no_arm() -> anyhow::Error {
+    anyhow!("no arm of the grid: expected one of A, B, C")
+}
 
 /// The analyses of both suites.
 #[derive(Clone, Debug)]
@@ -58,17 +64,17 @@ impl Results {
     /// One block of the ordinary suite.
     ///
     /// # Errors
-    /// [`StudyError::NoArm`] if the arm was not run.
+    /// If the arm was not run.
     pub(crate) fn ordinary_block(
         &self,
         arm: Arm,
         intensity: Intensity,
         frequency: usize,
         slenderness: usize,
-    ) -> Result<&BlockSamples, StudyError> {
+    ) -> anyhow::Result<&BlockSamples> {
         let kind = self.ordinary.kind;
         let found = self.distributions(kind, arm, intensity);
-        let found = found.ok_or(StudyError::NoArm)?;
+        let found = found.ok_or_else(no_arm)?;
         Ok(&found.blocks[position(frequency, slenderness)])
     }
 }

@@ -10,7 +10,6 @@ use rocking::integrator::{
 };
 
 use crate::certainty::{Certainty, certainty};
-use crate::error::StudyError;
 use rocking_common::curves::Execution;
 use rocking_common::paper::Arm;
 
@@ -61,7 +60,7 @@ impl Setup {
     /// are one scan. `done` is called after each chain.
     ///
     /// # Errors
-    /// [`StudyError`] where a record cannot be scaled, or there is no such
+    /// Where a record cannot be scaled, or there is no such
     /// block.
     pub fn chains(
         &self,
@@ -70,7 +69,7 @@ impl Setup {
         arms: &[Arm],
         adjust: Adjust,
         done: impl Fn() + Sync,
-    ) -> Result<Chains, StudyError> {
+    ) -> anyhow::Result<Chains> {
         let scans = Self::scans(arms);
         let analyses: Vec<Analysis> = scans
             .iter()
@@ -94,7 +93,7 @@ impl Setup {
                     })
                     .collect()
             })
-            .collect::<Result<_, StudyError>>()?;
+            .collect::<anyhow::Result<_>>()?;
         Ok(Chains {
             curves,
             analyses: all().map(|run| run.analyses).sum(),
@@ -117,14 +116,14 @@ impl Setup {
     /// record, or by adjusting the slenderness.
     ///
     /// # Errors
-    /// [`StudyError`] where there is no such block or scale.
+    /// Where there is no such block or scale.
     pub fn demand(
         &self,
         block: Block,
         record: &NormalisedRecord,
         im: f64,
         adjust: Adjust,
-    ) -> Result<f64, StudyError> {
+    ) -> anyhow::Result<f64> {
         let analysis = self.analysis(block, Arm::A, adjust);
         Ok(ida::demand_at(record, &analysis, im)?.edp())
     }
@@ -136,7 +135,7 @@ impl Setup {
         record: &NormalisedRecord,
         pga_g: f64,
         observe: &Observe,
-    ) -> Result<Response, StudyError> {
+    ) -> anyhow::Result<Response> {
         let scaled = ScaledRecord::to_pga(record, pga_g);
         let scene = Scene {
             block,
@@ -153,14 +152,14 @@ impl Setup {
     /// when overturned).
     ///
     /// # Errors
-    /// [`StudyError`] where the record cannot be scaled so.
+    /// Where the record cannot be scaled so.
     pub fn history(
         &self,
         block: Block,
         record: &NormalisedRecord,
         im: f64,
         interval_s: f64,
-    ) -> Result<(Vec<f64>, f64), StudyError> {
+    ) -> anyhow::Result<(Vec<f64>, f64)> {
         let pga_g = im * uplift_threshold(&block, Model::Nonlinear);
         let observe = Observe {
             history_interval_s: Some(interval_s),
@@ -180,12 +179,12 @@ impl Setup {
 /// was never reached.
 ///
 /// # Errors
-/// [`StudyError`] for a level that is not positive.
+/// For a level that is not positive.
 pub fn capacities(
     curve: &ResponseCurve,
     levels: &[f64],
     rule: InversionRule,
-) -> Result<Vec<f64>, StudyError> {
+) -> anyhow::Result<Vec<f64>> {
     levels.iter().map(|e| Ok(curve.capacity(*e, rule)?.im())).collect()
 }
 

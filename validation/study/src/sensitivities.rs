@@ -8,7 +8,6 @@ use rocking::ida::Adjust;
 use rocking::integrator::Overturning;
 
 use crate::analyses::Plan;
-use crate::error::StudyError;
 use crate::runs::Setup;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use rocking_common::suites::StudySuite;
@@ -60,7 +59,7 @@ impl Choice {
         }
     }
 
-    fn setup(self, setup: Setup, block: &Block) -> Result<Setup, StudyError> {
+    fn setup(self, setup: Setup, block: &Block) -> anyhow::Result<Setup> {
         let restitution = match self {
             Self::Eta085 => Restitution::constant(0.85)?,
             Self::Eta097 => Restitution::constant(0.97)?,
@@ -94,12 +93,12 @@ impl Plan {
     /// Runs the other choices on a suite: p = 3 alone, or all blocks.
     ///
     /// # Errors
-    /// [`StudyError`] where an analysis cannot be done.
+    /// Where an analysis cannot be done.
     pub fn sensitivities(
         &self,
         suite: &StudySuite,
         full: bool,
-    ) -> Result<Vec<Varied>, StudyError> {
+    ) -> anyhow::Result<Vec<Varied>> {
         let study: Vec<Option<NormalisedRecord>> = suite
             .motions
             .iter()

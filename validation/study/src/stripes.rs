@@ -3,7 +3,6 @@
 use rocking::statistics::paired::Pairs;
 
 use crate::analyses::{StripeDemands, SuiteResults};
-use crate::error::StudyError;
 use rocking_common::paper::{
     Arm, REFERENCE, SLENDERNESSES_RAD, STRIPES, position,
 };
@@ -22,7 +21,7 @@ pub(crate) fn pairs(
     stripes: &StripeDemands,
     frequency: usize,
     slenderness: Option<usize>,
-) -> Result<Vec<(f64, Pairs)>, StudyError> {
+) -> anyhow::Result<Vec<(f64, Pairs)>> {
     let reference = &stripes.demands[position(frequency, REFERENCE)];
     let compared = match slenderness {
         Some(s) => &stripes.demands[position(frequency, s)],
@@ -51,7 +50,7 @@ pub(crate) fn adjusted_split(
     suite: &SuiteResults,
     stripes: &StripeDemands,
     frequency: usize,
-) -> Result<Vec<Split>, StudyError> {
+) -> anyhow::Result<Vec<Split>> {
     let steepest = libm::tan(SLENDERNESSES_RAD[SLENDERNESSES_RAD.len() - 1]);
     let reference = &stripes.demands[position(frequency, REFERENCE)];
     STRIPES
@@ -68,7 +67,7 @@ pub(crate) fn adjusted_split(
                         b.push(*y);
                     }
                 }
-                Ok::<_, StudyError>(Pairs::try_new(&a, &b)?.ratios)
+                anyhow::Ok(Pairs::try_new(&a, &b)?.ratios)
             };
             Ok(Split { im: *im, within: ratios(true)?, above: ratios(false)? })
         })

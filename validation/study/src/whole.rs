@@ -5,7 +5,6 @@ use indicatif::ProgressBar;
 use crate::analyses::Plan;
 use crate::claims;
 use crate::distributions::of_suite;
-use crate::error::StudyError;
 use crate::figures;
 use crate::findings;
 use crate::questions::{self, Answer};
@@ -32,13 +31,13 @@ impl Study {
     /// `full` runs other choices on all blocks.
     ///
     /// # Errors
-    /// [`StudyError`] where an analysis cannot be done.
+    /// Where an analysis cannot be done.
     pub fn run(
         plan: Plan,
         suites: &[StudySuite; 2],
         full: bool,
         progress: &ProgressBar,
-    ) -> Result<Self, StudyError> {
+    ) -> anyhow::Result<Self> {
         let [first, second] = suites;
         let ordinary = plan.run(first, progress)?;
         let pulse = plan.run(second, progress)?;

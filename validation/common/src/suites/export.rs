@@ -4,22 +4,13 @@
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use anyhow::bail;
 use rocking::record::{Accelerogram, Suite};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_synthesis::Pair;
-use thiserror::Error;
 
 use super::inputs::sha256_hex;
 use crate::table::Table;
-
-/// A suite that cannot be written as files.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum ExportError {
-    /// A record's name becomes the name of its file.
-    #[error("record {0:?}: expected a name that a file can have")]
-    Name(String),
-}
 
 /// One record of a suite to be written.
 pub struct Row<'a> {
@@ -76,11 +67,11 @@ pub fn pairs(pairs: &[Pair]) -> Vec<Row<'_>> {
 /// folder `name`.
 ///
 /// # Errors
-/// [`ExportError`] for a record whose name no file can have.
+/// For a record whose name no file can have.
 pub fn files(
     name: &str,
     rows: &[Row<'_>],
-) -> Result<Vec<(PathBuf, Vec<u8>)>, ExportError> {
+) -> anyhow::Result<Vec<(PathBuf, Vec<u8>)>> {
     let extra: BTreeSet<&str> = rows
         .iter()
         .flat_map(|row| row.attributes.iter().map(|(name, _)| *name))
@@ -104,7 +95,10 @@ pub fn files(
         let motion = row.motion;
         let fits = |c: char| !c.is_control() && !"/\\".contains(c);
         if motion.name().is_empty() || !motion.name().chars().all(fits) {
-            return Err(ExportError::Name(motion.name().to_owned()));
+            bail!(
+                "record {:?}: expected a name that a file can have",
+                motion.name()
+            );
         }
         let file = format!("{name}/{}.at2", motion.name());
         let text = at2(motion);
@@ -213,6 +207,6 @@ mod tests {
             attributes: Vec::new(),
         };
         let error = files("x", &[row]).unwrap_err();
-        assert_eq!(error, ExportError::Name("a/b".to_owned()));
+        assert!(error.to_string().starts_with("record \"a/b\": "));
     }
 }

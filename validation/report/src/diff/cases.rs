@@ -3,20 +3,20 @@
 use serde::Deserialize as _;
 use serde_json::{Map, Value};
 
-use super::flaw::{Flaw, amount};
+use super::flaw::{amount, flaw};
 use super::item::{Content, Item, Limit};
 use rocking_proof::verdict::snapshot::{
     CaseResult, QuantityResult, supported_digits,
 };
 
 /// The items of `validation.json`.
-pub fn items(map: &Map<String, Value>) -> Result<Vec<Item>, Flaw> {
+pub fn items(map: &Map<String, Value>) -> anyhow::Result<Vec<Item>> {
     let mut out = Vec::new();
     for (id, value) in map {
         let result = CaseResult::deserialize(value).map_err(|e| {
-            Flaw::new(
-                format!("case {id}"),
-                e.to_string(),
+            flaw(
+                &format!("case {id}"),
+                &e.to_string(),
                 "kind, method, oracle, quantities, rejected and verdict",
             )
         })?;
@@ -25,7 +25,11 @@ pub fn items(map: &Map<String, Value>) -> Result<Vec<Item>, Flaw> {
     Ok(out)
 }
 
-fn add(out: &mut Vec<Item>, id: &str, entry: CaseResult) -> Result<(), Flaw> {
+fn add(
+    out: &mut Vec<Item>,
+    id: &str,
+    entry: CaseResult,
+) -> anyhow::Result<()> {
     let family = id.split('/').next().unwrap_or(id).to_owned();
     let owner = format!("case {id}");
     let mut item = |name: String, words: String, content| {
@@ -107,16 +111,16 @@ fn add(out: &mut Vec<Item>, id: &str, entry: CaseResult) -> Result<(), Flaw> {
 }
 
 /// The tolerance where it is one number; zero where it is none.
-fn bound(place: &str, q: &QuantityResult) -> Result<f64, Flaw> {
+fn bound(place: &str, q: &QuantityResult) -> anyhow::Result<f64> {
     match (q.kind.as_str(), &q.bound) {
         ("exact" | "absolute" | "relative" | "order" | "coverage", b) => {
             amount(place, b)
         }
         ("interval", Value::Array(ends)) if ends.len() == 2 => Ok(0.0),
         ("waived", Value::Null) => Ok(0.0),
-        (kind, bound) => Err(Flaw::new(
-            format!("{place}, bound"),
-            format!("{kind} {bound}"),
+        (kind, bound) => Err(flaw(
+            &format!("{place}, bound"),
+            &format!("{kind} {bound}"),
             "exact, absolute, relative, order or coverage with a number, \
              interval with two, or waived with none",
         )),

@@ -12,7 +12,7 @@ const STANDARD_ERRORS: f64 = 1.959_963_985;
 const LAST_DIGIT: f64 = 1e-8;
 
 /// What a change is measured by.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
     /// Standard errors: the part of the 95 % interval on the side of the
@@ -25,11 +25,12 @@ pub enum Measure {
     /// The verdict of its case tells.
     Verdict,
     /// Not a number.
+    #[default]
     None,
 }
 
 /// One thing that differs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
     /// What it belongs to.
     pub owner: String,
@@ -84,7 +85,6 @@ impl Change {
     }
 
     /// What the change is measured by, in words; empty where nothing is.
-    #[must_use]
     pub fn measured(&self) -> String {
         match self.measure {
             Measure::StandardErrors(n) if n.is_infinite() => {
@@ -106,7 +106,6 @@ impl Change {
     }
 
     /// Old to new, relative change, measure.
-    #[must_use]
     pub fn sentence(&self) -> String {
         let mut text = format!("{}: {} to {}", self.words, self.old, self.new);
         if let Some(relative) = self.relative {
@@ -126,13 +125,7 @@ fn blank(item: &Item) -> Change {
         name: item.name.clone(),
         group: item.group.clone(),
         words: item.words.clone(),
-        old: String::new(),
-        new: String::new(),
-        values: None,
-        relative: None,
-        measure: Measure::None,
-        rank: 0.0,
-        significant: false,
+        ..Change::default()
     }
 }
 

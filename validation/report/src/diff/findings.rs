@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use super::flaw::Flaw;
+use super::flaw::flaw;
 use super::item::{Content, Item, Limit};
 use rocking_common::findings::{
     Claim, Findings, Measured, Place, Question, Suite, Table, Tested, Topic,
 };
 
 /// The items of a study's findings.
-pub fn items(findings: &Findings) -> Result<Vec<Item>, Flaw> {
+pub fn items(findings: &Findings) -> anyhow::Result<Vec<Item>> {
     let mut out = Vec::new();
     findings.claims.iter().for_each(|c| claim(&mut out, c));
     settings(&mut out, findings);
@@ -19,11 +19,8 @@ pub fn items(findings: &Findings) -> Result<Vec<Item>, Flaw> {
     let mut seen = BTreeSet::new();
     for item in &out {
         if !seen.insert((&item.owner, &item.name)) {
-            return Err(Flaw::new(
-                item.owner.clone(),
-                format!("\"{}\" twice", item.name),
-                "it once",
-            ));
+            let found = format!("\"{}\" twice", item.name);
+            return Err(flaw(&item.owner, &found, "it once"));
         }
     }
     Ok(out)

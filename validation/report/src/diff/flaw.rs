@@ -1,27 +1,11 @@
 //! What is wrong in a file of results, and reading its numbers.
 
+use anyhow::anyhow;
 use serde_json::Value;
 
 /// What is wrong at a place of a file.
-#[derive(Debug)]
-pub struct Flaw {
-    pub place: String,
-    pub found: String,
-    pub expected: String,
-}
-
-impl Flaw {
-    pub fn new(
-        place: impl Into<String>,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) -> Self {
-        Self {
-            place: place.into(),
-            found: found.into(),
-            expected: expected.into(),
-        }
-    }
+pub fn flaw(place: &str, found: &str, expected: &str) -> anyhow::Error {
+    anyhow!("{place}: found {found}, expected {expected}")
 }
 
 /// The kind of a value, in words.
@@ -37,15 +21,15 @@ pub fn kind(value: &Value) -> &'static str {
 }
 
 /// A number, "inf", "-inf" or null.
-pub fn amount(place: &str, value: &Value) -> Result<f64, Flaw> {
-    let wrong = |found: String| {
-        Flaw::new(place, found, "a number, \"inf\", \"-inf\" or null")
+pub fn amount(place: &str, value: &Value) -> anyhow::Result<f64> {
+    let wrong = |found: &str| {
+        flaw(place, found, "a number, \"inf\", \"-inf\" or null")
     };
     match value {
         Value::Null => Ok(f64::NAN),
         Value::String(text) if text == "inf" => Ok(f64::INFINITY),
         Value::String(text) if text == "-inf" => Ok(f64::NEG_INFINITY),
-        Value::String(text) => Err(wrong(format!("\"{text}\""))),
-        other => other.as_f64().ok_or_else(|| wrong(kind(other).into())),
+        Value::String(text) => Err(wrong(&format!("\"{text}\""))),
+        other => other.as_f64().ok_or_else(|| wrong(kind(other))),
     }
 }

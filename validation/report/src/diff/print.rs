@@ -1,5 +1,6 @@
 //! A comparison for people, and for a pull request.
 
+use super::Presence;
 use std::fmt::Write as _;
 
 use super::words::percent;
@@ -24,14 +25,24 @@ fn by_group<'a, T>(
     groups
 }
 
-fn minor(comparison: &Comparison) -> Vec<&Change> {
-    let small = comparison.numbers.iter().filter(|c| !c.significant);
-    small.chain(&comparison.texts).collect()
-}
-
 impl Comparison {
+    /// Numbers beyond their uncertainty; numbers within it and words, as many
+    /// as are shown; and how many of those are not.
+    fn parted(&self, all: bool) -> (Vec<&Change>, Vec<&Change>, usize) {
+        let (big, mut small): (Vec<_>, Vec<_>) =
+            self.numbers.iter().partition(|c| c.significant);
+        small.extend(&self.texts);
+        let shown = if all { small.len() } else { small.len().min(MOST) };
+        let left = small.len() - shown;
+        small.truncate(shown);
+        (big, small, left)
+    }
+
+    fn presences(&self) -> [(&'static str, &[Presence]); 2] {
+        [("Appeared", &self.appeared), ("Vanished", &self.vanished)]
+    }
+
     /// For people; `all` lists changes within their uncertainty too.
-    #[must_use]
     pub fn text(&self, all: bool) -> String {
         let mut out = self.head();
         out.push('\n');
@@ -57,22 +68,18 @@ impl Comparison {
                 }
             }
         };
-        let big = self.numbers.iter().filter(|c| c.significant).collect();
+        let (big, small, left) = self.parted(all);
         list(
             "Settings that changed, the likely cause of the rest",
             self.settings.iter().collect(),
         );
         list("Verdicts that changed", self.verdicts.iter().collect());
         list("Beyond their uncertainty or tolerance", big);
-        let small = minor(self);
-        let shown = if all { small.len() } else { small.len().min(MOST) };
-        list("Within them, or words", small[..shown].to_vec());
-        if shown < small.len() {
-            let _ = writeln!(out, "    {} more: --all", small.len() - shown);
+        list("Within them, or words", small);
+        if left > 0 {
+            let _ = writeln!(out, "    {left} more: --all");
         }
-        for (title, presences) in
-            [("Appeared", &self.appeared), ("Vanished", &self.vanished)]
-        {
+        for (title, presences) in self.presences() {
             if !presences.is_empty() {
                 let _ = writeln!(out, "\n{title}");
             }
@@ -117,26 +124,21 @@ impl Comparison {
     }
 
     /// Markdown for a pull request.
-    #[must_use]
     pub fn markdown(&self, all: bool) -> String {
         let mut out = format!("## What changed\n\n{}\n", self.head());
-        let big = self.numbers.iter().filter(|c| c.significant).collect();
-        let small = minor(self);
-        let shown = if all { small.len() } else { small.len().min(MOST) };
+        let (big, small, left) = self.parted(all);
         for (title, changes) in [
             ("Settings", self.settings.iter().collect()),
             ("Verdicts", self.verdicts.iter().collect()),
             ("Beyond uncertainty or tolerance", big),
-            ("Within uncertainty or tolerance", small[..shown].to_vec()),
+            ("Within uncertainty or tolerance", small),
         ] {
             table(&mut out, title, &changes);
         }
-        if shown < small.len() {
-            let _ = writeln!(out, "\n{} more.", small.len() - shown);
+        if left > 0 {
+            let _ = writeln!(out, "\n{left} more.");
         }
-        for (title, presences) in
-            [("Appeared", &self.appeared), ("Vanished", &self.vanished)]
-        {
+        for (title, presences) in self.presences() {
             if !presences.is_empty() {
                 let _ = writeln!(out, "\n### {title}\n");
             }

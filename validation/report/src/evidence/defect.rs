@@ -1,4 +1,3 @@
-use super::error::EvidenceError;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
@@ -19,20 +18,13 @@ fn slenderness_rad(k: i32) -> f64 {
     if k % 2 == 0 { even } else { even * 2.0_f64.sqrt() }
 }
 
-/// Normalization of the amplitude.
-#[derive(Clone, Copy)]
-enum Over {
-    TanAlpha,
-    Alpha,
-}
-
 /// Order of the departure of Eq. 1 from similarity as alpha grows.
-pub(super) fn chart() -> Result<Figure, EvidenceError> {
+pub(super) fn chart() -> anyhow::Result<Figure> {
     let mut panels = Vec::new();
     let mut slopes = Vec::new();
-    for (over, title) in [
-        (Over::TanAlpha, "amplitude over *g* tan *α*"),
-        (Over::Alpha, "amplitude over *g* *α*"),
+    for (tangent, title) in [
+        (true, "amplitude over *g* tan *α*"),
+        (false, "amplitude over *g* *α*"),
     ] {
         let mut series = Vec::new();
         for (omega, amplitude) in PULSES {
@@ -40,7 +32,7 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
                 (0..SLENDERNESSES).map(slenderness_rad).collect();
             let y = x
                 .iter()
-                .map(|alpha| departure(omega, amplitude, *alpha, over))
+                .map(|alpha| departure(omega, amplitude, *alpha, tangent))
                 .collect::<Result<Vec<f64>, EngineError>>()?;
             // Slope over the first octave.
             slopes.push(libm::log2(y[2] / y[0]));
@@ -93,17 +85,18 @@ fn axis(label: &str, range: (f64, f64)) -> ChartAxis {
     ChartAxis::new(label, Scale::Logarithmic, Some(range))
 }
 
-/// |X(alpha)/X_linear - 1| of the first impact speed over p alpha.
+/// |X(alpha)/X_linear - 1| of the first impact speed over p alpha; the
+/// amplitude is over g tan alpha or g alpha in Eq. 1.
 fn departure(
     omega: f64,
     amplitude: f64,
     alpha: f64,
-    over: Over,
+    tangent: bool,
 ) -> Result<f64, EngineError> {
     let p = 2.0;
     let speed = |equation| -> Result<f64, EngineError> {
-        let unit = match (equation, over) {
-            (Model::Nonlinear, Over::TanAlpha) => libm::tan(alpha),
+        let unit = match equation {
+            Model::Nonlinear if tangent => libm::tan(alpha),
             _ => alpha,
         };
         let trace = Core.respond(&Scene {

@@ -1,58 +1,49 @@
-use crate::page::{Family, ShownCase};
 use rocking_common::words::rounded;
 use rocking_proof::cases::{Bound, Case, Cost, FAMILIES};
 use rocking_proof::verdict::snapshot::{CaseResult, Results};
 
-/// Declared cases with their results, as the snapshot has them: all but those
-/// that are run only with `--full`.
-#[must_use]
-pub fn families(cases: &[Case], results: &Results) -> Vec<Family> {
-    FAMILIES
-        .iter()
-        .map(|(name, _)| {
-            let own = || {
-                cases.iter().filter(|case| {
-                    case.family == *name && case.cost == Cost::Quick
-                })
-            };
-            Family {
-                name: (*name).to_owned(),
-                worst: worst_of(
-                    own().filter_map(|case| results.get(&case.id)),
-                ),
-                rejected: own()
-                    .filter_map(|case| results.get(&case.id))
-                    .map(|result| result.rejected.len())
-                    .sum(),
-                cases: own().map(|case| shown(case, results)).collect(),
-            }
-        })
-        .collect()
+/// Declared cases of one kind, each with its result if there is one.
+#[derive(Clone, Debug)]
+pub struct Family {
+    /// Name: `free-rocking`.
+    pub name: &'static str,
+    /// The cases.
+    pub cases: Vec<(Case, Option<CaseResult>)>,
 }
 
-fn shown(case: &Case, results: &Results) -> ShownCase {
-    let result = results.get(&case.id);
-    let source = &case.source;
-    let note = if source.note.is_empty() {
-        String::new()
-    } else {
-        format!("; {}", source.note)
-    };
-    ShownCase {
-        id: case.id.clone(),
-        claim: case.claim.clone(),
-        source: format!("{}, {}{note}", source.cite, source.place),
-        tolerance: tolerance(case),
-        because: case.tolerance.because.clone(),
-        worst: worst_of(result.into_iter()),
-        rejects: rejects(case, result),
-        passed: result.is_some_and(CaseResult::passed),
+impl Family {
+    /// The results that there are.
+    pub fn results(&self) -> impl Iterator<Item = &CaseResult> {
+        self.cases.iter().filter_map(|(_, result)| result.as_ref())
     }
 }
 
+/// Declared cases with their results, as the snapshot has them: all but those
+/// that are run only with `--full`.
+pub fn families(cases: &[Case], results: &Results) -> Vec<Family> {
+    let quick = |name: &str| {
+        let own = cases.iter().filter(|c| c.family == name);
+        let quick = own.filter(|c| c.cost == Cost::Quick);
+        quick.map(|c| (c.clone(), results.get(&c.id).cloned())).collect()
+    };
+    let names = FAMILIES.iter().map(|(name, _)| *name);
+    names.map(|name| Family { name, cases: quick(name) }).collect()
+}
+
+/// Where the expected values of a case come from.
+pub fn source(case: &Case) -> String {
+    let source = &case.source;
+    let note = match source.note.as_str() {
+        "" => String::new(),
+        note => format!("; {note}"),
+    };
+    format!("{}, {}{note}", source.cite, source.place)
+}
+
 /// The largest share of a tolerance, and the quantity that uses it.
-fn worst_of<'a>(results: impl Iterator<Item = &'a CaseResult>) -> String {
+pub fn worst<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> String {
     let worst = results
+        .into_iter()
         .flat_map(CaseResult::compared)
         .map(|(name, q)| {
             let margin = q.margin.0;
@@ -91,7 +82,7 @@ fn times(margin: f64) -> String {
 }
 
 /// Bounds in words, equal ones together.
-fn tolerance(case: &Case) -> String {
+pub fn tolerance(case: &Case) -> String {
     let mut groups: Vec<(String, Vec<&str>)> = Vec::new();
     for (quantity, bound) in &case.tolerance.bounds {
         let words = words(bound);
@@ -120,7 +111,7 @@ fn words(bound: &Bound) -> String {
 }
 
 /// Wrong models that fail the case, each with its error over the bound.
-fn rejects(case: &Case, result: Option<&CaseResult>) -> String {
+pub fn rejects(case: &Case, result: Option<&CaseResult>) -> String {
     let texts: Vec<String> = case
         .tolerance
         .reject
@@ -166,17 +157,16 @@ mod tests {
         } });
         let results = serde_json::from_value(results).unwrap();
         let shown = families(&cases, &results);
-        let all: Vec<&ShownCase> =
-            shown.iter().flat_map(|f| &f.cases).collect();
+        let all: Vec<_> = shown.iter().flat_map(|f| &f.cases).collect();
         let quick = cases.iter().filter(|c| c.cost == Cost::Quick).count();
         assert_eq!(all.len(), quick);
-        assert!(all.iter().all(|c| !c.tolerance.is_empty()));
-        assert!(all.iter().all(|c| !c.rejects.is_empty()));
-        let first = all.iter().find(|c| c.id == cases[0].id).unwrap();
-        assert!(first.passed);
-        assert_eq!(first.worst, "50 %, a");
-        // What has no result has not passed.
-        let failed = all.iter().filter(|c| !c.passed).count();
-        assert_eq!(failed, quick - 1);
+        assert!(all.iter().all(|(c, _)| !tolerance(c).is_empty()));
+        assert!(all.iter().all(|(c, r)| !rejects(c, r.as_ref()).is_empty()));
+        let (_, first) =
+            all.iter().find(|(c, _)| c.id == cases[0].id).unwrap();
+        assert!(first.as_ref().is_some_and(CaseResult::passed));
+        assert_eq!(worst(first), "50 %, a");
+        let without = all.iter().filter(|(_, r)| r.is_none()).count();
+        assert_eq!(without, quick - 1);
     }
 }

@@ -3,7 +3,6 @@
 use libm::{exp, log};
 use rayon::prelude::*;
 
-use super::error::EvidenceError;
 use super::spectrum::{ETA, STOCKY_RAD, fate};
 use rocking_draw::figures::{Fate, FateMap, Figure, Heading};
 use rocking_proof::oracles::overturning;
@@ -26,7 +25,7 @@ fn edges((low, high): (f64, f64), count: usize) -> Vec<f64> {
 
 /// The map, computed by the integrator in Eq. 1, and the boundaries of Eq. 2
 /// in closed form.
-pub(super) fn map() -> Result<Figure, EvidenceError> {
+pub(super) fn map() -> anyhow::Result<Figure> {
     let frequencies = edges(FREQUENCIES, COLUMNS);
     let amplitudes = edges(AMPLITUDES, ROWS);
     let middle = |pair: &[f64]| (pair[0] * pair[1]).sqrt();

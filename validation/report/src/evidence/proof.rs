@@ -4,12 +4,11 @@
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use thiserror::Error;
+use anyhow::{anyhow, bail};
 
-use crate::diff::{self, DiffError};
+use crate::diff;
 use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
 use rocking_proof::cases::{Case, CaseError, Cost, load_all};
@@ -29,63 +28,6 @@ pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
     validate --out FOLDER` runs them and writes their results to \
     FOLDER/data, and `rocking study --proof FOLDER/data` shows them.";
 
-/// Why results of the declared cases are refused.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ProofError {
-    /// A file that cannot be read.
-    #[error(
-        "cannot read {}: {source}; expected {RESULTS} and {DIGITS} as \
-         `rocking validate --out` writes them",
-        path.display()
-    )]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        #[source]
-        source: io::Error,
-    },
-    /// The declared cases cannot be read.
-    #[error(transparent)]
-    Case(#[from] CaseError),
-    /// Results of another form.
-    #[error(transparent)]
-    Form(#[from] DiffError),
-    /// Results of other cases than this program's.
-    #[error(
-        "{}: not the cases of this program; `rocking validate` runs those. \
-         Missing: {}. Unknown: {}",
-        path.display(),
-        list(missing),
-        list(unknown)
-    )]
-    Cases {
-        /// The file.
-        path: PathBuf,
-        /// Cases of this program without a result.
-        missing: Vec<String>,
-        /// Results of cases that this program does not have.
-        unknown: Vec<String>,
-    },
-    /// A table of digits of another form.
-    #[error("{}:{line}: {found:?}, expected {expected}", path.display())]
-    Digits {
-        /// The file.
-        path: PathBuf,
-        /// The line, from 1.
-        line: usize,
-        /// What stands there.
-        found: String,
-        /// What should.
-        expected: String,
-    },
-}
-
-fn list(ids: &[String]) -> String {
-    if ids.is_empty() { "none".into() } else { ids.join(", ") }
-}
-
 /// Results of the declared cases: one for each case of this program that is
 /// run without `--full`, and no other.
 #[derive(Clone, Debug)]
@@ -103,7 +45,6 @@ pub struct Coverage {
 
 impl Coverage {
     /// The shares, in a sentence.
-    #[must_use]
     pub fn words(&self) -> String {
         let (low, high) = range(self.rows.iter().map(|(_, share)| *share));
         format!(
@@ -115,24 +56,22 @@ impl Coverage {
     }
 
     /// The shares, one by one.
-    #[must_use]
     pub fn table(&self) -> PlainTable {
         let row = |(claim, share): &(String, f64)| {
             vec![claim.clone(), "95.0 %".into(), percent(*share, 1)]
         };
         let header = ["interval", "nominal", "found"];
-        PlainTable {
-            name: "coverage".into(),
-            title: "Coverage of the intervals of the findings".into(),
-            reading: "Share of 300 simulated suites, whose truth is known, \
+        PlainTable::new(
+            "coverage",
+            "Coverage of the intervals of the findings",
+            "Share of 300 simulated suites, whose truth is known, \
                       in which the interval holds it. The standard error of \
                       a share is 1.3 %. The interval of a share of cells \
                       follows from the band over all cells and holds more \
-                      often than it says."
-                .into(),
-            header: header.map(String::from).into(),
-            rows: self.rows.iter().map(row).collect(),
-        }
+                      often than it says.",
+            &header,
+            self.rows.iter().map(row).collect(),
+        )
     }
 }
 
@@ -140,9 +79,9 @@ impl Proof {
     /// Reads the folder into which `rocking validate` wrote them.
     ///
     /// # Errors
-    /// [`ProofError`] for a file that is missing or damaged, and for results
+    /// For a file that is missing or damaged, and for results
     /// of other cases than this program's.
-    pub fn read(folder: &Path) -> Result<Self, ProofError> {
+    pub fn read(folder: &Path) -> anyhow::Result<Self> {
         let text = |name| read(&folder.join(name));
         Self::from_texts(folder, &text(RESULTS)?, text(DIGITS)?)
     }
@@ -150,13 +89,13 @@ impl Proof {
     /// Results from the texts of both files; `folder` is only told.
     ///
     /// # Errors
-    /// [`ProofError`] for damaged texts, and for results of other cases than
+    /// For damaged texts, and for results of other cases than
     /// this program's.
     pub fn from_texts(
         folder: &Path,
         results: &str,
         digits: String,
-    ) -> Result<Self, ProofError> {
+    ) -> anyhow::Result<Self> {
         let path = folder.join(RESULTS);
         // Refuses what has another form.
         diff::Results::from_text(&path, results)?;
@@ -174,7 +113,7 @@ impl Proof {
     ///
     /// # Errors
     /// As [`Proof::read`].
-    pub fn find(folder: &Path) -> Result<Option<Self>, ProofError> {
+    pub fn find(folder: &Path) -> anyhow::Result<Option<Self>> {
         let there = |name| folder.join(name).exists();
         (there(RESULTS) || there(DIGITS))
             .then(|| Self::read(folder))
@@ -182,13 +121,11 @@ impl Proof {
     }
 
     /// The results by id.
-    #[must_use]
     pub fn results(&self) -> &snapshot::Results {
         &self.results
     }
 
     /// Number of cases that passed.
-    #[must_use]
     pub fn passed(&self) -> usize {
         self.results.values().filter(|case| case.passed()).count()
     }
@@ -211,7 +148,6 @@ impl Proof {
     }
 
     /// Number of wrong models that the cases told from the right one.
-    #[must_use]
     pub fn rejected(&self) -> usize {
         self.results.values().map(|case| case.rejected.len()).sum()
     }
@@ -230,7 +166,6 @@ impl Proof {
     }
 
     /// Share of its tolerance that half of the numbers stay below.
-    #[must_use]
     pub fn middle_margin(&self) -> f64 {
         let margins = self.margins();
         margins.get(margins.len() / 2).copied().unwrap_or(f64::NAN)
@@ -238,9 +173,8 @@ impl Proof {
 
     /// Significant digits that each precision reaches on the hard cases and
     /// the reference trajectories.
-    #[must_use]
     pub fn digits_table(&self) -> PlainTable {
-        let mut table = PlainTable::from_csv(
+        PlainTable::new(
             "table-precision",
             "Table 2. Significant digits reached by three precisions",
             "End: the peak of |theta|/alpha, or the instant of overturning. \
@@ -249,22 +183,19 @@ impl Proof {
              double-double run. The same source runs in all three; a digit \
              missing in double precision is missing for the sensitivity of \
              the motion, which the error estimate states.",
-            &self.digits,
-        );
-        table.header = [
-            "case",
-            "equation",
-            "truth",
-            "end, single",
-            "end, double",
-            "end, double-double",
-            "impacts, single",
-            "impacts, double",
-            "impacts, double-double",
-        ]
-        .map(String::from)
-        .into();
-        table
+            &[
+                "case",
+                "equation",
+                "truth",
+                "end, single",
+                "end, double",
+                "end, double-double",
+                "impacts, single",
+                "impacts, double",
+                "impacts, double-double",
+            ],
+            self.digits.lines().skip(1).map(cells).collect(),
+        )
     }
 }
 
@@ -288,45 +219,44 @@ impl fmt::Display for Proof {
     }
 }
 
-fn read(path: &Path) -> Result<String, ProofError> {
-    fs::read_to_string(path)
-        .map_err(|source| ProofError::Read { path: path.to_owned(), source })
+fn read(path: &Path) -> anyhow::Result<String> {
+    fs::read_to_string(path).map_err(|error| {
+        anyhow!(
+            "cannot read {}: {error}; expected {RESULTS} and {DIGITS} as \
+             `rocking validate --out` writes them",
+            path.display()
+        )
+    })
 }
 
 fn same_cases(
     path: &Path,
     cases: &[Case],
     results: &snapshot::Results,
-) -> Result<(), ProofError> {
-    let declared: BTreeSet<&String> = cases
-        .iter()
-        .filter(|case| case.cost == Cost::Quick)
-        .map(|case| &case.id)
-        .collect();
-    let found: BTreeSet<&String> = results.keys().collect();
+) -> anyhow::Result<()> {
+    let quick = cases.iter().filter(|case| case.cost == Cost::Quick);
+    let declared: BTreeSet<&str> = quick.map(|c| c.id.as_str()).collect();
+    let found: BTreeSet<&str> = results.keys().map(String::as_str).collect();
     if declared == found {
         return Ok(());
     }
-    let less = |a: &BTreeSet<&String>, b| {
-        a.difference(b).map(|id| (*id).clone()).collect()
+    let less = |a: &BTreeSet<&str>, b| {
+        let ids: Vec<&str> = a.difference(b).copied().collect();
+        if ids.is_empty() { "none".into() } else { ids.join(", ") }
     };
-    Err(ProofError::Cases {
-        path: path.to_owned(),
-        missing: less(&declared, &found),
-        unknown: less(&found, &declared),
-    })
+    bail!(
+        "{}: not the cases of this program; `rocking validate` runs those. \
+         Missing: {}. Unknown: {}",
+        path.display(),
+        less(&declared, &found),
+        less(&found, &declared)
+    );
 }
 
 /// Refuses a table with other columns, without rows, or cut.
-fn whole_table(path: &Path, text: &str) -> Result<(), ProofError> {
+fn whole_table(path: &Path, text: &str) -> anyhow::Result<()> {
     let refused = |line: usize, found: &str, expected: String| {
-        let found = found.to_owned();
-        Err(ProofError::Digits {
-            path: path.to_owned(),
-            line,
-            found,
-            expected,
-        })
+        bail!("{}:{line}: {found:?}, expected {expected}", path.display())
     };
     let mut lines = text.split_inclusive('\n');
     let header = lines.next().unwrap_or_default();
@@ -352,7 +282,7 @@ mod tests {
     use super::*;
 
     /// The folder of the committed results.
-    fn committed() -> PathBuf {
+    fn committed() -> std::path::PathBuf {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports/data")
     }
 

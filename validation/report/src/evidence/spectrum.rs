@@ -1,6 +1,5 @@
 use rayon::prelude::*;
 
-use super::error::EvidenceError;
 use rocking_draw::figures::{
     Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
 };
@@ -139,7 +138,7 @@ fn axis(label: &str, scale: Scale, range: (f64, f64)) -> ChartAxis {
 
 /// Overturning spectrum of one-sine pulses, every mode, both criteria and
 /// both equations.
-pub(super) fn chart() -> Result<Figure, EvidenceError> {
+pub(super) fn chart() -> anyhow::Result<Figure> {
     let (fold, at_fold) = overturning::fold(ETA);
     // Up to the fold, which is one of the frequencies, and beyond.
     let mut omegas: Vec<f64> = (0..POINTS)
@@ -224,7 +223,7 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
 /// The bands of three impacts and more, and the lowest of them at 0.5.
 fn low_frequencies(
     with_impact: &[(f64, f64, f64)],
-) -> Result<(ChartPanel, (usize, f64)), EvidenceError> {
+) -> anyhow::Result<(ChartPanel, (usize, f64))> {
     let highest = 1.2;
     let omegas: Vec<f64> =
         (0..=32).map(|k| LOWEST + 0.025 * f64::from(k)).collect();

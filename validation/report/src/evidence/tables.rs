@@ -89,18 +89,17 @@ pub fn similarity(
         "impact times p t, error",
         "impact speeds, relative error",
     ];
-    Ok(PlainTable {
-        name: "sine-pulse-similarity".into(),
-        title: "Pulses in Eq. 2 against closed forms".into(),
-        reading: "Each row runs six blocks of alpha 0.001 to 0.4 rad and p \
+    Ok(PlainTable::new(
+        "sine-pulse-similarity",
+        "Pulses in Eq. 2 against closed forms",
+        "Each row runs six blocks of alpha 0.001 to 0.4 rad and p \
                   0.5 to 8 rad/s, which have one and the same closed form. \
                   The error is the largest over the six. A dash stands where \
                   the motion has no such number, or the case does not \
-                  compare it."
-            .into(),
-        header: header.map(String::from).into(),
-        rows: own.filter_map(row).collect(),
-    })
+                  compare it.",
+        &header,
+        own.filter_map(row).collect(),
+    ))
 }
 
 /// A number without the words in brackets behind it.
@@ -187,16 +186,15 @@ pub fn critical_values() -> Result<PlainTable, CaseError> {
     }
     let header =
         ["n", "source", "critical value at 5 %", "against ours", "true level"];
-    Ok(PlainTable {
-        name: "lilliefors-critical-values".into(),
-        title: "Lilliefors' critical values beside those of others".into(),
-        reading: "True level: how often a test by that value rejects normal \
+    Ok(PlainTable::new(
+        "lilliefors-critical-values",
+        "Lilliefors' critical values beside those of others",
+        "True level: how often a test by that value rejects normal \
                   samples of this size, by our table. Values of others at n \
-                  = 44 and 86 are those that the declared case holds."
-            .into(),
-        header: header.map(String::from).into(),
+                  = 44 and 86 are those that the declared case holds.",
+        &header,
         rows,
-    })
+    ))
 }
 
 fn read<T: Default + serde::de::DeserializeOwned>(

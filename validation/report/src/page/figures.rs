@@ -20,8 +20,6 @@ pub struct ShownFigure {
     pub reading: String,
     /// The drawing as [`rocking_draw::figures::Figure::svg`] gives it.
     pub svg: String,
-    /// Where the CSV lies, relative to the page.
-    pub csv_path: String,
 }
 
 impl ShownFigure {
@@ -52,7 +50,7 @@ pub fn figure(shown: &ShownFigure) -> Markup {
             }
             figcaption {
                 (shown.reading) " "
-                a href=(shown.csv_path) { "Numbers" } "."
+                a href={ "data/" (shown.name) ".csv" } { "Numbers" } "."
             }
         }
     }

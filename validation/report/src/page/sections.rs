@@ -3,14 +3,14 @@
 use maud::{Markup, html};
 
 use super::figures::{self, ShownFigure};
-use super::input::{
-    Answers, Chapter, Column, Family, Finding, Outcome, Part, ReportInput,
-    Theme,
-};
+use super::input::{AnswerRow, Chapter, Column, Part, ReportInput, Shown};
 use super::table::{self, scrolled};
-use rocking_common::findings::Tested;
+use crate::evidence::families::{Family, rejects, source, tolerance, worst};
+use crate::quantity::{remarks, rule_text, value_text};
+use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
 use rocking_common::paper::Verdict;
 use rocking_common::words::capital;
+use rocking_proof::verdict::snapshot::CaseResult;
 
 /// What the page is about, and who signs for it.
 pub fn head(input: &ReportInput) -> Markup {
@@ -43,8 +43,11 @@ pub fn all(input: &ReportInput) -> Vec<Part> {
                 parts.push(Part { id, title: title.into(), body: body() });
             }
         };
-    add(!i.answers.rows.is_empty(), "answers", "Answers", &|| {
-        answers(&i.answers, &i.columns)
+    add(!i.answers.is_empty(), "answers", "Answers", &|| {
+        html! {
+            (answers(&i.answers, &i.columns))
+            (drawings(&i.first))
+        }
     });
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
         html! {
@@ -143,25 +146,18 @@ fn drawings(shown: &[ShownFigure]) -> Markup {
     }
 }
 
-fn answers(answers: &Answers, columns: &[Column]) -> Markup {
+fn answers(rows: &[AnswerRow], columns: &[Column]) -> Markup {
+    let mut head = vec!["Question", "Answer", "Effect (95 % interval)"];
+    head.extend(columns.iter().map(|column| column.name));
+    head.push("Shown in");
     let body = html! {
         table.cards.answers {
             caption {
                 span.unseen { "Questions, and what the verdicts answer." }
             }
-            thead {
-                tr {
-                    th scope="col" { "Question" }
-                    th scope="col" { "Answer" }
-                    th scope="col" { "Effect (95 % interval)" }
-                    @for column in columns {
-                        th scope="col" { (column.name) }
-                    }
-                    th scope="col" { "Shown in" }
-                }
-            }
+            (table::head(&head))
             tbody {
-                @for row in &answers.rows {
+                @for row in rows {
                     tr {
                         th scope="row" { (row.question) }
                         td data-label="Answer" { strong { (row.answer) } }
@@ -177,10 +173,7 @@ fn answers(answers: &Answers, columns: &[Column]) -> Markup {
             }
         }
     };
-    html! {
-        (scrolled("Questions and answers", body))
-        (drawings(&answers.figures))
-    }
+    scrolled("Questions and answers", body)
 }
 
 fn links(shown: &[(String, String)]) -> Markup {
@@ -203,12 +196,18 @@ fn legend() -> Markup {
 }
 
 fn counts(column: &Column) -> Markup {
+    let suites = &column.findings.suites;
     html! {
         p {
-            (capital(&column.name)) ", " (column.suites) ": "
-            @for (k, (verdict, count)) in column.counts.iter().enumerate() {
+            (capital(column.name)) ", "
+            @for (k, suite) in suites.iter().enumerate() {
+                @if k > 0 { " + " }
+                (suite.records) " " (suite.kind)
+            }
+            ": "
+            @for (k, verdict) in Verdict::ALL.into_iter().enumerate() {
                 @if k > 0 { ", " }
-                (count) " " (mark(*verdict))
+                (column.findings.count(verdict)) " " (mark(verdict))
             }
             "."
         }
@@ -216,9 +215,10 @@ fn counts(column: &Column) -> Markup {
 }
 
 fn mark(verdict: Verdict) -> Markup {
+    let (class, sign) = looks(verdict);
     html! {
-        span class=(class(verdict)) {
-            span aria-hidden="true" { (sign(verdict)) " " }
+        span class=(class) {
+            span aria-hidden="true" { (sign) " " }
             (verdict.name())
         }
     }
@@ -226,46 +226,67 @@ fn mark(verdict: Verdict) -> Markup {
 
 /// The verdict as a sign, its name for those who do not see it.
 fn short(verdict: Verdict) -> Markup {
+    let (class, sign) = looks(verdict);
     html! {
-        span class=(class(verdict)) title=(verdict.name()) {
-            span aria-hidden="true" { (sign(verdict)) }
+        span class=(class) title=(verdict.name()) {
+            span aria-hidden="true" { (sign) }
             span.unseen { (verdict.name()) }
         }
     }
 }
 
-/// A sign that stands without colour.
-fn sign(verdict: Verdict) -> &'static str {
+/// Class, and a sign that stands without colour.
+fn looks(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
-        Verdict::Confirmed => "✓",
-        Verdict::NotConfirmed => "✗",
-        Verdict::Inconclusive => "?",
+        Verdict::Confirmed => ("verdict yes", "✓"),
+        Verdict::NotConfirmed => ("verdict no", "✗"),
+        Verdict::Inconclusive => ("verdict open", "?"),
     }
 }
 
-fn class(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Confirmed => "verdict yes",
-        Verdict::NotConfirmed => "verdict no",
-        Verdict::Inconclusive => "verdict open",
-    }
-}
-
-fn theme(theme: &Theme, columns: &[Column]) -> Markup {
+fn theme(shown: &Shown, columns: &[Column]) -> Markup {
+    let question = shown.theme.question();
     html! {
-        div id=(theme.id) {
-            h3 { (theme.question) }
-            p { (theme.paragraph) }
-            (drawings(&theme.figures))
-            @if !theme.more.is_empty() {
+        div id=(anchor(shown.theme)) {
+            h3 { (question) }
+            p { (shown.paragraph) }
+            (drawings(&shown.figures))
+            @if !shown.more.is_empty() {
                 details {
-                    summary { "Show: " (called(&theme.more)) }
-                    (drawings(&theme.more))
+                    summary { "Show: " (called(&shown.more)) }
+                    (drawings(&shown.more))
                 }
             }
-            (scrolled(&theme.question, findings(theme, columns)))
+            (scrolled(question, findings(shown.theme, columns)))
         }
     }
+}
+
+fn anchor(theme: Theme) -> &'static str {
+    match theme {
+        Theme::Choices => "theme-choices",
+        Theme::SingleRecords => "theme-single-records",
+        Theme::Statistics => "theme-statistics",
+        Theme::Lognormality => "theme-lognormality",
+        Theme::Fragilities => "theme-fragilities",
+    }
+}
+
+/// The findings among the claims about a theme, as the run at hand has them.
+fn about(theme: Theme, columns: &[Column]) -> Vec<&Claim> {
+    let here = columns.last().map_or(&[][..], |c| &c.findings.claims);
+    let own = |c: &&Claim| c.theme == theme && c.kind == Kind::Finding;
+    here.iter().filter(own).collect()
+}
+
+/// What came out on a claim in a column: the claim as that column has it, and
+/// its results.
+fn came_out<'a>(
+    claim: &Claim,
+    column: &'a Column,
+) -> impl Iterator<Item = (&'a Claim, &'a ClaimResult)> {
+    let own = column.findings.claims.iter().find(|c| c.id == claim.id);
+    own.into_iter().flat_map(|own| own.results.iter().map(move |r| (own, r)))
 }
 
 fn called(figures: &[ShownFigure]) -> String {
@@ -276,9 +297,10 @@ fn called(figures: &[ShownFigure]) -> String {
 /// Suites of the columns of a table of findings.
 const SUITES: [Tested; 2] = [Tested::Ordinary, Tested::PulseType];
 
-fn findings(theme: &Theme, columns: &[Column]) -> Markup {
+fn findings(theme: Theme, columns: &[Column]) -> Markup {
+    let claims = about(theme, columns);
     // Claims that share a quotation stand under it.
-    let groups = theme.findings.chunk_by(|a, b| a.quote == b.quote);
+    let groups = claims.chunk_by(|a, b| a.quote == b.quote);
     html! {
         table.cards.findings {
             caption { span.unseen { "Claims and verdicts." } }
@@ -320,32 +342,32 @@ fn findings(theme: &Theme, columns: &[Column]) -> Markup {
     }
 }
 
-fn quotation(f: &Finding) -> Markup {
+fn quotation(claim: &Claim) -> Markup {
     html! {
-        "\u{201c}" (f.quote) "\u{201d} "
-        span.source { (f.source) }
+        "\u{201c}" (claim.quote) "\u{201d} "
+        span.source { "(" (claim.section) ")" }
     }
 }
 
-fn finding(f: &Finding, columns: &[Column]) -> Markup {
+fn finding(claim: &Claim, columns: &[Column]) -> Markup {
     html! {
         td data-label="In plain words" {
-            (f.plain) ": " span.source { (f.rule) }
-            @if !f.criterion.is_empty() {
-                span.source { ". The paper: " (f.criterion) }
+            (claim.plain) ": " span.source { (rule_text(claim)) }
+            @if !claim.criterion.is_empty() {
+                span.source { ". The paper: " (claim.criterion) }
             }
         }
         @for (k, column) in columns.iter().enumerate() {
-            @let own = f.columns.get(k).map_or(&[][..], |all| all);
-            @let both = own.iter().any(|o| o.suite == Tested::Both);
+            @let both = came_out(claim, column)
+                .any(|(_, r)| r.suite == Tested::Both);
             @if both {
                 td data-label=(column.name) colspan=(SUITES.len()) {
-                    (outcomes(own, Tested::Both, k == 0))
+                    (outcomes(claim, column, Tested::Both, k == 0))
                 }
             } @else {
                 @for suite in SUITES {
                     td data-label={ (column.name) ", " (suite.name()) } {
-                        (outcomes(own, suite, k == 0))
+                        (outcomes(claim, column, suite, k == 0))
                     }
                 }
             }
@@ -355,11 +377,20 @@ fn finding(f: &Finding, columns: &[Column]) -> Markup {
 
 /// What came out on a suite, in the arm that stands among the findings: the
 /// first column has the value, the others the verdict alone.
-fn outcomes(all: &[Outcome], suite: Tested, value: bool) -> Markup {
+fn outcomes(
+    claim: &Claim,
+    column: &Column,
+    suite: Tested,
+    value: bool,
+) -> Markup {
+    let first = column.first;
+    let shown = |r: &ClaimResult| {
+        r.suite == suite && r.arm.is_none_or(|arm| arm == first)
+    };
     html! {
-        @for one in all.iter().filter(|o| o.first && o.suite == suite) {
+        @for (own, one) in came_out(claim, column).filter(|(_, r)| shown(r)) {
             @if value {
-                (outcome(one, ""))
+                (outcome(own, one, ""))
             } @else if let Some(verdict) = one.by_equivalence {
                 (short(verdict))
             } @else {
@@ -369,12 +400,12 @@ fn outcomes(all: &[Outcome], suite: Tested, value: bool) -> Markup {
     }
 }
 
-fn outcome(one: &Outcome, place: &str) -> Markup {
+fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
     html! {
         div.outcome {
             @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
             @if !place.is_empty() { span.source { (place) ": " } }
-            (one.value)
+            (value_text(claim, one))
             @if let Some(verdict) = one.by_criterion {
                 "; the paper: " (short(verdict))
             }
@@ -383,22 +414,19 @@ fn outcome(one: &Outcome, place: &str) -> Markup {
 }
 
 fn every_result(input: &ReportInput) -> Markup {
+    let columns = &input.columns;
+    let mut head = vec!["Claim and measure"];
+    head.extend(columns.iter().map(|column| column.name));
     html! {
-        @for theme in &input.findings {
-            (scrolled(&format!("{}, every result", theme.question), html! {
+        @for theme in input.findings.iter().map(|shown| shown.theme) {
+            @let question = theme.question();
+            (scrolled(&format!("{question}, every result"), html! {
                 table.cards.findings {
-                    caption { span { (theme.question) } }
-                    thead {
-                        tr {
-                            th scope="col" { "Claim and measure" }
-                            @for column in &input.columns {
-                                th scope="col" { (column.name) }
-                            }
-                        }
-                    }
+                    caption { span { (question) } }
+                    (table::head(&head))
                     tbody {
-                        @for f in &theme.findings {
-                            (results(f, &input.columns))
+                        @for claim in about(theme, columns) {
+                            (results(claim, columns))
                         }
                     }
                 }
@@ -407,21 +435,22 @@ fn every_result(input: &ReportInput) -> Markup {
     }
 }
 
-fn results(f: &Finding, columns: &[Column]) -> Markup {
+fn results(claim: &Claim, columns: &[Column]) -> Markup {
     html! {
         tr {
             th scope="row" {
-                a href={ "#finding-" (f.id) } { (f.id) }
-                p.source { (f.measure) }
-                @if !f.remark.is_empty() { p.source { (f.remark) } }
+                a href={ "#finding-" (claim.id) } { (claim.id) }
+                p.source {
+                    (claim.measure) " (" (claim.blocks)
+                    "). Why this limit: " (claim.reason) "."
+                }
+                @if !claim.note.is_empty() { p.source { (claim.note) } }
             }
-            @for (k, column) in columns.iter().enumerate() {
+            @for column in columns {
                 td data-label=(column.name) {
-                    @for one in f.columns.get(k).into_iter().flatten() {
-                        (outcome(one, &one.place))
-                        @if !one.remarks.is_empty() {
-                            p.source { (one.remarks.join("; ")) "." }
-                        }
+                    @for (own, one) in came_out(claim, column) {
+                        (outcome(own, one, &one.place()))
+                        p.source { (remarks(own, one).join("; ")) "." }
                     }
                 }
             }
@@ -438,14 +467,10 @@ fn families(families: &[Family]) -> Markup {
                      error as a share of the tolerance."
                 }
             }
-            thead {
-                tr {
-                    th scope="col" { "Family" }
-                    th scope="col" { "Cases passed" }
-                    th scope="col" { "Worst share of tolerance" }
-                    th scope="col" { "Wrong models rejected" }
-                }
-            }
+            (table::head(&[
+                "Family", "Cases passed", "Worst share of tolerance",
+                "Wrong models rejected",
+            ]))
             tbody {
                 @for family in families {
                     tr {
@@ -455,11 +480,14 @@ fn families(families: &[Family]) -> Markup {
                             }
                         }
                         td data-label="Cases passed" {
-                            (passed(family)) " of " (family.cases.len())
+                            (family.results().filter(|r| r.passed()).count())
+                            " of " (family.cases.len())
                         }
-                        td data-label="Worst share of tolerance" { (family.worst) }
+                        td data-label="Worst share of tolerance" {
+                            (worst(family.results()))
+                        }
                         td data-label="Wrong models rejected" {
-                            (family.rejected)
+                            (family.results().map(|r| r.rejected.len()).sum::<usize>())
                         }
                     }
                 }
@@ -469,39 +497,29 @@ fn families(families: &[Family]) -> Markup {
     scrolled("Families of declared cases", body)
 }
 
-fn passed(family: &Family) -> usize {
-    family.cases.iter().filter(|c| c.passed).count()
-}
-
 fn cases(family: &Family) -> Markup {
     let body = html! {
         table.cards {
             caption { span { "Cases of the family " (family.name) "." } }
-            thead {
-                tr {
-                    th scope="col" { "Case" }
-                    th scope="col" { "Claim" }
-                    th scope="col" { "Source" }
-                    th scope="col" { "Tolerance and why" }
-                    th scope="col" { "Worst share of tolerance" }
-                    th scope="col" { "Rejects" }
-                    th scope="col" { "Result" }
-                }
-            }
+            (table::head(&[
+                "Case", "Claim", "Source", "Tolerance and why",
+                "Worst share of tolerance", "Rejects", "Result",
+            ]))
             tbody {
-                @for c in &family.cases {
+                @for (c, result) in &family.cases {
+                    @let result = result.as_ref();
                     tr {
                         th scope="row" { (c.id) }
                         td data-label="Claim" { (c.claim) }
-                        td data-label="Source" { (c.source) }
+                        td data-label="Source" { (source(c)) }
                         td data-label="Tolerance and why" {
-                            (c.tolerance) " "
-                            span.source { (c.because) }
+                            (tolerance(c)) " "
+                            span.source { (c.tolerance.because) }
                         }
-                        td data-label="Worst share of tolerance" { (c.worst) }
-                        td data-label="Rejects" { (c.rejects) }
+                        td data-label="Worst share of tolerance" { (worst(result)) }
+                        td data-label="Rejects" { (rejects(c, result)) }
                         td data-label="Result" {
-                            @if c.passed {
+                            @if result.is_some_and(CaseResult::passed) {
                                 span.verdict.yes { "✓ passed" }
                             } @else {
                                 span.verdict.no { "✗ failed" }
@@ -515,7 +533,7 @@ fn cases(family: &Family) -> Markup {
     html! {
         div id={ "cases-" (family.name) } {
             h4 { (family.name) }
-            (scrolled(&family.name, body))
+            (scrolled(family.name, body))
         }
     }
 }

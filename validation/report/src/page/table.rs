@@ -1,6 +1,6 @@
 //! Tables of words and numbers.
 
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 
 use rocking_common::table::PlainTable;
 
@@ -33,7 +33,8 @@ pub fn scrolled(label: &str, body: Markup) -> Markup {
     }
 }
 
-fn head(names: &[String]) -> Markup {
+/// The heads of the columns.
+pub fn head<T: Render>(names: &[T]) -> Markup {
     html! {
         thead { tr { @for name in names { th scope="col" { (name) } } } }
     }

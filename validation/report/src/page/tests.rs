@@ -1,8 +1,9 @@
 //! The page from made-up words.
 
 use super::*;
-use rocking_common::findings::Tested;
-use rocking_common::paper::Verdict;
+use crate::evidence::{self, Proof};
+use rocking_common::findings::Theme;
+use rocking_common::paper::Arm;
 use rocking_common::table::PlainTable;
 use rocking_draw::colour;
 use rocking_draw::figures::{BlockSketch, Figure, Heading};
@@ -14,42 +15,11 @@ fn sketch(name: &str) -> Figure {
 }
 
 fn made_up() -> ReportInput {
-    let outcome = |k: usize| Outcome {
-        suite: Tested::Ordinary,
-        place: "ordinary, arm C".into(),
-        value: "91.0 % (83.0 to 96.0 %)".into(),
-        by_criterion: (k == 2).then_some(Verdict::NotConfirmed),
-        by_equivalence: Some(Verdict::ALL[k % 3]),
-        first: true,
-        remarks: vec!["52 of 52 cells inside, 0 outside".into()],
-    };
-    let finding = |k: usize| Finding {
-        id: format!("stage-{k}"),
-        plain: format!("median ratios are 1, claim {k}"),
-        quote: "The median r conforms to 1.0 with 95 % confidence.".into(),
-        source: format!("section {k}"),
-        criterion: "the notch covers 1".into(),
-        rule: "at least 90 %".into(),
-        measure: "share of stripes whose interval holds 1".into(),
-        columns: vec![vec![outcome(k); 2], vec![outcome(k + 1); 2]],
-        figures: vec![("figure-08".into(), "Figure 8".into())],
-        remark: if k == 1 { "The lowest stripe.".into() } else { "".into() },
-    };
-    let column = |name: &str| Column {
-        name: name.into(),
-        suites: "86 ordinary + 44 pulse-type".into(),
-        counts: Verdict::ALL.map(|verdict| (verdict, 7)),
-    };
-    let case = |k: usize| ShownCase {
-        id: format!("free-rocking/decay-{k}"),
-        claim: "peaks fall as the closed form says".into(),
-        source: "Housner 1963, Eq. 8".into(),
-        tolerance: "1e-12 relative".into(),
-        because: "hundred times what double precision can give".into(),
-        worst: "3.1 %, peak".into(),
-        rejects: "energy ratio taken for velocity ratio".into(),
-        passed: k != 2,
-    };
+    let recorded = crate::recorded::recorded().unwrap();
+    let column =
+        |name| Column { name, findings: recorded.clone(), first: Arm::C };
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
+    let proof = Proof::read(data.as_ref()).unwrap();
     let shown = |figure: &Figure| {
         let heading = &figure.heading;
         ShownFigure {
@@ -59,7 +29,6 @@ fn made_up() -> ReportInput {
             reading: "Nothing can be seen here, the numbers are made up."
                 .into(),
             svg: figure.svg(),
-            csv_path: format!("data/{}.csv", heading.name),
         }
     };
     let words = |cells: &[&str]| -> Vec<String> {
@@ -73,34 +42,25 @@ fn made_up() -> ReportInput {
             ("Issued".into(), Some("a day".into())),
             ("Approved by".into(), None),
         ],
-        answers: Answers {
-            rows: vec![AnswerRow {
-                question: "Is slenderness normalized out?".into(),
-                answer: "Nearly: for ratios; open for quantiles.".into(),
-                effect: "-0.9 % (-1 to -0.8 %)".into(),
-                columns: vec!["7 results for it".into(); 2],
-                shown: vec![("figure-08".into(), "Figure 8".into())],
-            }],
-            figures: vec![],
-        },
+        answers: vec![AnswerRow {
+            question: "Is slenderness normalized out?".into(),
+            answer: "Nearly: for ratios; open for quantiles.".into(),
+            effect: "-0.9 % (-1 to -0.8 %)".into(),
+            columns: vec!["7 results for it".into(); 2],
+            shown: vec![("figure-08".into(), "Figure 8".into())],
+        }],
+        first: Vec::new(),
         columns: ["recorded suites", "embedded suites"].map(column).into(),
-        findings: vec![Theme {
-            id: "theme-a",
-            question: "Does the slenderness drop out?".into(),
+        findings: vec![Shown {
+            theme: Theme::Statistics,
             paragraph: "On average it does.".into(),
             figures: ["figure-01", "figure-06-c", "figure-08"]
                 .map(|name| shown(&sketch(name)))
                 .into(),
             more: Vec::new(),
-            findings: (0..7).map(finding).collect(),
         }],
         proof: "By the results handed in: all cases pass.".into(),
-        families: vec![Family {
-            name: "free-rocking".into(),
-            worst: "3.1 %, peak".into(),
-            rejected: 3,
-            cases: (0..3).map(case).collect(),
-        }],
+        families: evidence::shown(&proof).unwrap(),
         identities: PlainTable::default(),
         method: vec!["As one would.".into()],
         glossary: vec![("p".into(), "frequency parameter".into())],
@@ -141,7 +101,7 @@ fn writes_it_to_be_looked_at() {
 fn suites_are_named_without_a_second_article() {
     let mut input = made_up();
     input.columns.truncate(1);
-    input.columns[0].name = "your suites".into();
+    input.columns[0].name = "your suites";
     let html = page(&input);
     assert!(html.contains("Your suites, "), "your suites are not named");
     assert!(!html.contains("the your"));

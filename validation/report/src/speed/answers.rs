@@ -39,7 +39,6 @@ pub struct Error {
 
 impl Answer {
     /// The answer in a response that was observed with events.
-    #[must_use]
     pub fn of(case: &Case, response: &Response) -> Self {
         let seen = response.impacts.iter();
         let all: Vec<(f64, f64)> =
@@ -77,7 +76,6 @@ impl Answer {
     }
 
     /// Its error against the reference.
-    #[must_use]
     pub fn error(&self, reference: &Self) -> Error {
         let overturned = |a: &Self| a.peak_ratio == f64::INFINITY;
         let right_fate = !self.peak_ratio.is_nan()

@@ -7,7 +7,6 @@ use rocking::ida::{Analysis, curve};
 use rocking::integrator::{Model, Overturning, Scene};
 use rocking::record::Accelerogram;
 
-use super::SpeedError;
 use rocking_common::paper::BLOCKS;
 use rocking_common::suites::StudySuite;
 
@@ -34,7 +33,6 @@ pub struct Case {
 
 impl Case {
     /// What is integrated.
-    #[must_use]
     pub fn scene(&self) -> Scene<'_> {
         let record = ScaledRecord::to_pga(&self.record, self.pga_g);
         Scene {
@@ -48,7 +46,6 @@ impl Case {
     }
 
     /// Samples as applied, multiples of gravity.
-    #[must_use]
     pub fn samples_g(&self) -> Vec<f64> {
         self.record.samples().iter().map(|a| a * self.pga_g).collect()
     }
@@ -60,7 +57,7 @@ impl Case {
 ///
 /// # Errors
 /// None in practice: records and blocks are in range.
-pub fn all() -> Result<Vec<Case>, SpeedError> {
+pub fn all() -> anyhow::Result<Vec<Case>> {
     let mut cases = Vec::new();
     for suite in StudySuite::embedded()? {
         for (k, block) in BLOCKS.into_iter().enumerate() {
@@ -77,7 +74,7 @@ fn case(
     record: &Accelerogram,
     block: Block,
     share: f64,
-) -> Result<Case, SpeedError> {
+) -> anyhow::Result<Case> {
     let record = NormalisedRecord::new(record);
     let restitution = Restitution::constant(ETA)?;
     let curve = curve(&record, &Analysis::paper(block, restitution))?;

@@ -3,13 +3,11 @@
 use rustix::time::{ClockId, Timespec};
 
 /// Processor time that this thread has used, in s.
-#[must_use]
 pub fn thread_s() -> f64 {
     seconds(ClockId::ThreadCPUTime)
 }
 
 /// Processor time that all threads of this process have used, in s.
-#[must_use]
 pub fn process_s() -> f64 {
     seconds(ClockId::ProcessCPUTime)
 }
@@ -48,7 +46,6 @@ pub fn least_s<T>(
 
 /// Most memory that this process has held, in MiB; none where the system
 /// doesn't say.
-#[must_use]
 pub fn peak_memory_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

@@ -5,7 +5,6 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, IdaCurve};
 use rocking::integrator::{Model, Order};
 
-use super::SpeedError;
 use super::singles::ORDERS;
 use super::throughput::{
     Job, Throughput, analyses, kernel, lilliefors, moved, samples_of,
@@ -22,11 +21,11 @@ pub const STEPS: u64 = 22;
 /// Kernels, the middle block, all blocks at every order, and replicates.
 ///
 /// # Errors
-/// [`SpeedError`] for a record that cannot be analysed.
+/// For a record that cannot be analysed.
 pub fn measure(
     records: &[NormalisedRecord],
     done: &dyn Fn(),
-) -> Result<Vec<Throughput>, SpeedError> {
+) -> anyhow::Result<Vec<Throughput>> {
     let (one, two) = (Model::Nonlinear, Model::Linearized);
     let mut all = Vec::new();
     for (words, model, order, step) in [
@@ -61,7 +60,7 @@ fn whole(
     model: Model,
     words: &str,
     done: &dyn Fn(),
-) -> Result<Vec<Throughput>, SpeedError> {
+) -> anyhow::Result<Vec<Throughput>> {
     let shipped = analyses(&BLOCKS, model, None)?;
     let mut all = Vec::new();
     let mut base = Vec::new();
@@ -104,7 +103,7 @@ fn make(
     analyses: &[Analysis],
     records: &[NormalisedRecord],
     how: &str,
-) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
+) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
     let lanes = how == WAYS[0];
     let way = if lanes { Execution::default() } else { Execution::OneByOne };
     let job = Job { analyses, records, way, threads: 1 };

@@ -1,12 +1,13 @@
 //! Measurements of single analyses as rows, in memory and as CSV.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use anyhow::{Context as _, bail};
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 
 use super::answers::{Answer, COMPARED};
 use super::cases::Case;
+use super::csv;
 use rocking_common::words::rounded;
 
 /// A tool with its setting on one case.
@@ -56,39 +57,7 @@ struct Given {
     first_impacts_s: String,
 }
 
-/// Why measurements were refused.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum MeasuredError {
-    /// A table that cannot be read.
-    #[error("{}: {source}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// What was wrong.
-        #[source]
-        source: csv::Error,
-    },
-    /// An answer to another question.
-    #[error("{}: no such case: {case}", path.display())]
-    Case {
-        /// The file.
-        path: PathBuf,
-        /// What it says.
-        case: String,
-    },
-    /// A list of times that is none.
-    #[error("{}: impact times {text:?}: expected numbers", path.display())]
-    Times {
-        /// The file.
-        path: PathBuf,
-        /// What it says.
-        text: String,
-    },
-}
-
 /// A row from an answer and what it took.
-#[must_use]
 pub fn row(
     [tool, version, method, setting]: [&str; 4],
     (case, reference): (&Case, &Answer),
@@ -114,27 +83,29 @@ pub fn row(
 /// Reads the answers of another tool and compares them with the references.
 ///
 /// # Errors
-/// [`MeasuredError`] for a file that is not a driver's output.
+/// For a file that is not a driver's output.
 pub fn read_answers(
     path: &Path,
     cases: &[(Case, Answer)],
-) -> Result<Vec<Row>, MeasuredError> {
-    let table = |source| MeasuredError::Table { path: path.into(), source };
-    let mut reader = csv::Reader::from_path(path).map_err(table)?;
+) -> anyhow::Result<Vec<Row>> {
+    let shown = path.display();
+    let table = || shown.to_string();
+    let mut reader = csv::Reader::from_path(path).with_context(table)?;
     let mut rows = Vec::new();
     for given in reader.deserialize() {
-        let given: Given = given.map_err(table)?;
+        let given: Given = given.with_context(table)?;
         let known = cases.iter().find(|(case, _)| case.name == given.case);
         let Some((case, reference)) = known else {
-            let case = given.case;
-            return Err(MeasuredError::Case { path: path.into(), case });
+            bail!("{shown}: no such case: {}", given.case);
         };
         let times = given.first_impacts_s.split_whitespace();
         let Ok(mut times) =
             times.map(str::parse).collect::<Result<Vec<_>, _>>()
         else {
-            let text = given.first_impacts_s;
-            return Err(MeasuredError::Times { path: path.into(), text });
+            bail!(
+                "{shown}: impact times {:?}: expected numbers",
+                given.first_impacts_s
+            );
         };
         times.truncate(COMPARED);
         let answer = Answer {
@@ -153,29 +124,17 @@ pub fn read_answers(
     Ok(rows)
 }
 
-/// Rows of a table as [`text`] writes it.
-///
-/// # Errors
-/// The reader's word on what was wrong.
-pub fn parse(text: &str) -> Result<Vec<Row>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
-}
-
 /// The rows as CSV: times to four digits, errors to three.
 ///
 /// # Errors
 /// None in practice: memory can be written to.
 pub fn text(rows: &[Row]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(Row {
-            cpu_s: rounded(row.cpu_s, 4),
-            peak_error: row.peak_error.map(|e| rounded(e, 3)),
-            impact_error_s: rounded(row.impact_error_s, 3),
-            ..row.clone()
-        })?;
-    }
-    writer.into_inner().map_err(|e| e.into_error().into())
+    csv(rows.iter().map(|row| Row {
+        cpu_s: rounded(row.cpu_s, 4),
+        peak_error: row.peak_error.map(|e| rounded(e, 3)),
+        impact_error_s: rounded(row.impact_error_s, 3),
+        ..row.clone()
+    }))
 }
 
 /// What a tool with its setting came to over the cases.
@@ -212,7 +171,6 @@ pub struct Total {
 
 /// Totals by tool and setting, in the order of the rows; ratios to the times
 /// of `base` (tool, method, setting).
-#[must_use]
 pub fn totals(rows: &[Row], base: [&str; 3]) -> Vec<Total> {
     let label = |row: &Row| {
         [&row.tool, &row.version, &row.method, &row.setting].map(String::clone)

@@ -17,7 +17,6 @@ pub struct Ground<'a> {
 
 impl Ground<'_> {
     /// End of the record in s.
-    #[must_use]
     pub fn end_s(&self) -> f64 {
         (self.samples_g.len() - 1) as f64 * self.dt_s
     }
@@ -37,7 +36,6 @@ impl Ground<'_> {
 
     /// First instant from `time_s` on at which |a/g| exceeds the threshold,
     /// and the sign of a.
-    #[must_use]
     pub fn exceedance(
         &self,
         time_s: f64,
@@ -63,7 +61,6 @@ impl Ground<'_> {
 
 /// Time in s within which the hops after an impact end, if they provably do;
 /// `side` is the sign of theta after it and `speed_rad_s` the speed.
-#[must_use]
 pub fn chatter_s(
     block: &Block,
     eta: f64,
@@ -115,7 +112,6 @@ pub fn chatter_s(
 
 /// Times of the impacts up to the record's end without those of the series
 /// that end at rest: `all` has time and speed before each.
-#[must_use]
 pub fn without_chatter(
     block: &Block,
     eta: f64,

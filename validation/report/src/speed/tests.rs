@@ -6,7 +6,8 @@ use rocking::block::Block;
 
 use super::answers::Answer;
 use super::cases;
-use super::measured::{MeasuredError, parse, read_answers, row, text};
+use super::measured::{Row, read_answers, row, text};
+use super::parse;
 use super::rest::{Ground, chatter_s};
 
 #[test]
@@ -87,7 +88,7 @@ fn answers_of_other_tools_are_judged_or_refused() {
     assert_eq!(rows[0].impact_error_s, 0.0);
     assert!(rows[0].right_fate && rows[0].same_impacts);
     // Kept to three digits.
-    let back = parse(str(&text(&rows).expect("CSV"))).expect("rows");
+    let back: Vec<Row> = parse(str(&text(&rows).expect("CSV"))).expect("rows");
     assert_eq!(back[0].peak_error, Some(0.25));
     assert_eq!((back.len(), &back[0].case), (1, &case.name));
     // One impact less, the other fate, no answer at all.
@@ -98,10 +99,13 @@ fn answers_of_other_tools_are_judged_or_refused() {
         assert!(!rows[0].right_fate);
         assert_eq!(rows[0].peak_error, None);
     }
-    let refused = judge(line("other", peak, &all));
-    assert!(matches!(refused, Err(MeasuredError::Case { .. })));
-    let refused = judge(line(name, peak, "1.0 soon"));
-    assert!(matches!(refused, Err(MeasuredError::Times { .. })));
+    for (line, words) in [
+        (line("other", peak, &all), "no such case: other"),
+        (line(name, peak, "1.0 soon"), "\"1.0 soon\": expected numbers"),
+    ] {
+        let refused = judge(line).unwrap_err().to_string();
+        assert!(refused.contains(words), "{refused}");
+    }
     fs::remove_file(&path).expect("removed");
     let none = Answer { peak_ratio: f64::NAN, ..reference.clone() };
     let row = row(["T", "1", "M", "s"], (case, reference), (1.0, 1), &none);

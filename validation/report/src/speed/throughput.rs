@@ -12,9 +12,9 @@ use rocking::record::Accelerogram;
 use rocking::statistics::lilliefors::NullDistribution;
 use serde::{Deserialize, Serialize};
 
-use super::SpeedError;
 use super::cases::ETA;
 use super::clock::process_s;
+use super::csv;
 use rocking_common::curves::Execution;
 use rocking_common::words::rounded;
 
@@ -38,14 +38,17 @@ pub struct Throughput {
 }
 
 impl Throughput {
+    fn new(work: &str, threads: usize, cpu_s: f64, count: u64) -> Self {
+        let (work, samples, moved) = (work.into(), None, None);
+        Self { work, threads, cpu_s, count, samples, moved }
+    }
+
     /// Analyses or replicates in a second of processor time.
-    #[must_use]
     pub fn rate_per_s(&self) -> f64 {
         self.count as f64 / self.cpu_s
     }
 
     /// Nanoseconds of processor time a sample.
-    #[must_use]
     pub fn sample_ns(&self) -> Option<f64> {
         self.samples.map(|n| 1e9 * self.cpu_s / n as f64)
     }
@@ -82,11 +85,11 @@ pub fn analyses(
 /// Processor time of `work` on a pool of that many threads.
 ///
 /// # Errors
-/// [`SpeedError`] where threads cannot be started.
+/// Where threads cannot be started.
 pub fn on_threads<T: Send>(
     threads: usize,
     work: impl FnOnce() -> T + Send,
-) -> Result<(f64, T), SpeedError> {
+) -> anyhow::Result<(f64, T)> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     Ok(pool.install(|| {
         let begin = process_s();
@@ -100,11 +103,11 @@ impl Job<'_> {
     /// median: a few seconds of a shared machine may be slow ones.
     ///
     /// # Errors
-    /// [`SpeedError`] for a record that cannot be analysed.
+    /// For a record that cannot be analysed.
     pub fn measure_thrice(
         &self,
         work: &str,
-    ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
+    ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
         let (mut measured, found) = self.measure(work)?;
         let others = [self.measure(work)?.0, self.measure(work)?.0];
         let mut times = [measured.cpu_s, others[0].cpu_s, others[1].cpu_s];
@@ -116,31 +119,22 @@ impl Job<'_> {
     /// Makes the curves, and says how long that took.
     ///
     /// # Errors
-    /// [`SpeedError`] for a record that cannot be analysed.
+    /// For a record that cannot be analysed.
     pub fn measure(
         &self,
         work: &str,
-    ) -> Result<(Throughput, Vec<Vec<IdaCurve>>), SpeedError> {
+    ) -> anyhow::Result<(Throughput, Vec<Vec<IdaCurve>>)> {
         let Self { analyses, records, way, threads } = *self;
         let (cpu_s, found) =
             on_threads(threads, || way.curves(records, analyses, &|| ()))?;
         let found = found?;
         let all = found.iter().flatten();
         let count = all.map(|c| c.analyses).fold(0, u64::saturating_add);
-        let measured = Throughput {
-            work: work.into(),
-            threads,
-            cpu_s,
-            count,
-            samples: None,
-            moved: None,
-        };
-        Ok((measured, found))
+        Ok((Throughput::new(work, threads, cpu_s, count), found))
     }
 }
 
 /// Chains whose first overturning is at another level than those of `base`.
-#[must_use]
 pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
     let level = |c: &IdaCurve| c.overturning.map(|first| first.scanned_im);
     let both = found.iter().flatten().zip(base.iter().flatten());
@@ -150,12 +144,12 @@ pub fn moved(found: &[Vec<IdaCurve>], base: &[Vec<IdaCurve>]) -> u64 {
 /// Steps that the analyses of some curves took.
 ///
 /// # Errors
-/// [`SpeedError`] for a record that cannot be analysed.
+/// For a record that cannot be analysed.
 pub fn samples_of(
     records: &[NormalisedRecord],
     analyses: &[Analysis],
     found: &[Vec<IdaCurve>],
-) -> Result<u64, SpeedError> {
+) -> anyhow::Result<u64> {
     let chains: Vec<_> = analyses
         .iter()
         .zip(found)
@@ -163,7 +157,7 @@ pub fn samples_of(
             records.iter().zip(curves).map(move |(r, c)| (a, r, c))
         })
         .collect();
-    let steps: Vec<Result<u64, SpeedError>> = chains
+    let steps: Vec<anyhow::Result<u64>> = chains
         .par_iter()
         .map(|(analysis, record, curve)| {
             let solver = Solver { peak_only: true, ..Solver::default() };
@@ -200,20 +194,9 @@ fn scene<'a>(
 /// # Errors
 /// None in practice: memory can be written to.
 pub fn text(rows: &[Throughput]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        let cpu_s = rounded(row.cpu_s, 4);
-        writer.serialize(Throughput { cpu_s, ..row.clone() })?;
-    }
-    writer.into_inner().map_err(|e| e.into_error().into())
-}
-
-/// Rows of a table as [`text`] writes it.
-///
-/// # Errors
-/// The reader's word on what was wrong.
-pub fn parse(text: &str) -> Result<Vec<Throughput>, csv::Error> {
-    csv::Reader::from_reader(text.as_bytes()).deserialize().collect()
+    csv(rows
+        .iter()
+        .map(|row| Throughput { cpu_s: rounded(row.cpu_s, 4), ..row.clone() }))
 }
 
 /// The kernel of the lanes with hardly anything else: blocks rock freely
@@ -226,7 +209,7 @@ pub fn kernel(
     model: Model,
     order: Option<Order>,
     step: f64,
-) -> Result<Throughput, SpeedError> {
+) -> anyhow::Result<Throughput> {
     const CHAINS: usize = 64;
     let block = Block::try_new(0.2, 1.0)?;
     let push = (1.0 / step) as usize;
@@ -272,17 +255,11 @@ pub fn kernel(
 ///
 /// # Errors
 /// None in practice: the number of replicates is in range.
-pub fn lilliefors() -> Result<Throughput, SpeedError> {
+pub fn lilliefors() -> anyhow::Result<Throughput> {
     const REPLICATES: u64 = 200_000;
     let (cpu_s, found) =
         on_threads(1, || NullDistribution::simulate(86, REPLICATES, 0))?;
     found?;
-    Ok(Throughput {
-        work: "Lilliefors replicates, n = 86".into(),
-        threads: 1,
-        cpu_s,
-        count: REPLICATES,
-        samples: None,
-        moved: None,
-    })
+    let work = "Lilliefors replicates, n = 86";
+    Ok(Throughput::new(work, 1, cpu_s, REPLICATES))
 }

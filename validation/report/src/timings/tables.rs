@@ -19,7 +19,6 @@ const USES: [(&str, &str); 6] = [
 impl Timings {
     /// Tools and settings; which of ours when; many analyses; what was tried
     /// and not kept.
-    #[must_use]
     pub fn tables(&self) -> Vec<PlainTable> {
         vec![
             self.tools(),
@@ -32,7 +31,7 @@ impl Timings {
     fn window_step(&self) -> PlainTable {
         let (header, rows) = &self.window_step;
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        table(
+        PlainTable::new(
             "speed-window-step",
             "Tried, and not kept: steps of several samples",
             "Within a window the record is taken as a straight line, and \
@@ -49,8 +48,7 @@ impl Timings {
              sample by sample is more accurate than both, faster than those \
              of 4 samples and a tenth slower than those of 8; where p = 3 \
              or 4, order 7 is faster than both and no less accurate. \
-             Windows would take 60 to 100 MB of tables besides."
-                .into(),
+             Windows would take 60 to 100 MB of tables besides.",
             &header,
             rows.clone(),
         )
@@ -72,7 +70,7 @@ impl Timings {
             ]
         };
         let reference = |t: &&Total| t.label[3] != "order 27";
-        table(
+        PlainTable::new(
             "speed-tools",
             "Speed and error of single analyses",
             format!(
@@ -133,12 +131,11 @@ impl Timings {
                 ]
             })
             .collect();
-        table(
+        PlainTable::new(
             "speed-settings",
             "Which of our settings when",
             "Moved: chains of 15 blocks and all embedded records whose first \
-             overturning is at another level than as shipped."
-                .into(),
+             overturning is at another level than as shipped.",
             &[
                 "setting",
                 "single analyses: time / as shipped",
@@ -167,7 +164,7 @@ impl Timings {
                 t.moved.map_or(String::new(), |n| n.to_string()),
             ]
         };
-        table(
+        PlainTable::new(
             "speed-throughput",
             "Many analyses",
             format!(
@@ -195,21 +192,5 @@ impl Timings {
             let prefix = t.work.strip_suffix("in lanes");
             t.threads == 1 && prefix.is_some_and(|p| of.work.starts_with(p))
         })
-    }
-}
-
-fn table(
-    name: &str,
-    title: &str,
-    reading: String,
-    header: &[&str],
-    rows: Vec<Vec<String>>,
-) -> PlainTable {
-    PlainTable {
-        name: name.into(),
-        title: title.into(),
-        reading,
-        header: header.iter().map(|cell| (*cell).to_owned()).collect(),
-        rows,
     }
 }

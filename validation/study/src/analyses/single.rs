@@ -8,7 +8,7 @@ use rocking::excitation::NormalisedRecord;
 
 use super::plan::Plan;
 use super::suite::{Apart, ShownHistory, SingleRecords, SuiteResults};
-use crate::error::StudyError;
+use crate::results::no_arm;
 use crate::runs::capacities;
 use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, position};
 
@@ -26,9 +26,9 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         results: &SuiteResults,
-    ) -> Result<SingleRecords, StudyError> {
+    ) -> anyhow::Result<SingleRecords> {
         let Some(curves) = results.curves(self.common()) else {
-            return Err(StudyError::NoArm);
+            return Err(no_arm());
         };
         let of = |slenderness, record: usize| -> &ResponseCurve {
             &curves[position(frequency, slenderness)][record]
@@ -44,7 +44,7 @@ impl Plan {
             .map(|r| slendernesses.clone().map(|s| last(of(s, *r))).collect())
             .collect();
         let im = common_level(&standing);
-        let at_level = |record: usize, im: f64| -> Result<_, StudyError> {
+        let at_level = |record: usize, im: f64| -> anyhow::Result<_> {
             let histories: Vec<(Vec<f64>, f64)> = slendernesses
                 .clone()
                 .map(|s| {
@@ -81,17 +81,17 @@ impl Plan {
                 };
                 Ok((kept, apart))
             })
-            .collect::<Result<_, StudyError>>()?;
+            .collect::<anyhow::Result<_>>()?;
         let by_level = LEVELS_IM
             .into_iter()
             .map(|im| {
                 let apart = (0..records.len())
                     .into_par_iter()
                     .map(|record| Ok(at_level(record, im)?.1))
-                    .collect::<Result<_, StudyError>>()?;
+                    .collect::<anyhow::Result<_>>()?;
                 Ok((im, apart))
             })
-            .collect::<Result<_, StudyError>>()?;
+            .collect::<anyhow::Result<_>>()?;
         let histories =
             results.chosen.iter().map(|r| all[*r].0.clone()).collect();
         let apart = all.into_iter().map(|(_, apart)| apart).collect();
@@ -103,7 +103,7 @@ fn apart(
     compared: &(Vec<f64>, f64),
     reference: &(Vec<f64>, f64),
     curves: (&ResponseCurve, &ResponseCurve),
-) -> Result<Apart, StudyError> {
+) -> anyhow::Result<Apart> {
     let stand = compared.1.is_finite() && reference.1.is_finite();
     let when_standing = |x: f64| if stand { x } else { f64::NAN };
     // Demands 0.1, 0.2, ... 1.0.

@@ -8,7 +8,6 @@ use rocking::ida::Adjust;
 
 use super::plan::Plan;
 use super::suite::{ArmCurves, StripeDemands, SuiteResults};
-use crate::error::StudyError;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, STRIPES, position,
 };
@@ -21,7 +20,7 @@ impl Plan {
         blocks: &[Block],
         records: &[NormalisedRecord],
         results: &SuiteResults,
-    ) -> Result<Vec<StripeDemands>, StudyError> {
+    ) -> anyhow::Result<Vec<StripeDemands>> {
         let used = self.used_stripes(results);
         let scaling = Adjust::RecordScaling;
         let runs: Vec<Vec<Vec<f64>>> = blocks
@@ -119,8 +118,8 @@ impl Plan {
 fn on_levels(
     levels: &[f64],
     records: &[NormalisedRecord],
-    run: impl Fn(f64, &NormalisedRecord) -> Result<f64, StudyError> + Sync,
-) -> Result<Vec<Vec<f64>>, StudyError> {
+    run: impl Fn(f64, &NormalisedRecord) -> anyhow::Result<f64> + Sync,
+) -> anyhow::Result<Vec<Vec<f64>>> {
     levels
         .iter()
         .map(|im| records.par_iter().map(|r| run(*im, r)).collect())

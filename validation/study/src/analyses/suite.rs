@@ -7,7 +7,6 @@ use rocking::record::SetAside;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use crate::certainty::Certainty;
-use crate::error::StudyError;
 use rocking_common::findings::RecordName;
 use rocking_common::paper::{Arm, FREQUENCIES_RAD_S, SuiteKind};
 use rocking_common::suites::{Motion, Source};
@@ -176,8 +175,8 @@ impl SingleRecords {
 /// What a study knows of a motion's component.
 ///
 /// # Errors
-/// [`StudyError`] where nothing moves.
-pub fn facts(motion: &Motion) -> Result<Facts, StudyError> {
+/// Where nothing moves.
+pub fn facts(motion: &Motion) -> anyhow::Result<Facts> {
     let study = &motion.study;
     let pga_g = study.pga_g();
     let own = FREQUENCIES_RAD_S.map(|p| OWN_PERIODS.map(|t| t / p));

@@ -3,12 +3,12 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
-use crate::error::StudyError;
 use crate::estimates::three_quantiles;
 use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
 };
 use crate::results::Results;
+use crate::results::no_arm;
 use crate::ties::critical_on_grid;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
@@ -22,10 +22,7 @@ use rocking_draw::figures::{
 };
 
 /// Figure 11: p = 1, alpha = 0.20.
-pub(super) fn inverted(
-    results: &Results,
-    arm: Arm,
-) -> Result<Figure, StudyError> {
+pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     let levels = demands();
     let mut panels = Vec::new();
     let mut onsets = Vec::new();
@@ -33,7 +30,7 @@ pub(super) fn inverted(
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let block = results.ordinary_block(arm, intensity, 0, 3)?;
         onsets.push(three_quantiles(&block.samples[0])?);
-        let last = block.samples.last().ok_or(StudyError::NoArm)?;
+        let last = block.samples.last().ok_or_else(no_arm)?;
         ends = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
         panels.push(CapacityPanel {
@@ -50,7 +47,7 @@ pub(super) fn inverted(
                 .iter()
                 .zip(&block.samples)
                 .map(|(edp, sample)| Ok((*edp, three_quantiles(sample)?)))
-                .collect::<Result<_, StudyError>>()?,
+                .collect::<anyhow::Result<_>>()?,
         });
     }
     let times = |of: [f64; 3], less: f64| (of[2] - less) / (of[0] - less);
@@ -90,7 +87,7 @@ pub(super) fn inverted(
 pub(super) fn shares(
     results: &Results,
     number: u32,
-) -> Result<Figure, StudyError> {
+) -> anyhow::Result<Figure> {
     let intensity = if number == 12 { Intensity::Pga } else { Intensity::Pgv };
     let drawn = results.plan.drawn();
     let mut panels = Vec::new();
@@ -100,7 +97,7 @@ pub(super) fn shares(
             let mut shares = Vec::new();
             for arm in &drawn {
                 let found = results.distributions(suite.kind, *arm, intensity);
-                for block in &found.ok_or(StudyError::NoArm)?.blocks {
+                for block in &found.ok_or_else(no_arm)?.blocks {
                     let (original, above) = block.shares();
                     shares.push(BlockShare {
                         p_rad_s: block.p_rad_s,
@@ -184,10 +181,7 @@ fn tested(levels: &[Assessment]) -> usize {
 }
 
 /// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA.
-pub(super) fn along(
-    results: &Results,
-    arm: Arm,
-) -> Result<Figure, StudyError> {
+pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     let edp = 0.5;
     let mut blocks = Vec::new();
     let mut words = Vec::new();

@@ -7,7 +7,6 @@ pub(super) use thresholds::thresholds;
 use rocking::statistics::ExtendedSample;
 
 use crate::distributions::BlockSamples;
-use crate::error::StudyError;
 use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
 use crate::results::Results;
 use rocking_common::paper::{Arm, Intensity, demand_index};
@@ -19,7 +18,7 @@ use rocking_draw::figures::{
 fn sample_at(
     block: &BlockSamples,
     edp: f64,
-) -> Result<ExtendedSample, StudyError> {
+) -> anyhow::Result<ExtendedSample> {
     Ok(ExtendedSample::try_new(&block.samples[demand_index(edp)])?)
 }
 
@@ -27,7 +26,7 @@ fn sample_at(
 pub(super) fn constants(
     results: &Results,
     arm: Arm,
-) -> Result<Figure, StudyError> {
+) -> anyhow::Result<Figure> {
     let edp = THRESHOLDS[0];
     let block =
         results.ordinary_block(arm, Intensity::Pga, BLOCK.0, BLOCK.1)?;

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 
 use crate::analyses::SuiteResults;
-use crate::error::StudyError;
 use crate::estimates::three_quantiles;
+use crate::results::no_arm;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
@@ -22,10 +22,10 @@ const MOST_POINTS: usize = 160;
 pub(super) fn slendernesses(
     suite: &SuiteResults,
     arms: &[Arm],
-) -> Result<Figure, StudyError> {
+) -> anyhow::Result<Figure> {
     let mut by_arm = Vec::new();
     for arm in arms {
-        let curves = suite.curves(*arm).ok_or(StudyError::NoArm)?;
+        let curves = suite.curves(*arm).ok_or_else(no_arm)?;
         by_arm.push(panels(|frequency| {
             SLENDERNESSES_RAD
                 .iter()
@@ -93,8 +93,8 @@ fn spread_in_words(arms: &[Arm], by_arm: &[Vec<QuantilePanel>]) -> String {
 pub(super) fn adjusted(
     suite: &SuiteResults,
     arm: Arm,
-) -> Result<Figure, StudyError> {
-    let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
+) -> anyhow::Result<Figure> {
+    let curves = suite.curves(arm).ok_or_else(no_arm)?;
     let adjusted = suite.adjusted.iter().find(|a| a.arm == arm);
     let panels = panels(|frequency| {
         let scaled = &curves[position(frequency, REFERENCE)];
@@ -129,8 +129,8 @@ pub(super) fn adjusted(
 }
 
 fn panels(
-    groups: impl Fn(usize) -> Result<Vec<QuantileGroup>, StudyError>,
-) -> Result<Vec<QuantilePanel>, StudyError> {
+    groups: impl Fn(usize) -> anyhow::Result<Vec<QuantileGroup>>,
+) -> anyhow::Result<Vec<QuantilePanel>> {
     FREQUENCIES_RAD_S
         .into_iter()
         .enumerate()
@@ -146,7 +146,7 @@ fn panels(
 pub(crate) fn group(
     label: String,
     curves: &[ResponseCurve],
-) -> Result<QuantileGroup, StudyError> {
+) -> anyhow::Result<QuantileGroup> {
     // All curves of a block share their levels; the longest has them all.
     let mut levels: Vec<f64> = Vec::new();
     for curve in curves {
@@ -179,7 +179,7 @@ pub(crate) fn group(
 pub(crate) fn three(
     curves: &[ResponseCurve],
     im: f64,
-) -> Result<[f64; 3], StudyError> {
+) -> anyhow::Result<[f64; 3]> {
     // Between the last standing level and a refined overturning the curve
     // says nothing; the block stands there.
     let demands: Vec<f64> = curves

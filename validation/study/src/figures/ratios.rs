@@ -3,7 +3,6 @@
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::analyses::{StripeDemands, SuiteResults};
-use crate::error::StudyError;
 use crate::inference::LEAST_DECIDING;
 use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{
@@ -19,7 +18,7 @@ pub(super) fn slendernesses(
     suite: &SuiteResults,
     arm: Arm,
     number: u32,
-) -> Result<Option<Figure>, StudyError> {
+) -> anyhow::Result<Option<Figure>> {
     let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
     let frequencies: &[usize] = if number == 6 { &[0] } else { &[1, 2] };
     let mut panels = Vec::new();
@@ -66,7 +65,7 @@ pub(super) fn slendernesses(
 pub(super) fn adjusted(
     suite: &SuiteResults,
     arm: Arm,
-) -> Result<Option<Figure>, StudyError> {
+) -> anyhow::Result<Option<Figure>> {
     let Some(stripes) = of_arm(suite, arm) else { return Ok(None) };
     let panels = FREQUENCIES_RAD_S
         .into_iter()
@@ -80,7 +79,7 @@ pub(super) fn adjusted(
                 stripes: boxes(stripes, frequency, None)?,
             })
         })
-        .collect::<Result<Vec<_>, StudyError>>()?;
+        .collect::<anyhow::Result<Vec<_>>>()?;
     let reading = medians_in_words(&panels);
     Ok(Some(
         Boxplots {
@@ -108,7 +107,7 @@ pub(super) fn adjusted(
 pub(crate) fn adjusted_boxes(
     suite: &SuiteResults,
     arm: Arm,
-) -> Result<Vec<(f64, Vec<Stripe>)>, StudyError> {
+) -> anyhow::Result<Vec<(f64, Vec<Stripe>)>> {
     let Some(stripes) = of_arm(suite, arm) else { return Ok(Vec::new()) };
     FREQUENCIES_RAD_S
         .into_iter()
@@ -122,7 +121,7 @@ fn boxes(
     stripes: &StripeDemands,
     frequency: usize,
     slenderness: Option<usize>,
-) -> Result<Vec<Stripe>, StudyError> {
+) -> anyhow::Result<Vec<Stripe>> {
     pairs(stripes, frequency, slenderness)?
         .into_iter()
         .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
@@ -137,7 +136,7 @@ fn boxes(
         .collect()
 }
 
-fn notched(ratios: &[f64]) -> Result<Boxplot, StudyError> {
+fn notched(ratios: &[f64]) -> anyhow::Result<Boxplot> {
     let sample = ExtendedSample::try_new(ratios)?;
     Ok(Boxplot::try_new(&sample, QuantileType::default())?)
 }

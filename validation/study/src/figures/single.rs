@@ -1,7 +1,7 @@
 //! Figures 1 to 5: the block, and single records.
 
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
-use crate::error::StudyError;
+use crate::results::no_arm;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
@@ -114,8 +114,8 @@ pub(super) fn curves(
     suite: &SuiteResults,
     arm: Arm,
     number: u32,
-) -> Result<Figure, StudyError> {
-    let all = suite.curves(arm).ok_or(StudyError::NoArm)?;
+) -> anyhow::Result<Figure> {
+    let all = suite.curves(arm).ok_or_else(no_arm)?;
     let mut panels = Vec::new();
     for (frequency, p_rad_s) in FREQUENCIES_RAD_S.into_iter().enumerate() {
         for record in suite.chosen {

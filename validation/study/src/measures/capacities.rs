@@ -6,8 +6,8 @@ use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::source::{Found, Prepared, Source, block, ratios};
 use crate::distributions::factors;
-use crate::error::StudyError;
 use crate::inference::{Cell, Draw, Replicated};
+use crate::results::no_arm;
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
 use crate::stripes::of_arm;
@@ -86,10 +86,10 @@ fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
 fn varied<'a>(
     source: &Source<'a>,
     choices: &'a [Choice],
-) -> Result<Vec<(&'a Varied, &'a [ResponseCurve])>, StudyError> {
+) -> anyhow::Result<Vec<(&'a Varied, &'a [ResponseCurve])>> {
     let results = source.results;
     let curves = results.ordinary.curves(results.plan.common());
-    let curves = curves.ok_or(StudyError::NoArm)?;
+    let curves = curves.ok_or_else(no_arm)?;
     let of = |v: &'a Varied| {
         let at = position(v.frequency, v.slenderness);
         (v, curves[at].as_slice())
@@ -102,7 +102,7 @@ fn varied<'a>(
 fn capacity(
     curve: Option<&ResponseCurve>,
     demand: f64,
-) -> Result<f64, StudyError> {
+) -> anyhow::Result<f64> {
     let of = |c: &ResponseCurve| {
         Ok(c.capacity(demand, InversionRule::Median)?.im())
     };
@@ -316,7 +316,7 @@ pub(super) fn inversion(source: &Source<'_>) -> Found {
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         for slenderness in 0..SLENDERNESSES_RAD.len() {
             let own = &curves[position(frequency, slenderness)];
-            let by = |rule| -> Result<Vec<Vec<f64>>, StudyError> {
+            let by = |rule| -> anyhow::Result<Vec<Vec<f64>>> {
                 own.iter().map(|c| capacities(c, &DEMANDS, rule)).collect()
             };
             let median = by(InversionRule::Median)?;
@@ -354,7 +354,7 @@ pub(super) fn inversion(source: &Source<'_>) -> Found {
 /// study's: what the slenderness's own ratio does is divided out.
 pub(super) fn housner(source: &Source<'_>) -> Found {
     let found = varied(source, &[Choice::Housner])?;
-    let of = |slenderness| -> Result<Option<Vec<f64>>, StudyError> {
+    let of = |slenderness| -> anyhow::Result<Option<Vec<f64>>> {
         let is =
             |v: &&Varied| v.frequency == 1 && v.slenderness == slenderness;
         let one = found.iter().find(|(v, _)| is(v));
@@ -363,7 +363,7 @@ pub(super) fn housner(source: &Source<'_>) -> Found {
         let each = pairs.map(|(own, base)| {
             Ok(capacity(own.as_ref(), 1.0)? / capacity(Some(base), 1.0)?)
         });
-        each.collect::<Result<_, StudyError>>().map(Some)
+        each.collect::<anyhow::Result<_>>().map(Some)
     };
     let (Some(stocky), Some(slender)) = (of(4)?, of(0)?) else {
         return Ok(None);

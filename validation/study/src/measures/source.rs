@@ -2,7 +2,6 @@
 
 use rocking::statistics::resampling::Ranked;
 
-use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::inference::{Cell, Draw, Draws, Replicated};
 use crate::results::Results;
@@ -13,7 +12,7 @@ use rocking_common::paper::{
 };
 
 /// The cells of a measure; none where what it needs was not run.
-pub type Found = Result<Option<Prepared>, StudyError>;
+pub type Found = anyhow::Result<Option<Prepared>>;
 
 /// What a measure reads.
 #[derive(Clone, Copy)]

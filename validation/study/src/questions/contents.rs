@@ -7,7 +7,6 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use super::answer::{Answer, Rows, both, number, word};
 use crate::analyses::SuiteResults;
 use crate::contents::{Item, items};
-use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::fits::of_intervals;
 use crate::inference::{Draw, Draws, Replicated};
@@ -50,7 +49,7 @@ struct Ours {
 }
 
 impl Ours {
-    fn of(suite: &SuiteResults, draws: &Draws) -> Result<Self, StudyError> {
+    fn of(suite: &SuiteResults, draws: &Draws) -> anyhow::Result<Self> {
         let mut known: Vec<Vec<(f64, f64)>> = Vec::new();
         for (item, curves) in items().iter().zip(&suite.contents) {
             let threshold = libm::tan(item.block()?.slenderness_rad());
@@ -108,7 +107,7 @@ fn scaled_s(item: &Item, median_m_s: f64) -> f64 {
 pub(super) fn answer(
     results: &Results,
     draws: &Draws,
-) -> Result<Answer, StudyError> {
+) -> anyhow::Result<Answer> {
     let [ordinary, pulse] = both(results);
     let ours = [Ours::of(ordinary, draws)?, Ours::of(pulse, draws)?];
     let mut answer = Answer::new("contents", QUESTION, words(&ours));

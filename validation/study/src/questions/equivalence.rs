@@ -9,8 +9,7 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::answer::{Answer, Cell, Rows, count, number, word};
-use crate::error::StudyError;
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::capacities;
 use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{
@@ -43,7 +42,7 @@ struct Counts {
 }
 
 impl Counts {
-    fn add(&mut self, pairs: &Pairs) -> Result<(), StudyError> {
+    fn add(&mut self, pairs: &Pairs) -> anyhow::Result<()> {
         if pairs.ratios.len() < LEAST_USABLE {
             return Ok(());
         }
@@ -73,7 +72,7 @@ impl Counts {
     }
 }
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     for arm in results.plan.drawn() {
@@ -173,11 +172,11 @@ impl Compared {
         results: &Results,
         arm: Arm,
         frequency: usize,
-    ) -> Result<Vec<Pairs>, StudyError> {
+    ) -> anyhow::Result<Vec<Pairs>> {
         let suite = &results.ordinary;
         let others = (0..SLENDERNESSES_RAD.len()).filter(|s| *s != REFERENCE);
         let mut out = Vec::new();
-        let mut on_stripes = |slenderness| -> Result<(), StudyError> {
+        let mut on_stripes = |slenderness| -> anyhow::Result<()> {
             if let Some(stripes) = of_arm(suite, arm) {
                 let found = pairs(stripes, frequency, slenderness)?;
                 out.extend(found.into_iter().map(|(_, pairs)| pairs));
@@ -192,8 +191,8 @@ impl Compared {
             }
             Self::Adjusted => on_stripes(None)?,
             Self::Intensity => {
-                let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
-                let of = |s| -> Result<Vec<Vec<f64>>, StudyError> {
+                let curves = suite.curves(arm).ok_or_else(no_arm)?;
+                let of = |s| -> anyhow::Result<Vec<Vec<f64>>> {
                     curves[position(frequency, s)]
                         .iter()
                         .map(|curve| {

@@ -5,9 +5,8 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 
 use super::answer::{Answer, Rows, both, count, number, word};
-use crate::error::StudyError;
 use crate::fits::{Fits, of_intervals};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::ties::grid_alone;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, position,
@@ -37,7 +36,7 @@ struct Row {
 
 const ARMS: [Arm; 3] = [Arm::A, Arm::B, Arm::C];
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let mut by_suite = Vec::new();
@@ -115,9 +114,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     Ok(answer)
 }
 
-fn rows(results: &Results, kind: SuiteKind) -> Result<Vec<Row>, StudyError> {
+fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
     let of = |arm| results.distributions(kind, arm, Intensity::Pga);
-    let finest = of(results.plan.common()).ok_or(StudyError::NoArm)?;
+    let finest = of(results.plan.common()).ok_or_else(no_arm)?;
     (0..finest.blocks.len())
         .map(|i| {
             let mut row = Row {
@@ -131,8 +130,7 @@ fn rows(results: &Results, kind: SuiteKind) -> Result<Vec<Row>, StudyError> {
                 let Some(block) = found.map(|d| &d.blocks[i]) else {
                     continue;
                 };
-                let overturning =
-                    block.samples.last().ok_or(StudyError::NoArm)?;
+                let overturning = block.samples.last().ok_or_else(no_arm)?;
                 row.rejected[arm] = 1.0 - block.shares().1;
                 let taken = dispersion(overturning, block.shift);
                 if arm < 2 {

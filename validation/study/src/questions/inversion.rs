@@ -3,8 +3,7 @@
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
 use super::answer::{Answer, Rows, both, count, number, word};
-use crate::error::StudyError;
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::capacities;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use rocking_common::words::capital;
@@ -15,12 +14,12 @@ const DEMANDS: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 const RULES: [InversionRule; 3] =
     [InversionRule::Median, InversionRule::First, InversionRule::Last];
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
     for suite in both(results) {
-        let curves = suite.curves(arm).ok_or(StudyError::NoArm)?;
+        let curves = suite.curves(arm).ok_or_else(no_arm)?;
         let mut worst: f64 = 0.0;
         let mut place = (0.0, 0.0);
         let (mut several, mut all) = (0_usize, 0_usize);
@@ -99,9 +98,9 @@ impl Row {
         &mut self,
         curves: &[ResponseCurve],
         edp: f64,
-    ) -> Result<(), StudyError> {
+    ) -> anyhow::Result<()> {
         for curve in curves {
-            let of = |rule| -> Result<f64, StudyError> {
+            let of = |rule| -> anyhow::Result<f64> {
                 Ok(capacities(curve, &[edp], rule)?[0])
             };
             let unbiased = of(InversionRule::Monotone)?;

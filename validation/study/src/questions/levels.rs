@@ -7,19 +7,19 @@ use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
 use super::answer::{Answer, Cell, Rows, both, count, number, word};
-use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
 use crate::results::Results;
+use crate::results::no_arm;
 use rocking_common::paper::Intensity;
 use rocking_common::words::capital;
 
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
@@ -28,7 +28,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         let battery = Battery::simulate(size, REPLICATES, 0).ok();
         for intensity in [Intensity::Pga, Intensity::Pgv] {
             let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or(StudyError::NoArm)?;
+            let found = found.ok_or_else(no_arm)?;
             let mut low = [0_usize; 2];
             let mut others = [Vec::new(), Vec::new(), Vec::new(), Vec::new()];
             for block in &found.blocks {

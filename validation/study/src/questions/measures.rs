@@ -6,10 +6,9 @@ use rocking::intensity::IntensityMeasure;
 
 use super::answer::{Answer, Rows, both, number, word};
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
-use crate::error::StudyError;
 use crate::fits::of_intervals;
 use crate::inference::{Draw, Draws, Replicated, by_cell};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use crate::runs::overturning;
 use rocking_common::findings::{Measured, Region};
 use rocking_common::paper::{
@@ -107,9 +106,9 @@ impl Dispersions {
         results: &Results,
         suite: &SuiteResults,
         draws: &Draws,
-    ) -> Result<Self, StudyError> {
+    ) -> anyhow::Result<Self> {
         let curves = suite.curves(results.plan.common());
-        let curves = curves.ok_or(StudyError::NoArm)?;
+        let curves = curves.ok_or_else(no_arm)?;
         // By block and measure, then by record: what is known of the
         // intensity at first overturning.
         let mut cells: Vec<Vec<(f64, f64)>> = Vec::new();
@@ -194,7 +193,7 @@ const NOT_NEGATIVE: (f64, f64) = (0.0, f64::INFINITY);
 pub(super) fn answer(
     results: &Results,
     draws: &Draws,
-) -> Result<Answer, StudyError> {
+) -> anyhow::Result<Answer> {
     let found = both(results)
         .map(|suite| Dispersions::of(results, suite, draws))
         .into_iter()

@@ -5,10 +5,9 @@ use rocking::statistics::lilliefors::{ShiftedNull, Table};
 use super::answer::{Answer, Rows, both, count, number, word};
 use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
-use crate::error::StudyError;
 use crate::estimates::median;
 use crate::normality::{LEVEL, over_critical};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::{Arm, Intensity, demand_index, demands};
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
@@ -36,14 +35,14 @@ struct Row {
     redrawn: f64,
 }
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
     let mut drawn = Vec::new();
     for suite in both(results) {
         let found = results.distributions(suite.kind, arm, Intensity::Pgv);
-        let found = found.ok_or(StudyError::NoArm)?;
+        let found = found.ok_or_else(no_arm)?;
         let mut changes = Vec::new();
         let mut all_ratios = Vec::new();
         for block in &found.blocks {
@@ -107,7 +106,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
 fn of_block(
     suite: &SuiteResults,
     block: &BlockSamples,
-) -> Result<Row, StudyError> {
+) -> anyhow::Result<Row> {
     let onsets = factors(suite, Intensity::Pgv, block.p_rad_s);
     let n = onsets.len();
     let tabulated = Table::embedded().critical_value(n, LEVEL);

@@ -17,10 +17,9 @@ use rocking_exchange::{Pact, unit_intensity};
 
 use super::answer::{Answer, Rows, count, number, word};
 use crate::distributions::BlockSamples;
-use crate::error::StudyError;
 use crate::estimates::median;
 use crate::fits::{BLOCK, THRESHOLDS};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };
@@ -48,10 +47,7 @@ struct Entry {
     used: usize,
 }
 
-pub(super) fn answer(
-    results: &Results,
-    full: bool,
-) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let kind = results.ordinary.kind;
     let replicates = REPLICATES[usize::from(full)];
@@ -62,7 +58,7 @@ pub(super) fn answer(
     let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let found = results.distributions(kind, arm, intensity);
-        for block in &found.ok_or(StudyError::NoArm)?.blocks {
+        for block in &found.ok_or_else(no_arm)?.blocks {
             cells.extend(THRESHOLDS.map(|edp| (intensity, block, edp)));
         }
     }
@@ -136,7 +132,7 @@ fn entries(
     edp: f64,
     draws: &[Vec<usize>],
     areas: bool,
-) -> Result<Vec<Entry>, StudyError> {
+) -> anyhow::Result<Vec<Entry>> {
     let values = &block.samples[demand_index(edp)];
     let sample = ExtendedSample::try_new(values)?;
     let recipes = Recipe::all(QuantileType::default());
@@ -307,7 +303,7 @@ fn short(x: f64) -> String {
 
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
 /// unshifted lognormal, dimensionless and in physical units.
-fn pact(entries: &[Entry]) -> Result<String, StudyError> {
+fn pact(entries: &[Entry]) -> anyhow::Result<String> {
     let mut table = Rows::default();
     for e in entries {
         let (Recipe::Unshifted(method), Ok(fragility)) =

@@ -10,7 +10,6 @@ use rocking::statistics::normality::{
 use rocking::streams::{Streams, standard_normal};
 
 use super::answer::{Answer, Rows, count, number};
-use crate::error::StudyError;
 use crate::normality::LEVEL;
 use crate::results::Results;
 use rocking_draw::figures::{
@@ -29,7 +28,7 @@ const TRIALS: u64 = 1000;
 const TESTS: [&str; 4] =
     ["Lilliefors", "Anderson-Darling", "Cramer-von Mises", "Shapiro-Wilk"];
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let sizes = [results.ordinary.records.len(), results.pulse.records.len()];
     let mut table = Rows::default();
     let mut all = Vec::new();

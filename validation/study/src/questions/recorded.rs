@@ -10,9 +10,8 @@ use rocking::intensity::{Measures, Settings};
 use rocking::record::{Processing, ReadOptions, Suite};
 
 use super::answer::{Answer, Rows, number, word};
-use crate::error::StudyError;
 use crate::results::Results;
-use rocking_common::suites::{StudySuiteError, inputs};
+use rocking_common::suites::inputs;
 
 /// Original files, as the PyPI package `gmprocess` 2.8.0 has them, zipped.
 const RIDGECREST: &[u8] =
@@ -31,14 +30,14 @@ const QUESTION: &str = "What do recorded motions that may be shipped give?";
 ///
 /// # Errors
 /// None in practice: the files are fixed.
-pub fn ridgecrest() -> Result<Suite, StudySuiteError> {
+pub fn ridgecrest() -> anyhow::Result<Suite> {
     let options = inputs::suite_options(ReadOptions::default());
     let archive = Cursor::new(RIDGECREST);
     let survey = inputs::survey_zip("ridgecrest.zip", archive, &options)?;
     Ok(survey.into_suite()?)
 }
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let setup = &results.plan.setup;
     let suite = ridgecrest()?;
     let settings = Settings::default();
@@ -46,10 +45,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let mut rows = Rows::default();
     let (mut overturned, mut analyses) = (0, 0);
     for corner_hz in CORNERS_HZ {
-        let processing = Processing::try_new(true, Some(corner_hz))
-            .map_err(StudySuiteError::from)?;
+        let processing = Processing::try_new(true, Some(corner_hz))?;
         let suite = suite.clone().processed(&processing);
-        for member in suite.map_err(StudySuiteError::from)?.members() {
+        for member in suite?.members() {
             let motion = &member.accelerogram;
             let measures = Measures::of(motion, &settings)?;
             let scene = Scene {

@@ -8,11 +8,10 @@ use rocking::streams::{Streams, below};
 
 use super::answer::{Answer, Rows, both, number, word};
 use crate::distributions::BlockSamples;
-use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::estimates::median;
 use crate::normality::{LEVEL, accepted_share, every};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, range};
 
@@ -22,7 +21,7 @@ const SUBSAMPLES: u64 = 200;
 /// Every so many levels enter.
 const STRIDE: usize = 8;
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let (large, small) =
         (results.ordinary.records.len(), results.pulse.records.len());
@@ -31,7 +30,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     for suite in both(results) {
         for intensity in [Intensity::Pga, Intensity::Pgv] {
             let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or(StudyError::NoArm)?;
+            let found = found.ok_or_else(no_arm)?;
             let (mut gains, mut swings, mut moves) =
                 (Vec::new(), Vec::new(), Vec::new());
             for block in &found.blocks {

@@ -9,7 +9,6 @@ mod row;
 use row::{Group, MOTIONS, Row, Shown, of_motion};
 
 use super::answer::Answer;
-use crate::error::StudyError;
 use crate::estimates::median;
 use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind};
@@ -28,7 +27,7 @@ const QUESTION: &str = "What can the embedded suites show, and what not?";
 /// the smallest effect of interest, as for the claims.
 const LIMIT: f64 = 0.1;
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let own = results.embedded();
     let rows = if own {
         row::from_csv(COMMITTED)

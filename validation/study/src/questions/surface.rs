@@ -4,7 +4,6 @@
 use rocking::statistics::ExtendedSample;
 
 use super::answer::{Answer, Rows, number, word};
-use crate::error::StudyError;
 use crate::fits::Fits;
 use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
@@ -53,7 +52,7 @@ fn own(results: &Results) -> Vec<Fitted> {
     out
 }
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let surrogate = Surrogate::embedded()?;
     let own = own(results);
     let mut answer =
@@ -108,7 +107,7 @@ fn words(
     results: &Results,
     surrogate: &Surrogate,
     own: &[Fitted],
-) -> Result<String, StudyError> {
+) -> anyhow::Result<String> {
     let mut out = Vec::new();
     for (model, errors) in &surrogate.models {
         let records = surrogate.sampling(model.suite)?.median;
@@ -187,7 +186,7 @@ fn beside(error: f64, records: f64) -> String {
     format!("{:.2} times what the records leave open", error / records)
 }
 
-fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
+fn figure(surrogate: &Surrogate) -> anyhow::Result<Figure> {
     let (low, high) = FREQUENCY_RANGE_RAD_S;
     let axis = || {
         ChartAxis::new("*p* (rad/s)", Scale::Logarithmic, Some((low, high)))
@@ -216,7 +215,7 @@ fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
                         let both = [found.median(), found.dispersion()];
                         Ok(both[kind])
                     })
-                    .collect::<Result<Vec<f64>, StudyError>>()?;
+                    .collect::<anyhow::Result<Vec<f64>>>()?;
                 series.push(Series::new(
                     format!("surface, *α* = {alpha:.2} rad"),
                     Mark::Line,
@@ -272,7 +271,7 @@ fn errors(
     surrogate: &Surrogate,
     suite: SuiteKind,
     axis: ChartAxis,
-) -> Result<ChartPanel, StudyError> {
+) -> anyhow::Result<ChartPanel> {
     let (mut x, mut y, mut interval) = (Vec::new(), Vec::new(), Vec::new());
     for (model, _) in surrogate.models.iter().filter(|m| m.0.suite == suite) {
         for block in surrogate.unseen.iter().filter(|b| b.suite == suite) {

@@ -7,10 +7,9 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
 use super::answer::{self, Answer, Cell, Rows, both, number, word};
-use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::normality::every;
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 
@@ -32,14 +31,14 @@ struct Count {
     neither: usize,
 }
 
-pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
+pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
     for suite in both(results) {
         for intensity in [Intensity::Pga, Intensity::Pgv] {
             let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or(StudyError::NoArm)?;
+            let found = found.ok_or_else(no_arm)?;
             let rows: Vec<(usize, [Outcome; 4])> = found
                 .blocks
                 .par_iter()
@@ -197,7 +196,7 @@ fn outcomes(
 }
 
 /// Samples of a shifted lognormal, judged by the truth itself.
-fn simulated(n: usize) -> Result<[Count; 4], StudyError> {
+fn simulated(n: usize) -> anyhow::Result<[Count; 4]> {
     let streams = Streams::new("study/trimming", 0);
     let truth = Lognormal::try_new(1.0, 0.0, 0.6).ok();
     let rows: Vec<(usize, [Outcome; 4])> = (0..DRAWS)

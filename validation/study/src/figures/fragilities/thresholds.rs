@@ -3,11 +3,10 @@
 use rocking::statistics::Lognormal;
 
 use crate::claims::limit_of;
-use crate::error::StudyError;
 use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
-use crate::results::Results;
+use crate::results::{Results, no_arm};
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::figures::Figure;
@@ -86,7 +85,7 @@ pub(in super::super) fn thresholds(
     draws: &Draws,
     arm: Arm,
     number: u32,
-) -> Result<Figure, StudyError> {
+) -> anyhow::Result<Figure> {
     let pair = Pair::of(number);
     let source = Source {
         results,
@@ -101,7 +100,7 @@ pub(in super::super) fn thresholds(
         let measure = pair.measure(intensity);
         let limit = limit_of(measure);
         let read = Thresholds::new(&source, intensity);
-        let read = read.ok_or(StudyError::NoArm)?;
+        let read = read.ok_or_else(no_arm)?;
         let (_, range) = measure.unit();
         let judged = |measured: &Replicated| {
             by_cell(draws, source.tested, range, measured)
@@ -171,10 +170,10 @@ fn panel(
     read: &Thresholds,
     pair: Pair,
     of: &Panel<'_>,
-) -> Result<FragilityPanel, StudyError> {
+) -> anyhow::Result<FragilityPanel> {
     let kind = source.results.ordinary.kind;
     let whole = source.draws.whole();
-    let at = read.at(whole.of(kind), of.place).ok_or(StudyError::NoArm)?;
+    let at = read.at(whole.of(kind), of.place).ok_or_else(no_arm)?;
     let (first, second) = (pair.first(&at), pair.second(&at));
     let sample = at.sample.sorted().to_vec();
     let (low, high) = Fragilities::range(&sample);

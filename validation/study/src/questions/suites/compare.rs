@@ -13,11 +13,11 @@ use crate::analyses::{
 };
 use crate::certainty::Certainty;
 use crate::distributions::{BlockSamples, Distributions, of_suite};
-use crate::error::StudyError;
 use crate::estimates::three_quantiles;
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
 use crate::results::Results;
+use crate::results::no_arm;
 use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
 use rocking_common::suites::StudySuite;
 
@@ -26,7 +26,7 @@ const REPLICATES: usize = 2000;
 
 /// All rows: both suites of the study against the embedded ones of the same
 /// kind.
-pub(super) fn rows(results: &Results) -> Result<Vec<Row>, StudyError> {
+pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
     let arm = results.plan.common();
     let mut out = Vec::new();
     for embedded in StudySuite::embedded()? {
@@ -49,7 +49,7 @@ pub(super) fn rows(results: &Results) -> Result<Vec<Row>, StudyError> {
         for own in &of_embedded {
             let other =
                 results.distributions(recorded.kind, arm, own.intensity);
-            let other = other.ok_or(StudyError::NoArm)?;
+            let other = other.ok_or_else(no_arm)?;
             out.extend(pair.capacities(own, other)?);
             out.extend(pair.accepted(own, other));
         }
@@ -62,7 +62,7 @@ fn capacities(
     results: &Results,
     suite: &StudySuite,
     arm: Arm,
-) -> Result<SuiteResults, StudyError> {
+) -> anyhow::Result<SuiteResults> {
     let records: Vec<NormalisedRecord> = suite
         .motions
         .iter()
@@ -135,7 +135,7 @@ impl Pair {
         &self,
         embedded: &[Facts],
         recorded: &[Facts],
-    ) -> Result<Vec<Row>, StudyError> {
+    ) -> anyhow::Result<Vec<Row>> {
         let names = measures(&embedded[0]);
         (0..names.len())
             .into_par_iter()
@@ -153,7 +153,7 @@ impl Pair {
         &self,
         embedded: &Distributions,
         recorded: &Distributions,
-    ) -> Result<Vec<Row>, StudyError> {
+    ) -> anyhow::Result<Vec<Row>> {
         let both = embedded.blocks.iter().zip(&recorded.blocks);
         let cells: Vec<_> = both
             .flat_map(|(e, r)| THRESHOLDS.map(|edp| (e, r, edp)))
@@ -198,7 +198,7 @@ impl Pair {
         mut row: Row,
         embedded: &[f64],
         recorded: &[f64],
-    ) -> Result<Row, StudyError> {
+    ) -> anyhow::Result<Row> {
         let points = [three_quantiles(embedded)?, three_quantiles(recorded)?];
         for (side, [low, middle, high]) in
             [&mut row.embedded, &mut row.recorded].into_iter().zip(points)

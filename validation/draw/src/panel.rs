@@ -41,7 +41,6 @@ pub enum Marker {
 
 impl Marker {
     /// The mark that goes with a series, for readers without colour.
-    #[must_use]
     pub fn of_series(series: usize) -> Self {
         match series % 7 {
             0 => Self::Dot,
@@ -129,7 +128,6 @@ pub struct Panel<'s> {
 
 impl<'s> Panel<'s> {
     /// Starts a panel with its grid lines.
-    #[must_use]
     pub fn new(scene: &'s mut Scene, frame: Rect, x: Axis, y: Axis) -> Self {
         let panel = Self {
             scene,
@@ -158,25 +156,21 @@ impl<'s> Panel<'s> {
     }
 
     /// Another horizontal axis over the same width, at the upper edge.
-    #[must_use]
     pub fn with_second(self, second: Axis) -> Self {
         Self { second: Some(second), ..self }
     }
 
     /// Says why there may be nothing to see.
-    #[must_use]
     pub fn empty_because(self, reason: &'static str) -> Self {
         Self { reason, ..self }
     }
 
     /// Both ends of the horizontal axis.
-    #[must_use]
     pub fn horizontal_range(&self) -> Point {
         self.x.range()
     }
 
     /// Both ends of the vertical axis.
-    #[must_use]
     pub fn vertical_range(&self) -> Point {
         self.y.range()
     }
@@ -187,7 +181,6 @@ impl<'s> Panel<'s> {
     }
 
     /// Data to px.
-    #[must_use]
     pub fn to_px(&self, (x, y): Point) -> Point {
         (
             self.x.place(x).mul_add(self.frame.width(), self.frame.left),

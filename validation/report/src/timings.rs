@@ -8,7 +8,7 @@ use crate::speed::singles::BASE;
 use crate::speed::throughput::{self, Throughput};
 use rocking_common::words::{range, rounded};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
@@ -183,10 +183,9 @@ impl Timings {
             panel(
                 "all impacts, by time",
                 time(),
-                ChartAxis::new(
+                ChartAxis::linear(
                     "cases with another number of them (%)",
-                    Scale::Linear,
-                    Some((-4.0, 104.0)),
+                    (-4.0, 104.0),
                 ),
                 series(|t| t.ratio, share),
             ),
@@ -419,7 +418,7 @@ fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
 }
 
 fn logarithmic(label: &str) -> ChartAxis {
-    ChartAxis::new(label, Scale::Logarithmic, None)
+    ChartAxis::logarithmic(label, None::<(f64, f64)>)
 }
 
 /// Room for the marks within the axes.

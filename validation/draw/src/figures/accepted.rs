@@ -65,7 +65,6 @@ pub struct BlockShare {
 
 impl AcceptedShares {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
@@ -74,8 +73,7 @@ impl AcceptedShares {
     /// `null_low,null_high,levels`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
-            "panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,\
-             share,null_low,null_high,levels",
+            "panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,share,null_low,null_high,levels",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for block in &panel.shares {

@@ -73,7 +73,6 @@ pub struct Stripe {
 
 impl Stripe {
     /// Share of the records with a well-defined ratio, 0 to 1.
-    #[must_use]
     pub fn usable_share(&self) -> f64 {
         if self.records == 0 {
             return 0.0;
@@ -84,7 +83,6 @@ impl Stripe {
 
 impl Boxplots {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }

@@ -58,7 +58,6 @@ impl Capacities {
     /// The same with only the points that a drawing keeps: none that is
     /// left out lies farther than a tenth of a pixel from the line. Of
     /// a curve's levels without a capacity the first one stays.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
             // As on a logarithmic axis, where the steepest part is drawn at
@@ -78,7 +77,6 @@ impl Capacities {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }

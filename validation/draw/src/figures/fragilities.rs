@@ -146,7 +146,6 @@ pub struct ConstantCurve {
 
 impl Fragilities {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
@@ -195,7 +194,6 @@ impl Fragilities {
 
 impl ByConstant {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, by_constant(self), self.csv(), reading)
     }
@@ -329,7 +327,6 @@ fn most_of(sample: &[f64]) -> Option<f64> {
 impl Fragilities {
     /// Ends of a panel's intensity axis: from below the least datum to what
     /// 97 % of the data do not exceed.
-    #[must_use]
     pub fn range(sample: &[f64]) -> (f64, f64) {
         let data = sample.iter().copied();
         let (least, _) = common::span(data, true).unwrap_or((1.0, 2.0));

@@ -40,7 +40,6 @@ pub enum Place {
 
 impl Heading {
     /// The words of a figure.
-    #[must_use]
     pub fn new(
         name: impl Into<String>,
         title: impl Into<String>,
@@ -54,7 +53,6 @@ impl Heading {
 
     /// The words of a figure with a number, and its name: `figure-06`, or
     /// `figure-06-c` where it is drawn once for each arm.
-    #[must_use]
     pub fn numbered(
         number: u32,
         by_arm: bool,
@@ -70,7 +68,6 @@ impl Heading {
     }
 
     /// Its number, where it has one.
-    #[must_use]
     pub fn number(&self) -> Option<u32> {
         match self.place {
             Place::Numbered { number, .. } => Some(number),
@@ -79,7 +76,6 @@ impl Heading {
     }
 
     /// The arm, where it is drawn once for each.
-    #[must_use]
     pub fn own_arm(&self) -> Option<Arm> {
         let by_arm =
             matches!(self.place, Place::Numbered { by_arm: true, .. });
@@ -110,7 +106,6 @@ impl Figure {
     }
 
     /// The drawing.
-    #[must_use]
     pub fn svg(&self) -> String {
         self.scene.svg()
     }

@@ -62,7 +62,6 @@ pub struct History {
 impl Histories {
     /// The same with only the points that a drawing keeps: none that is
     /// left out lies farther than a tenth of a pixel from the line.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
             let curves = || panel.curves.iter();
@@ -77,7 +76,6 @@ impl Histories {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
@@ -85,8 +83,7 @@ impl Histories {
     /// `panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,theta_over_alpha`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
-            "panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,\
-             theta_over_alpha",
+            "panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,theta_over_alpha",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {

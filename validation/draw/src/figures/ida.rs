@@ -55,7 +55,6 @@ const PX: f64 = 288.0;
 impl IdaCurves {
     /// The same with only the points that a drawing keeps: none that is
     /// left out lies farther than a tenth of a pixel from the line.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
             let top = largest(panel.curves.iter().flat_map(|c| &c.im));
@@ -67,7 +66,6 @@ impl IdaCurves {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }

@@ -7,14 +7,13 @@ use rocking::record::Accelerogram;
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, Histories, History, HistoryPanel,
-    Mark, Scale, Series,
+    Mark, Series,
 };
 use crate::markup;
 use rocking_common::paper::Intensity;
 
 /// Rotation over slenderness against time, of a response with its history,
 /// as SVG.
-#[must_use]
 pub fn response_svg(
     scene: &Scene<'_>,
     response: &Response,
@@ -53,7 +52,6 @@ pub fn response_svg(
 /// Acceleration, velocity, displacement and response spectrum (at
 /// `periods_s`, 5 % damping) of a record, as SVG; `done` is what was done to
 /// it.
-#[must_use]
 pub fn record_svg(
     motion: &Accelerogram,
     (measures, periods_s): (&Measures, &[f64]),
@@ -71,8 +69,8 @@ pub fn record_svg(
     let history =
         |name: &str, symbol: &str, y: Vec<f64>, peak: String| ChartPanel {
             title: format!("{name}, peak {peak}"),
-            x: ChartAxis::new("*t* (s)", Scale::Linear, Some(shown_s)),
-            y: ChartAxis::new(symbol, Scale::Linear, None),
+            x: ChartAxis::linear("*t* (s)", shown_s),
+            y: ChartAxis::linear(symbol, None::<(f64, f64)>),
             series: vec![series(time_s.clone(), y)],
         };
     let spectrum = measures.spectral_acceleration_g.clone();
@@ -100,12 +98,8 @@ pub fn record_svg(
         ),
         ChartPanel {
             title: "Response spectrum, 5 % damping".to_owned(),
-            x: ChartAxis::new("*T* (s)", Scale::Logarithmic, ends),
-            y: ChartAxis::new(
-                "*S*_{a} / *g*",
-                Scale::Linear,
-                Some((0.0, 1.05 * most)),
-            ),
+            x: ChartAxis::logarithmic("*T* (s)", ends),
+            y: ChartAxis::linear("*S*_{a} / *g*", (0.0, 1.05 * most)),
             series: vec![series(periods_s.to_vec(), spectrum)],
         },
     ];
@@ -151,7 +145,6 @@ fn strong(motion: &Accelerogram) -> (f64, f64) {
 
 /// The dispersions of a ranking of `measures` at an EDP level, side by side
 /// with their intervals, as SVG.
-#[must_use]
 pub fn ranking_svg(
     ranking: &Ranking,
     measures: &[IntensityMeasure],
@@ -160,28 +153,21 @@ pub fn ranking_svg(
     let rows = &ranking.measures;
     let none = (f64::NAN, f64::NAN);
     let beta = rows.iter().map(|row| row.dispersion.as_ref());
-    let x = ChartAxis {
-        label: String::new(),
-        scale: Scale::Linear,
-        range: None,
-        categories: measures
-            .iter()
-            .map(|measure| markup::escape(&short(measure)))
-            .collect(),
-        second: None,
-    };
+    let names = measures.iter().map(|m| markup::escape(&short(m)));
+    let x = ChartAxis::named(names.collect());
     let label = format!("dispersion at EDP {}", edp);
-    let series = Series {
-        label: "95 % interval by the bootstrap of records".into(),
-        mark: Mark::Points,
-        x: (1..=rows.len()).map(|k| k as f64).collect(),
-        y: beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
-        interval: beta.map(|b| b.map_or(none, |e| (e.low, e.high))).collect(),
-    };
+    let series = Series::new(
+        "95 % interval by the bootstrap of records",
+        Mark::Points,
+        (1..=rows.len()).map(|k| k as f64).collect(),
+        beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
+    );
+    let ends = beta.map(|b| b.map_or(none, |e| (e.low, e.high)));
+    let series = series.with(ends.collect());
     let ends = series.interval.iter().map(|ends| ends.1);
     let most = ends.fold(0.0, f64::max);
     let top = if most > 0.0 { 1.1 * most } else { 1.0 };
-    let y = ChartAxis::new(label, Scale::Linear, Some((0.0, top)));
+    let y = ChartAxis::linear(label, (0.0, top));
     let chart = Chart {
         heading: Heading::new(
             "rank",
@@ -194,12 +180,7 @@ pub fn ranking_svg(
             ),
             None,
         ),
-        panels: vec![ChartPanel {
-            title: String::new(),
-            x,
-            y,
-            series: vec![series],
-        }],
+        panels: vec![ChartPanel::new("", x, y, vec![series])],
         columns: 1,
     };
     chart.figure(String::new()).svg()

@@ -55,7 +55,6 @@ pub struct QuantileGroup {
 
 impl Quantiles {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }

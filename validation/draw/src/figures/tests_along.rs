@@ -70,7 +70,6 @@ impl Histogram {
     /// `quartiles` are the sample's lower and upper quartile, `mean` and
     /// `deviation` those of the normal to be drawn. A sample without spread
     /// gets one bin.
-    #[must_use]
     pub fn freedman_diaconis(
         sample: &[f64],
         quartiles: (f64, f64),
@@ -110,7 +109,6 @@ impl Histogram {
 
 impl TestsAlongDemand {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }

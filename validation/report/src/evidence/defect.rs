@@ -1,6 +1,6 @@
 use super::error::EvidenceError;
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 use rocking_proof::engine::Core;
 use rocking_proof::scene::{
@@ -60,8 +60,11 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
         ));
         panels.push(ChartPanel {
             title: title.into(),
-            x: axis("slenderness *α* (rad)", (0.01, 0.5)),
-            y: axis("|change of the first impact speed|", (1e-6, 2.0)),
+            x: ChartAxis::logarithmic("slenderness *α* (rad)", (0.01, 0.5)),
+            y: ChartAxis::logarithmic(
+                "|change of the first impact speed|",
+                (1e-6, 2.0),
+            ),
             series,
         });
     }
@@ -87,10 +90,6 @@ pub(super) fn chart() -> Result<Figure, EvidenceError> {
              Eq. 1 it departs from that with the square of alpha: slopes of \
              {low:.3} to {high:.3} between 0.0125 and 0.025 rad."
     )))
-}
-
-fn axis(label: &str, range: (f64, f64)) -> ChartAxis {
-    ChartAxis::new(label, Scale::Logarithmic, Some(range))
 }
 
 /// |X(alpha)/X_linear - 1| of the first impact speed over p alpha.

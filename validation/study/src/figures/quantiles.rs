@@ -114,9 +114,8 @@ pub(super) fn adjusted(
             true,
             "16/50/84 % demand given intensity: scaled records \
                         and adjusted slenderness",
-            "Three quantile curves for each procedure, one \
-                              panel a frequency parameter; alpha = 0.10 for \
-                              the scaled records.",
+            "Three quantile curves for each procedure, one panel a frequency \
+             parameter; alpha = 0.10 for the scaled records.",
             Some(arm),
         ),
         intensity: Intensity::Pga,

@@ -46,11 +46,10 @@ pub(super) fn slendernesses(
                 number,
                 true,
                 format!("Paired ratios of demands to alpha = 0.10, {p}"),
-                "Notched boxplots of the ratio of peak rotation \
-                              over slenderness to that of the block with \
-                              alpha = 0.10 under the same record, by stripe \
-                              of intensity; the share of usable ratios \
-                              stands at the right.",
+                "Notched boxplots of the ratio of peak rotation over \
+                 slenderness to that of the block with alpha = 0.10 under the \
+                 same record, by stripe of intensity; the share of usable \
+                 ratios stands at the right.",
                 Some(arm),
             ),
             ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
@@ -88,10 +87,9 @@ pub(super) fn adjusted(
                 9,
                 true,
                 "Slenderness adjustment against record scaling",
-                "Notched boxplots of the ratio of demands: \
-                              unscaled record on a block of adjusted \
-                              slenderness over scaled record on the block \
-                              with alpha = 0.10, by stripe of intensity.",
+                "Notched boxplots of the ratio of demands: unscaled record on \
+                 a block of adjusted slenderness over scaled record on the \
+                 block with alpha = 0.10, by stripe of intensity.",
                 Some(arm),
             ),
             ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),

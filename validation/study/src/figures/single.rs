@@ -17,19 +17,17 @@ pub(super) fn sketch() -> Figure {
             1,
             false,
             "The rocking block",
-            "A rectangular block of width 2b and height 2h, \
-                              rotated about one base corner; R is half its \
-                              diagonal and alpha the angle between diagonal \
-                              and side.",
+            "A rectangular block of width 2b and height 2h, rotated about one \
+             base corner; R is half its diagonal and alpha the angle between \
+             diagonal and side.",
             None,
         ),
         alpha_rad: 0.35,
         rotation_rad: 0.15,
     }
     .figure(
-        "A block starts to rock when the ground acceleration \
-                  exceeds g tan alpha; at theta = alpha its weight no longer \
-                  rights it."
+        "A block starts to rock when the ground acceleration exceeds g tan \
+         alpha; at theta = alpha its weight no longer rights it."
             .into(),
     )
 }
@@ -71,9 +69,8 @@ pub(super) fn histories(
             number,
             false,
             title,
-            "Rotation over slenderness against time, five \
-                              slendernesses in each panel; rows by frequency \
-                              parameter, columns by record.",
+            "Rotation over slenderness against time, five slendernesses in \
+             each panel; rows by frequency parameter, columns by record.",
             Some(arm),
         ),
         panels,
@@ -159,10 +156,9 @@ pub(super) fn curves(
                 "IDA curves of three {} motions, five slendernesses",
                 suite.kind
             ),
-            "Peak rotation over slenderness against \
-                              dimensionless intensity up to first \
-                              overturning; rows by frequency parameter, \
-                              columns by record.",
+            "Peak rotation over slenderness against dimensionless intensity \
+             up to first overturning; rows by frequency parameter, columns by \
+             record.",
             Some(arm),
         ),
         intensity: Intensity::Pga,

@@ -73,18 +73,24 @@ impl Rows {
         self.csv.map_or_else(String::new, Table::finish)
     }
 
-    pub fn finish(self, answer: &mut Answer, title: &str, reading: &str) {
-        answer.csv = self.csv.map_or_else(String::new, Table::finish);
-        answer.tables.push(PlainTable {
-            name: format!("table-{}", answer.id),
+    /// The answer to a question, with these rows under a title.
+    pub fn answer(
+        self,
+        (id, question): (&'static str, &'static str),
+        answer: String,
+        title: &str,
+        reading: &str,
+    ) -> Answer {
+        let table = PlainTable {
+            name: format!("table-{id}"),
             title: title.into(),
-            reading: format!(
-                "{} {reading} All rows: {}.csv.",
-                answer.answer, answer.id
-            ),
+            reading: format!("{answer} {reading} All rows: {id}.csv."),
             header: self.header.iter().map(|h| h.replace('_', " ")).collect(),
             rows: self.shown,
-        });
+        };
+        let csv = self.csv.map_or_else(String::new, Table::finish);
+        let tables = vec![table];
+        Answer { csv, tables, ..Answer::new(id, question, answer) }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::runs::overturning;
 use rocking_common::paper::SuiteKind;
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 const QUESTION: &str = "Do FEMA P-58's fragilities of bookcases and filing \
@@ -111,7 +111,6 @@ pub(super) fn answer(
 ) -> Result<Answer, StudyError> {
     let [ordinary, pulse] = both(results);
     let ours = [Ours::of(ordinary, draws)?, Ours::of(pulse, draws)?];
-    let mut answer = Answer::new("contents", QUESTION, words(&ours));
     let mut table = Rows::default();
     for (k, item) in items().iter().enumerate() {
         let block = item.block()?;
@@ -136,8 +135,9 @@ pub(super) fn answer(
         }
         table.row(cells);
     }
-    table.finish(
-        &mut answer,
+    let answer = table.answer(
+        ("contents", QUESTION),
+        words(&ours),
         "Overturning of contents: FEMA P-58 and blocks of the same size",
         "A comparison of practice, no validation. FEMA P-58's demand is the \
          peak velocity of the floor, ours that of the ground motion; shelves \
@@ -147,8 +147,7 @@ pub(super) fn answer(
          lognormals of PGV at first overturning; intervals are the central \
          95 % of 2000 draws of the records.",
     );
-    answer.figures.push(figure(&ours));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&ours)], ..answer })
 }
 
 fn words(ours: &[Ours; 2]) -> String {
@@ -231,8 +230,7 @@ fn figure(ours: &[Ours; 2]) -> Figure {
         }
         ChartPanel { title: title.into(), x: x.0, y: y.0, series }
     };
-    let axis =
-        |label: &str, ends| ChartAxis::new(label, Scale::Linear, Some(ends));
+    let axis = |label: &str, ends: (f64, f64)| ChartAxis::linear(label, ends);
     let scaled = "median *PGV* / (*g* depth/height) (s)";
     let panels = vec![
         panel(

@@ -105,21 +105,16 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             ));
         }
     }
-    let mut answer = Answer::new(
-        "equivalence",
-        "What does an equivalence test say where the paper says \"conforms \
-         to 1.0 with 95 % confidence\"?",
+    Ok(table.answer(
+        ("equivalence", "What does an equivalence test say where the paper says \"conforms \
+         to 1.0 with 95 % confidence\"?"),
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Equality and equivalence of paired ratios",
         "A notch or interval that covers 1 fails to show a difference, and \
          the fewer records the easier; equivalence is shown by two \
          one-sided tests at 5 %, of the median (sign tests) and of the mean \
          of the logarithm (t tests). Cells with at least 10 usable ratios.",
-    );
-    Ok(answer)
+    ))
 }
 
 fn cells(

@@ -14,7 +14,7 @@ use rocking_common::paper::{
 };
 use rocking_common::words::{capital, percent};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// One block of a suite.
@@ -96,13 +96,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         ));
         by_suite.push((suite.kind.name(), rows));
     }
-    let mut answer = Answer::new(
-        "grid",
-        "How much of the rejections at alpha = 0.05 is the grid of 0.01 g?",
+    let answer = table.answer(
+        ("grid", "How much of the rejections at alpha = 0.05 is the grid of 0.01 g?"),
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "The grid of 0.01 g and the test",
         "Arm A is the paper's grid, B bisects the first overturning, C uses \
          the same dimensionless steps for every slenderness; by the grid \
@@ -111,8 +107,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
          overturning: the interval likelihood of the grid's brackets is the \
          alternative to bisecting them.",
     );
-    answer.figures.push(figure(&by_suite));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&by_suite)], ..answer })
 }
 
 fn rows(results: &Results, kind: SuiteKind) -> Result<Vec<Row>, StudyError> {
@@ -197,10 +192,9 @@ fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
         heading: Heading::new(
             "figure-grid",
             "Rejections and the grid of 0.01 g",
-            "Share of demand levels at which the shifted \
-                              sample is rejected, by slenderness, in three \
-                              arms of the grid; ordinary and pulse-type \
-                              records, PGA.",
+            "Share of demand levels at which the shifted sample is rejected, \
+             by slenderness, in three arms of the grid; ordinary and \
+             pulse-type records, PGA.",
             None,
         ),
         panels,
@@ -237,12 +231,7 @@ fn panel(title: String, rows: &[Row]) -> ChartPanel {
         .collect();
     let words = "the grid alone, at overturning";
     series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
-    let axis =
-        |label: &str, range| ChartAxis::new(label, Scale::Linear, Some(range));
-    ChartPanel {
-        title,
-        x: axis("*α* (rad)", (0.03, 0.27)),
-        y: axis("rejected levels (%)", (0.0, 100.0)),
-        series,
-    }
+    let x = ChartAxis::linear("*α* (rad)", (0.03, 0.27));
+    let y = ChartAxis::linear("rejected levels (%)", (0.0, 100.0));
+    ChartPanel { title, x, y, series }
 }

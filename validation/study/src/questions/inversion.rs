@@ -69,20 +69,15 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             100.0 * several as f64 / all as f64,
         ));
     }
-    let mut answer = Answer::new(
-        "inversion",
-        "How biased is the inversion by the median point along the vertical?",
+    Ok(table.answer(
+        ("inversion", "How biased is the inversion by the median point along the vertical?"),
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Bias of the inversion",
         "Relative difference of the mean capacity to that of the monotone \
          inversion c1 - c2 + c3 - .., which averages to the area above the \
          stripe fragility; over five slendernesses, curves that reach the \
          level. Gap: largest difference of fragilities, a block.",
-    );
-    Ok(answer)
+    ))
 }
 
 #[derive(Default)]

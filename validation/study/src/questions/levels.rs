@@ -6,89 +6,85 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::answer::{Answer, Cell, Rows, both, count, number, word};
+use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
 use crate::results::Results;
-use rocking_common::paper::Intensity;
+use rocking_common::paper::SuiteKind;
 use rocking_common::words::capital;
 
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
-    let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
-    for suite in both(results) {
-        let size = suite.records.len();
-        let battery = Battery::simulate(size, REPLICATES, 0).ok();
-        for intensity in [Intensity::Pga, Intensity::Pgv] {
-            let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or(StudyError::NoArm)?;
-            let mut low = [0_usize; 2];
-            let mut others = [Vec::new(), Vec::new(), Vec::new(), Vec::new()];
-            for block in &found.blocks {
-                for (shifted, tests) in
-                    [&block.original, &block.shifted].into_iter().enumerate()
-                {
-                    let row = Row::new(
-                        tests,
-                        block.bands[shifted].as_ref(),
-                        &battery,
-                    );
-                    low[shifted] += usize::from(row.p_of_share < LEVEL);
-                    if shifted == 1 {
-                        others[0].push(row.share);
-                        for (k, share) in row.others.iter().enumerate() {
-                            others[k + 1].push(*share);
-                        }
-                    }
-                    let kind = ["original", "shifted"][shifted];
-                    let mut cells = vec![
-                        ("suite", word(suite.kind.name())),
-                        ("im_kind", word(intensity.name())),
-                        ("sample", word(kind)),
-                        ("p_rad_s", number(block.p_rad_s, 0)),
-                        ("alpha_rad", number(block.alpha_rad, 2)),
-                    ];
-                    cells.extend(row.cells());
-                    table.row_if(shifted == 1, cells);
+    let batteries = SuiteKind::BOTH.map(|kind| {
+        let size = results.suite(kind).records.len();
+        (kind, Battery::simulate(size, REPLICATES, 0).ok())
+    });
+    for (suite, found) in results.common() {
+        let battery = batteries.iter().find(|b| b.0 == suite.kind);
+        let battery = battery.and_then(|b| b.1.as_ref());
+        let intensity = found.intensity;
+        let mut low = [0_usize; 2];
+        let mut shares: [Vec<f64>; 4] = Default::default();
+        for block in &found.blocks {
+            for (shifted, tests) in
+                [&block.original, &block.shifted].into_iter().enumerate()
+            {
+                let row =
+                    Row::new(tests, block.bands[shifted].as_ref(), battery);
+                low[shifted] += usize::from(row.p_of_share < LEVEL);
+                if shifted == 1 {
+                    let own = [row.share].into_iter().chain(row.others);
+                    shares
+                        .iter_mut()
+                        .zip(own)
+                        .for_each(|(all, x)| all.push(x));
                 }
+                let kind = ["original", "shifted"][shifted];
+                let mut cells = vec![
+                    ("suite", word(suite.kind.name())),
+                    ("im_kind", word(intensity.name())),
+                    ("sample", word(kind)),
+                    ("p_rad_s", number(block.p_rad_s, 0)),
+                    ("alpha_rad", number(block.alpha_rad, 2)),
+                ];
+                cells.extend(row.cells());
+                table.row_if(shifted == 1, cells);
             }
-            let [d, a, w, s] = others.map(|o| mean(o.iter().copied()));
-            words.push(format!(
-                "{}, {}: the accepted share is lower than lognormal \
-                 capacities with the same dependence between levels allow \
-                 (p < 0.05) for {} of {} original and {} shifted samples; \
-                 mean accepted share of the shifted ones {d:.2} by \
-                 Lilliefors, {a:.2} by Anderson-Darling, {w:.2} by Cramer-von \
-                 Mises, {s:.2} by Shapiro-Wilk.",
-                capital(suite.kind.name()),
-                intensity.name().to_uppercase(),
-                low[0],
-                found.blocks.len(),
-                low[1],
-            ));
         }
+        let [d, a, w, s] = shares.map(mean);
+        words.push(format!(
+            "{}, {}: the accepted share is lower than lognormal \
+             capacities with the same dependence between levels allow \
+             (p < 0.05) for {} of {} original and {} shifted samples; \
+             mean accepted share of the shifted ones {d:.2} by \
+             Lilliefors, {a:.2} by Anderson-Darling, {w:.2} by Cramer-von \
+             Mises, {s:.2} by Shapiro-Wilk.",
+            capital(suite.kind.name()),
+            intensity.name().to_uppercase(),
+            low[0],
+            found.blocks.len(),
+            low[1],
+        ));
     }
-    let mut answer = Answer::new(
-        "levels",
-        "What does an accepted share of levels that share records mean?",
+    Ok(table.answer(
+        (
+            "levels",
+            "What does an accepted share of levels that share records mean?",
+        ),
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Accepted shares, their null bands and adjusted counts",
         "Band: central 95 % of the Gaussian-score bootstrap; effective \
          levels: (sum of eigenvalues)^2 over the sum of their squares, of \
          the correlation between levels; Holm and Benjamini-Hochberg at \
          5 % over 200 levels; the other tests at 5 % by simulation.",
-    );
-    Ok(answer)
+    ))
 }
 
 struct Row {
@@ -107,7 +103,7 @@ impl Row {
     fn new(
         tests: &[Assessment],
         band: Option<&NullBand>,
-        battery: &Option<Battery>,
+        battery: Option<&Battery>,
     ) -> Self {
         let share = accepted_share(tests);
         let stands: Vec<Assessment> =
@@ -149,9 +145,7 @@ impl Row {
                 with_step(10),
                 accepted_share(&tests[19..]),
             ],
-            others: battery
-                .as_ref()
-                .map_or([f64::NAN; 3], |battery| others(tests, battery)),
+            others: battery.map_or([f64::NAN; 3], |b| others(tests, b)),
         }
     }
 

@@ -2,17 +2,19 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::answer::{Answer, Rows, both, count, number, word};
+use super::answer::{Answer, Rows, count, number, word};
 use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
 use crate::error::StudyError;
 use crate::estimates::median;
 use crate::normality::{LEVEL, over_critical};
 use crate::results::Results;
-use rocking_common::paper::{Arm, Intensity, demand_index, demands};
+use rocking_common::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, demand_index, demands,
+};
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// Demands at which the null is simulated; between them the ratio of the
@@ -41,9 +43,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let mut drawn = Vec::new();
-    for suite in both(results) {
-        let found = results.distributions(suite.kind, arm, Intensity::Pgv);
-        let found = found.ok_or(StudyError::NoArm)?;
+    let all = results.common();
+    for (suite, found) in all.filter(|(_, d)| d.intensity == Intensity::Pgv) {
         let mut changes = Vec::new();
         let mut all_ratios = Vec::new();
         for block in &found.blocks {
@@ -87,21 +88,16 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             median(&changes).value,
         ));
     }
-    let mut answer = Answer::new(
-        "null",
-        "What does the calibrated null do to Figure 14, where the shift is \
-         the suite's own lowest PGV of uplift?",
+    let answer = table.answer(
+        ("null", "What does the calibrated null do to Figure 14, where the shift is \
+         the suite's own lowest PGV of uplift?"),
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Figure 14 under the null of an estimated shift",
         "Shifted PGV; the null draws onset and capacity jointly and takes \
          the lowest onset of the draw as its shift. A level without a null \
          counts as not tested.",
     );
-    answer.figures.push(figure(&drawn, arm));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&drawn, arm)], ..answer })
 }
 
 fn of_block(
@@ -159,11 +155,10 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
     // One scale for both suites, in whole per cent.
     let ratios = rows.iter().flat_map(|(.., row)| row.ratios.iter().copied());
     let (low, high) = range(ratios);
-    let ends = (low < high).then(|| {
-        ((100.0 * low).floor() / 100.0, (100.0 * high).ceil() / 100.0)
-    });
+    let ends = ((100.0 * low).floor() / 100.0, (100.0 * high).ceil() / 100.0);
+    let ends = (low < high).then_some(ends);
     let panel = |kind: &str| {
-        let series = [1.0, 3.0, 4.0]
+        let series = FREQUENCIES_RAD_S
             .iter()
             .map(|p| {
                 let at = |k: usize| {
@@ -173,28 +168,17 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
                         .map(|(.., row)| row.ratios[k])
                         .filter(|x| x.is_finite())
                         .collect();
-                    let (low, high) = range(own.iter().copied());
-                    (median(&own).value, (low, high))
+                    (median(&own).value, range(own.into_iter()))
                 };
-                let all: Vec<(f64, (f64, f64))> =
-                    (0..PLACES.len()).map(at).collect();
-                Series {
-                    label: format!("*p* = {p} rad/s"),
-                    mark: Mark::Line,
-                    x: PLACES.to_vec(),
-                    y: all.iter().map(|a| a.0).collect(),
-                    interval: all.iter().map(|a| a.1).collect(),
-                }
+                let (y, ends) = (0..PLACES.len()).map(at).unzip();
+                let label = format!("*p* = {p} rad/s");
+                Series::new(label, Mark::Line, PLACES.to_vec(), y).with(ends)
             })
             .collect();
         ChartPanel {
             title: format!("{kind} records"),
-            x: ChartAxis::new("*θ̃*", Scale::Linear, Some((0.0, 1.0))),
-            y: ChartAxis::new(
-                "critical value over the table's",
-                Scale::Linear,
-                ends,
-            ),
+            x: ChartAxis::linear("*θ̃*", (0.0, 1.0)),
+            y: ChartAxis::linear("critical value over the table's", ends),
             series,
         }
     };
@@ -202,10 +186,9 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
         heading: Heading::new(
             "figure-null",
             "Critical values with the shift estimated anew",
-            "Critical value of Lilliefors' test at 5 % \
-                              with the shift estimated in every draw, over \
-                              the tabulated one, along the demand; shifted \
-                              PGV, ordinary and pulse-type records.",
+            "Critical value of Lilliefors' test at 5 % with the shift \
+             estimated in every draw, over the tabulated one, along the \
+             demand; shifted PGV, ordinary and pulse-type records.",
             Some(arm),
         ),
         panels: vec![panel("ordinary"), panel("pulse-type")],

@@ -60,10 +60,9 @@ pub(super) fn answer(
     let draws: Vec<Vec<usize>> =
         Bootstrap::new("study/options", 0, n, replicates).map(<[_]>::to_vec);
     let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
-    for intensity in [Intensity::Pga, Intensity::Pgv] {
-        let found = results.distributions(kind, arm, intensity);
-        for block in &found.ok_or(StudyError::NoArm)?.blocks {
-            cells.extend(THRESHOLDS.map(|edp| (intensity, block, edp)));
+    for (_, found) in results.common().filter(|(_, d)| d.kind == kind) {
+        for block in &found.blocks {
+            cells.extend(THRESHOLDS.map(|e| (found.intensity, block, e)));
         }
     }
     let entries: Vec<Entry> = cells
@@ -78,11 +77,6 @@ pub(super) fn answer(
         .flatten()
         .collect();
     let summaries = summaries(&entries);
-    let mut answer = Answer::new(
-        "options",
-        "Which of the paper's three options gives the best fragility?",
-        words(&summaries),
-    );
     let mut table = Rows::default();
     for s in &summaries {
         let parameters = s.recipe.parameters();
@@ -105,8 +99,12 @@ pub(super) fn answer(
             ],
         );
     }
-    table.finish(
-        &mut answer,
+    let mut answer = table.answer(
+        (
+            "options",
+            "Which of the paper's three options gives the best fragility?",
+        ),
+        words(&summaries),
         "Options 1, 2 and 3",
         &format!(
             "Over 15 blocks and demands 0.15, 0.35 and 1.00, ordinary \
@@ -114,8 +112,7 @@ pub(super) fn answer(
              fragility; option 0 is the unshifted lognormal that FEMA P-58 \
              takes. Every block with {replicates} bootstrap draws of the \
              records: options-by-block.csv (intervals of the area for the \
-             paper's block alone, or with --full); for PACT: \
-             options-pact.csv."
+             paper's block alone, or with --full); for PACT: options-pact.csv."
         ),
     );
     answer.files = vec![
@@ -240,10 +237,9 @@ fn words(summaries: &[Summary]) -> String {
     [Intensity::Pga, Intensity::Pgv]
         .map(|im| {
             format!(
-                "{}, median distance to the empirical fragility: Option 1 \
-                 {}, Option 2 {}, Option 3 trimmed {} (c = 1) and {} (c = \
-                 0.25), untrimmed {} (c = 1) and {} (c = 0.25), unshifted \
-                 {}.",
+                "{}, median distance to the empirical fragility: Option 1 {}, \
+                 Option 2 {}, Option 3 trimmed {} (c = 1) and {} (c = 0.25), \
+                 untrimmed {} (c = 1) and {} (c = 0.25), unshifted {}.",
                 im.name().to_uppercase(),
                 of(Recipe::Shifted(MLE), im),
                 of(Recipe::Quantiles(QuantileType::default()), im),

@@ -14,7 +14,7 @@ use crate::error::StudyError;
 use crate::normality::LEVEL;
 use crate::results::Results;
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// Excess medians of the truth, in units of the shift.
@@ -52,9 +52,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     }
     // At an excess median of 1.
     let at = |size: usize, test: usize| 100.0 * all[size][2][test];
-    let mut answer = Answer::new(
-        "power",
-        "What can a test of suites of these sizes see?",
+    let answer = table.answer(
+        ("power", "What can a test of suites of these sizes see?"),
         format!(
             "Where capacities are lognormal above 1 (excess median 1, \
              dispersion {DISPERSION}), the test of the unshifted sample \
@@ -69,16 +68,12 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             at(0, 3),
             at(1, 3),
         ),
-    );
-    table.finish(
-        &mut answer,
         "Power of four tests against the shift",
         "Share of simulated samples of ln x rejected at 5 % where the truth \
          is x = 1 + m exp(0.6 z); 1000 samples each, so a standard error of \
          at most 0.016.",
     );
-    answer.figures.push(figure(&sizes, &all));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&sizes, &all)], ..answer })
 }
 
 /// Rejected shares of the four tests.
@@ -115,16 +110,11 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
         .zip(all)
         .map(|(n, rates)| ChartPanel {
             title: format!("{n} records"),
-            x: ChartAxis::new(
+            x: ChartAxis::logarithmic(
                 "excess median over the shift",
-                Scale::Logarithmic,
-                Some((0.2, 10.0)),
+                (0.2, 10.0),
             ),
-            y: ChartAxis::new(
-                "rejected samples (%)",
-                Scale::Linear,
-                Some((0.0, 100.0)),
-            ),
+            y: ChartAxis::linear("rejected samples (%)", (0.0, 100.0)),
             series: TESTS
                 .iter()
                 .enumerate()
@@ -143,10 +133,9 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
         heading: Heading::new(
             "figure-power",
             "Power of four tests of lognormality",
-            "Share of simulated shifted-lognormal samples \
-                              that tests of the unshifted logarithms reject \
-                              at 5 %, against the excess median, for the \
-                              sizes of both suites.",
+            "Share of simulated shifted-lognormal samples that tests of the \
+             unshifted logarithms reject at 5 %, against the excess median, \
+             for the sizes of both suites.",
             None,
         ),
         panels,

@@ -9,7 +9,7 @@ use crate::fits::Fits;
 use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 use rocking_surrogate::{
     FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
@@ -56,8 +56,6 @@ fn own(results: &Results) -> Vec<Fitted> {
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let surrogate = Surrogate::embedded()?;
     let own = own(results);
-    let mut answer =
-        Answer::new("surface", QUESTION, words(results, &surrogate, &own)?);
     let mut table = Rows::default();
     for (blocks, of) in [("study", &own), ("unseen", &surrogate.unseen)] {
         for (model, _) in &surrogate.models {
@@ -92,16 +90,16 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             }
         }
     }
-    table.finish(
-        &mut answer,
+    let answer = table.answer(
+        ("surface", QUESTION),
+        words(results, &surrogate, &own)?,
         "Overturning by a surface over p and alpha, and by analyses",
         "Intensity is PGA/(g tan alpha); the dispersion is that above the \
          uplift at 1; the difference is the largest one of the two \
          fragilities. Shown are the study's own blocks; intervals are of 95 \
          %, from resampled records.",
     );
-    answer.figures.push(figure(&surrogate)?);
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&surrogate)?], ..answer })
 }
 
 fn words(
@@ -189,9 +187,7 @@ fn beside(error: f64, records: f64) -> String {
 
 fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
     let (low, high) = FREQUENCY_RANGE_RAD_S;
-    let axis = || {
-        ChartAxis::new("*p* (rad/s)", Scale::Logarithmic, Some((low, high)))
-    };
+    let axis = || ChartAxis::logarithmic("*p* (rad/s)", (low, high));
     let places: Vec<f64> = (0..=POINTS)
         .map(|k| {
             let share = k as f64 / POINTS as f64;
@@ -200,11 +196,11 @@ fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
         })
         .collect();
     let kinds = [
-        ("median", "median *PGA*/(*g* tan *α*)"),
-        ("dispersion", "dispersion above uplift"),
+        ("median", "median *PGA*/(*g* tan *α*)", (1.0, 12.0)),
+        ("dispersion", "dispersion above uplift", (0.4, 1.2)),
     ];
     let mut panels = Vec::new();
-    for (kind, (name, label)) in kinds.into_iter().enumerate() {
+    for (kind, (name, label, ends)) in kinds.into_iter().enumerate() {
         let of = |b: &Fitted| [b.median, b.dispersion][kind];
         for (model, _) in &surrogate.models {
             let mut series = Vec::new();
@@ -238,11 +234,7 @@ fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
             panels.push(ChartPanel {
                 title: format!("{}: {name}", model.suite),
                 x: axis(),
-                y: ChartAxis::new(
-                    label,
-                    Scale::Logarithmic,
-                    Some([(1.0, 12.0), (0.4, 1.2)][kind]),
-                ),
+                y: ChartAxis::logarithmic(label, ends),
                 series,
             });
         }
@@ -287,20 +279,11 @@ fn errors(
     Ok(ChartPanel {
         title: format!("{suite}: error of the median"),
         x: axis,
-        y: ChartAxis::new(
-            "surface − analyses (%)",
-            Scale::Linear,
-            Some((-30.0, 30.0)),
-        ),
+        y: ChartAxis::linear("surface − analyses (%)", (-30.0, 30.0)),
         series: vec![
             Series::new("", Mark::Dashed, vec![low, high], vec![0.0, 0.0]),
-            Series {
-                label: "error, with the records' 95 %".into(),
-                mark: Mark::Points,
-                x,
-                y,
-                interval,
-            },
+            Series::new("error, with the records' 95 %", Mark::Points, x, y)
+                .with(interval),
         ],
     })
 }

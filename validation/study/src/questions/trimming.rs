@@ -6,7 +6,7 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::answer::{self, Answer, Cell, Rows, both, number, word};
+use super::answer::{self, Answer, Cell, Rows, number, word};
 use crate::error::StudyError;
 use crate::estimates::mean;
 use crate::normality::every;
@@ -33,56 +33,52 @@ struct Count {
 }
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
-    let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
-    for suite in both(results) {
-        for intensity in [Intensity::Pga, Intensity::Pgv] {
-            let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or(StudyError::NoArm)?;
-            let rows: Vec<(usize, [Outcome; 4])> = found
-                .blocks
-                .par_iter()
-                .flat_map_iter(|block| {
-                    every(&block.samples, STRIDE).filter_map(|values| {
-                        let sample = ExtendedSample::try_new(values).ok()?;
-                        let class = class(skewness(values, block.shift)?);
-                        Some((class, outcomes(&sample, block.shift, None)))
-                    })
+    for (suite, found) in results.common() {
+        let intensity = found.intensity;
+        let rows: Vec<(usize, [Outcome; 4])> = found
+            .blocks
+            .par_iter()
+            .flat_map_iter(|block| {
+                every(&block.samples, STRIDE).filter_map(|values| {
+                    let sample = ExtendedSample::try_new(values).ok()?;
+                    let class = class(skewness(values, block.shift)?);
+                    Some((class, outcomes(&sample, block.shift, None)))
+                })
+            })
+            .collect();
+        let counts = count(&rows);
+        for (class, by_constant) in counts.iter().enumerate() {
+            for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
+                let cells = count.cells(
+                    suite.kind.name(),
+                    intensity.name(),
+                    &class_words(class),
+                    c,
+                );
+                table.row_if(c == 0.25 || c == 1.0, cells);
+            }
+        }
+        if intensity == Intensity::Pga {
+            let shares: Vec<String> = (0..=EDGES.len())
+                .map(|class| {
+                    let [low, .., high] = counts[class];
+                    format!(
+                        "{} for skewness {} ({} samples; {} at c = 0.25)",
+                        percent(high.share(), 0),
+                        class_words(class),
+                        high.samples,
+                        percent(low.share(), 0),
+                    )
                 })
                 .collect();
-            let counts = count(&rows);
-            for (class, by_constant) in counts.iter().enumerate() {
-                for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
-                    let cells = count.cells(
-                        suite.kind.name(),
-                        intensity.name(),
-                        &class_words(class),
-                        c,
-                    );
-                    table.row_if(c == 0.25 || c == 1.0, cells);
-                }
-            }
-            if intensity == Intensity::Pga {
-                let shares: Vec<String> = (0..=EDGES.len())
-                    .map(|class| {
-                        let [low, .., high] = counts[class];
-                        format!(
-                            "{} for skewness {} ({} samples; {} at c = 0.25)",
-                            percent(high.share(), 0),
-                            class_words(class),
-                            high.samples,
-                            percent(low.share(), 0),
-                        )
-                    })
-                    .collect();
-                words.push(format!(
-                    "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
-                     empirical fragility in {}.",
-                    capital(suite.kind.name()),
-                    shares.join(", ")
-                ));
-            }
+            words.push(format!(
+                "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
+                 empirical fragility in {}.",
+                capital(suite.kind.name()),
+                shares.join(", ")
+            ));
         }
     }
     let truth = simulated(results.ordinary.records.len())?;
@@ -97,20 +93,15 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         percent(truth[3].share(), 0),
         percent(truth[0].share(), 0),
     ));
-    let mut answer = Answer::new(
-        "trimming",
-        "When does trimming help Eq. 7?",
+    Ok(table.answer(
+        ("trimming", "When does trimming help Eq. 7?"),
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Trimming and Eq. 7",
         "USFL7 from the trimmed sample's moments against that from the \
          whole sample's maximum likelihood, both with the fitted median, by \
          Kolmogorov distance, by the skewness of ln(x - IM_R); 15 blocks, \
          20 demands.",
-    );
-    Ok(answer)
+    ))
 }
 
 #[derive(Clone, Copy)]

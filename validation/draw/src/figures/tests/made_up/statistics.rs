@@ -167,7 +167,12 @@ pub fn by_constant() -> ByConstant {
 }
 
 fn axis(label: &str, scale: Scale) -> ChartAxis {
-    ChartAxis::new(label, scale, None)
+    match scale {
+        Scale::Linear => ChartAxis::linear(label, None::<(f64, f64)>),
+        Scale::Logarithmic => {
+            ChartAxis::logarithmic(label, None::<(f64, f64)>)
+        }
+    }
 }
 
 pub fn chart() -> Chart {

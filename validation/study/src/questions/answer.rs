@@ -81,16 +81,26 @@ impl Rows {
         title: &str,
         reading: &str,
     ) -> Answer {
-        let table = PlainTable {
-            name: format!("table-{id}"),
-            title: title.into(),
-            reading: format!("{answer} {reading} All rows: {id}.csv."),
-            header: self.header.iter().map(|h| h.replace('_', " ")).collect(),
-            rows: self.shown,
-        };
-        let csv = self.csv.map_or_else(String::new, Table::finish);
-        let tables = vec![table];
+        let reading = format!("{answer} {reading} All rows: {id}.csv.");
+        let table = self.table(format!("table-{id}"), title, reading);
+        let (csv, tables) = (self.csv(), vec![table]);
         Answer { csv, tables, ..Answer::new(id, question, answer) }
+    }
+
+    /// A table of the page with the rows shown.
+    pub fn table(
+        &self,
+        name: impl Into<String>,
+        title: &str,
+        reading: impl Into<String>,
+    ) -> PlainTable {
+        PlainTable {
+            name: name.into(),
+            title: title.into(),
+            reading: reading.into(),
+            header: self.header.iter().map(|h| h.replace('_', " ")).collect(),
+            rows: self.shown.clone(),
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::estimates::three_quantiles;
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
 use crate::results::Results;
-use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
+use rocking_common::paper::{Arm, BLOCKS, demand_index};
 use rocking_common::suites::StudySuite;
 
 /// Draws of the bootstrap.
@@ -43,7 +43,7 @@ pub(super) fn rows(results: &Results) -> Result<Vec<Row>, StudyError> {
                 draws("recorded", recorded.records.len()),
             ],
         };
-        out.push(pair.source(&embedded, recorded));
+        out.push(pair.row(Group::Source, recorded.sha256.clone()));
         out.extend(pair.motions(&embedded.records, &recorded.records)?);
         let of_embedded = of_suite(&embedded, arm)?;
         for own in &of_embedded {
@@ -127,10 +127,6 @@ impl Pair {
         }
     }
 
-    fn source(&self, _: &SuiteResults, recorded: &SuiteResults) -> Row {
-        self.row(Group::Source, recorded.sha256.clone())
-    }
-
     fn motions(
         &self,
         embedded: &[Facts],
@@ -162,8 +158,8 @@ impl Pair {
             .into_par_iter()
             .map(|(e, r, edp)| {
                 let level = demand_index(edp);
-                let mut row =
-                    self.row(Group::Capacity, name(embedded.intensity));
+                let name = embedded.intensity.name();
+                let mut row = self.row(Group::Capacity, name.to_owned());
                 row.p_rad_s = e.p_rad_s;
                 row.alpha_rad = e.alpha_rad;
                 row.edp = edp;
@@ -180,7 +176,7 @@ impl Pair {
         let mut out = Vec::new();
         for (k, kind) in ["original", "shifted"].into_iter().enumerate() {
             for (e, r) in embedded.blocks.iter().zip(&recorded.blocks) {
-                let quantity = format!("{kind}_{}", name(embedded.intensity));
+                let quantity = format!("{kind}_{}", embedded.intensity.name());
                 let mut row = self.row(Group::Accepted, quantity);
                 row.p_rad_s = e.p_rad_s;
                 row.alpha_rad = e.alpha_rad;
@@ -230,11 +226,6 @@ impl Pair {
         (row.distance, row.p_value) = (found.statistic, found.p_value);
         Ok(row)
     }
-}
-
-/// Quantity of capacities or shares in a measure.
-fn name(intensity: Intensity) -> String {
-    intensity.name().to_owned()
 }
 
 fn share(side: &mut Side, block: &BlockSamples, k: usize) {

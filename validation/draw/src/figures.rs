@@ -24,7 +24,7 @@ mod sketch;
 mod tests_along;
 
 pub use accepted::{AcceptedShares, BlockShare, SharePanel};
-pub use boxplots::{BoxPanel, Boxplots, Stripe, StripeKind};
+pub use boxplots::{BoxPanel, Boxplots, Stripe};
 pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
 pub use fates::{Fate, FateMap};

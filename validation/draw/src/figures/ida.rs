@@ -16,8 +16,6 @@ use rocking_common::words::letter;
 pub struct IdaCurves {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Panels row by row: a row a frequency parameter, a column a record.
     pub panels: Vec<IdaPanel>,
     /// Panels in a row.
@@ -81,7 +79,7 @@ impl IdaCurves {
                         letter(i),
                         number(panel.p_rad_s),
                         panel.record.clone(),
-                        self.intensity.name().into(),
+                        Intensity::Pga.name().into(),
                         number(curve.alpha_rad),
                         number(im),
                         point(edp),
@@ -122,7 +120,7 @@ fn scene(figure: &IdaCurves) -> Scene {
         let x = Axis::linear(0.0, END, 5).label(common::DEMAND);
         let bottom = if low < 0.99 { 0.0 } else { 1.0 };
         let y = Axis::linear(bottom, top, 5)
-            .label(common::intensity(figure.intensity));
+            .label(common::intensity(Intensity::Pga));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for curve in &shown.curves {
             let pen = Pen::of_series(inks.series(curve.alpha_rad));

@@ -10,7 +10,6 @@ use super::{
     Mark, Series,
 };
 use crate::markup;
-use rocking_common::paper::Intensity;
 
 /// Rotation over slenderness against time, of a response with its history,
 /// as SVG.
@@ -34,9 +33,7 @@ pub fn response_svg(
     let panel = HistoryPanel {
         p_rad_s: scene.block.frequency_rad_s(),
         record: excitation.to_owned(),
-        intensity: Intensity::Pga,
         im: pga_g / uplift_threshold(&scene.block, scene.model),
-        until_s: f64::NAN,
         curves: vec![history],
     };
     let heading = Heading::new(

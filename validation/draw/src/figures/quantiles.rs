@@ -19,8 +19,6 @@ use rocking_common::words::letter;
 pub struct Quantiles {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Panels row by row.
     pub panels: Vec<QuantilePanel>,
     /// Panels in a row.
@@ -73,7 +71,7 @@ impl Quantiles {
                         letter(i),
                         number(panel.p_rad_s),
                         panel.note.clone(),
-                        self.intensity.name().into(),
+                        Intensity::Pga.name().into(),
                         markup::plain(&group.label),
                         number(*im),
                         at(&group.q16),
@@ -116,7 +114,7 @@ fn scene(figure: &Quantiles) -> Scene {
         let same = |p: &&QuantilePanel| p.p_rad_s == shown.p_rad_s;
         let (low, high) = levels(figure.panels.iter().filter(same));
         let y = Axis::linear(low, high, 6)
-            .label(common::intensity(figure.intensity));
+            .label(common::intensity(Intensity::Pga));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for group in &shown.groups {
             let series =

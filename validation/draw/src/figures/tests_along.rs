@@ -18,8 +18,6 @@ use rocking_common::table::{Table, number};
 pub struct TestsAlongDemand {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Demand level of the histograms.
     pub edp: f64,
     /// The blocks.
@@ -124,7 +122,7 @@ impl TestsAlongDemand {
                 table.row([
                     number(block.alpha_rad),
                     number(block.p_rad_s),
-                    self.intensity.name().into(),
+                    Intensity::Pga.name().into(),
                     sample.into(),
                     quantity.into(),
                     number(at),
@@ -178,10 +176,7 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
     }
     let grid = Grid::new(3 * figure.blocks.len(), 3).with_subtitles();
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
-    let im = match figure.intensity {
-        Intensity::Pga => "IM = PGA / (*g* tan *α*)",
-        Intensity::Pgv => "IM = *p* PGV / (*g* tan *α*)",
-    };
+    let im = format!("IM = {}", common::intensity(Intensity::Pga));
     // The same scale for all blocks: they are compared.
     let ratios = figure.blocks.iter().flat_map(|b| {
         b.original.iter().chain(&b.shifted).chain(&b.grid_critical)
@@ -216,7 +211,7 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
             common::frequency(block.p_rad_s),
             common::slenderness(block.alpha_rad)
         );
-        panel.finish(&common::panel_title(first, &title), im);
+        panel.finish(&common::panel_title(first, &title), &im);
         let level = common::short(figure.edp);
         for (k, histogram, ink, words) in [
             (1, &block.original_histogram, ORIGINAL, "ln IM"),

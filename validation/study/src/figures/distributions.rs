@@ -223,7 +223,6 @@ pub(super) fn along(
              original and shifted; alpha = 0.05 and 0.20.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         edp,
         blocks,
     }

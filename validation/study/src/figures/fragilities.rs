@@ -66,7 +66,6 @@ pub(super) fn constants(
                               demand 0.15, PGA; untrimmed and trimmed.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         edp,
         panels,
     }

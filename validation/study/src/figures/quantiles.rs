@@ -7,7 +7,7 @@ use crate::analyses::SuiteResults;
 use crate::error::StudyError;
 use crate::estimates::three_quantiles;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
@@ -55,7 +55,6 @@ pub(super) fn slendernesses(
              scale; a curve ends where its quantile is overturned.",
             None,
         ),
-        intensity: Intensity::Pga,
         panels,
         columns: arms.len(),
     }
@@ -118,7 +117,6 @@ pub(super) fn adjusted(
              parameter; alpha = 0.10 for the scaled records.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         panels,
         columns: 3,
     }

@@ -7,12 +7,12 @@ use crate::error::StudyError;
 use crate::inference::LEAST_DECIDING;
 use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, LEAST_USABLE, REFERENCE,
-    SLENDERNESSES_RAD, closed_form,
+    Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+    closed_form,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
-use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe, StripeKind};
+use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
 pub(super) fn slendernesses(
@@ -32,7 +32,6 @@ pub(super) fn slendernesses(
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
                     alpha_rad,
                     closed_form: Some(closed_form(alpha_rad)),
-                    note: String::new(),
                     stripes: boxes(stripes, *frequency, Some(slenderness))?,
                 });
             }
@@ -53,7 +52,6 @@ pub(super) fn slendernesses(
                 Some(arm),
             ),
             ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
-            stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
             columns: 4,
         }
@@ -75,7 +73,6 @@ pub(super) fn adjusted(
                 p_rad_s,
                 alpha_rad: SLENDERNESSES_RAD[REFERENCE],
                 closed_form: None,
-                note: String::new(),
                 stripes: boxes(stripes, frequency, None)?,
             })
         })
@@ -93,7 +90,6 @@ pub(super) fn adjusted(
                 Some(arm),
             ),
             ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),
-            stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
             columns: 3,
         }

@@ -3,7 +3,7 @@
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use crate::error::StudyError;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position,
 };
 use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
@@ -46,9 +46,7 @@ pub(super) fn histories(
                 move |(record, histories)| HistoryPanel {
                     p_rad_s,
                     record: suite.records[*record].name.clone(),
-                    intensity: Intensity::Pga,
                     im: single.im,
-                    until_s: f64::NAN,
                     curves: histories
                         .iter()
                         .zip(SLENDERNESSES_RAD)
@@ -161,7 +159,6 @@ pub(super) fn curves(
              record.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         panels,
         columns: 3,
     }

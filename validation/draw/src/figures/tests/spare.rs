@@ -10,7 +10,6 @@ pub fn all() -> Vec<Figure> {
     let mut histories = made_up::histories();
     histories.heading = heading("spare-02", None);
     histories.panels[0].curves.clear();
-    histories.panels[1].until_s = f64::NAN;
     for curve in &mut histories.panels[1].curves {
         curve.ratio = HOLES.to_vec();
         curve.time_s = HOLES.to_vec();

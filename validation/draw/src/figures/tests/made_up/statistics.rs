@@ -85,7 +85,6 @@ pub fn tests_along() -> TestsAlongDemand {
     };
     TestsAlongDemand {
         heading: heading("figure-13", Some(Arm::A)),
-        intensity: Intensity::Pga,
         edp: 0.5,
         blocks: vec![block(0.05, 1), block(0.20, 2)],
     }
@@ -157,7 +156,6 @@ pub fn by_constant() -> ByConstant {
     };
     ByConstant {
         heading: heading("figure-18", Some(Arm::A)),
-        intensity: Intensity::Pga,
         edp: 0.15,
         panels: [("untrimmed MLE", 1.2), ("trimmed moments", 0.1)]
             .into_iter()

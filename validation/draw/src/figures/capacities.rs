@@ -81,11 +81,10 @@ impl Capacities {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,im_kind,shift,record,edp,im`; in the place of a record the
+    /// `panel,im,shift,record,edp,intensity`; in the place of a record the
     /// quantiles too.
     fn csv(&self) -> String {
-        let mut table =
-            Table::new(&["panel", "im_kind", "shift", "record", "edp", "im"]);
+        let mut table = Table::headed("panel,im,shift,record,edp,intensity");
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {
                 for (edp, im) in curve.edp.iter().zip(&curve.im) {

@@ -148,11 +148,10 @@ impl Fragilities {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,im_kind,edp,curve,quantity,at,value`: the sample (`ecdf`),
+    /// `panel,im,edp,curve,quantity,at,value`: the sample (`ecdf`),
     /// the parameters of each fitted curve, its band at an intensity.
     fn csv(&self) -> String {
-        let mut table =
-            Table::headed("panel,im_kind,edp,curve,quantity,at,value");
+        let mut table = Table::headed("panel,im,edp,curve,quantity,at,value");
         for (i, panel) in self.panels.iter().enumerate() {
             let mut row = |curve: &str, quantity: &str, at: f64, value| {
                 table.row([
@@ -166,7 +165,7 @@ impl Fragilities {
                 ]);
             };
             for im in &panel.sample {
-                row("ECDF", "im", f64::NAN, *im);
+                row("ECDF", "intensity", f64::NAN, *im);
             }
             for fit in &panel.curves {
                 let name = fit.estimator.name();
@@ -196,10 +195,10 @@ impl ByConstant {
         Figure::new(&self.heading, by_constant(self), self.csv(), reading)
     }
 
-    /// `panel,title,im_kind,edp,curve,c,quantity,value`.
+    /// `panel,title,im,edp,curve,c,quantity,value`.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,title,im_kind,edp,curve,c,quantity,value");
+            Table::headed("panel,title,im,edp,curve,c,quantity,value");
         for (i, panel) in self.panels.iter().enumerate() {
             let mut row = |curve: &str, c: f64, quantity: &str, value| {
                 table.row([
@@ -214,7 +213,7 @@ impl ByConstant {
                 ]);
             };
             for im in &panel.sample {
-                row("ECDF", f64::NAN, "im", *im);
+                row("ECDF", f64::NAN, "intensity", *im);
             }
             parameters(panel.benchmark.as_ref(), |quantity, value| {
                 row("SSFL", f64::NAN, quantity, value);

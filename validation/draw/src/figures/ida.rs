@@ -68,10 +68,10 @@ impl IdaCurves {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,p_rad_s,record,im_kind,alpha_rad,im,edp`.
+    /// `panel,p_rad_s,record,im,alpha_rad,intensity,edp`.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,p_rad_s,record,im_kind,alpha_rad,im,edp");
+            Table::headed("panel,p_rad_s,record,im,alpha_rad,intensity,edp");
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {
                 let mut row = |im: f64, edp: f64| {

@@ -57,10 +57,10 @@ impl Quantiles {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,p_rad_s,note,im_kind,group,im,q16,q50,q84`.
+    /// `panel,p_rad_s,note,im,group,intensity,q16,q50,q84`.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,p_rad_s,note,im_kind,group,im,q16,q50,q84");
+            Table::headed("panel,p_rad_s,note,im,group,intensity,q16,q50,q84");
         for (i, panel) in self.panels.iter().enumerate() {
             for group in &panel.groups {
                 for (k, im) in group.im.iter().enumerate() {

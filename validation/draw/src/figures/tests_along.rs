@@ -111,12 +111,11 @@ impl TestsAlongDemand {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `alpha_rad,p_rad_s,im_kind,sample,quantity,at,value`, where `at` is
+    /// `alpha_rad,p_rad_s,im,sample,quantity,at,value`, where `at` is
     /// the demand, or the bin's lower edge.
     fn csv(&self) -> String {
-        let mut table = Table::headed(
-            "alpha_rad,p_rad_s,im_kind,sample,quantity,at,value",
-        );
+        let mut table =
+            Table::headed("alpha_rad,p_rad_s,im,sample,quantity,at,value");
         for block in &self.blocks {
             let mut row = |sample: &str, quantity: &str, at, value| {
                 table.row([

@@ -49,7 +49,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 let kind = ["original", "shifted"][shifted];
                 let mut cells = vec![
                     ("suite", word(suite.kind.name())),
-                    ("im_kind", word(intensity.name())),
+                    ("im", word(intensity.name())),
                     ("sample", word(kind)),
                     ("p_rad_s", number(block.p_rad_s, 0)),
                     ("alpha_rad", number(block.alpha_rad, 2)),

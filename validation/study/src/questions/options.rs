@@ -91,7 +91,7 @@ pub(super) fn answer(
                         parameters.map_or("sample".into(), |n| n.to_string()),
                     ),
                 ),
-                ("im_kind", word(s.intensity.name())),
+                ("im", word(s.intensity.name())),
                 ("defined_share", number(s.defined, 3)),
                 ("median_ks", number(s.ks, 4)),
                 ("largest_ks", number(s.largest, 4)),
@@ -262,7 +262,7 @@ fn by_block(entries: &[Entry]) -> String {
             fragility.map_or_else(|_| String::new(), |x| short(f(x)))
         };
         table.row(vec![
-            ("im_kind", word(e.intensity.name())),
+            ("im", word(e.intensity.name())),
             ("p_rad_s", number(e.p_rad_s, 0)),
             ("alpha_rad", number(e.alpha_rad, 0)),
             ("edp", number(e.edp, 0)),

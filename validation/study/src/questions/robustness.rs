@@ -66,7 +66,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             moves.push(nine - whole);
             table.row(vec![
                 ("suite", word(suite.kind.name())),
-                ("im_kind", word(intensity.name())),
+                ("im", word(intensity.name())),
                 ("p_rad_s", number(block.p_rad_s, 0)),
                 ("alpha_rad", number(block.alpha_rad, 2)),
                 ("accepted_share", number(whole, 2)),

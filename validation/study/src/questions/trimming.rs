@@ -131,13 +131,13 @@ impl Count {
     fn cells(
         &self,
         suite: &str,
-        im_kind: &str,
+        im: &str,
         skewness: &str,
         c: f64,
     ) -> Vec<(&'static str, Cell)> {
         vec![
             ("suite", word(suite)),
-            ("im_kind", word(im_kind)),
+            ("im", word(im)),
             ("skewness", word(skewness)),
             ("c", number(c, 2)),
             ("samples", answer::count(self.samples)),

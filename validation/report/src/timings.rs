@@ -201,7 +201,6 @@ impl Timings {
                      processor time and work. {}",
                     self.measured_on()
                 ),
-                None,
             ),
             panels,
             columns: 2,

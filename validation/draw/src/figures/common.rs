@@ -92,18 +92,17 @@ impl Slendernesses {
 
     /// Legend of lines.
     pub fn lines(&self) -> Vec<Entry> {
-        let entry = |(a, k): &(f64, usize)| {
-            Entry::new(Sample::Line(Pen::of_series(*k)), slenderness(*a))
-        };
-        self.0.iter().map(entry).collect()
+        self.legend(|k| Sample::Line(Pen::of_series(k)))
     }
 
     /// Legend of boxes.
     pub fn boxes(&self) -> Vec<Entry> {
-        let entry = |(a, k): &(f64, usize)| {
-            Entry::new(Sample::Box(Ink::Series(*k)), slenderness(*a))
-        };
-        self.0.iter().map(entry).collect()
+        self.legend(|k| Sample::Box(Ink::Series(k)))
+    }
+
+    fn legend(&self, of: fn(usize) -> Sample) -> Vec<Entry> {
+        let all = self.0.iter();
+        all.map(|(a, k)| Entry::new(of(*k), slenderness(*a))).collect()
     }
 }
 

@@ -44,11 +44,15 @@ impl Heading {
         name: impl Into<String>,
         title: impl Into<String>,
         description: impl Into<String>,
-        arm: Option<Arm>,
     ) -> Self {
         let (name, title) = (name.into(), title.into());
         let (description, place) = (description.into(), Place::Beside);
-        Self { name, title, description, arm, place }
+        Self { name, title, description, arm: None, place }
+    }
+
+    /// The same words of an arm.
+    pub fn of(self, arm: Arm) -> Self {
+        Self { arm: Some(arm), ..self }
     }
 
     /// The words of a figure with a number, and its name: `figure-06`, or
@@ -64,7 +68,7 @@ impl Heading {
         let suffix = arm.filter(|_| by_arm).map_or(String::new(), of_arm);
         let name = format!("figure-{number:02}{suffix}");
         let place = Place::Numbered { number, by_arm };
-        Self { place, ..Self::new(name, title, description, arm) }
+        Self { place, arm, ..Self::new(name, title, description) }
     }
 
     /// Its number, where it has one.

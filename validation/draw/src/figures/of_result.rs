@@ -40,7 +40,6 @@ pub fn response_svg(
         "history",
         "Response history",
         "Rotation over slenderness against time.",
-        None,
     );
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
     figure.thinned().figure(String::new()).svg()
@@ -113,7 +112,6 @@ pub fn record_svg(
              ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
              response spectrum."
         ),
-        None,
     );
     let chart = Chart { heading, panels, columns: 2 };
     chart.thinned().figure(String::new()).svg()
@@ -175,7 +173,6 @@ pub fn ranking_svg(
                 edp,
                 rows.len()
             ),
-            None,
         ),
         panels: vec![ChartPanel::new("", x, y, vec![series])],
         columns: 1,

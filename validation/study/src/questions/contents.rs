@@ -253,7 +253,6 @@ fn figure(ours: &[Ours; 2]) -> Figure {
          the same over g depth/height against half the diagonal of nine \
          items: FEMA P-58's fragilities and blocks of their sizes under both \
          suites.",
-        None,
     );
     Chart { heading, panels, columns: 2 }.figure(
         "Bars are 95 % intervals from resampled records. On the right FEMA \

@@ -195,7 +195,6 @@ fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
             "Share of demand levels at which the shifted sample is rejected, \
              by slenderness, in three arms of the grid; ordinary and \
              pulse-type records, PGA.",
-            None,
         ),
         panels,
         columns: 3,

@@ -348,7 +348,6 @@ fn figure(found: &[Dispersions]) -> Figure {
          against period times p, with those of PGA, PGV and an average \
          spectral acceleration as lines; alpha = 0.15; ordinary and \
          pulse-type suites, p = 1, 3 and 4 rad/s.",
-        None,
     );
     let least: Vec<String> = found
         .iter()

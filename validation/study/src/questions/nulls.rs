@@ -189,8 +189,8 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
             "Critical value of Lilliefors' test at 5 % with the shift \
              estimated in every draw, over the tabulated one, along the \
              demand; shifted PGV, ordinary and pulse-type records.",
-            Some(arm),
-        ),
+        )
+        .of(arm),
         panels: vec![panel("ordinary"), panel("pulse-type")],
         columns: 2,
     }

@@ -15,7 +15,7 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 
-use super::answer::{Answer, Rows, count, number, word};
+use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::error::StudyError;
 use crate::estimates::median;
@@ -79,18 +79,12 @@ pub(super) fn answer(
     let summaries = summaries(&entries);
     let mut table = Rows::default();
     for s in &summaries {
-        let parameters = s.recipe.parameters();
         table.row_if(
             s.recipe.option() != 3 || shown_constant(&s.recipe),
             vec![
                 ("option", count(usize::from(s.recipe.option()))),
                 ("recipe", word(s.recipe.to_string())),
-                (
-                    "numbers_reported",
-                    word(
-                        parameters.map_or("sample".into(), |n| n.to_string()),
-                    ),
-                ),
+                ("numbers_reported", reported(&s.recipe)),
                 ("im", word(s.intensity.name())),
                 ("defined_share", number(s.defined, 3)),
                 ("median_ks", number(s.ks, 4)),
@@ -121,6 +115,11 @@ pub(super) fn answer(
     ];
     answer.figures.push(drawing::figure(&summaries, arm));
     Ok(answer)
+}
+
+fn reported(recipe: &Recipe) -> Cell {
+    let parameters = recipe.parameters().map(|n| n.to_string());
+    word(parameters.unwrap_or_else(|| "sample".into()))
 }
 
 fn shown_constant(recipe: &Recipe) -> bool {
@@ -258,34 +257,25 @@ fn by_block(entries: &[Entry]) -> String {
     let mut table = Rows::default();
     for e in entries {
         let fragility = e.fragility.as_ref();
-        let of = |f: fn(&Lognormal) -> f64| {
-            fragility.map_or_else(|_| String::new(), |x| short(f(x)))
-        };
+        let of = |f: fn(&Lognormal) -> f64| six(fragility.map_or(f64::NAN, f));
         table.row(vec![
             ("im", word(e.intensity.name())),
             ("p_rad_s", number(e.p_rad_s, 0)),
             ("alpha_rad", number(e.alpha_rad, 0)),
             ("edp", number(e.edp, 0)),
-            ("im_r", word(short(e.shift))),
+            ("im_r", six(e.shift)),
             ("option", word(e.recipe.option().to_string())),
             ("recipe", word(e.recipe.to_string())),
-            (
-                "numbers_reported",
-                word(
-                    e.recipe
-                        .parameters()
-                        .map_or_else(|| "sample".into(), |n| n.to_string()),
-                ),
-            ),
-            ("ln_median", word(of(Lognormal::log_mean))),
-            ("dispersion", word(of(Lognormal::dispersion))),
-            ("shift", word(of(Lognormal::shift))),
-            ("ks_distance", word(short(e.ks))),
-            ("ks_low", word(short(e.ks_interval.0))),
-            ("ks_high", word(short(e.ks_interval.1))),
-            ("area_distance", word(short(e.area))),
-            ("area_low", word(short(e.area_interval.0))),
-            ("area_high", word(short(e.area_interval.1))),
+            ("numbers_reported", reported(&e.recipe)),
+            ("ln_median", of(Lognormal::log_mean)),
+            ("dispersion", of(Lognormal::dispersion)),
+            ("shift", of(Lognormal::shift)),
+            ("ks_distance", six(e.ks)),
+            ("ks_low", six(e.ks_interval.0)),
+            ("ks_high", six(e.ks_interval.1)),
+            ("area_distance", six(e.area)),
+            ("area_low", six(e.area_interval.0)),
+            ("area_high", six(e.area_interval.1)),
             ("draws_used", word(e.used.to_string())),
             (
                 "undefined_because",
@@ -297,8 +287,8 @@ fn by_block(entries: &[Entry]) -> String {
 }
 
 /// Six digits: more than 86 records say.
-fn short(x: f64) -> String {
-    digits(x, 6)
+fn six(x: f64) -> Cell {
+    word(digits(x, 6))
 }
 
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
@@ -322,10 +312,10 @@ fn pact(entries: &[Entry]) -> Result<String, StudyError> {
             ("edp", number(e.edp, 0)),
             ("fit", word(method.to_string())),
             ("demand", word(told.demand)),
-            ("median_dimensionless", word(short(fragility.median()))),
-            ("median", word(short(told.median))),
+            ("median_dimensionless", six(fragility.median())),
+            ("median", six(told.median)),
             ("unit", word(told.unit)),
-            ("dispersion", word(short(told.dispersion))),
+            ("dispersion", six(told.dispersion)),
         ]);
     }
     Ok(table.csv())

@@ -136,7 +136,6 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
             "Share of simulated shifted-lognormal samples that tests of the \
              unshifted logarithms reject at 5 %, against the excess median, \
              for the sizes of both suites.",
-            None,
         ),
         panels,
         columns: 2,

@@ -249,7 +249,6 @@ fn figure(surrogate: &Surrogate) -> Result<Figure, StudyError> {
          slendernesses, with 100 blocks to which the surface was not fitted; \
          in the middle the dispersion; below, the relative error of the \
          median at those blocks; ordinary and pulse-type suites.",
-        None,
     );
     Ok(Chart { heading, panels, columns: 2 }.figure(
         "Lines are the surface, marks are analyses of blocks that it was not \

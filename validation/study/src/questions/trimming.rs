@@ -23,14 +23,9 @@ const EDGES: [f64; 3] = [-0.25, 0.25, 0.75];
 /// Samples of a truth that is shifted lognormal.
 const DRAWS: u64 = 1000;
 
-/// Trimmed against untrimmed.
+/// Trimmed against untrimmed: samples by [`Outcome`].
 #[derive(Clone, Copy, Default)]
-struct Count {
-    samples: usize,
-    helps: usize,
-    only_trimmed: usize,
-    neither: usize,
-}
+struct Count([usize; 4]);
 
 pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     let mut table = Rows::default();
@@ -68,7 +63,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                         "{} for skewness {} ({} samples; {} at c = 0.25)",
                         percent(high.share(), 0),
                         class_words(class),
-                        high.samples,
+                        high.samples(),
                         percent(low.share(), 0),
                     )
                 })
@@ -113,19 +108,18 @@ enum Outcome {
 }
 
 impl Count {
-    fn add(&mut self, outcome: Outcome) {
-        self.samples += 1;
-        match outcome {
-            Outcome::Helps => self.helps += 1,
-            Outcome::OnlyTrimmed => self.only_trimmed += 1,
-            Outcome::Neither => self.neither += 1,
-            Outcome::Harms => {}
-        }
+    fn of(&self, outcome: Outcome) -> usize {
+        self.0[outcome as usize]
+    }
+
+    fn samples(&self) -> usize {
+        self.0.iter().sum()
     }
 
     /// Samples in which the trimmed fragility is nearer, or the only one.
     fn share(&self) -> f64 {
-        (self.helps + self.only_trimmed) as f64 / self.samples as f64
+        let nearer = self.of(Outcome::Helps) + self.of(Outcome::OnlyTrimmed);
+        nearer as f64 / self.samples() as f64
     }
 
     fn cells(
@@ -135,15 +129,16 @@ impl Count {
         skewness: &str,
         c: f64,
     ) -> Vec<(&'static str, Cell)> {
+        let of = |outcome| answer::count(self.of(outcome));
         vec![
             ("suite", word(suite)),
             ("im", word(im)),
             ("skewness", word(skewness)),
             ("c", number(c, 2)),
-            ("samples", answer::count(self.samples)),
-            ("trimmed_is_nearer", answer::count(self.helps)),
-            ("only_trimmed_is_defined", answer::count(self.only_trimmed)),
-            ("neither_is_defined", answer::count(self.neither)),
+            ("samples", answer::count(self.samples())),
+            ("trimmed_is_nearer", of(Outcome::Helps)),
+            ("only_trimmed_is_defined", of(Outcome::OnlyTrimmed)),
+            ("neither_is_defined", of(Outcome::Neither)),
             ("share_helped", number(self.share(), 3)),
         ]
     }
@@ -153,7 +148,7 @@ fn count(rows: &[(usize, [Outcome; 4])]) -> [[Count; 4]; 4] {
     let mut counts = [[Count::default(); 4]; 4];
     for (class, outcomes) in rows {
         for (count, outcome) in counts[*class].iter_mut().zip(outcomes) {
-            count.add(*outcome);
+            count.0[*outcome as usize] += 1;
         }
     }
     counts

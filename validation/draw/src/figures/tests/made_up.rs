@@ -15,12 +15,9 @@ pub const ALPHAS: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
 pub const FREQUENCIES: [f64; 3] = [1.0, 3.0, 4.0];
 
 pub fn heading(name: &str, arm: Option<Arm>) -> Heading {
-    Heading::new(
-        name,
-        format!("{name}: made up"),
-        "Made-up numbers & <marks>.",
-        arm,
-    )
+    let title = format!("{name}: made up");
+    let words = Heading::new(name, title, "Made-up numbers & <marks>.");
+    Heading { arm, ..words }
 }
 
 /// Between 0 and 1, without a pattern.
@@ -205,9 +202,7 @@ pub fn quantiles() -> Quantiles {
         };
         QuantileGroup {
             label: format!("*α* = {alpha:.2} rad"),
-            q16: curve(-1.0),
-            q50: curve(0.0),
-            q84: curve(1.0),
+            quantiles: [-1.0, 0.0, 1.0].map(curve),
             im,
         }
     };

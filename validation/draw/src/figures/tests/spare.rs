@@ -47,8 +47,8 @@ pub fn all() -> Vec<Figure> {
     quantiles.heading = heading("spare-08", None);
     quantiles.panels[0].groups.clear();
     for group in &mut quantiles.panels[1].groups {
-        group.q16 = vec![f64::NAN; group.im.len()];
-        group.q84.clear();
+        group.quantiles[0] = vec![f64::NAN; group.im.len()];
+        group.quantiles[2].clear();
     }
 
     let mut capacities = made_up::capacities();

@@ -75,8 +75,8 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
             "Median over 15 blocks and three demands of the Kolmogorov \
              distance to the empirical fragility, against the constant of Eq. \
              7, for each option; PGA and PGV, ordinary records.",
-            Some(arm),
-        ),
+        )
+        .of(arm),
         panels: panels.into(),
         columns: 2,
     }

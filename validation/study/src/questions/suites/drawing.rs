@@ -31,7 +31,6 @@ pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
                  eight measures with its 95 % interval; below, median and 16 \
                  to 84 % of the response spectra at 5 % damping; ordinary and \
                  pulse-type suites.",
-                None,
             )
         },
         panels,
@@ -113,7 +112,6 @@ pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
                 "Ratio of the embedded to the recorded median capacity with \
                  its 95 % interval, block by block, at demands 0.15 and 1.00, \
                  for PGA and PGV, ordinary and pulse-type suites.",
-                None,
             )
         },
         panels,

@@ -62,43 +62,30 @@ pub fn record_svg(
     let label = markup::escape(&motion.name().replace('_', " "));
     let series = |x, y| Series::new(label.clone(), Mark::Line, x, y);
     let (velocity, displacement) = motion.integrals(gravity_m_s2);
-    let history =
-        |name: &str, symbol: &str, y: Vec<f64>, peak: String| ChartPanel {
-            title: format!("{name}, peak {peak}"),
-            x: ChartAxis::linear("*t* (s)", shown_s),
-            y: ChartAxis::linear(symbol, None::<(f64, f64)>),
-            series: vec![series(time_s.clone(), y)],
-        };
     let spectrum = measures.spectral_acceleration_g.clone();
     let most = spectrum.iter().fold(0.0, |most: f64, s| most.max(*s));
     let ends = (periods_s.first(), periods_s.last());
     let ends = ends.0.copied().zip(ends.1.copied());
-    let panels = vec![
-        history(
-            "Acceleration",
-            "*a* / *g*",
-            samples.to_vec(),
-            format!("{:.3} *g*", measures.pga_g),
-        ),
-        history(
-            "Velocity",
-            "*v* (m/s)",
-            velocity,
-            format!("{:.3} m/s", measures.pgv_m_s),
-        ),
-        history(
-            "Displacement",
-            "*d* (m)",
-            displacement,
-            format!("{:.3} m", measures.pgd_m),
-        ),
-        ChartPanel {
-            title: "Response spectrum, 5 % damping".to_owned(),
-            x: ChartAxis::logarithmic("*T* (s)", ends),
-            y: ChartAxis::linear("*S*_{a} / *g*", (0.0, 1.05 * most)),
-            series: vec![series(periods_s.to_vec(), spectrum)],
-        },
-    ];
+    let (pgv, pgd) = (measures.pgv_m_s, measures.pgd_m);
+    let mut panels: Vec<ChartPanel> = [
+        ("Acceleration", "*a* / *g*", samples.into(), measures.pga_g, "*g*"),
+        ("Velocity", "*v* (m/s)", velocity, pgv, "m/s"),
+        ("Displacement", "*d* (m)", displacement, pgd, "m"),
+    ]
+    .into_iter()
+    .map(|(name, symbol, y, peak, unit)| ChartPanel {
+        title: format!("{name}, peak {peak:.3} {unit}"),
+        x: ChartAxis::linear("*t* (s)", shown_s),
+        y: ChartAxis::linear(symbol, None::<(f64, f64)>),
+        series: vec![series(time_s.clone(), y)],
+    })
+    .collect();
+    panels.push(ChartPanel::new(
+        "Response spectrum, 5 % damping",
+        ChartAxis::logarithmic("*T* (s)", ends),
+        ChartAxis::linear("*S*_{a} / *g*", (0.0, 1.05 * most)),
+        vec![series(periods_s.to_vec(), spectrum)],
+    ));
     let name = motion.name();
     let done = done.map_or_else(
         || "as given".to_owned(),

@@ -46,17 +46,12 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         for (i, row) in rows.iter().enumerate() {
             let share = |x: f64| number(x, 3);
             let slenderness = i % SLENDERNESSES_RAD.len();
+            let p = FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()];
             table.row_if(
                 slenderness == 0 || suite.kind == results.ordinary.kind,
                 vec![
                     ("suite", word(suite.kind.name())),
-                    (
-                        "p_rad_s",
-                        number(
-                            FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()],
-                            0,
-                        ),
-                    ),
+                    ("p_rad_s", number(p, 0)),
                     ("alpha_rad", number(SLENDERNESSES_RAD[slenderness], 2)),
                     ("rejected_a", share(row.rejected[0])),
                     ("rejected_b", share(row.rejected[1])),
@@ -77,12 +72,10 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             .enumerate()
             .map(|(frequency, p)| {
                 let row = &rows[position(frequency, 0)];
+                let [a, b, c] = row.rejected.map(|share| percent(share, 0));
                 format!(
-                    "{} in A, {} in B and {} in C at p = {p} ({} by the \
+                    "{a} in A, {b} in B and {c} in C at p = {p} ({} by the \
                      grid alone, {} distinct values of {})",
-                    percent(row.rejected[0], 0),
-                    percent(row.rejected[1], 0),
-                    percent(row.rejected[2], 0),
                     percent(row.grid_alone, 0),
                     row.distinct[0],
                     suite.records.len(),

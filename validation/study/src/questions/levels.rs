@@ -40,10 +40,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     Row::new(tests, block.bands[shifted].as_ref(), battery);
                 low[shifted] += usize::from(row.p_of_share < LEVEL);
                 if shifted == 1 {
-                    let own = [row.share].into_iter().chain(row.others);
                     shares
                         .iter_mut()
-                        .zip(own)
+                        .zip(row.shares)
                         .for_each(|(all, x)| all.push(x));
                 }
                 let kind = ["original", "shifted"][shifted];
@@ -54,7 +53,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                     ("p_rad_s", number(block.p_rad_s, 0)),
                     ("alpha_rad", number(block.alpha_rad, 2)),
                 ];
-                cells.extend(row.cells());
+                cells.extend(row.cells);
                 table.row_if(shifted == 1, cells);
             }
         }
@@ -87,16 +86,12 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     ))
 }
 
+/// One sample of a block: its cells, the p-value of its accepted share, and
+/// that share by Lilliefors' test and by the others.
 struct Row {
-    share: f64,
-    band: (f64, f64),
+    cells: Vec<(&'static str, Cell)>,
     p_of_share: f64,
-    p_of_mean: f64,
-    effective: f64,
-    rejected: [usize; 3],
-    ties: usize,
-    by_step: [f64; 4],
-    others: [f64; 3],
+    shares: [f64; 4],
 }
 
 impl Row {
@@ -105,71 +100,56 @@ impl Row {
         band: Option<&NullBand>,
         battery: Option<&Battery>,
     ) -> Self {
-        let share = accepted_share(tests);
+        let accepted = accepted_share(tests);
         let stands: Vec<Assessment> =
             every(tests, BAND_STRIDE).cloned().collect();
         let observed = accepted_share(&stands);
-        let ratios: Vec<f64> = stands.iter().map(over_critical).collect();
+        let ratios = mean(stands.iter().map(over_critical));
         let p_values: Vec<f64> =
             tests.iter().filter_map(|t| Some(t.p_value?.value)).collect();
         let below = |adjusted: Vec<f64>| {
-            adjusted.iter().filter(|p| **p <= LEVEL).count()
+            count(adjusted.iter().filter(|p| **p <= LEVEL).count())
         };
         let counts = AcceptedShare::of(tests);
         let tied = |t: &&Assessment| {
             matches!(t.verdict, Err(Inapplicable::Ties { .. }))
         };
+        let share = |x: f64| number(x, 3);
         let with_step = |stride: usize| {
             let kept: Vec<Assessment> =
                 every(tests, stride).cloned().collect();
-            accepted_share(&kept)
+            share(accepted_share(&kept))
         };
-        let limits = band.and_then(ends);
-        Self {
-            share,
-            band: limits.unwrap_or((f64::NAN, f64::NAN)),
-            p_of_share: band.map_or(f64::NAN, |b| b.p_value(observed)),
-            p_of_mean: band.map_or(f64::NAN, |b| {
-                b.p_value_of_mean_ratio(mean(ratios.iter().copied()))
-            }),
-            effective: band.map_or(f64::NAN, |b| b.effective_levels),
-            rejected: [
-                counts.tested - counts.accepted,
-                below(holm(&p_values)),
+        let of_band =
+            |of: &dyn Fn(&NullBand) -> f64| band.map_or(f64::NAN, of);
+        let (low, high) = band.and_then(ends).unwrap_or((f64::NAN, f64::NAN));
+        let p_of_share = of_band(&|b| b.p_value(observed));
+        let p_of_mean = of_band(&|b| b.p_value_of_mean_ratio(ratios));
+        let effective = of_band(&|b| b.effective_levels);
+        let [a, w, s] = battery.map_or([f64::NAN; 3], |b| others(tests, b));
+        let cells = vec![
+            ("accepted_share", share(accepted)),
+            ("band_low", share(low)),
+            ("band_high", share(high)),
+            ("p_of_share", share(p_of_share)),
+            ("p_of_mean_d", share(p_of_mean)),
+            ("effective_levels", number(effective, 1)),
+            ("rejected_plain", count(counts.tested - counts.accepted)),
+            ("rejected_holm", below(holm(&p_values))),
+            (
+                "rejected_benjamini_hochberg",
                 below(benjamini_hochberg(&p_values)),
-            ],
-            ties: tests.iter().filter(tied).count(),
-            by_step: [
-                with_step(2),
-                with_step(4),
-                with_step(10),
-                accepted_share(&tests[19..]),
-            ],
-            others: battery.map_or([f64::NAN; 3], |b| others(tests, b)),
-        }
-    }
-
-    fn cells(&self) -> Vec<(&'static str, Cell)> {
-        let share = |x: f64| number(x, 3);
-        vec![
-            ("accepted_share", share(self.share)),
-            ("band_low", share(self.band.0)),
-            ("band_high", share(self.band.1)),
-            ("p_of_share", share(self.p_of_share)),
-            ("p_of_mean_d", share(self.p_of_mean)),
-            ("effective_levels", number(self.effective, 1)),
-            ("rejected_plain", count(self.rejected[0])),
-            ("rejected_holm", count(self.rejected[1])),
-            ("rejected_benjamini_hochberg", count(self.rejected[2])),
-            ("ties_decide", count(self.ties)),
-            ("share_step_0.01", share(self.by_step[0])),
-            ("share_step_0.02", share(self.by_step[1])),
-            ("share_step_0.05", share(self.by_step[2])),
-            ("share_from_0.1", share(self.by_step[3])),
-            ("accepted_anderson_darling", share(self.others[0])),
-            ("accepted_cramer_von_mises", share(self.others[1])),
-            ("accepted_shapiro_wilk", share(self.others[2])),
-        ]
+            ),
+            ("ties_decide", count(tests.iter().filter(tied).count())),
+            ("share_step_0.01", with_step(2)),
+            ("share_step_0.02", with_step(4)),
+            ("share_step_0.05", with_step(10)),
+            ("share_from_0.1", share(accepted_share(&tests[19..]))),
+            ("accepted_anderson_darling", share(a)),
+            ("accepted_cramer_von_mises", share(w)),
+            ("accepted_shapiro_wilk", share(s)),
+        ];
+        Self { cells, p_of_share, shares: [accepted, a, w, s] }
     }
 }
 

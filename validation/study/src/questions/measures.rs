@@ -55,12 +55,6 @@ const COUNT: usize = SPECTRAL.end;
 
 /// The name of a measure, its periods over p.
 fn name(place: usize) -> String {
-    if SPECTRAL.contains(&place) {
-        return format!(
-            "SA, T = {:.1}/p",
-            OWN_PERIODS[place - SPECTRAL.start]
-        );
-    }
     let names = [
         "PGA",
         "PGV",
@@ -69,16 +63,15 @@ fn name(place: usize) -> String {
         "CAV",
         "PGV D5-75^(1/4)",
     ];
-    names.get(place).map_or_else(
-        || {
-            let (first, last) = (AVERAGED.start, AVERAGED.end - 1);
-            format!(
-                "average SA, T = {:.1}/p to {:.1}/p",
-                OWN_PERIODS[first], OWN_PERIODS[last]
-            )
-        },
-        |name| (*name).to_owned(),
-    )
+    let at = |k: usize| format!("{:.1}/p", OWN_PERIODS[k]);
+    let (first, last) = (AVERAGED.start, AVERAGED.end - 1);
+    match names.get(place) {
+        Some(name) => (*name).to_owned(),
+        None if place == AVERAGE => {
+            format!("average SA, T = {} to {}", at(first), at(last))
+        }
+        None => format!("SA, T = {}", at(place - SPECTRAL.start)),
+    }
 }
 
 /// Values over the PGA of each of [`measures`] for a record.

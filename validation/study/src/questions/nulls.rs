@@ -52,6 +52,7 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             let finite: Vec<f64> =
                 row.ratios.iter().copied().filter(|x| x.is_finite()).collect();
             let (least, most) = range(finite.iter().copied());
+            let middle = median(&finite).value;
             let without = PLACES.len() - finite.len();
             table.row(vec![
                 ("suite", word(suite.kind.name())),
@@ -60,21 +61,13 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 ("accepted_shift_as_given", number(row.given, 3)),
                 ("accepted_shift_estimated_anew", number(row.anew, 3)),
                 ("critical_value_ratio_least", number(least, 3)),
-                (
-                    "critical_value_ratio_median",
-                    number(median(&finite).value, 3),
-                ),
+                ("critical_value_ratio_median", number(middle, 3)),
                 ("critical_value_ratio_largest", number(most, 3)),
                 ("places_without_a_null", count(without)),
                 ("largest_share_drawn_again", number(row.redrawn, 3)),
             ]);
             changes.push(row.anew - row.given);
-            drawn.push((
-                suite.kind.name(),
-                block.p_rad_s,
-                block.alpha_rad,
-                row,
-            ));
+            drawn.push((suite.kind.name(), block.p_rad_s, row));
             all_ratios.extend(finite);
         }
         let (least, most) = range(changes.iter().copied());
@@ -151,7 +144,7 @@ fn between(values: &[f64], edp: f64) -> f64 {
     }
 }
 
-fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
+fn figure(rows: &[(&'static str, f64, Row)], arm: Arm) -> Figure {
     // One scale for both suites, in whole per cent.
     let ratios = rows.iter().flat_map(|(.., row)| row.ratios.iter().copied());
     let (low, high) = range(ratios);
@@ -164,7 +157,7 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
                 let at = |k: usize| {
                     let own: Vec<f64> = rows
                         .iter()
-                        .filter(|(suite, q, _, _)| *suite == kind && q == p)
+                        .filter(|(suite, q, _)| *suite == kind && q == p)
                         .map(|(.., row)| row.ratios[k])
                         .filter(|x| x.is_finite())
                         .collect();
@@ -198,7 +191,7 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
 }
 
 /// Largest departure of a critical value from the table's, in a sentence.
-fn words(rows: &[(&'static str, f64, f64, Row)]) -> String {
+fn words(rows: &[(&'static str, f64, Row)]) -> String {
     let ratios = rows.iter().flat_map(|(.., row)| row.ratios.iter());
     let (low, high) = range(ratios.map(|x| 100.0 * (x - 1.0)));
     format!(

@@ -61,7 +61,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         for (model, _) in &surrogate.models {
             for block in of.iter().filter(|b| b.suite == model.suite) {
                 let found = model.at(block.alpha_rad, block.p_rad_s)?;
-                let off = found.distance(&block.lognormal()?);
+                let off =
+                    found.distance(&block.lognormal()?).unwrap_or(f64::NAN);
+                let (own, fitted) = (block.dispersion, found.dispersion());
                 table.row_if(
                     blocks == "study",
                     vec![
@@ -73,18 +75,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                         ("median_low", number(block.median_low, 3)),
                         ("median_high", number(block.median_high, 3)),
                         ("median_by_surface", number(found.median(), 3)),
-                        (
-                            "dispersion_by_analyses",
-                            number(block.dispersion, 3),
-                        ),
-                        (
-                            "dispersion_by_surface",
-                            number(found.dispersion(), 3),
-                        ),
-                        (
-                            "difference_in_probability",
-                            number(off.unwrap_or(f64::NAN), 3),
-                        ),
+                        ("dispersion_by_analyses", number(own, 3)),
+                        ("dispersion_by_surface", number(fitted, 3)),
+                        ("difference_in_probability", number(off, 3)),
                     ],
                 );
             }

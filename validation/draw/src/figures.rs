@@ -29,8 +29,8 @@ pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
 pub use fates::{Fate, FateMap};
 pub use fragilities::{
-    BandOf, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Limit,
+    BandOf, ByConstant, ByConstantPanel, Estimator, Fitted, Fragilities,
+    FragilityPanel, Limit,
 };
 pub use heading::{Figure, Heading, Place};
 pub use histories::{Histories, History, HistoryPanel};

@@ -129,17 +129,8 @@ pub struct ByConstantPanel {
     pub benchmark: Option<Lognormal>,
     /// Capacities for the ECDF, or nothing.
     pub sample: Vec<f64>,
-    /// USFL7 by c.
-    pub curves: Vec<ConstantCurve>,
-}
-
-/// One constant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ConstantCurve {
-    /// The constant.
-    pub c: f64,
-    /// USFL7; none where Eq. 7 is not defined.
-    pub curve: Option<Lognormal>,
+    /// The constant c, and its USFL7; none where Eq. 7 is not defined.
+    pub curves: Vec<(f64, Option<Lognormal>)>,
 }
 
 impl Fragilities {
@@ -218,9 +209,9 @@ impl ByConstant {
             parameters(panel.benchmark.as_ref(), |quantity, value| {
                 row("SSFL", f64::NAN, quantity, value);
             });
-            for fit in &panel.curves {
-                parameters(fit.curve.as_ref(), |quantity, value| {
-                    row("USFL7", fit.c, quantity, value);
+            for (c, curve) in &panel.curves {
+                parameters(curve.as_ref(), |quantity, value| {
+                    row("USFL7", *c, quantity, value);
                 });
             }
         }
@@ -367,7 +358,7 @@ fn along(panel: &Panel<'_>) -> impl Iterator<Item = f64> + use<> {
 
 fn by_constant(figure: &ByConstant) -> Scene {
     let mut constants: Vec<f64> =
-        figure.panels.iter().flat_map(|p| &p.curves).map(|c| c.c).collect();
+        figure.panels.iter().flat_map(|p| &p.curves).map(|c| c.0).collect();
     constants.sort_by(f64::total_cmp);
     constants.dedup();
     let pen = |k: usize| {
@@ -404,11 +395,11 @@ fn by_constant(figure: &ByConstant) -> Scene {
             draw_curve(&mut panel, curve, benchmark);
         }
         let mut missing = Vec::new();
-        for fit in &shown.curves {
-            let k = constants.iter().position(|c| *c == fit.c).unwrap_or(0);
-            match &fit.curve {
+        for (c, curve) in &shown.curves {
+            let k = constants.iter().position(|k| k == c).unwrap_or(0);
+            match curve {
                 Some(curve) => draw_curve(&mut panel, curve, pen(k)),
-                None => missing.push(fit.c.to_string()),
+                None => missing.push(c.to_string()),
             }
         }
         if !missing.is_empty() {

@@ -12,9 +12,7 @@ use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
 use crate::results::Results;
 use rocking_common::paper::{Arm, Intensity, demand_index};
 use rocking_draw::figures::Figure;
-use rocking_draw::figures::{
-    ByConstant, ByConstantPanel, ConstantCurve, Heading,
-};
+use rocking_draw::figures::{ByConstant, ByConstantPanel, Heading};
 
 fn sample_at(
     block: &BlockSamples,
@@ -46,7 +44,7 @@ pub(super) fn constants(
                     || "undefined".into(),
                     |f| format!("{:.3}", f.kolmogorov_distance(&sample)),
                 ));
-                ConstantCurve { c: *c, curve: fitted }
+                (*c, fitted)
             })
             .collect();
         words.push(format!("{title} {}", distances.join(", ")));

@@ -76,7 +76,8 @@ impl Rows {
     /// The answer to a question, with these rows under a title.
     pub fn answer(
         self,
-        (id, question): (&'static str, &'static str),
+        id: &'static str,
+        question: &'static str,
         answer: String,
         title: &str,
         reading: &str,

@@ -106,8 +106,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         }
     }
     Ok(table.answer(
-        ("equivalence", "What does an equivalence test say where the paper says \"conforms \
-         to 1.0 with 95 % confidence\"?"),
+        "equivalence",
+        "What does an equivalence test say where the paper says \"conforms to \
+         1.0 with 95 % confidence\"?",
         words.join(" "),
         "Equality and equivalence of paired ratios",
         "A notch or interval that covers 1 fails to show a difference, and \

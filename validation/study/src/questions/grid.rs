@@ -90,7 +90,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         by_suite.push((suite.kind.name(), rows));
     }
     let answer = table.answer(
-        ("grid", "How much of the rejections at alpha = 0.05 is the grid of 0.01 g?"),
+        "grid",
+        "How much of the rejections at alpha = 0.05 is the grid of 0.01 g?",
         words.join(" "),
         "The grid of 0.01 g and the test",
         "Arm A is the paper's grid, B bisects the first overturning, C uses \

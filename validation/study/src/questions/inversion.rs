@@ -70,7 +70,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         ));
     }
     Ok(table.answer(
-        ("inversion", "How biased is the inversion by the median point along the vertical?"),
+        "inversion",
+        "How biased is the inversion by the median point along the vertical?",
         words.join(" "),
         "Bias of the inversion",
         "Relative difference of the mean capacity to that of the monotone \

@@ -73,10 +73,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         ));
     }
     Ok(table.answer(
-        (
-            "levels",
-            "What does an accepted share of levels that share records mean?",
-        ),
+        "levels",
+        "What does an accepted share of levels that share records mean?",
         words.join(" "),
         "Accepted shares, their null bands and adjusted counts",
         "Band: central 95 % of the Gaussian-score bootstrap; effective \

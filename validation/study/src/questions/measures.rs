@@ -198,7 +198,8 @@ pub(super) fn answer(
         rows(one, &mut table);
     }
     let answer = table.answer(
-        ("measures", QUESTION),
+        "measures",
+        QUESTION,
         words.join(" "),
         "Dispersion of the overturning intensity by intensity measure",
         "Dispersion is that of the lognormal of most likelihood, unshifted; a \

@@ -82,8 +82,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         ));
     }
     let answer = table.answer(
-        ("null", "What does the calibrated null do to Figure 14, where the shift is \
-         the suite's own lowest PGV of uplift?"),
+        "null",
+        "What does the calibrated null do to Figure 14, where the shift is \
+         the suite's own lowest PGV of uplift?",
         words.join(" "),
         "Figure 14 under the null of an estimated shift",
         "Shifted PGV; the null draws onset and capacity jointly and takes \

@@ -94,10 +94,8 @@ pub(super) fn answer(
         );
     }
     let mut answer = table.answer(
-        (
-            "options",
-            "Which of the paper's three options gives the best fragility?",
-        ),
+        "options",
+        "Which of the paper's three options gives the best fragility?",
         words(&summaries),
         "Options 1, 2 and 3",
         &format!(
@@ -220,19 +218,15 @@ fn words(summaries: &[Summary]) -> String {
             .iter()
             .find(|s| s.recipe == recipe && s.intensity == intensity);
         found.map_or_else(String::new, |s| {
-            let undefined = if s.defined < 1.0 {
-                format!(", undefined for {:.0} %", 100.0 * (1.0 - s.defined))
-            } else {
-                String::new()
-            };
-            format!("{:.3}{undefined}", s.ks)
+            let lost = 100.0 * (1.0 - s.defined);
+            match s.defined < 1.0 {
+                true => format!("{:.3}, undefined for {lost:.0} %", s.ks),
+                false => format!("{:.3}", s.ks),
+            }
         })
     };
-    let seven = |method, c| Recipe::Transformed {
-        method,
-        centre: Centre::FittedMedian,
-        c,
-    };
+    let centre = Centre::FittedMedian;
+    let seven = |method, c| Recipe::Transformed { method, centre, c };
     [Intensity::Pga, Intensity::Pgv]
         .map(|im| {
             format!(

@@ -53,7 +53,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
     // At an excess median of 1.
     let at = |size: usize, test: usize| 100.0 * all[size][2][test];
     let answer = table.answer(
-        ("power", "What can a test of suites of these sizes see?"),
+        "power",
+        "What can a test of suites of these sizes see?",
         format!(
             "Where capacities are lognormal above 1 (excess median 1, \
              dispersion {DISPERSION}), the test of the unshifted sample \

@@ -86,7 +86,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
          {analyses} analyses, three corners of the high-pass each."
     );
     Ok(rows.answer(
-        ("recorded", QUESTION),
+        "recorded",
+        QUESTION,
         words,
         "Recorded motions that ship: Ridgecrest 2019, Mw 7.1",
         "Raw records of network CI at China Lake, Christmas Canyon and Tower 2, unscaled; \

@@ -35,19 +35,14 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
                 every(&block.samples, STRIDE).collect();
             let all: Vec<usize> = (0..suite.records.len()).collect();
             let whole = share(&levels, &all, block.shift);
-            let shares = if small < suite.records.len() {
-                subsamples(block, &levels, suite.records.len(), small)
-            } else {
-                Vec::new()
-            };
+            let n = suite.records.len();
+            let draws = if small < n { SUBSAMPLES } else { 0 };
+            let shares = subsamples(block, &levels, (n, small), draws);
             let without: Vec<f64> = all
                 .par_iter()
                 .map(|left_out| {
-                    let kept: Vec<usize> = all
-                        .iter()
-                        .copied()
-                        .filter(|i| i != left_out)
-                        .collect();
+                    let mut kept = all.clone();
+                    kept.remove(*left_out);
                     share(&levels, &kept, block.shift)
                 })
                 .collect();
@@ -99,8 +94,9 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         ));
     }
     Ok(table.answer(
-        ("robustness", "Does the accepted share hang on the number of records, on one \
-         record, or on the shift?"),
+        "robustness",
+        "Does the accepted share hang on the number of records, on one \
+         record, or on the shift?",
         words.join(" "),
         "Accepted shares with fewer records, without one, and with another shift",
         "Shifted samples, every eighth level. Fewer records reject less, \
@@ -128,12 +124,12 @@ fn share(levels: &[&Vec<f64>], records: &[usize], shift: f64) -> f64 {
 fn subsamples(
     block: &BlockSamples,
     levels: &[&Vec<f64>],
-    n: usize,
-    size: usize,
+    (n, size): (usize, usize),
+    draws: u64,
 ) -> Vec<f64> {
     // The same records for every block and measure.
     let streams = Streams::new("study/subsamples", 0);
-    let mut shares: Vec<f64> = (0..SUBSAMPLES)
+    let mut shares: Vec<f64> = (0..draws)
         .into_par_iter()
         .map(|index| {
             let mut stream = streams.stream(index);

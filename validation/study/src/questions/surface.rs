@@ -84,7 +84,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         }
     }
     let answer = table.answer(
-        ("surface", QUESTION),
+        "surface",
+        QUESTION,
         words(results, &surrogate, &own)?,
         "Overturning by a surface over p and alpha, and by analyses",
         "Intensity is PGA/(g tan alpha); the dispersion is that above the \

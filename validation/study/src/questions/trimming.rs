@@ -46,12 +46,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         let counts = count(&rows);
         for (class, by_constant) in counts.iter().enumerate() {
             for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
-                let cells = count.cells(
-                    suite.kind.name(),
-                    intensity.name(),
-                    &class_words(class),
-                    c,
-                );
+                let (suite, im) = (suite.kind.name(), intensity.name());
+                let cells = count.cells(suite, im, &class_words(class), c);
                 table.row_if(c == 0.25 || c == 1.0, cells);
             }
         }
@@ -89,7 +85,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
         percent(truth[0].share(), 0),
     ));
     Ok(table.answer(
-        ("trimming", "When does trimming help Eq. 7?"),
+        "trimming",
+        "When does trimming help Eq. 7?",
         words.join(" "),
         "Trimming and Eq. 7",
         "USFL7 from the trimmed sample's moments against that from the \

@@ -11,7 +11,6 @@ use super::row::{Group, Interval, Row, Side};
 use crate::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
 };
-use crate::certainty::Certainty;
 use crate::distributions::{BlockSamples, Distributions, of_suite};
 use crate::error::StudyError;
 use crate::estimates::three_quantiles;
@@ -75,7 +74,6 @@ fn capacities(
         Adjust::RecordScaling,
         || (),
     )?;
-    let certainty: Certainty = chains.certainty;
     let curves = chains.curves.into_iter();
     Ok(SuiteResults {
         kind: suite.kind,
@@ -85,7 +83,7 @@ fn capacities(
         set_aside: suite.set_aside.clone(),
         list: Vec::new(),
         sha256: suite.sha256(),
-        work: Work { analyses: chains.analyses, certainty },
+        work: Work { analyses: chains.analyses, certainty: chains.certainty },
         records: suite.motions.iter().map(facts).collect::<Result<_, _>>()?,
         chosen: [0; 3],
         arms: curves.map(|curves| ArmCurves { arm, curves }).collect(),

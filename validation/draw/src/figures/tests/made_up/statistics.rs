@@ -147,10 +147,10 @@ pub fn by_constant() -> ByConstant {
         sample: sample(86, 6, 0.7).iter().map(|x| x + 1.0).collect(),
         curves: [0.25, 0.5, 0.75, 1.0]
             .into_iter()
-            .map(|c| ConstantCurve {
-                c,
-                curve: (c < 1.0 || grow < 1.0)
-                    .then(|| fit(0.7 + grow * c * c)),
+            .map(|c| {
+                let curve =
+                    (c < 1.0 || grow < 1.0).then(|| fit(0.7 + grow * c * c));
+                (c, curve)
             })
             .collect(),
     };

@@ -31,10 +31,14 @@ pub struct Axis {
     low: f64,
     high: f64,
     scale: Scale,
-    ticks: Vec<Tick>,
-    minor: Vec<f64>,
-    label: String,
-    grid: bool,
+    /// The labelled ticks.
+    pub ticks: Vec<Tick>,
+    /// The unlabelled ticks.
+    pub minor: Vec<f64>,
+    /// The label, in [`super::markup`].
+    pub title: String,
+    /// Whether grid lines are wanted.
+    pub grid: bool,
 }
 
 impl Axis {
@@ -56,8 +60,8 @@ impl Axis {
     }
 
     fn new(low: f64, high: f64, scale: Scale, ticks: Vec<Tick>) -> Self {
-        let (minor, label) = (Vec::new(), String::new());
-        Self { low, high, scale, ticks, minor, label, grid: true }
+        let (minor, title) = (Vec::new(), String::new());
+        Self { low, high, scale, ticks, minor, title, grid: true }
     }
 
     /// A linear axis that ends at round numbers around the range.
@@ -155,7 +159,7 @@ impl Axis {
 
     /// The same with a label, in [`super::markup`].
     pub fn label(self, label: impl Into<String>) -> Self {
-        Self { label: label.into(), ..self }
+        Self { title: label.into(), ..self }
     }
 
     /// The same with these ticks in place of its own.
@@ -166,26 +170,6 @@ impl Axis {
     /// Both ends.
     pub fn range(&self) -> (f64, f64) {
         (self.low, self.high)
-    }
-
-    /// The labelled ticks.
-    pub fn ticks(&self) -> &[Tick] {
-        &self.ticks
-    }
-
-    /// The unlabelled ticks.
-    pub fn minor(&self) -> &[f64] {
-        &self.minor
-    }
-
-    /// The label.
-    pub fn title(&self) -> &str {
-        &self.label
-    }
-
-    /// Whether grid lines are wanted.
-    pub fn has_grid(&self) -> bool {
-        self.grid
     }
 
     /// Where a value lies: 0 at the lower end, 1 at the upper; NaN for what

@@ -58,14 +58,8 @@ pub enum Dash {
 impl Dash {
     /// The dash that goes with a series, for readers without colour.
     pub fn of_series(series: usize) -> Self {
-        match series % 6 {
-            0 => Self::Solid,
-            1 => Self::Dashed,
-            2 => Self::Dotted,
-            3 => Self::DashDot,
-            4 => Self::Long,
-            _ => Self::Short,
-        }
+        use Dash::{DashDot, Dashed, Dotted, Long, Short, Solid};
+        [Solid, Dashed, Dotted, DashDot, Long, Short][series % 6]
     }
 
     /// SVG's dash array.

@@ -42,15 +42,8 @@ pub enum Marker {
 impl Marker {
     /// The mark that goes with a series, for readers without colour.
     pub fn of_series(series: usize) -> Self {
-        match series % 7 {
-            0 => Self::Dot,
-            1 => Self::Square,
-            2 => Self::Triangle,
-            3 => Self::Diamond,
-            4 => Self::Down,
-            5 => Self::Plus,
-            _ => Self::Cross,
-        }
+        use Marker::{Cross, Diamond, Dot, Down, Plus, Square, Triangle};
+        [Dot, Square, Triangle, Diamond, Down, Plus, Cross][series % 7]
     }
 
     /// Draws the mark; `r` is its half width in px.
@@ -120,15 +113,15 @@ impl<'s> Panel<'s> {
         let (second, empty) = (None, true);
         let reason = "no data in this range";
         let panel = Self { scene, frame, x, y, second, empty, reason };
-        if panel.x.has_grid() {
-            for tick in panel.x.ticks() {
+        if panel.x.grid {
+            for tick in &panel.x.ticks {
                 let x = panel.to_px((tick.at, 0.0)).0;
                 let ends = [(x, frame.top), (x, frame.bottom)];
                 panel.scene.line(&ends, GRID);
             }
         }
-        if panel.y.has_grid() {
-            for tick in panel.y.ticks() {
+        if panel.y.grid {
+            for tick in &panel.y.ticks {
                 let y = panel.to_px((0.0, tick.at)).1;
                 let ends = [(frame.left, y), (frame.right, y)];
                 panel.scene.line(&ends, GRID);
@@ -330,16 +323,16 @@ impl<'s> Panel<'s> {
         let f = self.frame;
         self.hairline((f.left, f.top), (f.right, f.top));
         let px = |at: f64| second.place(at).mul_add(f.width(), f.left);
-        for x in second.minor().iter().map(|at| px(*at)) {
+        for x in second.minor.iter().map(|at| px(*at)) {
             self.hairline((x, f.top - MINOR_PX), (x, f.top));
         }
-        for tick in second.ticks() {
+        for tick in &second.ticks {
             let x = px(tick.at);
             self.hairline((x, f.top - TICK_PX), (x, f.top));
             self.label(&tick.label, (x, f.top - TICK_PX - 4.0));
         }
         let middle = (f.left + f.right) / 2.0;
-        self.label(second.title(), (middle, f.top - 22.0));
+        self.label(&second.title, (middle, f.top - 22.0));
     }
 
     fn hairline(&mut self, a: Point, b: Point) {
@@ -356,21 +349,21 @@ impl<'s> Panel<'s> {
         let spine = [(f.left, f.top), (f.left, f.bottom), (f.right, f.bottom)];
         self.scene.line(&spine, HAIRLINE);
         let (x, y) = (self.x.clone(), self.y.clone());
-        for at in x.minor() {
+        for at in &x.minor {
             let x = self.to_px((*at, 0.0)).0;
             self.hairline((x, f.bottom), (x, f.bottom + MINOR_PX));
         }
-        for at in y.minor() {
+        for at in &y.minor {
             let y = self.to_px((0.0, *at)).1;
             self.hairline((f.left - MINOR_PX, y), (f.left, y));
         }
-        for tick in x.ticks() {
+        for tick in &x.ticks {
             let x = self.to_px((tick.at, 0.0)).0;
             self.hairline((x, f.bottom), (x, f.bottom + TICK_PX));
             self.label(&tick.label, (x, f.bottom + TICK_PX + TEXT_PX));
         }
         let mut widest = 0.0_f64;
-        for tick in y.ticks() {
+        for tick in &y.ticks {
             let y = self.to_px((0.0, tick.at)).1;
             self.hairline((f.left - TICK_PX, y), (f.left, y));
             let at = (f.left - TICK_PX - 3.0, y + 0.36 * TEXT_PX);
@@ -378,10 +371,11 @@ impl<'s> Panel<'s> {
             let label = tick.label.as_str();
             self.scene.text(TextLine::new(label, at, Horizontal::Right));
         }
-        self.label(x.title(), ((f.left + f.right) / 2.0, f.bottom + 33.0));
+        self.label(&x.title, ((f.left + f.right) / 2.0, f.bottom + 33.0));
         let room = TICK_PX + 3.0 + widest + 8.0;
         let beside = (f.left - room.max(28.0), (f.top + f.bottom) / 2.0);
-        let label = TextLine::new(y.title(), beside, Horizontal::Centre);
+        let label =
+            TextLine::new(y.title.as_str(), beside, Horizontal::Centre);
         self.scene.text(label.upwards());
     }
 }

@@ -88,20 +88,11 @@ impl TextLine {
         };
         let (above, below) = (0.74 * self.size_px, 0.21 * self.size_px);
         let (x, y) = self.at;
-        if self.upwards {
-            Rect {
-                left: x - above,
-                right: x + below,
-                top: y + before - width,
-                bottom: y + before,
-            }
+        let (left, right, top, bottom) = if self.upwards {
+            (x - above, x + below, y + before - width, y + before)
         } else {
-            Rect {
-                left: x - before,
-                right: x - before + width,
-                top: y - above,
-                bottom: y + below,
-            }
-        }
+            (x - before, x - before + width, y - above, y + below)
+        };
+        Rect { left, right, top, bottom }
     }
 }

@@ -72,8 +72,7 @@ impl AcceptedShares {
     /// `null_low,null_high,levels`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
-            "panel,suite,records,im,sample,arm,p_rad_s,alpha_rad,share,\
-             null_low,null_high,levels",
+            "panel,suite,records,im,sample,arm,p_rad_s,alpha_rad,share,null_low,null_high,levels",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for block in &panel.shares {

@@ -79,8 +79,7 @@ impl Histories {
     /// `panel,p_rad_s,record,im,intensity,alpha_rad,time_s,theta_over_alpha`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
-            "panel,p_rad_s,record,im,intensity,alpha_rad,time_s,\
-             theta_over_alpha",
+            "panel,p_rad_s,record,im,intensity,alpha_rad,time_s,theta_over_alpha",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {

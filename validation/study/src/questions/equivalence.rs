@@ -201,13 +201,10 @@ impl Compared {
                 for slenderness in others {
                     let own = of(slenderness)?;
                     for k in 0..DEMANDS.len() {
-                        let column = |all: &[Vec<f64>]| -> Vec<f64> {
-                            all.iter().map(|row| row[k]).collect()
-                        };
-                        out.push(Pairs::try_new(
-                            &column(&own),
-                            &column(&reference),
-                        )?);
+                        let [a, b] = [&own, &reference].map(|all| {
+                            all.iter().map(|row| row[k]).collect::<Vec<_>>()
+                        });
+                        out.push(Pairs::try_new(&a, &b)?);
                     }
                 }
             }

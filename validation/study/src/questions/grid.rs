@@ -149,13 +149,9 @@ fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
 /// The same of first overturnings that are known by their brackets: above
 /// the last level that stood, up to the first that did not.
 fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
-    let known: Vec<(f64, f64)> = curves
-        .iter()
-        .map(|curve| {
-            let high = curve.overturning_im().unwrap_or(f64::INFINITY);
-            (curve.last_im(), high)
-        })
-        .collect();
+    let high = |c: &ResponseCurve| c.overturning_im().unwrap_or(f64::INFINITY);
+    let known = curves.iter().map(|c| (c.last_im(), high(c)));
+    let known: Vec<(f64, f64)> = known.collect();
     let once = vec![1; known.len()];
     of_intervals(&known, &once, shift).map(|f| f.dispersion())
 }

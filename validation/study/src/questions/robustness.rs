@@ -85,8 +85,8 @@ pub(super) fn answer(results: &Results) -> Result<Answer, StudyError> {
             String::new()
         };
         words.push(format!(
-            "{}, shifted {}, accepted share: {by_size}leaving one record out moves it \
-             within a range of {:.2}, and 0.9 IM_R changes it by {:+.2}.",
+            "{}, shifted {}, accepted share: {by_size}leaving one record out \
+             moves it within a range of {:.2}, and 0.9 IM_R changes it by {:+.2}.",
             capital(suite.kind.name()),
             intensity.name().to_uppercase(),
             of(&swings),

@@ -134,10 +134,8 @@ fn counted(all: impl Iterator<Item = Shown>) -> String {
     match found.as_slice() {
         [(count, words)] => format!("all {count} {words}"),
         some => {
-            let parts: Vec<String> = some
-                .iter()
-                .map(|(count, words)| format!("{count} {words}"))
-                .collect();
+            let parts = some.iter().map(|(n, words)| format!("{n} {words}"));
+            let parts: Vec<String> = parts.collect();
             format!("of {} {}", all.len(), parts.join(", "))
         }
     }

@@ -107,12 +107,7 @@ impl Row {
     }
 }
 
-const HEADER: &str = "suite,group,quantity,p_rad_s,alpha_rad,edp,\
-    embedded_records,embedded_low,embedded,embedded_high,recorded_records,\
-    recorded_low,recorded,recorded_high,ratio,ratio_low,ratio_high,\
-    embedded_dispersion,recorded_dispersion,dispersion_difference,\
-    dispersion_difference_low,dispersion_difference_high,ks_distance,\
-    ks_p_value";
+const HEADER: &str = "suite,group,quantity,p_rad_s,alpha_rad,edp,embedded_records,embedded_low,embedded,embedded_high,recorded_records,recorded_low,recorded,recorded_high,ratio,ratio_low,ratio_high,embedded_dispersion,recorded_dispersion,dispersion_difference,dispersion_difference_low,dispersion_difference_high,ks_distance,ks_p_value";
 
 /// Four digits, more than so many records say; nothing where it is not finite.
 fn short(x: f64) -> String {

@@ -31,16 +31,19 @@ pub struct Axis {
     low: f64,
     high: f64,
     scale: Scale,
-    ticks: Vec<Tick>,
-    minor: Vec<f64>,
-    label: String,
-    grid: bool,
+    /// The labelled ticks.
+    pub ticks: Vec<Tick>,
+    /// The unlabelled ticks.
+    pub minor: Vec<f64>,
+    /// The label, in [`super::markup`].
+    pub title: String,
+    /// Whether grid lines are wanted.
+    pub grid: bool,
 }
 
 impl Axis {
     /// A linear axis of exactly this range, with about `count` ticks. A
     /// range without extent is widened.
-    #[must_use]
     pub fn linear(low: f64, high: f64, count: usize) -> Self {
         let (low, high) = proper(low, high);
         let step = round_step((high - low) / count.max(1) as f64);
@@ -57,12 +60,11 @@ impl Axis {
     }
 
     fn new(low: f64, high: f64, scale: Scale, ticks: Vec<Tick>) -> Self {
-        let (minor, label) = (Vec::new(), String::new());
-        Self { low, high, scale, ticks, minor, label, grid: true }
+        let (minor, title) = (Vec::new(), String::new());
+        Self { low, high, scale, ticks, minor, title, grid: true }
     }
 
     /// A linear axis that ends at round numbers around the range.
-    #[must_use]
     pub fn around(low: f64, high: f64, count: usize) -> Self {
         let (low, high) = proper(low, high);
         let step = round_step((high - low) / count.max(1) as f64);
@@ -73,7 +75,6 @@ impl Axis {
 
     /// A logarithmic axis of exactly this range; ends that are not positive
     /// become 0.1 and 10.
-    #[must_use]
     pub fn logarithmic(low: f64, high: f64) -> Self {
         let usable = low > 0.0 && high > low && high.is_finite();
         let (low, high) = if usable {
@@ -126,7 +127,6 @@ impl Axis {
     /// An axis of ratios that shows both what lies within `width` of 1 (in
     /// ln) and what lies far away: ln r goes to asinh(ln r / width). Ticks
     /// are at least the share `apart` of the axis away from one another.
-    #[must_use]
     pub fn about_one(low: f64, high: f64, width: f64, apart: f64) -> Self {
         let low = if low > 0.0 && low < 1.0 { low } else { 0.5 };
         let high = if high > 1.0 && high.is_finite() { high } else { 2.0 };
@@ -147,7 +147,6 @@ impl Axis {
     }
 
     /// An axis of names at 1, 2, 3 and so on.
-    #[must_use]
     pub fn named(names: &[String]) -> Self {
         let ticks = names
             .iter()
@@ -159,50 +158,22 @@ impl Axis {
     }
 
     /// The same with a label, in [`super::markup`].
-    #[must_use]
     pub fn label(self, label: impl Into<String>) -> Self {
-        Self { label: label.into(), ..self }
+        Self { title: label.into(), ..self }
     }
 
     /// The same with these ticks in place of its own.
-    #[must_use]
     pub fn with_ticks(self, ticks: Vec<Tick>) -> Self {
         Self { ticks, minor: Vec::new(), ..self }
     }
 
     /// Both ends.
-    #[must_use]
     pub fn range(&self) -> (f64, f64) {
         (self.low, self.high)
     }
 
-    /// The labelled ticks.
-    #[must_use]
-    pub fn ticks(&self) -> &[Tick] {
-        &self.ticks
-    }
-
-    /// The unlabelled ticks.
-    #[must_use]
-    pub fn minor(&self) -> &[f64] {
-        &self.minor
-    }
-
-    /// The label.
-    #[must_use]
-    pub fn title(&self) -> &str {
-        &self.label
-    }
-
-    /// Whether grid lines are wanted.
-    #[must_use]
-    pub fn has_grid(&self) -> bool {
-        self.grid
-    }
-
     /// Where a value lies: 0 at the lower end, 1 at the upper; NaN for what
     /// the axis cannot show.
-    #[must_use]
     pub fn place(&self, x: f64) -> f64 {
         let positive = |f: &dyn Fn(f64) -> f64| {
             if x.is_nan() || x <= 0.0 {

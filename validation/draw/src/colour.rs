@@ -57,16 +57,9 @@ pub enum Dash {
 
 impl Dash {
     /// The dash that goes with a series, for readers without colour.
-    #[must_use]
     pub fn of_series(series: usize) -> Self {
-        match series % 6 {
-            0 => Self::Solid,
-            1 => Self::Dashed,
-            2 => Self::Dotted,
-            3 => Self::DashDot,
-            4 => Self::Long,
-            _ => Self::Short,
-        }
+        use Dash::{DashDot, Dashed, Dotted, Long, Short, Solid};
+        [Solid, Dashed, Dotted, DashDot, Long, Short][series % 6]
     }
 
     /// SVG's dash array.
@@ -95,13 +88,11 @@ pub struct Pen {
 
 impl Pen {
     /// An unbroken line.
-    #[must_use]
     pub const fn new(ink: Ink, width_px: f64) -> Self {
         Self { ink, width_px, dash: Dash::Solid }
     }
 
     /// The same with another pattern.
-    #[must_use]
     pub const fn dash(self, dash: Dash) -> Self {
         Self { dash, ..self }
     }
@@ -109,7 +100,6 @@ impl Pen {
     /// Line of series `k` of those that are drawn over one another in this
     /// order: the first is unbroken and widest, so that where curves
     /// coincide each still shows.
-    #[must_use]
     pub fn of_series(k: usize) -> Self {
         let thinner = 0.12 * (k % Ink::SERIES) as f64;
         Self::new(Ink::Series(k), 1.6 - thinner).dash(Dash::of_series(k))
@@ -127,13 +117,11 @@ pub struct Fill {
 
 impl Fill {
     /// Opaque.
-    #[must_use]
     pub const fn solid(ink: Ink) -> Self {
         Self { ink, percent: 100 }
     }
 
     /// See-through.
-    #[must_use]
     pub const fn tint(ink: Ink, percent: u8) -> Self {
         Self { ink, percent }
     }
@@ -141,26 +129,23 @@ impl Fill {
 
 /// The style sheet of every figure. A page that holds several puts it in its
 /// head once.
-pub const STYLE: &str = "\
-svg.fig .p{fill:#fff}\
-svg.fig .t{fill:#1a1a1a}svg.fig .m{fill:#595959}svg.fig .g{fill:#e2e2e2}\
-svg.fig .s1{fill:#1f2d78}svg.fig .s2{fill:#a3195b}svg.fig .s3{fill:#c2570c}\
-svg.fig .s4{fill:#13877a}svg.fig .s5{fill:#7a9a01}svg.fig .s6{fill:#6f6f6f}\
-svg.fig path.l,svg.fig circle.l{fill:none;stroke-linejoin:round}\
-svg.fig .l.t{stroke:#1a1a1a}svg.fig .l.m{stroke:#6b6b6b}\
-svg.fig .l.g{stroke:#e2e2e2}svg.fig .l.p{stroke:#fff}\
-svg.fig .l.s1{stroke:#1f2d78}svg.fig .l.s2{stroke:#a3195b}\
-svg.fig .l.s3{stroke:#c2570c}svg.fig .l.s4{stroke:#13877a}\
-svg.fig .l.s5{stroke:#7a9a01}svg.fig .l.s6{stroke:#6f6f6f}\
-svg.fig .r{stroke-linecap:round}\
-@media screen and (prefers-color-scheme:dark){\
-svg.fig .p{fill:#15181c}svg.fig .t{fill:#e8e8e8}svg.fig .m{fill:#a8adb3}\
-svg.fig .g{fill:#333a41}\
-svg.fig .s1{fill:#8fa2ff}svg.fig .s2{fill:#ff8ac4}svg.fig .s3{fill:#ffa55c}\
-svg.fig .s4{fill:#4fd6c3}svg.fig .s5{fill:#d4ee6a}svg.fig .s6{fill:#b0b0b0}\
-svg.fig path.l,svg.fig circle.l{fill:none}\
-svg.fig .l.t{stroke:#e8e8e8}svg.fig .l.m{stroke:#9aa0a6}\
-svg.fig .l.g{stroke:#333a41}svg.fig .l.p{stroke:#15181c}\
-svg.fig .l.s1{stroke:#8fa2ff}svg.fig .l.s2{stroke:#ff8ac4}\
-svg.fig .l.s3{stroke:#ffa55c}svg.fig .l.s4{stroke:#4fd6c3}\
-svg.fig .l.s5{stroke:#d4ee6a}svg.fig .l.s6{stroke:#b0b0b0}}";
+pub const STYLE: &str = "svg.fig .p{fill:#fff}svg.fig .t{fill:#1a1a1a}svg.fig \
+.m{fill:#595959}svg.fig .g{fill:#e2e2e2}svg.fig .s1{fill:#1f2d78}svg.fig \
+.s2{fill:#a3195b}svg.fig .s3{fill:#c2570c}svg.fig .s4{fill:#13877a}svg.fig \
+.s5{fill:#7a9a01}svg.fig .s6{fill:#6f6f6f}svg.fig path.l,svg.fig \
+circle.l{fill:none;stroke-linejoin:round}svg.fig .l.t{stroke:#1a1a1a}svg.fig \
+.l.m{stroke:#6b6b6b}svg.fig .l.g{stroke:#e2e2e2}svg.fig \
+.l.p{stroke:#fff}svg.fig .l.s1{stroke:#1f2d78}svg.fig \
+.l.s2{stroke:#a3195b}svg.fig .l.s3{stroke:#c2570c}svg.fig \
+.l.s4{stroke:#13877a}svg.fig .l.s5{stroke:#7a9a01}svg.fig \
+.l.s6{stroke:#6f6f6f}svg.fig .r{stroke-linecap:round}@media screen and \
+(prefers-color-scheme:dark){svg.fig .p{fill:#15181c}svg.fig \
+.t{fill:#e8e8e8}svg.fig .m{fill:#a8adb3}svg.fig .g{fill:#333a41}svg.fig \
+.s1{fill:#8fa2ff}svg.fig .s2{fill:#ff8ac4}svg.fig .s3{fill:#ffa55c}svg.fig \
+.s4{fill:#4fd6c3}svg.fig .s5{fill:#d4ee6a}svg.fig .s6{fill:#b0b0b0}svg.fig \
+path.l,svg.fig circle.l{fill:none}svg.fig .l.t{stroke:#e8e8e8}svg.fig \
+.l.m{stroke:#9aa0a6}svg.fig .l.g{stroke:#333a41}svg.fig \
+.l.p{stroke:#15181c}svg.fig .l.s1{stroke:#8fa2ff}svg.fig \
+.l.s2{stroke:#ff8ac4}svg.fig .l.s3{stroke:#ffa55c}svg.fig \
+.l.s4{stroke:#4fd6c3}svg.fig .l.s5{stroke:#d4ee6a}svg.fig \
+.l.s6{stroke:#b0b0b0}}";

@@ -24,13 +24,13 @@ mod sketch;
 mod tests_along;
 
 pub use accepted::{AcceptedShares, BlockShare, SharePanel};
-pub use boxplots::{BoxPanel, Boxplots, Stripe, StripeKind};
+pub use boxplots::{BoxPanel, Boxplots, Stripe};
 pub use capacities::{Capacities, CapacityCurve, CapacityPanel};
 pub use chart::{Chart, ChartAxis, ChartPanel, Mark, Scale, Series};
 pub use fates::{Fate, FateMap};
 pub use fragilities::{
-    BandOf, ByConstant, ByConstantPanel, ConstantCurve, Estimator, Fitted,
-    Fragilities, FragilityPanel, Limit,
+    BandOf, ByConstant, ByConstantPanel, Estimator, Fitted, Fragilities,
+    FragilityPanel, Limit,
 };
 pub use heading::{Figure, Heading, Place};
 pub use histories::{Histories, History, HistoryPanel};

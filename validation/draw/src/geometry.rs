@@ -18,19 +18,16 @@ pub struct Rect {
 
 impl Rect {
     /// Width.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.right - self.left
     }
 
     /// Height.
-    #[must_use]
     pub fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
     /// Whether the point lies inside or on the edge, within `slack`.
-    #[must_use]
     pub fn contains(&self, (x, y): Point, slack: f64) -> bool {
         x >= self.left - slack
             && x <= self.right + slack
@@ -39,7 +36,6 @@ impl Rect {
     }
 
     /// The four corners, clockwise.
-    #[must_use]
     pub fn corners(&self) -> [Point; 4] {
         [
             (self.left, self.top),
@@ -52,7 +48,6 @@ impl Rect {
 
 /// The parts of a polyline inside the rectangle; a point that is not finite
 /// breaks the line.
-#[must_use]
 pub fn clip(line: &[Point], to: Rect) -> Vec<Vec<Point>> {
     let mut parts: Vec<Vec<Point>> = Vec::new();
     let mut open = false;
@@ -112,7 +107,6 @@ fn clip_segment(a: Point, b: Point, to: Rect) -> Option<(Point, Point)> {
 }
 
 /// Drops points of a polyline that lie within `tolerance` of what remains.
-#[must_use]
 pub fn simplify(line: &[Point], tolerance: f64) -> Vec<Point> {
     let keep = kept(line, tolerance);
     line.iter().zip(keep).filter(|(_, k)| *k).map(|(p, _)| *p).collect()
@@ -120,7 +114,6 @@ pub fn simplify(line: &[Point], tolerance: f64) -> Vec<Point> {
 
 /// Which points of a polyline stay (Douglas and Peucker, Cartographica 10,
 /// 1973, 112-122).
-#[must_use]
 pub fn kept(line: &[Point], tolerance: f64) -> Vec<bool> {
     if line.len() < 3 {
         return vec![true; line.len()];

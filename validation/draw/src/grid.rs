@@ -27,7 +27,6 @@ pub struct Grid {
 
 impl Grid {
     /// The house's sizes: three panels in a row make 1080 px.
-    #[must_use]
     pub fn new(panels: usize, columns: usize) -> Self {
         Self {
             panels: panels.max(1),
@@ -43,38 +42,32 @@ impl Grid {
     }
 
     /// The same with other plotting areas.
-    #[must_use]
     pub fn plot(self, width: f64, height: f64) -> Self {
         Self { width, height, ..self }
     }
 
     /// The same with room for a second line of title.
-    #[must_use]
     pub fn with_subtitles(self) -> Self {
         Self { above: 38.0, ..self }
     }
 
     /// The same with room for an axis at the upper edge.
-    #[must_use]
     pub fn with_second_axis(self) -> Self {
         Self { above: 62.0, ..self }
     }
 
     /// Width of the whole figure.
-    #[must_use]
     pub fn total_width(&self) -> f64 {
         self.columns as f64 * (self.left + self.width + self.right)
     }
 
     /// Height of the whole figure.
-    #[must_use]
     pub fn total_height(&self) -> f64 {
         let rows = self.panels.div_ceil(self.columns) as f64;
         rows.mul_add(self.above + self.height + self.below, self.head)
     }
 
     /// Plotting area of a panel, counted row by row.
-    #[must_use]
     pub fn frame(&self, panel: usize) -> Rect {
         let (row, column) = (panel / self.columns, panel % self.columns);
         let across = self.left + self.width + self.right;

@@ -38,7 +38,6 @@ pub struct Entry {
 
 impl Entry {
     /// An entry.
-    #[must_use]
     pub fn new(sample: Sample, label: impl Into<String>) -> Self {
         Self { sample, label: label.into() }
     }
@@ -71,7 +70,6 @@ fn rows(entries: &[Entry], width_px: f64) -> Vec<Vec<&Entry>> {
 }
 
 /// Room that the legend takes at this width.
-#[must_use]
 pub fn height(entries: &[Entry], width_px: f64) -> f64 {
     let rows = rows(entries, width_px - 2.0 * BETWEEN_PX).len();
     if rows == 0 { 0.0 } else { (rows as f64).mul_add(ROW_PX, 8.0) }

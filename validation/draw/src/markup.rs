@@ -50,7 +50,6 @@ pub struct Run {
 /// assert!(parts[0].italic);
 /// assert_eq!(parts[1].level, Level::Sub);
 /// ```
-#[must_use]
 pub fn runs(markup: &str) -> Vec<Run> {
     let mut done: Vec<Run> = Vec::new();
     let mut now =
@@ -92,7 +91,6 @@ pub fn runs(markup: &str) -> Vec<Run> {
 }
 
 /// Text that is to be read as it is, such as a file name.
-#[must_use]
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -105,7 +103,6 @@ pub fn escape(text: &str) -> String {
 }
 
 /// Width in px of the marked-up text at a size in px, by Helvetica's widths.
-#[must_use]
 pub fn width(markup: &str, size_px: f64) -> f64 {
     let mut thousandths = 0.0;
     for run in runs(markup) {
@@ -122,7 +119,6 @@ pub fn width(markup: &str, size_px: f64) -> f64 {
 }
 
 /// The text cut to a width, with an ellipsis where it was cut.
-#[must_use]
 pub fn fit(text: &str, size_px: f64, width_px: f64) -> String {
     if width(&escape(text), size_px) <= width_px {
         return text.to_owned();
@@ -229,7 +225,6 @@ pub(super) fn write_escaped(out: &mut String, text: &str) {
 }
 
 /// Marked-up text without its marks.
-#[must_use]
 pub fn plain(markup: &str) -> String {
     markup.replace(['*', '{', '}'], "").replace(['_', '^'], "")
 }

@@ -41,17 +41,9 @@ pub enum Marker {
 
 impl Marker {
     /// The mark that goes with a series, for readers without colour.
-    #[must_use]
     pub fn of_series(series: usize) -> Self {
-        match series % 7 {
-            0 => Self::Dot,
-            1 => Self::Square,
-            2 => Self::Triangle,
-            3 => Self::Diamond,
-            4 => Self::Down,
-            5 => Self::Plus,
-            _ => Self::Cross,
-        }
+        use Marker::{Cross, Diamond, Dot, Down, Plus, Square, Triangle};
+        [Dot, Square, Triangle, Diamond, Down, Plus, Cross][series % 7]
     }
 
     /// Draws the mark; `r` is its half width in px.
@@ -78,37 +70,25 @@ impl Marker {
             }
             Self::Square | Self::OpenSquare => {
                 let s = 0.88 * r;
-                let square = Rect {
-                    left: x - s,
-                    right: x + s,
-                    top: y - s,
-                    bottom: y + s,
-                };
+                let (l, r, t, b) = (x - s, x + s, y - s, y + s);
+                let square = [(l, t), (r, t), (r, b), (l, b)];
                 if self == Self::Square {
-                    scene.area(&square.corners(), fill);
+                    scene.area(&square, fill);
                 } else {
-                    scene.area(&square.corners(), Fill::solid(Ink::Paper));
-                    scene.outline(&square.corners(), pen);
+                    scene.area(&square, Fill::solid(Ink::Paper));
+                    scene.outline(&square, pen);
                 }
             }
             Self::Triangle | Self::Down => {
                 let up = if self == Self::Triangle { r } else { -r };
                 let base = 0.6_f64.mul_add(up, y);
-                scene.area(
-                    &[
-                        (x, (-1.15_f64).mul_add(up, y)),
-                        (x + r, base),
-                        (x - r, base),
-                    ],
-                    fill,
-                );
+                let tip = (x, (-1.15_f64).mul_add(up, y));
+                scene.area(&[tip, (x + r, base), (x - r, base)], fill);
             }
             Self::Diamond => {
                 let s = 1.2 * r;
-                scene.area(
-                    &[(x, y - s), (x + s, y), (x, y + s), (x - s, y)],
-                    fill,
-                );
+                let ends = [(x, y - s), (x + s, y), (x, y + s), (x - s, y)];
+                scene.area(&ends, fill);
             }
         }
     }
@@ -129,26 +109,19 @@ pub struct Panel<'s> {
 
 impl<'s> Panel<'s> {
     /// Starts a panel with its grid lines.
-    #[must_use]
     pub fn new(scene: &'s mut Scene, frame: Rect, x: Axis, y: Axis) -> Self {
-        let panel = Self {
-            scene,
-            frame,
-            x,
-            y,
-            second: None,
-            empty: true,
-            reason: "no data in this range",
-        };
-        if panel.x.has_grid() {
-            for tick in panel.x.ticks() {
+        let (second, empty) = (None, true);
+        let reason = "no data in this range";
+        let panel = Self { scene, frame, x, y, second, empty, reason };
+        if panel.x.grid {
+            for tick in &panel.x.ticks {
                 let x = panel.to_px((tick.at, 0.0)).0;
                 let ends = [(x, frame.top), (x, frame.bottom)];
                 panel.scene.line(&ends, GRID);
             }
         }
-        if panel.y.has_grid() {
-            for tick in panel.y.ticks() {
+        if panel.y.grid {
+            for tick in &panel.y.ticks {
                 let y = panel.to_px((0.0, tick.at)).1;
                 let ends = [(frame.left, y), (frame.right, y)];
                 panel.scene.line(&ends, GRID);
@@ -158,25 +131,21 @@ impl<'s> Panel<'s> {
     }
 
     /// Another horizontal axis over the same width, at the upper edge.
-    #[must_use]
     pub fn with_second(self, second: Axis) -> Self {
         Self { second: Some(second), ..self }
     }
 
     /// Says why there may be nothing to see.
-    #[must_use]
     pub fn empty_because(self, reason: &'static str) -> Self {
         Self { reason, ..self }
     }
 
     /// Both ends of the horizontal axis.
-    #[must_use]
     pub fn horizontal_range(&self) -> Point {
         self.x.range()
     }
 
     /// Both ends of the vertical axis.
-    #[must_use]
     pub fn vertical_range(&self) -> Point {
         self.y.range()
     }
@@ -187,7 +156,6 @@ impl<'s> Panel<'s> {
     }
 
     /// Data to px.
-    #[must_use]
     pub fn to_px(&self, (x, y): Point) -> Point {
         (
             self.x.place(x).mul_add(self.frame.width(), self.frame.left),
@@ -326,13 +294,10 @@ impl<'s> Panel<'s> {
         if self.empty {
             let middle = ((f.left + f.right) / 2.0, (f.top + f.bottom) / 2.0);
             let words = TextLine::new(self.reason, middle, Horizontal::Centre);
-            let around = words.extent();
-            let backing = Rect {
-                left: around.left - 6.0,
-                right: around.right + 6.0,
-                top: around.top - 4.0,
-                bottom: around.bottom + 4.0,
-            };
+            let e = words.extent();
+            let (left, right) = (e.left - 6.0, e.right + 6.0);
+            let (top, bottom) = (e.top - 4.0, e.bottom + 4.0);
+            let backing = Rect { left, right, top, bottom };
             self.scene.area(&backing.corners(), Fill::solid(Ink::Paper));
             self.scene.text(words.ink(Ink::Muted));
         }
@@ -344,79 +309,73 @@ impl<'s> Panel<'s> {
         } else if subtitle.is_empty() {
             f.top - 9.0
         } else {
-            let line = TextLine::new(
-                subtitle,
-                (middle, f.top - 7.0),
-                Horizontal::Centre,
-            );
+            let at = (middle, f.top - 7.0);
+            let line = TextLine::new(subtitle, at, Horizontal::Centre);
             self.scene.text(line.size(TEXT_PX - 1.0).ink(Ink::Muted));
             f.top - 20.0
         };
-        self.scene.text(
-            TextLine::new(title, (middle, title_y), Horizontal::Centre)
-                .size(TITLE_PX),
-        );
+        let line = TextLine::new(title, (middle, title_y), Horizontal::Centre);
+        self.scene.text(line.size(TITLE_PX));
     }
 
     fn upper_axis(&mut self) {
-        let Some(second) = &self.second else { return };
+        let Some(second) = self.second.take() else { return };
         let f = self.frame;
-        self.scene.line(&[(f.left, f.top), (f.right, f.top)], HAIRLINE);
+        self.hairline((f.left, f.top), (f.right, f.top));
         let px = |at: f64| second.place(at).mul_add(f.width(), f.left);
-        for at in second.minor() {
-            let x = px(*at);
-            self.scene.line(&[(x, f.top - MINOR_PX), (x, f.top)], HAIRLINE);
+        for x in second.minor.iter().map(|at| px(*at)) {
+            self.hairline((x, f.top - MINOR_PX), (x, f.top));
         }
-        for tick in second.ticks() {
+        for tick in &second.ticks {
             let x = px(tick.at);
-            self.scene.line(&[(x, f.top - TICK_PX), (x, f.top)], HAIRLINE);
-            let at = (x, f.top - TICK_PX - 4.0);
-            let label = tick.label.as_str();
-            self.scene.text(TextLine::new(label, at, Horizontal::Centre));
+            self.hairline((x, f.top - TICK_PX), (x, f.top));
+            self.label(&tick.label, (x, f.top - TICK_PX - 4.0));
         }
-        let above = ((f.left + f.right) / 2.0, f.top - 22.0);
-        let label = second.title();
-        self.scene.text(TextLine::new(label, above, Horizontal::Centre));
+        let middle = (f.left + f.right) / 2.0;
+        self.label(&second.title, (middle, f.top - 22.0));
+    }
+
+    fn hairline(&mut self, a: Point, b: Point) {
+        self.scene.line(&[a, b], HAIRLINE);
+    }
+
+    /// Words centred on a point.
+    fn label(&mut self, text: &str, at: Point) {
+        self.scene.text(TextLine::new(text, at, Horizontal::Centre));
     }
 
     fn axis_lines(&mut self) {
         let f = self.frame;
         let spine = [(f.left, f.top), (f.left, f.bottom), (f.right, f.bottom)];
         self.scene.line(&spine, HAIRLINE);
-        for at in self.x.minor() {
+        let (x, y) = (self.x.clone(), self.y.clone());
+        for at in &x.minor {
             let x = self.to_px((*at, 0.0)).0;
-            let ends = [(x, f.bottom), (x, f.bottom + MINOR_PX)];
-            self.scene.line(&ends, HAIRLINE);
+            self.hairline((x, f.bottom), (x, f.bottom + MINOR_PX));
         }
-        for at in self.y.minor() {
+        for at in &y.minor {
             let y = self.to_px((0.0, *at)).1;
-            let ends = [(f.left - MINOR_PX, y), (f.left, y)];
-            self.scene.line(&ends, HAIRLINE);
+            self.hairline((f.left - MINOR_PX, y), (f.left, y));
         }
-        for tick in self.x.ticks() {
+        for tick in &x.ticks {
             let x = self.to_px((tick.at, 0.0)).0;
-            let ends = [(x, f.bottom), (x, f.bottom + TICK_PX)];
-            self.scene.line(&ends, HAIRLINE);
-            let at = (x, f.bottom + TICK_PX + TEXT_PX);
-            let label = tick.label.as_str();
-            self.scene.text(TextLine::new(label, at, Horizontal::Centre));
+            self.hairline((x, f.bottom), (x, f.bottom + TICK_PX));
+            self.label(&tick.label, (x, f.bottom + TICK_PX + TEXT_PX));
         }
         let mut widest = 0.0_f64;
-        for tick in self.y.ticks() {
+        for tick in &y.ticks {
             let y = self.to_px((0.0, tick.at)).1;
-            let ends = [(f.left - TICK_PX, y), (f.left, y)];
-            self.scene.line(&ends, HAIRLINE);
+            self.hairline((f.left - TICK_PX, y), (f.left, y));
             let at = (f.left - TICK_PX - 3.0, y + 0.36 * TEXT_PX);
             widest = widest.max(markup::width(&tick.label, TEXT_PX));
             let label = tick.label.as_str();
             self.scene.text(TextLine::new(label, at, Horizontal::Right));
         }
-        let below = ((f.left + f.right) / 2.0, f.bottom + 33.0);
-        let label = self.x.title();
-        self.scene.text(TextLine::new(label, below, Horizontal::Centre));
+        self.label(&x.title, ((f.left + f.right) / 2.0, f.bottom + 33.0));
         let room = TICK_PX + 3.0 + widest + 8.0;
         let beside = (f.left - room.max(28.0), (f.top + f.bottom) / 2.0);
-        let label = TextLine::new(self.y.title(), beside, Horizontal::Centre);
+        let label =
+            TextLine::new(y.title.as_str(), beside, Horizontal::Centre);
         self.scene.text(label.upwards());
     }
 }

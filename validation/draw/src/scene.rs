@@ -31,7 +31,6 @@ pub struct Scene {
 
 impl Scene {
     /// An empty drawing.
-    #[must_use]
     pub fn new(caption: Caption, width_px: f64, height_px: f64) -> Self {
         let whole = |x: f64| x.ceil().max(1.0) as u32;
         let size_px = (whole(width_px), whole(height_px));
@@ -39,7 +38,6 @@ impl Scene {
     }
 
     /// Everything there is room for.
-    #[must_use]
     pub fn extent(&self) -> Rect {
         let (width, height) = self.size_px;
         Rect {
@@ -98,7 +96,6 @@ impl Scene {
     }
 
     /// The SVG.
-    #[must_use]
     pub fn svg(&self) -> String {
         let mut out = String::new();
         for tolerance_px in TOLERANCES_PX {

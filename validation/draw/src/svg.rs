@@ -200,15 +200,11 @@ impl Svg {
 
 /// Steps as px with the fewest characters.
 fn px(steps: i32) -> String {
-    let hundredths = i64::from(steps) * 100 / i64::from(PER_PX);
-    let sign = if hundredths < 0 { "-" } else { "" };
-    let (whole, rest) = (hundredths.abs() / 100, hundredths.abs() % 100);
-    match (whole, rest) {
-        (w, 0) => format!("{sign}{w}"),
-        (0, r) if r % 10 == 0 => format!("{sign}.{}", r / 10),
-        (0, r) => format!("{sign}.{r:02}"),
-        (w, r) if r % 10 == 0 => format!("{sign}{w}.{}", r / 10),
-        (w, r) => format!("{sign}{w}.{r:02}"),
+    let text = format!("{:.2}", f64::from(steps) / f64::from(PER_PX));
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    match text.starts_with("0.") || text.starts_with("-0.") {
+        true => text.replacen("0.", ".", 1),
+        false => text.to_owned(),
     }
 }
 

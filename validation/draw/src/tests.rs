@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::text::{Caption, Horizontal, TextLine};
 
 fn labels(axis: &Axis) -> Vec<&str> {
-    axis.ticks().iter().map(|t: &Tick| t.label.as_str()).collect()
+    axis.ticks.iter().map(|t: &Tick| t.label.as_str()).collect()
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn axes_without_extent_are_widened() {
     ] {
         let (low, high) = axis.range();
         assert!(low < high && low.is_finite() && high.is_finite());
-        assert!(!axis.ticks().is_empty() && axis.ticks().len() < 12);
+        assert!(!axis.ticks.is_empty() && axis.ticks.len() < 12);
     }
 }
 

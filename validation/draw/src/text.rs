@@ -48,7 +48,6 @@ pub struct TextLine {
 
 impl TextLine {
     /// Text of the usual size and ink.
-    #[must_use]
     pub fn new(
         markup: impl Into<String>,
         at: Point,
@@ -65,25 +64,21 @@ impl TextLine {
     }
 
     /// The same in another size.
-    #[must_use]
     pub fn size(self, size_px: f64) -> Self {
         Self { size_px, ..self }
     }
 
     /// The same in another ink.
-    #[must_use]
     pub fn ink(self, ink: Ink) -> Self {
         Self { ink, ..self }
     }
 
     /// The same running upwards.
-    #[must_use]
     pub fn upwards(self) -> Self {
         Self { upwards: true, ..self }
     }
 
     /// The rectangle it fills, by the table of widths.
-    #[must_use]
     pub fn extent(&self) -> Rect {
         let width = markup::width(&self.markup, self.size_px);
         let before = match self.align {
@@ -93,20 +88,11 @@ impl TextLine {
         };
         let (above, below) = (0.74 * self.size_px, 0.21 * self.size_px);
         let (x, y) = self.at;
-        if self.upwards {
-            Rect {
-                left: x - above,
-                right: x + below,
-                top: y + before - width,
-                bottom: y + before,
-            }
+        let (left, right, top, bottom) = if self.upwards {
+            (x - above, x + below, y + before - width, y + before)
         } else {
-            Rect {
-                left: x - before,
-                right: x - before + width,
-                top: y - above,
-                bottom: y + below,
-            }
-        }
+            (x - before, x - before + width, y - above, y + below)
+        };
+        Rect { left, right, top, bottom }
     }
 }

@@ -138,7 +138,7 @@ fn table_1() -> Result<String, BlockError> {
 /// Every record's histories and curves against those of alpha = 0.10.
 fn single_csv(results: &Results) -> String {
     let mut table = Table::headed(
-        "suite,record,p_rad_s,im_pga,alpha_rad,normalized_l2_distance,\
+        "suite,record,p_rad_s,intensity_pga,alpha_rad,normalized_l2_distance,\
          peak_ratio,mean_abs_ln_im_ratio",
     );
     let others: Vec<f64> = (0..SLENDERNESSES_RAD.len())

@@ -9,7 +9,7 @@ use crate::speed::singles::BASE;
 use crate::speed::throughput::Throughput;
 use rocking_common::words::{range, rounded};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
@@ -180,10 +180,9 @@ impl Timings {
             panel(
                 "all impacts, by time",
                 time(),
-                ChartAxis::new(
+                ChartAxis::linear(
                     "cases with another number of them (%)",
-                    Scale::Linear,
-                    Some((-4.0, 104.0)),
+                    (-4.0, 104.0),
                 ),
                 series(|t| t.ratio, share),
             ),
@@ -199,7 +198,6 @@ impl Timings {
                      processor time and work. {}",
                     self.measured_on()
                 ),
-                None,
             ),
             panels,
             columns: 2,
@@ -412,7 +410,7 @@ fn table(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), csv::Error> {
 }
 
 fn logarithmic(label: &str) -> ChartAxis {
-    ChartAxis::new(label, Scale::Logarithmic, None)
+    ChartAxis::logarithmic(label, None::<(f64, f64)>)
 }
 
 /// Room for the marks within the axes.

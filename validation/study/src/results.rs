@@ -61,6 +61,16 @@ impl Results {
         })
     }
 
+    /// The capacity samples in the arm of all suites: ordinary and
+    /// pulse-type records, PGA and PGV each.
+    pub(crate) fn common(
+        &self,
+    ) -> impl Iterator<Item = (&SuiteResults, &Distributions)> {
+        let arm = self.plan.common();
+        let own = self.distributions.iter().filter(move |d| d.arm == arm);
+        own.map(|d| (self.suite(d.kind), d))
+    }
+
     /// One block of the ordinary suite.
     ///
     /// # Errors

@@ -3,8 +3,7 @@
 
 use super::common::{self, Slendernesses};
 use super::heading::{Figure, Heading};
-use crate::axis::Axis;
-use crate::axis::Tick;
+use crate::axis::{Axis, Tick};
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
@@ -65,17 +64,15 @@ pub struct BlockShare {
 
 impl AcceptedShares {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,share,`
+    /// `panel,suite,records,im,sample,arm,p_rad_s,alpha_rad,share,`
     /// `null_low,null_high,levels`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
-            "panel,suite,records,im_kind,sample,arm,p_rad_s,alpha_rad,\
-             share,null_low,null_high,levels",
+            "panel,suite,records,im,sample,arm,p_rad_s,alpha_rad,share,null_low,null_high,levels",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for block in &panel.shares {
@@ -137,25 +134,13 @@ fn scene(figure: &AcceptedShares) -> Scene {
     let grid = grid.plot(440.0, 230.0);
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
-        let ticks = blocks
-            .iter()
-            .enumerate()
-            .map(|(k, b)| Tick {
-                at: (k + 1) as f64,
-                label: format!("{:.2}", b.1),
-            })
-            .collect();
-        let x = Axis::named(&vec![String::new(); blocks.len()])
-            .with_ticks(ticks)
-            .label("*α* (rad)");
-        let tens = (0..=5)
-            .map(|k| Tick {
-                at: 20.0 * f64::from(k),
-                label: (20 * k).to_string(),
-            })
-            .collect();
+        let names = blocks.iter().map(|b| format!("{:.2}", b.1));
+        let names: Vec<String> = names.collect();
+        let x = Axis::named(&names).label("*α* (rad)");
+        let tens = [0, 20, 40, 60, 80, 100]
+            .map(|k| Tick { at: f64::from(k), label: k.to_string() });
         let y = Axis::linear(0.0, 128.0, 5)
-            .with_ticks(tens)
+            .with_ticks(tens.into())
             .label("accepted levels (%)");
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         groups(&mut panel, &blocks, shown, figure.levels);
@@ -194,18 +179,13 @@ fn groups(
             continue;
         }
         let middle = f64::midpoint((first + 1) as f64, (k + 1) as f64);
-        panel.words_at(
-            (middle, 117.5),
-            common::frequency(block.0),
-            Horizontal::Centre,
-        );
+        let p = common::frequency(block.0);
+        panel.words_at((middle, 117.5), p, Horizontal::Centre);
         let own = || shown.shares.iter().filter(|s| s.p_rad_s == block.0);
         let least = own().map(|s| s.levels).min().unwrap_or(0);
-        let most = own().map(|s| s.levels).max().unwrap_or(0);
-        let words = if least == most {
-            format!("{least} of {all} levels")
-        } else {
-            format!("{least} to {most} of {all} levels")
+        let words = match own().map(|s| s.levels).max().unwrap_or(0) {
+            most if most == least => format!("{least} of {all} levels"),
+            most => format!("{least} to {most} of {all} levels"),
         };
         panel.words_at((middle, 105.5), words, Horizontal::Centre);
         if k + 1 < blocks.len() {

@@ -6,7 +6,6 @@ use super::heading::{Figure, Heading};
 use rocking::statistics::Boxplot;
 
 use crate::axis::Axis;
-use crate::axis::Tick;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
 use crate::grid::Grid;
@@ -24,21 +23,10 @@ pub struct Boxplots {
     pub heading: Heading,
     /// What is compared, in markup: `*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}`.
     pub ratio_label: String,
-    /// What a stripe is a level of.
-    pub stripes: StripeKind,
     /// Panels row by row.
     pub panels: Vec<BoxPanel>,
     /// Panels in a row.
     pub columns: usize,
-}
-
-/// What a stripe is a level of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StripeKind {
-    /// A dimensionless intensity.
-    Intensity(Intensity),
-    /// The demand, peak |theta|/alpha.
-    Demand,
 }
 
 /// One pair of blocks.
@@ -52,13 +40,11 @@ pub struct BoxPanel {
     /// The ratio that the small-rotation limit of Eq. 1 gives, where the
     /// panel has one: a thin line.
     pub closed_form: Option<f64>,
-    /// More words for the panel's title, or nothing.
-    pub note: String,
     /// Stripes in rising level.
     pub stripes: Vec<Stripe>,
 }
 
-/// One level.
+/// One level of the intensity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stripe {
     /// The level.
@@ -73,7 +59,6 @@ pub struct Stripe {
 
 impl Stripe {
     /// Share of the records with a well-defined ratio, 0 to 1.
-    #[must_use]
     pub fn usable_share(&self) -> f64 {
         if self.records == 0 {
             return 0.0;
@@ -84,7 +69,6 @@ impl Stripe {
 
 impl Boxplots {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
@@ -95,10 +79,6 @@ impl Boxplots {
         let mut table = Table::headed(
             "panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value",
         );
-        let kind = match self.stripes {
-            StripeKind::Intensity(i) => i.name(),
-            StripeKind::Demand => "edp",
-        };
         for (i, panel) in self.panels.iter().enumerate() {
             for stripe in &panel.stripes {
                 let mut row = |quantity: &str, value: String| {
@@ -106,8 +86,8 @@ impl Boxplots {
                         letter(i),
                         number(panel.p_rad_s),
                         number(panel.alpha_rad),
-                        panel.note.clone(),
-                        kind.into(),
+                        String::new(),
+                        Intensity::Pga.name().into(),
                         number(stripe.level),
                         quantity.into(),
                         value,
@@ -170,11 +150,6 @@ fn scene(figure: &Boxplots) -> Scene {
         _ => 196.0,
     };
     let grid = Grid { right: 44.0, ..grid }.plot(width, height);
-    let grid = if figure.panels.iter().any(|p| !p.note.is_empty()) {
-        grid.with_subtitles()
-    } else {
-        grid
-    };
     let (low, high) = ratio_range(figure);
     let mut legend =
         if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
@@ -196,22 +171,10 @@ fn scene(figure: &Boxplots) -> Scene {
         legend.push(Entry::new(arrow, "more outliers beyond the axis"));
     }
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
-    let level = match figure.stripes {
-        StripeKind::Intensity(kind) => common::intensity(kind),
-        StripeKind::Demand => common::DEMAND,
-    };
+    let level = common::intensity(Intensity::Pga);
     for (i, shown) in figure.panels.iter().enumerate() {
-        let ticks = shown
-            .stripes
-            .iter()
-            .enumerate()
-            .map(|(k, s)| Tick {
-                at: (k + 1) as f64,
-                label: common::short(s.level),
-            })
-            .collect();
-        let names = vec![String::new(); shown.stripes.len()];
-        let y = Axis::named(&names).with_ticks(ticks).label(level);
+        let levels = shown.stripes.iter().map(|s| common::short(s.level));
+        let y = Axis::named(&levels.collect::<Vec<_>>()).label(level);
         let x = Axis::about_one(low, high, STRETCH, 27.0 / width).label(
             format!("{} (scale stretched about 1)", figure.ratio_label),
         );
@@ -229,10 +192,7 @@ fn scene(figure: &Boxplots) -> Scene {
             common::frequency(shown.p_rad_s),
             common::slenderness(shown.alpha_rad)
         );
-        panel.finish(
-            &common::panel_title(i, &title),
-            &common::words(&shown.note),
-        );
+        panel.finish(&common::panel_title(i, &title), "");
     }
     scene
 }

@@ -58,7 +58,6 @@ impl Capacities {
     /// The same with only the points that a drawing keeps: none that is
     /// left out lies farther than a tenth of a pixel from the line. Of
     /// a curve's levels without a capacity the first one stays.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
             // As on a logarithmic axis, where the steepest part is drawn at
@@ -78,39 +77,33 @@ impl Capacities {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,im_kind,shift,record,edp,im`; in the place of a record the
+    /// `panel,im,shift,record,edp,intensity`; in the place of a record the
     /// quantiles too.
     fn csv(&self) -> String {
-        let mut table =
-            Table::new(&["panel", "im_kind", "shift", "record", "edp", "im"]);
+        let mut table = Table::headed("panel,im,shift,record,edp,intensity");
         for (i, panel) in self.panels.iter().enumerate() {
+            let mut row = |record: &str, edp: f64, im: f64| {
+                table.row([
+                    letter(i),
+                    panel.intensity.name().into(),
+                    number(panel.shift),
+                    record.into(),
+                    number(edp),
+                    point(im),
+                ]);
+            };
             for curve in &panel.curves {
                 for (edp, im) in curve.edp.iter().zip(&curve.im) {
-                    table.row([
-                        letter(i),
-                        panel.intensity.name().into(),
-                        number(panel.shift),
-                        curve.record.clone(),
-                        number(*edp),
-                        point(*im),
-                    ]);
+                    row(&curve.record, *edp, *im);
                 }
             }
             for (edp, of) in &panel.quantiles {
                 for (name, im) in ["16 %", "50 %", "84 %"].iter().zip(of) {
-                    table.row([
-                        letter(i),
-                        panel.intensity.name().into(),
-                        number(panel.shift),
-                        (*name).into(),
-                        number(*edp),
-                        point(*im),
-                    ]);
+                    row(name, *edp, *im);
                 }
             }
         }
@@ -152,11 +145,9 @@ fn scene(figure: &Capacities) -> Scene {
                 .enumerate()
         {
             let x = Axis::linear(0.0, 1.0, 5).label(common::DEMAND);
+            let less_r = if column == 0 { "" } else { " − IM_{R}" };
             let label = common::intensity(shown.intensity);
-            let label = match column {
-                0 => label.to_owned(),
-                _ => format!("{label} − IM_{{R}}"),
-            };
+            let label = format!("{label}{less_r}");
             let y = Axis::logarithmic(low, high).label(label);
             let i = 2 * row + column;
             let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);

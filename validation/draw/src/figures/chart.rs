@@ -50,13 +50,16 @@ pub struct ChartAxis {
     /// Linear or logarithmic.
     pub scale: Scale,
     /// Both ends; none: from the data.
-    pub range: Option<(f64, f64)>,
+    pub range: Ends,
     /// Names of the ticks at 1, 2, 3 and so on; empty: numbers.
     pub categories: Vec<String>,
     /// The same in another unit, at the opposite edge; of a horizontal axis
     /// alone.
     pub second: Option<Second>,
 }
+
+/// Both ends of an axis; none: from the data.
+pub type Ends = Option<(f64, f64)>;
 
 /// Another unit of an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,19 +71,30 @@ pub struct Second {
 }
 
 impl ChartAxis {
-    /// An axis of numbers.
-    #[must_use]
-    pub fn new(
-        label: impl Into<String>,
-        scale: Scale,
-        range: Option<(f64, f64)>,
-    ) -> Self {
+    fn new(label: impl Into<String>, scale: Scale, range: Ends) -> Self {
         let label = label.into();
         Self { label, scale, range, categories: Vec::new(), second: None }
     }
 
+    /// A linear axis with these ends, or with those of the data.
+    pub fn linear(label: impl Into<String>, ends: impl Into<Ends>) -> Self {
+        Self::new(label, Scale::Linear, ends.into())
+    }
+
+    /// A logarithmic axis with these ends, or with those of the data.
+    pub fn logarithmic(
+        label: impl Into<String>,
+        ends: impl Into<Ends>,
+    ) -> Self {
+        Self::new(label, Scale::Logarithmic, ends.into())
+    }
+
+    /// An axis with these names at 1, 2, 3 and so on.
+    pub fn named(categories: Vec<String>) -> Self {
+        Self { categories, ..Self::new("", Scale::Linear, None) }
+    }
+
     /// The same axis with another unit beside its own.
-    #[must_use]
     pub fn with_second(self, factor: f64, label: impl Into<String>) -> Self {
         Self { second: Some(Second { factor, label: label.into() }), ..self }
     }
@@ -112,9 +126,20 @@ pub struct Series {
     pub interval: Vec<(f64, f64)>,
 }
 
+impl ChartPanel {
+    /// A panel.
+    pub fn new(
+        title: impl Into<String>,
+        x: ChartAxis,
+        y: ChartAxis,
+        series: Vec<Series>,
+    ) -> Self {
+        Self { title: title.into(), x, y, series }
+    }
+}
+
 impl Series {
     /// A series without intervals.
-    #[must_use]
     pub fn new(
         label: impl Into<String>,
         mark: Mark,
@@ -122,6 +147,11 @@ impl Series {
         y: Vec<f64>,
     ) -> Self {
         Self { label: label.into(), mark, x, y, interval: Vec::new() }
+    }
+
+    /// The series with these intervals.
+    pub fn with(self, interval: Vec<(f64, f64)>) -> Self {
+        Self { interval, ..self }
     }
 }
 
@@ -142,17 +172,13 @@ pub enum Mark {
 
 impl Mark {
     fn has_points(self) -> bool {
-        matches!(
-            self,
-            Self::Points | Self::LineAndPoints | Self::DashedAndPoints
-        )
+        !matches!(self, Self::Line | Self::Dashed)
     }
 }
 
 impl Chart {
     /// The chart with no more points in its lines over linear axes than a
     /// drawing shows.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         let linear = |p: &&mut ChartPanel| {
             p.x.scale == Scale::Linear && p.y.scale == Scale::Linear
@@ -173,23 +199,18 @@ impl Chart {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: impl Into<String>) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading.into())
     }
 
     /// `panel,series,x,y,y_low,y_high`.
     fn csv(&self) -> String {
-        let mut table =
-            Table::new(&["panel", "series", "x", "y", "y_low", "y_high"]);
+        let mut table = Table::headed("panel,series,x,y,y_low,y_high");
         for (i, panel) in self.panels.iter().enumerate() {
             for series in &panel.series {
                 for (k, (x, y)) in series.x.iter().zip(&series.y).enumerate() {
-                    let (low, high) = series
-                        .interval
-                        .get(k)
-                        .copied()
-                        .unwrap_or((f64::NAN, f64::NAN));
+                    let ends = series.interval.get(k).copied();
+                    let (low, high) = ends.unwrap_or((f64::NAN, f64::NAN));
                     table.row([
                         letter(i),
                         markup::plain(&series.label),
@@ -280,10 +301,9 @@ fn scene(figure: &Chart) -> Scene {
             let rank = labels.iter().position(|s| s.label == series.label);
             draw_series(&mut panel, series, rank);
         }
-        let title = if figure.panels.len() > 1 {
-            common::panel_title(i, &shown.title)
-        } else {
-            shown.title.clone()
+        let title = match figure.panels.len() {
+            1 => shown.title.clone(),
+            _ => common::panel_title(i, &shown.title),
         };
         panel.finish(&title, "");
     }

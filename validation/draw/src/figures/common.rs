@@ -21,19 +21,19 @@ pub fn scene(
 ) -> (Scene, Grid) {
     let head = grid.head + legend::height(entries, grid.total_width());
     let grid = Grid { head, ..grid };
-    let title = match heading.arm {
-        Some(arm) => format!("{} (arm {})", heading.title, arm.letter()),
-        None => heading.title.clone(),
-    };
-    let caption = Caption {
-        name: heading.name.clone(),
-        title,
-        description: heading.description.clone(),
-    };
-    let mut scene =
-        Scene::new(caption, grid.total_width(), grid.total_height());
+    let (width, height) = (grid.total_width(), grid.total_height());
+    let mut scene = Scene::new(caption(heading), width, height);
     legend::draw(&mut scene, entries);
     (scene, grid)
+}
+
+/// The words of a drawing.
+pub fn caption(heading: &Heading) -> Caption {
+    let (name, mut title) = (heading.name.clone(), heading.title.clone());
+    if let Some(arm) = heading.arm {
+        title += &format!(" (arm {})", arm.letter());
+    }
+    Caption { name, title, description: heading.description.clone() }
 }
 
 /// `(a) words`.
@@ -92,18 +92,17 @@ impl Slendernesses {
 
     /// Legend of lines.
     pub fn lines(&self) -> Vec<Entry> {
-        let entry = |(a, k): &(f64, usize)| {
-            Entry::new(Sample::Line(Pen::of_series(*k)), slenderness(*a))
-        };
-        self.0.iter().map(entry).collect()
+        self.legend(|k| Sample::Line(Pen::of_series(k)))
     }
 
     /// Legend of boxes.
     pub fn boxes(&self) -> Vec<Entry> {
-        let entry = |(a, k): &(f64, usize)| {
-            Entry::new(Sample::Box(Ink::Series(*k)), slenderness(*a))
-        };
-        self.0.iter().map(entry).collect()
+        self.legend(|k| Sample::Box(Ink::Series(k)))
+    }
+
+    fn legend(&self, of: fn(usize) -> Sample) -> Vec<Entry> {
+        let all = self.0.iter();
+        all.map(|(a, k)| Entry::new(of(*k), slenderness(*a))).collect()
     }
 }
 

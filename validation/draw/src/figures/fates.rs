@@ -27,7 +27,6 @@ named! {
 
 impl Fate {
     /// The fate of a block that overturns after so many impacts, if it does.
-    #[must_use]
     pub fn after(impacts: Option<usize>) -> Self {
         match impacts {
             None => Self::Stands,
@@ -64,7 +63,6 @@ pub struct FateMap {
 
 impl FateMap {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }

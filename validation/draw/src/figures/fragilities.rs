@@ -114,8 +114,6 @@ impl BandOf {
 pub struct ByConstant {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Demand threshold.
     pub edp: f64,
     /// (a) untrimmed, (b) trimmed.
@@ -131,31 +129,20 @@ pub struct ByConstantPanel {
     pub benchmark: Option<Lognormal>,
     /// Capacities for the ECDF, or nothing.
     pub sample: Vec<f64>,
-    /// USFL7 by c.
-    pub curves: Vec<ConstantCurve>,
-}
-
-/// One constant.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ConstantCurve {
-    /// The constant.
-    pub c: f64,
-    /// USFL7; none where Eq. 7 is not defined.
-    pub curve: Option<Lognormal>,
+    /// The constant c, and its USFL7; none where Eq. 7 is not defined.
+    pub curves: Vec<(f64, Option<Lognormal>)>,
 }
 
 impl Fragilities {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,im_kind,edp,curve,quantity,at,value`: the sample (`ecdf`),
+    /// `panel,im,edp,curve,quantity,at,value`: the sample (`ecdf`),
     /// the parameters of each fitted curve, its band at an intensity.
     fn csv(&self) -> String {
-        let mut table =
-            Table::headed("panel,im_kind,edp,curve,quantity,at,value");
+        let mut table = Table::headed("panel,im,edp,curve,quantity,at,value");
         for (i, panel) in self.panels.iter().enumerate() {
             let mut row = |curve: &str, quantity: &str, at: f64, value| {
                 table.row([
@@ -169,7 +156,7 @@ impl Fragilities {
                 ]);
             };
             for im in &panel.sample {
-                row("ECDF", "im", f64::NAN, *im);
+                row("ECDF", "intensity", f64::NAN, *im);
             }
             for fit in &panel.curves {
                 let name = fit.estimator.name();
@@ -195,21 +182,20 @@ impl Fragilities {
 
 impl ByConstant {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, by_constant(self), self.csv(), reading)
     }
 
-    /// `panel,title,im_kind,edp,curve,c,quantity,value`.
+    /// `panel,title,im,edp,curve,c,quantity,value`.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,title,im_kind,edp,curve,c,quantity,value");
+            Table::headed("panel,title,im,edp,curve,c,quantity,value");
         for (i, panel) in self.panels.iter().enumerate() {
             let mut row = |curve: &str, c: f64, quantity: &str, value| {
                 table.row([
                     letter(i),
                     panel.title.clone(),
-                    self.intensity.name().into(),
+                    Intensity::Pga.name().into(),
                     number(self.edp),
                     curve.into(),
                     number(c),
@@ -218,14 +204,14 @@ impl ByConstant {
                 ]);
             };
             for im in &panel.sample {
-                row("ECDF", f64::NAN, "im", *im);
+                row("ECDF", f64::NAN, "intensity", *im);
             }
             parameters(panel.benchmark.as_ref(), |quantity, value| {
                 row("SSFL", f64::NAN, quantity, value);
             });
-            for fit in &panel.curves {
-                parameters(fit.curve.as_ref(), |quantity, value| {
-                    row("USFL7", fit.c, quantity, value);
+            for (c, curve) in &panel.curves {
+                parameters(curve.as_ref(), |quantity, value| {
+                    row("USFL7", *c, quantity, value);
                 });
             }
         }
@@ -241,7 +227,6 @@ fn parameters(fit: Option<&Lognormal>, mut row: impl FnMut(&str, f64)) {
     row("shift", of(Lognormal::shift));
 }
 
-const SIZE: (f64, f64) = (440.0, 290.0);
 const LIMIT: Fill = Fill::tint(Ink::Muted, 30);
 const BAND_PERCENT: u8 = 26;
 
@@ -284,8 +269,7 @@ fn scene(figure: &Fragilities) -> Scene {
         let (low, high) = Fragilities::range(&shown.sample);
         let x = Axis::linear(low, high, 5)
             .label(common::intensity(shown.intensity));
-        let y = Axis::linear(0.0, 1.0, 5).label("probability of exceedance");
-        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
+        let mut panel = Panel::new(&mut scene, grid.frame(i), x, exceedance());
         draw_panel(&mut panel, shown);
         let name = shown.intensity.name().to_uppercase();
         let words = format!("{name}, *θ̃* = {:.2}", shown.edp);
@@ -295,26 +279,8 @@ fn scene(figure: &Fragilities) -> Scene {
     scene
 }
 
-fn axes<'s>(
-    scene: &'s mut Scene,
-    grid: &Grid,
-    panel: usize,
-    intensity: Intensity,
-    end: f64,
-) -> Panel<'s> {
-    let x = Axis::around(0.0, end, 7).label(common::intensity(intensity));
-    let y = Axis::linear(0.0, 1.0, 5).label("probability of exceedance");
-    Panel::new(scene, grid.frame(panel), x, y)
-}
-
-/// End of the intensity axis: where the last of the samples has 97 % of its
-/// data, or its last finite datum.
-fn end<'a>(samples: impl Iterator<Item = &'a [f64]>) -> f64 {
-    let mut end = 1.0_f64;
-    for sample in samples {
-        end = end.max(most_of(sample).unwrap_or(1.0));
-    }
-    1.02 * end
+fn exceedance() -> Axis {
+    Axis::linear(0.0, 1.0, 5).label("probability of exceedance")
 }
 
 /// What 97 % of the data do not exceed, or the last finite datum below.
@@ -329,7 +295,6 @@ fn most_of(sample: &[f64]) -> Option<f64> {
 impl Fragilities {
     /// Ends of a panel's intensity axis: from below the least datum to what
     /// 97 % of the data do not exceed.
-    #[must_use]
     pub fn range(sample: &[f64]) -> (f64, f64) {
         let data = sample.iter().copied();
         let (least, _) = common::span(data, true).unwrap_or((1.0, 2.0));
@@ -352,7 +317,7 @@ fn draw_panel(panel: &mut Panel<'_>, shown: &FragilityPanel) {
         let fill = Fill::tint(pen(fit.estimator).ink, BAND_PERCENT);
         panel.band(&fit.band, fill);
     }
-    draw_sample(panel, &shown.sample, Marker::Dot, Ink::Muted);
+    draw_sample(panel, &shown.sample);
     let mut notes = shown.notes.clone();
     for fit in &shown.curves {
         match &fit.curve {
@@ -370,18 +335,13 @@ fn draw_panel(panel: &mut Panel<'_>, shown: &FragilityPanel) {
 }
 
 /// Dots of the ECDF.
-fn draw_sample(
-    panel: &mut Panel<'_>,
-    sample: &[f64],
-    marker: Marker,
-    ink: Ink,
-) {
+fn draw_sample(panel: &mut Panel<'_>, sample: &[f64]) {
     let mut sorted = sample.to_vec();
     sorted.sort_by(f64::total_cmp);
     let n = sorted.len() as f64;
     let dots =
         sorted.iter().enumerate().map(|(i, x)| (*x, (i + 1) as f64 / n));
-    panel.marks(dots, marker, 1.7, ink);
+    panel.marks(dots, Marker::Dot, 1.7, Ink::Muted);
 }
 
 fn draw_curve(panel: &mut Panel<'_>, curve: &Lognormal, pen: Pen) {
@@ -398,7 +358,7 @@ fn along(panel: &Panel<'_>) -> impl Iterator<Item = f64> + use<> {
 
 fn by_constant(figure: &ByConstant) -> Scene {
     let mut constants: Vec<f64> =
-        figure.panels.iter().flat_map(|p| &p.curves).map(|c| c.c).collect();
+        figure.panels.iter().flat_map(|p| &p.curves).map(|c| c.0).collect();
     constants.sort_by(f64::total_cmp);
     constants.dedup();
     let pen = |k: usize| {
@@ -416,28 +376,30 @@ fn by_constant(figure: &ByConstant) -> Scene {
         let words = format!("USFL7, *c* = {c}");
         legend.push(Entry::new(Sample::Line(pen(k)), words));
     }
-    let grid = Grid::new(figure.panels.len(), 2).plot(SIZE.0, SIZE.1);
+    let grid = Grid::new(figure.panels.len(), 2).plot(440.0, 290.0);
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     let reach =
         figure.panels.iter().flat_map(|p| p.benchmark.as_ref()).map(|f| {
             f.shift()
                 + libm::exp(2.0_f64.mul_add(f.dispersion(), f.log_mean()))
         });
-    let samples = figure.panels.iter().map(|p| p.sample.as_slice());
+    let most = figure.panels.iter().filter_map(|p| most_of(&p.sample));
     let high = common::span(reach, true).map_or(1.0, |(_, high)| high);
-    let end = end(samples).max(high);
+    let end = (1.02 * most.fold(1.0, f64::max)).max(high);
     for (i, shown) in figure.panels.iter().enumerate() {
-        let mut panel = axes(&mut scene, &grid, i, figure.intensity, end);
-        draw_sample(&mut panel, &shown.sample, Marker::Dot, Ink::Muted);
+        let x =
+            Axis::around(0.0, end, 7).label(common::intensity(Intensity::Pga));
+        let mut panel = Panel::new(&mut scene, grid.frame(i), x, exceedance());
+        draw_sample(&mut panel, &shown.sample);
         if let Some(curve) = &shown.benchmark {
             draw_curve(&mut panel, curve, benchmark);
         }
         let mut missing = Vec::new();
-        for fit in &shown.curves {
-            let k = constants.iter().position(|c| *c == fit.c).unwrap_or(0);
-            match &fit.curve {
+        for (c, curve) in &shown.curves {
+            let k = constants.iter().position(|k| k == c).unwrap_or(0);
+            match curve {
                 Some(curve) => draw_curve(&mut panel, curve, pen(k)),
-                None => missing.push(fit.c.to_string()),
+                None => missing.push(c.to_string()),
             }
         }
         if !missing.is_empty() {
@@ -445,11 +407,8 @@ fn by_constant(figure: &ByConstant) -> Scene {
                 format!("not defined for *c* = {}", missing.join(", "));
             panel.note(words, (0.985, 0.95), Horizontal::Right);
         }
-        let title = format!(
-            "{}, *θ̃* = {:.2}",
-            common::words(&shown.title),
-            figure.edp
-        );
+        let words = common::words(&shown.title);
+        let title = format!("{words}, *θ̃* = {:.2}", figure.edp);
         panel.finish(&common::panel_title(i, &title), "");
     }
     scene

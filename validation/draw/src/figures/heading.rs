@@ -40,21 +40,23 @@ pub enum Place {
 
 impl Heading {
     /// The words of a figure.
-    #[must_use]
     pub fn new(
         name: impl Into<String>,
         title: impl Into<String>,
         description: impl Into<String>,
-        arm: Option<Arm>,
     ) -> Self {
         let (name, title) = (name.into(), title.into());
         let (description, place) = (description.into(), Place::Beside);
-        Self { name, title, description, arm, place }
+        Self { name, title, description, arm: None, place }
+    }
+
+    /// The same words of an arm.
+    pub fn of(self, arm: Arm) -> Self {
+        Self { arm: Some(arm), ..self }
     }
 
     /// The words of a figure with a number, and its name: `figure-06`, or
     /// `figure-06-c` where it is drawn once for each arm.
-    #[must_use]
     pub fn numbered(
         number: u32,
         by_arm: bool,
@@ -66,11 +68,10 @@ impl Heading {
         let suffix = arm.filter(|_| by_arm).map_or(String::new(), of_arm);
         let name = format!("figure-{number:02}{suffix}");
         let place = Place::Numbered { number, by_arm };
-        Self { place, ..Self::new(name, title, description, arm) }
+        Self { place, arm, ..Self::new(name, title, description) }
     }
 
     /// Its number, where it has one.
-    #[must_use]
     pub fn number(&self) -> Option<u32> {
         match self.place {
             Place::Numbered { number, .. } => Some(number),
@@ -79,7 +80,6 @@ impl Heading {
     }
 
     /// The arm, where it is drawn once for each.
-    #[must_use]
     pub fn own_arm(&self) -> Option<Arm> {
         let by_arm =
             matches!(self.place, Place::Numbered { by_arm: true, .. });
@@ -110,7 +110,6 @@ impl Figure {
     }
 
     /// The drawing.
-    #[must_use]
     pub fn svg(&self) -> String {
         self.scene.svg()
     }

@@ -36,12 +36,8 @@ pub struct HistoryPanel {
     pub p_rad_s: f64,
     /// Record as named in the panel's title.
     pub record: String,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
-    /// Its level, the same for all slendernesses.
+    /// PGA/(g tan alpha), the same for all slendernesses.
     pub im: f64,
-    /// End of the time axis; NaN or not positive: the longest history's end.
-    pub until_s: f64,
     /// A history a slenderness.
     pub curves: Vec<History>,
 }
@@ -62,7 +58,6 @@ pub struct History {
 impl Histories {
     /// The same with only the points that a drawing keeps: none that is
     /// left out lies farther than a tenth of a pixel from the line.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
             let curves = || panel.curves.iter();
@@ -77,16 +72,14 @@ impl Histories {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,theta_over_alpha`.
+    /// `panel,p_rad_s,record,im,intensity,alpha_rad,time_s,theta_over_alpha`.
     fn csv(&self) -> String {
         let mut table = Table::headed(
-            "panel,p_rad_s,record,im_kind,im,alpha_rad,time_s,\
-             theta_over_alpha",
+            "panel,p_rad_s,record,im,intensity,alpha_rad,time_s,theta_over_alpha",
         );
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {
@@ -95,7 +88,7 @@ impl Histories {
                         letter(i),
                         number(panel.p_rad_s),
                         panel.record.clone(),
-                        panel.intensity.name().into(),
+                        Intensity::Pga.name().into(),
                         number(panel.im),
                         number(curve.alpha_rad),
                         point(*t),
@@ -144,10 +137,10 @@ fn scene(figure: &Histories) -> Scene {
             }
         }
         let title = format!(
-            "{}, {} = {}",
+            "{}, {} = {:.2}",
             common::frequency(shown.p_rad_s),
-            common::intensity(shown.intensity),
-            format_args!("{:.2}", shown.im)
+            common::intensity(Intensity::Pga),
+            shown.im
         );
         panel.finish(
             &common::panel_title(i, &title),
@@ -168,11 +161,6 @@ fn times(shown: &HistoryPanel) -> (f64, f64) {
     let moving = points().filter(|(_, y)| y.abs() > 0.002 * most);
     let (first, last) =
         common::span(moving.map(|(t, _)| *t), false).unwrap_or((0.0, 1.0));
-    let last = if shown.until_s > first && shown.until_s.is_finite() {
-        last.min(shown.until_s)
-    } else {
-        last
-    };
     let rest = 0.04 * (last - first);
     let first = (first - rest).max(0.0);
     let start = if first < 0.15 * last { 0.0 } else { first };

@@ -16,8 +16,6 @@ use rocking_common::words::letter;
 pub struct IdaCurves {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Panels row by row: a row a frequency parameter, a column a record.
     pub panels: Vec<IdaPanel>,
     /// Panels in a row.
@@ -55,7 +53,6 @@ const PX: f64 = 288.0;
 impl IdaCurves {
     /// The same with only the points that a drawing keeps: none that is
     /// left out lies farther than a tenth of a pixel from the line.
-    #[must_use]
     pub fn thinned(mut self) -> Self {
         for panel in &mut self.panels {
             let top = largest(panel.curves.iter().flat_map(|c| &c.im));
@@ -67,15 +64,14 @@ impl IdaCurves {
     }
 
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,p_rad_s,record,im_kind,alpha_rad,im,edp`.
+    /// `panel,p_rad_s,record,im,alpha_rad,intensity,edp`.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,p_rad_s,record,im_kind,alpha_rad,im,edp");
+            Table::headed("panel,p_rad_s,record,im,alpha_rad,intensity,edp");
         for (i, panel) in self.panels.iter().enumerate() {
             for curve in &panel.curves {
                 let mut row = |im: f64, edp: f64| {
@@ -83,7 +79,7 @@ impl IdaCurves {
                         letter(i),
                         number(panel.p_rad_s),
                         panel.record.clone(),
-                        self.intensity.name().into(),
+                        Intensity::Pga.name().into(),
                         number(curve.alpha_rad),
                         number(im),
                         point(edp),
@@ -124,7 +120,7 @@ fn scene(figure: &IdaCurves) -> Scene {
         let x = Axis::linear(0.0, END, 5).label(common::DEMAND);
         let bottom = if low < 0.99 { 0.0 } else { 1.0 };
         let y = Axis::linear(bottom, top, 5)
-            .label(common::intensity(figure.intensity));
+            .label(common::intensity(Intensity::Pga));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for curve in &shown.curves {
             let pen = Pen::of_series(inks.series(curve.alpha_rad));

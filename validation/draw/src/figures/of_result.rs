@@ -7,14 +7,12 @@ use rocking::record::Accelerogram;
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, Histories, History, HistoryPanel,
-    Mark, Scale, Series,
+    Mark, Series,
 };
 use crate::markup;
-use rocking_common::paper::Intensity;
 
 /// Rotation over slenderness against time, of a response with its history,
 /// as SVG.
-#[must_use]
 pub fn response_svg(
     scene: &Scene<'_>,
     response: &Response,
@@ -35,16 +33,13 @@ pub fn response_svg(
     let panel = HistoryPanel {
         p_rad_s: scene.block.frequency_rad_s(),
         record: excitation.to_owned(),
-        intensity: Intensity::Pga,
         im: pga_g / uplift_threshold(&scene.block, scene.model),
-        until_s: f64::NAN,
         curves: vec![history],
     };
     let heading = Heading::new(
         "history",
         "Response history",
         "Rotation over slenderness against time.",
-        None,
     );
     let figure = Histories { heading, panels: vec![panel], columns: 1 };
     figure.thinned().figure(String::new()).svg()
@@ -53,7 +48,6 @@ pub fn response_svg(
 /// Acceleration, velocity, displacement and response spectrum (at
 /// `periods_s`, 5 % damping) of a record, as SVG; `done` is what was done to
 /// it.
-#[must_use]
 pub fn record_svg(
     motion: &Accelerogram,
     (measures, periods_s): (&Measures, &[f64]),
@@ -68,47 +62,30 @@ pub fn record_svg(
     let label = markup::escape(&motion.name().replace('_', " "));
     let series = |x, y| Series::new(label.clone(), Mark::Line, x, y);
     let (velocity, displacement) = motion.integrals(gravity_m_s2);
-    let history =
-        |name: &str, symbol: &str, y: Vec<f64>, peak: String| ChartPanel {
-            title: format!("{name}, peak {peak}"),
-            x: ChartAxis::new("*t* (s)", Scale::Linear, Some(shown_s)),
-            y: ChartAxis::new(symbol, Scale::Linear, None),
-            series: vec![series(time_s.clone(), y)],
-        };
     let spectrum = measures.spectral_acceleration_g.clone();
     let most = spectrum.iter().fold(0.0, |most: f64, s| most.max(*s));
     let ends = (periods_s.first(), periods_s.last());
     let ends = ends.0.copied().zip(ends.1.copied());
-    let panels = vec![
-        history(
-            "Acceleration",
-            "*a* / *g*",
-            samples.to_vec(),
-            format!("{:.3} *g*", measures.pga_g),
-        ),
-        history(
-            "Velocity",
-            "*v* (m/s)",
-            velocity,
-            format!("{:.3} m/s", measures.pgv_m_s),
-        ),
-        history(
-            "Displacement",
-            "*d* (m)",
-            displacement,
-            format!("{:.3} m", measures.pgd_m),
-        ),
-        ChartPanel {
-            title: "Response spectrum, 5 % damping".to_owned(),
-            x: ChartAxis::new("*T* (s)", Scale::Logarithmic, ends),
-            y: ChartAxis::new(
-                "*S*_{a} / *g*",
-                Scale::Linear,
-                Some((0.0, 1.05 * most)),
-            ),
-            series: vec![series(periods_s.to_vec(), spectrum)],
-        },
-    ];
+    let (pgv, pgd) = (measures.pgv_m_s, measures.pgd_m);
+    let mut panels: Vec<ChartPanel> = [
+        ("Acceleration", "*a* / *g*", samples.into(), measures.pga_g, "*g*"),
+        ("Velocity", "*v* (m/s)", velocity, pgv, "m/s"),
+        ("Displacement", "*d* (m)", displacement, pgd, "m"),
+    ]
+    .into_iter()
+    .map(|(name, symbol, y, peak, unit)| ChartPanel {
+        title: format!("{name}, peak {peak:.3} {unit}"),
+        x: ChartAxis::linear("*t* (s)", shown_s),
+        y: ChartAxis::linear(symbol, None::<(f64, f64)>),
+        series: vec![series(time_s.clone(), y)],
+    })
+    .collect();
+    panels.push(ChartPanel::new(
+        "Response spectrum, 5 % damping",
+        ChartAxis::logarithmic("*T* (s)", ends),
+        ChartAxis::linear("*S*_{a} / *g*", (0.0, 1.05 * most)),
+        vec![series(periods_s.to_vec(), spectrum)],
+    ));
     let name = motion.name();
     let done = done.map_or_else(
         || "as given".to_owned(),
@@ -122,7 +99,6 @@ pub fn record_svg(
              ({done}; from 0.1 to 99.5 % of its Arias intensity), and its \
              response spectrum."
         ),
-        None,
     );
     let chart = Chart { heading, panels, columns: 2 };
     chart.thinned().figure(String::new()).svg()
@@ -151,7 +127,6 @@ fn strong(motion: &Accelerogram) -> (f64, f64) {
 
 /// The dispersions of a ranking of `measures` at an EDP level, side by side
 /// with their intervals, as SVG.
-#[must_use]
 pub fn ranking_svg(
     ranking: &Ranking,
     measures: &[IntensityMeasure],
@@ -160,28 +135,21 @@ pub fn ranking_svg(
     let rows = &ranking.measures;
     let none = (f64::NAN, f64::NAN);
     let beta = rows.iter().map(|row| row.dispersion.as_ref());
-    let x = ChartAxis {
-        label: String::new(),
-        scale: Scale::Linear,
-        range: None,
-        categories: measures
-            .iter()
-            .map(|measure| markup::escape(&short(measure)))
-            .collect(),
-        second: None,
-    };
+    let names = measures.iter().map(|m| markup::escape(&short(m)));
+    let x = ChartAxis::named(names.collect());
     let label = format!("dispersion at EDP {}", edp);
-    let series = Series {
-        label: "95 % interval by the bootstrap of records".into(),
-        mark: Mark::Points,
-        x: (1..=rows.len()).map(|k| k as f64).collect(),
-        y: beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
-        interval: beta.map(|b| b.map_or(none, |e| (e.low, e.high))).collect(),
-    };
+    let series = Series::new(
+        "95 % interval by the bootstrap of records",
+        Mark::Points,
+        (1..=rows.len()).map(|k| k as f64).collect(),
+        beta.clone().map(|b| b.map_or(f64::NAN, |e| e.point)).collect(),
+    );
+    let ends = beta.map(|b| b.map_or(none, |e| (e.low, e.high)));
+    let series = series.with(ends.collect());
     let ends = series.interval.iter().map(|ends| ends.1);
     let most = ends.fold(0.0, f64::max);
     let top = if most > 0.0 { 1.1 * most } else { 1.0 };
-    let y = ChartAxis::new(label, Scale::Linear, Some((0.0, top)));
+    let y = ChartAxis::linear(label, (0.0, top));
     let chart = Chart {
         heading: Heading::new(
             "rank",
@@ -192,14 +160,8 @@ pub fn ranking_svg(
                 edp,
                 rows.len()
             ),
-            None,
         ),
-        panels: vec![ChartPanel {
-            title: String::new(),
-            x,
-            y,
-            series: vec![series],
-        }],
+        panels: vec![ChartPanel::new("", x, y, vec![series])],
         columns: 1,
     };
     chart.figure(String::new()).svg()

@@ -19,8 +19,6 @@ use rocking_common::words::letter;
 pub struct Quantiles {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Panels row by row.
     pub panels: Vec<QuantilePanel>,
     /// Panels in a row.
@@ -45,41 +43,38 @@ pub struct QuantileGroup {
     pub label: String,
     /// Intensities, rising.
     pub im: Vec<f64>,
-    /// 16 % quantile of peak |theta|/alpha; +infinity once overturned.
-    pub q16: Vec<f64>,
-    /// Median.
-    pub q50: Vec<f64>,
-    /// 84 % quantile.
-    pub q84: Vec<f64>,
+    /// 16 % quantile of peak |theta|/alpha, median and 84 % quantile;
+    /// +infinity once overturned.
+    pub quantiles: [Vec<f64>; 3],
 }
 
 impl Quantiles {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `panel,p_rad_s,note,im_kind,group,im,q16,q50,q84`.
+    /// `panel,p_rad_s,note,im,group,intensity,q16,q50,q84`.
     fn csv(&self) -> String {
         let mut table =
-            Table::headed("panel,p_rad_s,note,im_kind,group,im,q16,q50,q84");
+            Table::headed("panel,p_rad_s,note,im,group,intensity,q16,q50,q84");
         for (i, panel) in self.panels.iter().enumerate() {
             for group in &panel.groups {
                 for (k, im) in group.im.iter().enumerate() {
-                    let at = |v: &[f64]| {
+                    let at = |v: &Vec<f64>| {
                         number(v.get(k).copied().unwrap_or(f64::NAN))
                     };
+                    let [q16, q50, q84] = group.quantiles.each_ref().map(at);
                     table.row([
                         letter(i),
                         number(panel.p_rad_s),
                         panel.note.clone(),
-                        self.intensity.name().into(),
+                        Intensity::Pga.name().into(),
                         markup::plain(&group.label),
                         number(*im),
-                        at(&group.q16),
-                        at(&group.q50),
-                        at(&group.q84),
+                        q16,
+                        q50,
+                        q84,
                     ]);
                 }
             }
@@ -95,13 +90,10 @@ const APART_PX: f64 = 11.5;
 
 fn scene(figure: &Quantiles) -> Scene {
     let labels = labels(figure);
-    let mut legend: Vec<Entry> = labels
-        .iter()
-        .enumerate()
-        .map(|(k, label)| {
-            Entry::new(Sample::Line(Pen::of_series(k)), label.as_str())
-        })
-        .collect();
+    let line = |(k, label): (usize, &String)| {
+        Entry::new(Sample::Line(Pen::of_series(k)), label.as_str())
+    };
+    let mut legend: Vec<Entry> = labels.iter().enumerate().map(line).collect();
     for (width, words) in [(1.8, "median"), (0.9, "16 and 84 %")] {
         let pen = Pen::new(Ink::Text, width);
         legend.push(Entry::new(Sample::Line(pen), words));
@@ -117,7 +109,7 @@ fn scene(figure: &Quantiles) -> Scene {
         let same = |p: &&QuantilePanel| p.p_rad_s == shown.p_rad_s;
         let (low, high) = levels(figure.panels.iter().filter(same));
         let y = Axis::linear(low, high, 6)
-            .label(common::intensity(figure.intensity));
+            .label(common::intensity(Intensity::Pga));
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
         for group in &shown.groups {
             let series =
@@ -146,9 +138,7 @@ fn labels(figure: &Quantiles) -> Vec<String> {
 
 fn draw_group(panel: &mut Panel<'_>, group: &QuantileGroup, series: usize) {
     let usual = Pen::of_series(series);
-    for (curve, width) in
-        [(&group.q16, 0.55), (&group.q50, 1.15), (&group.q84, 0.55)]
-    {
+    for (curve, width) in group.quantiles.iter().zip([0.55, 1.15, 0.55]) {
         let pen = Pen { width_px: width * usual.width_px, ..usual };
         panel.line(path(&group.im, curve), pen);
     }
@@ -179,7 +169,7 @@ fn ends_at(im: &[f64], edp: &[f64]) -> Option<f64> {
 fn levels<'a>(panels: impl Iterator<Item = &'a QuantilePanel>) -> (f64, f64) {
     let groups: Vec<&QuantileGroup> = panels.flat_map(|p| &p.groups).collect();
     let ends = groups.iter().map(|g| {
-        ends_at(&g.im, &g.q16).or(g.im.last().copied()).unwrap_or(1.0)
+        ends_at(&g.im, &g.quantiles[0]).or(g.im.last().copied()).unwrap_or(1.0)
     });
     let starts = groups.iter().filter_map(|g| g.im.first().copied());
     let (_, high) = common::span(ends, true).unwrap_or((1.0, 2.0));
@@ -188,18 +178,17 @@ fn levels<'a>(panels: impl Iterator<Item = &'a QuantilePanel>) -> (f64, f64) {
     (low, 1.06_f64.mul_add(high - low, low))
 }
 
-type Curve = fn(&QuantileGroup) -> &Vec<f64>;
-
 /// The words at the end of a curve that does not reach overturning.
 fn inner_words(
     panel: &mut Panel<'_>,
     shown: &QuantilePanel,
     words: &str,
-    curve: Curve,
+    curve: usize,
 ) {
     let finite = |g: &QuantileGroup| {
-        let last = curve(g).iter().rposition(|e| e.is_finite())?;
-        Some((curve(g)[last], *g.im.get(last)?))
+        let edp = &g.quantiles[curve];
+        let last = edp.iter().rposition(|e| e.is_finite())?;
+        Some((edp[last], *g.im.get(last)?))
     };
     let ends: Vec<_> = shown.groups.iter().filter_map(finite).collect();
     let right = common::span(ends.iter().map(|e| e.0), false);
@@ -210,12 +199,10 @@ fn inner_words(
 
 /// `16 %`, `50 %`, `84 %` where the curves leave, kept apart.
 fn edge_words(panel: &mut Panel<'_>, shown: &QuantilePanel) {
-    let curves: [(&str, Curve); 3] =
-        [("84 %", |g| &g.q84), ("50 %", |g| &g.q50), ("16 %", |g| &g.q16)];
     let mut last = f64::INFINITY;
-    for (words, curve) in curves {
-        let ends =
-            shown.groups.iter().filter_map(|g| ends_at(&g.im, curve(g)));
+    for (curve, words) in [(2, "84 %"), (1, "50 %"), (0, "16 %")] {
+        let groups = shown.groups.iter();
+        let ends = groups.filter_map(|g| ends_at(&g.im, &g.quantiles[curve]));
         let Some((low, high)) = common::span(ends, true) else {
             inner_words(panel, shown, words, curve);
             continue;

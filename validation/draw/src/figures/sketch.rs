@@ -1,10 +1,11 @@
 //! Figure 1: the block and its symbols.
 
+use super::common;
 use super::heading::{Figure, Heading};
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
 use crate::scene::Scene;
-use crate::text::{Caption, Horizontal, TextLine};
+use crate::text::{Horizontal, TextLine};
 use rocking_common::table::{Table, number};
 
 /// The block with its symbols, rotated about its right-hand pivot.
@@ -20,7 +21,6 @@ pub struct BlockSketch {
 
 impl BlockSketch {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
@@ -56,11 +56,7 @@ fn from((x, y): Point, length: f64, angle: f64) -> Point {
 }
 
 fn scene(figure: &BlockSketch) -> Scene {
-    let caption = Caption {
-        name: figure.heading.name.clone(),
-        title: figure.heading.title.clone(),
-        description: figure.heading.description.clone(),
-    };
+    let caption = common::caption(&figure.heading);
     let mut scene = Scene::new(caption, WIDTH, HEIGHT);
     let alpha = figure.alpha_rad.clamp(0.1, 0.6);
     let theta = figure.rotation_rad.clamp(0.05, 0.35);

@@ -18,8 +18,6 @@ use rocking_common::table::{Table, number};
 pub struct TestsAlongDemand {
     /// The words.
     pub heading: Heading,
-    /// Kind of the intensity.
-    pub intensity: Intensity,
     /// Demand level of the histograms.
     pub edp: f64,
     /// The blocks.
@@ -70,7 +68,6 @@ impl Histogram {
     /// `quartiles` are the sample's lower and upper quartile, `mean` and
     /// `deviation` those of the normal to be drawn. A sample without spread
     /// gets one bin.
-    #[must_use]
     pub fn freedman_diaconis(
         sample: &[f64],
         quartiles: (f64, f64),
@@ -110,23 +107,21 @@ impl Histogram {
 
 impl TestsAlongDemand {
     /// The figure, with a sentence that says what one sees in it.
-    #[must_use]
     pub fn figure(&self, reading: String) -> Figure {
         Figure::new(&self.heading, scene(self), self.csv(), reading)
     }
 
-    /// `alpha_rad,p_rad_s,im_kind,sample,quantity,at,value`, where `at` is
+    /// `alpha_rad,p_rad_s,im,sample,quantity,at,value`, where `at` is
     /// the demand, or the bin's lower edge.
     fn csv(&self) -> String {
-        let mut table = Table::headed(
-            "alpha_rad,p_rad_s,im_kind,sample,quantity,at,value",
-        );
+        let mut table =
+            Table::headed("alpha_rad,p_rad_s,im,sample,quantity,at,value");
         for block in &self.blocks {
             let mut row = |sample: &str, quantity: &str, at, value| {
                 table.row([
                     number(block.alpha_rad),
                     number(block.p_rad_s),
-                    self.intensity.name().into(),
+                    Intensity::Pga.name().into(),
                     sample.into(),
                     quantity.into(),
                     number(at),
@@ -180,10 +175,7 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
     }
     let grid = Grid::new(3 * figure.blocks.len(), 3).with_subtitles();
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
-    let im = match figure.intensity {
-        Intensity::Pga => "IM = PGA / (*g* tan *α*)",
-        Intensity::Pgv => "IM = *p* PGV / (*g* tan *α*)",
-    };
+    let im = format!("IM = {}", common::intensity(Intensity::Pga));
     // The same scale for all blocks: they are compared.
     let ratios = figure.blocks.iter().flat_map(|b| {
         b.original.iter().chain(&b.shifted).chain(&b.grid_critical)
@@ -218,7 +210,7 @@ fn scene(figure: &TestsAlongDemand) -> Scene {
             common::frequency(block.p_rad_s),
             common::slenderness(block.alpha_rad)
         );
-        panel.finish(&common::panel_title(first, &title), im);
+        panel.finish(&common::panel_title(first, &title), &im);
         let level = common::short(figure.edp);
         for (k, histogram, ink, words) in [
             (1, &block.original_histogram, ORIGINAL, "ln IM"),

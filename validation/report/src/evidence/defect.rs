@@ -1,5 +1,5 @@
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 use rocking_proof::engine::Core;
 use rocking_proof::scene::{
@@ -52,8 +52,11 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
         ));
         panels.push(ChartPanel {
             title: title.into(),
-            x: axis("slenderness *α* (rad)", (0.01, 0.5)),
-            y: axis("|change of the first impact speed|", (1e-6, 2.0)),
+            x: ChartAxis::logarithmic("slenderness *α* (rad)", (0.01, 0.5)),
+            y: ChartAxis::logarithmic(
+                "|change of the first impact speed|",
+                (1e-6, 2.0),
+            ),
             series,
         });
     }
@@ -81,12 +84,7 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
     )))
 }
 
-fn axis(label: &str, range: (f64, f64)) -> ChartAxis {
-    ChartAxis::new(label, Scale::Logarithmic, Some(range))
-}
-
-/// |X(alpha)/X_linear - 1| of the first impact speed over p alpha; the
-/// amplitude is over g tan alpha or g alpha in Eq. 1.
+/// |X(alpha)/X_linear - 1| of the first impact speed over p alpha.
 fn departure(
     omega: f64,
     amplitude: f64,

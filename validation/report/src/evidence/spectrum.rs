@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 use rocking_proof::edge::edge;
 use rocking_proof::engine::Core;
@@ -132,10 +132,6 @@ fn stocky_edge(x: &[f64], y: impl Iterator<Item = f64>) -> Series {
     Series::new("", Mark::Dashed, x.into(), y.collect())
 }
 
-fn axis(label: &str, scale: Scale, range: (f64, f64)) -> ChartAxis {
-    ChartAxis::new(label, scale, Some(range))
-}
-
 /// Overturning spectrum of one-sine pulses, every mode, both criteria and
 /// both equations.
 pub(super) fn chart() -> anyhow::Result<Figure> {
@@ -177,12 +173,8 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
             all.iter().map(|e| (e.omega, without(e), TOP)).collect();
         panels.push(ChartPanel {
             title: title.into(),
-            x: axis("*ω*/*p*", Scale::Logarithmic, (LOWEST, 10.0)),
-            y: axis(
-                "amplitude over threshold",
-                Scale::Logarithmic,
-                (1.0, TOP),
-            ),
+            x: ChartAxis::logarithmic("*ω*/*p*", (LOWEST, 10.0)),
+            y: ChartAxis::logarithmic("amplitude over threshold", (1.0, TOP)),
             series: vec![
                 band("after one impact (mode 1)", &with_impact),
                 band("without impact (mode 2)", &rows),
@@ -255,8 +247,8 @@ fn low_frequencies(
         .map_or((0, f64::NAN), |band| (band.0, band.1));
     let panel = ChartPanel {
         title: "low frequencies, |*θ*| > *π*/2".into(),
-        x: axis("*ω*/*p*", Scale::Linear, (LOWEST, highest)),
-        y: axis("amplitude over threshold", Scale::Linear, (1.0, 1.2)),
+        x: ChartAxis::linear("*ω*/*p*", (LOWEST, highest)),
+        y: ChartAxis::linear("amplitude over threshold", (1.0, 1.2)),
         series,
     };
     Ok((panel, lowest))

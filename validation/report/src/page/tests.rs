@@ -9,7 +9,7 @@ use rocking_draw::colour;
 use rocking_draw::figures::{BlockSketch, Figure, Heading};
 
 fn sketch(name: &str) -> Figure {
-    let heading = Heading::new(name, "made up", "of nothing", None);
+    let heading = Heading::new(name, "made up", "of nothing");
     BlockSketch { heading, alpha_rad: 0.3, rotation_rad: 0.15 }
         .figure(String::new())
 }

@@ -212,13 +212,11 @@ pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
             13,
             true,
             "Lilliefors' test along the demand, p = 3",
-            "Test statistic over its critical value along \
-                              the demand, and histograms of the logarithm \
-                              of the capacity at demand 0.50, original and \
-                              shifted; alpha = 0.05 and 0.20.",
+            "Test statistic over its critical value along the demand, and \
+             histograms of the logarithm of the capacity at demand 0.50, \
+             original and shifted; alpha = 0.05 and 0.20.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         edp,
         blocks,
     }

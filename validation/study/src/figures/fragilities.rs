@@ -11,9 +11,7 @@ use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
 use crate::results::Results;
 use rocking_common::paper::{Arm, Intensity, demand_index};
 use rocking_draw::figures::Figure;
-use rocking_draw::figures::{
-    ByConstant, ByConstantPanel, ConstantCurve, Heading,
-};
+use rocking_draw::figures::{ByConstant, ByConstantPanel, Heading};
 
 fn sample_at(
     block: &BlockSamples,
@@ -45,7 +43,7 @@ pub(super) fn constants(
                     || "undefined".into(),
                     |f| format!("{:.3}", f.kolmogorov_distance(&sample)),
                 ));
-                ConstantCurve { c: *c, curve: fitted }
+                (*c, fitted)
             })
             .collect();
         words.push(format!("{title} {}", distances.join(", ")));
@@ -65,7 +63,6 @@ pub(super) fn constants(
                               demand 0.15, PGA; untrimmed and trimmed.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         edp,
         panels,
     }

@@ -7,7 +7,7 @@ use crate::analyses::SuiteResults;
 use crate::estimates::three_quantiles;
 use crate::results::no_arm;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
@@ -55,11 +55,16 @@ pub(super) fn slendernesses(
              scale; a curve ends where its quantile is overturned.",
             None,
         ),
-        intensity: Intensity::Pga,
         panels,
         columns: arms.len(),
     }
     .figure(words))
+}
+
+/// Intensity at which the median is overturning.
+fn median_overturns(group: &QuantileGroup) -> Option<f64> {
+    let at = group.quantiles[1].iter().position(|q| q.is_infinite())?;
+    Some(group.im[at])
 }
 
 /// How far the slendernesses are apart where the median overturns.
@@ -69,10 +74,7 @@ fn spread_in_words(arms: &[Arm], by_arm: &[Vec<QuantilePanel>]) -> String {
         let spreads: Vec<String> = panels
             .iter()
             .map(|panel| {
-                let first = |g: &QuantileGroup| {
-                    let at = g.q50.iter().position(|q| q.is_infinite());
-                    at.map_or(f64::NAN, |i| g.im[i])
-                };
+                let first = |g| median_overturns(g).unwrap_or(f64::NAN);
                 let (low, high) = range(panel.groups.iter().map(first));
                 format!(
                     "{} at p = {}",
@@ -114,12 +116,10 @@ pub(super) fn adjusted(
             true,
             "16/50/84 % demand given intensity: scaled records \
                         and adjusted slenderness",
-            "Three quantile curves for each procedure, one \
-                              panel a frequency parameter; alpha = 0.10 for \
-                              the scaled records.",
+            "Three quantile curves for each procedure, one panel a frequency \
+             parameter; alpha = 0.10 for the scaled records.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         panels,
         columns: 3,
     }
@@ -171,7 +171,7 @@ pub(crate) fn group(
         .map(|im| three(curves, *im))
         .collect::<Result<_, _>>()?;
     let of = |i: usize| at.iter().map(|q| q[i]).collect();
-    Ok(QuantileGroup { label, im, q16: of(0), q50: of(1), q84: of(2) })
+    Ok(QuantileGroup { label, im, quantiles: [0, 1, 2].map(of) })
 }
 
 /// 16, 50 and 84 % quantile of the demand at an intensity; overturned
@@ -200,8 +200,8 @@ fn overturning_in_words(panels: &[QuantilePanel]) -> String {
                 .groups
                 .iter()
                 .map(|g| {
-                    let at = g.q50.iter().position(|q| q.is_infinite());
-                    at.map_or("never".into(), |i| format!("{:.2}", g.im[i]))
+                    let at = median_overturns(g);
+                    at.map_or("never".into(), |im| format!("{im:.2}"))
                 })
                 .collect();
             format!("at {} for p = {}", firsts.join(", "), panel.p_rad_s)

@@ -6,12 +6,12 @@ use crate::analyses::{StripeDemands, SuiteResults};
 use crate::inference::LEAST_DECIDING;
 use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, LEAST_USABLE, REFERENCE,
-    SLENDERNESSES_RAD, closed_form,
+    Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
+    closed_form,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
-use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe, StripeKind};
+use rocking_draw::figures::{BoxPanel, Boxplots, Heading, Stripe};
 
 /// Figure 6 (p = 1) or 7 (p = 3 and 4); none where stripes were not run.
 pub(super) fn slendernesses(
@@ -31,7 +31,6 @@ pub(super) fn slendernesses(
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
                     alpha_rad,
                     closed_form: Some(closed_form(alpha_rad)),
-                    note: String::new(),
                     stripes: boxes(stripes, *frequency, Some(slenderness))?,
                 });
             }
@@ -45,15 +44,13 @@ pub(super) fn slendernesses(
                 number,
                 true,
                 format!("Paired ratios of demands to alpha = 0.10, {p}"),
-                "Notched boxplots of the ratio of peak rotation \
-                              over slenderness to that of the block with \
-                              alpha = 0.10 under the same record, by stripe \
-                              of intensity; the share of usable ratios \
-                              stands at the right.",
+                "Notched boxplots of the ratio of peak rotation over \
+                 slenderness to that of the block with alpha = 0.10 under the \
+                 same record, by stripe of intensity; the share of usable \
+                 ratios stands at the right.",
                 Some(arm),
             ),
             ratio_label: "*r*_{α} = *θ̃*_{α} / *θ̃*_{0.10}".into(),
-            stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
             columns: 4,
         }
@@ -75,7 +72,6 @@ pub(super) fn adjusted(
                 p_rad_s,
                 alpha_rad: SLENDERNESSES_RAD[REFERENCE],
                 closed_form: None,
-                note: String::new(),
                 stripes: boxes(stripes, frequency, None)?,
             })
         })
@@ -87,14 +83,12 @@ pub(super) fn adjusted(
                 9,
                 true,
                 "Slenderness adjustment against record scaling",
-                "Notched boxplots of the ratio of demands: \
-                              unscaled record on a block of adjusted \
-                              slenderness over scaled record on the block \
-                              with alpha = 0.10, by stripe of intensity.",
+                "Notched boxplots of the ratio of demands: unscaled record on \
+                 a block of adjusted slenderness over scaled record on the \
+                 block with alpha = 0.10, by stripe of intensity.",
                 Some(arm),
             ),
             ratio_label: "*θ̃*_{adjusted} / *θ̃*_{scaled}".into(),
-            stripes: StripeKind::Intensity(Intensity::Pga),
             panels,
             columns: 3,
         }

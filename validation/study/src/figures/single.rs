@@ -3,7 +3,7 @@
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use crate::results::no_arm;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position,
 };
 use rocking_draw::figures::Figure;
 use rocking_draw::figures::{
@@ -17,19 +17,17 @@ pub(super) fn sketch() -> Figure {
             1,
             false,
             "The rocking block",
-            "A rectangular block of width 2b and height 2h, \
-                              rotated about one base corner; R is half its \
-                              diagonal and alpha the angle between diagonal \
-                              and side.",
+            "A rectangular block of width 2b and height 2h, rotated about one \
+             base corner; R is half its diagonal and alpha the angle between \
+             diagonal and side.",
             None,
         ),
         alpha_rad: 0.35,
         rotation_rad: 0.15,
     }
     .figure(
-        "A block starts to rock when the ground acceleration \
-                  exceeds g tan alpha; at theta = alpha its weight no longer \
-                  rights it."
+        "A block starts to rock when the ground acceleration exceeds g tan \
+         alpha; at theta = alpha its weight no longer rights it."
             .into(),
     )
 }
@@ -48,9 +46,7 @@ pub(super) fn histories(
                 move |(record, histories)| HistoryPanel {
                     p_rad_s,
                     record: suite.records[*record].name.clone(),
-                    intensity: Intensity::Pga,
                     im: single.im,
-                    until_s: f64::NAN,
                     curves: histories
                         .iter()
                         .zip(SLENDERNESSES_RAD)
@@ -71,9 +67,8 @@ pub(super) fn histories(
             number,
             false,
             title,
-            "Rotation over slenderness against time, five \
-                              slendernesses in each panel; rows by frequency \
-                              parameter, columns by record.",
+            "Rotation over slenderness against time, five slendernesses in \
+             each panel; rows by frequency parameter, columns by record.",
             Some(arm),
         ),
         panels,
@@ -159,13 +154,11 @@ pub(super) fn curves(
                 "IDA curves of three {} motions, five slendernesses",
                 suite.kind
             ),
-            "Peak rotation over slenderness against \
-                              dimensionless intensity up to first \
-                              overturning; rows by frequency parameter, \
-                              columns by record.",
+            "Peak rotation over slenderness against dimensionless intensity \
+             up to first overturning; rows by frequency parameter, columns by \
+             record.",
             Some(arm),
         ),
-        intensity: Intensity::Pga,
         panels,
         columns: 3,
     }

@@ -73,18 +73,35 @@ impl Rows {
         self.csv.map_or_else(String::new, Table::finish)
     }
 
-    pub fn finish(self, answer: &mut Answer, title: &str, reading: &str) {
-        answer.csv = self.csv.map_or_else(String::new, Table::finish);
-        answer.tables.push(PlainTable {
-            name: format!("table-{}", answer.id),
+    /// The answer to a question, with these rows under a title.
+    pub fn answer(
+        self,
+        id: &'static str,
+        question: &'static str,
+        answer: String,
+        title: &str,
+        reading: &str,
+    ) -> Answer {
+        let reading = format!("{answer} {reading} All rows: {id}.csv.");
+        let table = self.table(format!("table-{id}"), title, reading);
+        let (csv, tables) = (self.csv(), vec![table]);
+        Answer { csv, tables, ..Answer::new(id, question, answer) }
+    }
+
+    /// A table of the page with the rows shown.
+    pub fn table(
+        &self,
+        name: impl Into<String>,
+        title: &str,
+        reading: impl Into<String>,
+    ) -> PlainTable {
+        PlainTable {
+            name: name.into(),
             title: title.into(),
-            reading: format!(
-                "{} {reading} All rows: {}.csv.",
-                answer.answer, answer.id
-            ),
+            reading: reading.into(),
             header: self.header.iter().map(|h| h.replace('_', " ")).collect(),
-            rows: self.shown,
-        });
+            rows: self.shown.clone(),
+        }
     }
 }
 

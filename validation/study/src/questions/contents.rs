@@ -15,7 +15,7 @@ use crate::runs::overturning;
 use rocking_common::paper::SuiteKind;
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 const QUESTION: &str = "Do FEMA P-58's fragilities of bookcases and filing \
@@ -23,22 +23,6 @@ const QUESTION: &str = "Do FEMA P-58's fragilities of bookcases and filing \
 
 /// Items of one depth, with which FEMA P-58's medians are read.
 const BOOKCASES: usize = 5;
-
-/// Columns of each suite.
-const COLUMNS: [[&str; 4]; 2] = [
-    [
-        "ordinary_median_m_s",
-        "ordinary_low",
-        "ordinary_high",
-        "ordinary_dispersion",
-    ],
-    [
-        "pulse_type_median_m_s",
-        "pulse_type_low",
-        "pulse_type_high",
-        "pulse_type_dispersion",
-    ],
-];
 
 /// Median PGV in m/s at first overturning, and its dispersion: cells are
 /// items, the median first.
@@ -110,11 +94,11 @@ pub(super) fn answer(
 ) -> anyhow::Result<Answer> {
     let [ordinary, pulse] = both(results);
     let ours = [Ours::of(ordinary, draws)?, Ours::of(pulse, draws)?];
-    let mut answer = Answer::new("contents", QUESTION, words(&ours));
     let mut table = Rows::default();
     for (k, item) in items().iter().enumerate() {
         let block = item.block()?;
-        let mut cells = vec![
+        let [(a, b), (c, d)] = ours.each_ref().map(|one| one.interval_m_s(k));
+        table.row(vec![
             ("fema_p58", word(&item.id)),
             ("item", word(&item.item)),
             ("depth_m", number(item.depth_m(), 3)),
@@ -123,20 +107,20 @@ pub(super) fn answer(
             ("p_rad_s", number(block.frequency_rad_s(), 2)),
             ("fema_median_m_s", number(item.median_m_s, 3)),
             ("fema_dispersion", number(item.dispersion, 1)),
-        ];
-        for (one, names) in ours.iter().zip(COLUMNS) {
-            let (low, high) = one.interval_m_s(k);
-            cells.extend([
-                (names[0], number(one.median_m_s(k), 3)),
-                (names[1], number(low, 3)),
-                (names[2], number(high, 3)),
-                (names[3], number(one.dispersion(k), 2)),
-            ]);
-        }
-        table.row(cells);
+            ("ordinary_median_m_s", number(ours[0].median_m_s(k), 3)),
+            ("ordinary_low", number(a, 3)),
+            ("ordinary_high", number(b, 3)),
+            ("ordinary_dispersion", number(ours[0].dispersion(k), 2)),
+            ("pulse_type_median_m_s", number(ours[1].median_m_s(k), 3)),
+            ("pulse_type_low", number(c, 3)),
+            ("pulse_type_high", number(d, 3)),
+            ("pulse_type_dispersion", number(ours[1].dispersion(k), 2)),
+        ]);
     }
-    table.finish(
-        &mut answer,
+    let answer = table.answer(
+        "contents",
+        QUESTION,
+        words(&ours),
         "Overturning of contents: FEMA P-58 and blocks of the same size",
         "A comparison of practice, no validation. FEMA P-58's demand is the \
          peak velocity of the floor, ours that of the ground motion; shelves \
@@ -146,8 +130,7 @@ pub(super) fn answer(
          lognormals of PGV at first overturning; intervals are the central \
          95 % of 2000 draws of the records.",
     );
-    answer.figures.push(figure(&ours));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&ours)], ..answer })
 }
 
 fn words(ours: &[Ours; 2]) -> String {
@@ -230,8 +213,7 @@ fn figure(ours: &[Ours; 2]) -> Figure {
         }
         ChartPanel { title: title.into(), x: x.0, y: y.0, series }
     };
-    let axis =
-        |label: &str, ends| ChartAxis::new(label, Scale::Linear, Some(ends));
+    let axis = |label: &str, ends: (f64, f64)| ChartAxis::linear(label, ends);
     let scaled = "median *PGV* / (*g* depth/height) (s)";
     let panels = vec![
         panel(
@@ -254,7 +236,6 @@ fn figure(ours: &[Ours; 2]) -> Figure {
          the same over g depth/height against half the diagonal of nine \
          items: FEMA P-58's fragilities and blocks of their sizes under both \
          suites.",
-        None,
     );
     Chart { heading, panels, columns: 2 }.figure(
         "Bars are 95 % intervals from resampled records. On the right FEMA \

@@ -104,21 +104,17 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             ));
         }
     }
-    let mut answer = Answer::new(
+    Ok(table.answer(
         "equivalence",
-        "What does an equivalence test say where the paper says \"conforms \
-         to 1.0 with 95 % confidence\"?",
+        "What does an equivalence test say where the paper says \"conforms to \
+         1.0 with 95 % confidence\"?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Equality and equivalence of paired ratios",
         "A notch or interval that covers 1 fails to show a difference, and \
          the fewer records the easier; equivalence is shown by two \
          one-sided tests at 5 %, of the median (sign tests) and of the mean \
          of the logarithm (t tests). Cells with at least 10 usable ratios.",
-    );
-    Ok(answer)
+    ))
 }
 
 fn cells(
@@ -204,13 +200,10 @@ impl Compared {
                 for slenderness in others {
                     let own = of(slenderness)?;
                     for k in 0..DEMANDS.len() {
-                        let column = |all: &[Vec<f64>]| -> Vec<f64> {
-                            all.iter().map(|row| row[k]).collect()
-                        };
-                        out.push(Pairs::try_new(
-                            &column(&own),
-                            &column(&reference),
-                        )?);
+                        let [a, b] = [&own, &reference].map(|all| {
+                            all.iter().map(|row| row[k]).collect::<Vec<_>>()
+                        });
+                        out.push(Pairs::try_new(&a, &b)?);
                     }
                 }
             }

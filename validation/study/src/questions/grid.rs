@@ -13,7 +13,7 @@ use rocking_common::paper::{
 };
 use rocking_common::words::{capital, percent};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// One block of a suite.
@@ -45,17 +45,12 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         for (i, row) in rows.iter().enumerate() {
             let share = |x: f64| number(x, 3);
             let slenderness = i % SLENDERNESSES_RAD.len();
+            let p = FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()];
             table.row_if(
                 slenderness == 0 || suite.kind == results.ordinary.kind,
                 vec![
                     ("suite", word(suite.kind.name())),
-                    (
-                        "p_rad_s",
-                        number(
-                            FREQUENCIES_RAD_S[i / SLENDERNESSES_RAD.len()],
-                            0,
-                        ),
-                    ),
+                    ("p_rad_s", number(p, 0)),
                     ("alpha_rad", number(SLENDERNESSES_RAD[slenderness], 2)),
                     ("rejected_a", share(row.rejected[0])),
                     ("rejected_b", share(row.rejected[1])),
@@ -76,12 +71,10 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             .enumerate()
             .map(|(frequency, p)| {
                 let row = &rows[position(frequency, 0)];
+                let [a, b, c] = row.rejected.map(|share| percent(share, 0));
                 format!(
-                    "{} in A, {} in B and {} in C at p = {p} ({} by the \
+                    "{a} in A, {b} in B and {c} in C at p = {p} ({} by the \
                      grid alone, {} distinct values of {})",
-                    percent(row.rejected[0], 0),
-                    percent(row.rejected[1], 0),
-                    percent(row.rejected[2], 0),
                     percent(row.grid_alone, 0),
                     row.distinct[0],
                     suite.records.len(),
@@ -95,13 +88,10 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         ));
         by_suite.push((suite.kind.name(), rows));
     }
-    let mut answer = Answer::new(
+    let answer = table.answer(
         "grid",
         "How much of the rejections at alpha = 0.05 is the grid of 0.01 g?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "The grid of 0.01 g and the test",
         "Arm A is the paper's grid, B bisects the first overturning, C uses \
          the same dimensionless steps for every slenderness; by the grid \
@@ -110,8 +100,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
          overturning: the interval likelihood of the grid's brackets is the \
          alternative to bisecting them.",
     );
-    answer.figures.push(figure(&by_suite));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&by_suite)], ..answer })
 }
 
 fn rows(results: &Results, kind: SuiteKind) -> anyhow::Result<Vec<Row>> {
@@ -158,13 +147,9 @@ fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
 /// The same of first overturnings that are known by their brackets: above
 /// the last level that stood, up to the first that did not.
 fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
-    let known: Vec<(f64, f64)> = curves
-        .iter()
-        .map(|curve| {
-            let high = curve.overturning_im().unwrap_or(f64::INFINITY);
-            (curve.last_im(), high)
-        })
-        .collect();
+    let high = |c: &ResponseCurve| c.overturning_im().unwrap_or(f64::INFINITY);
+    let known = curves.iter().map(|c| (c.last_im(), high(c)));
+    let known: Vec<(f64, f64)> = known.collect();
     let once = vec![1; known.len()];
     of_intervals(&known, &once, shift).map(|f| f.dispersion())
 }
@@ -195,11 +180,9 @@ fn figure(suites: &[(&str, Vec<Row>)]) -> Figure {
         heading: Heading::new(
             "figure-grid",
             "Rejections and the grid of 0.01 g",
-            "Share of demand levels at which the shifted \
-                              sample is rejected, by slenderness, in three \
-                              arms of the grid; ordinary and pulse-type \
-                              records, PGA.",
-            None,
+            "Share of demand levels at which the shifted sample is rejected, \
+             by slenderness, in three arms of the grid; ordinary and \
+             pulse-type records, PGA.",
         ),
         panels,
         columns: 3,
@@ -235,12 +218,7 @@ fn panel(title: String, rows: &[Row]) -> ChartPanel {
         .collect();
     let words = "the grid alone, at overturning";
     series.push(line(words, Mark::Dashed, &|r| r.grid_alone));
-    let axis =
-        |label: &str, range| ChartAxis::new(label, Scale::Linear, Some(range));
-    ChartPanel {
-        title,
-        x: axis("*α* (rad)", (0.03, 0.27)),
-        y: axis("rejected levels (%)", (0.0, 100.0)),
-        series,
-    }
+    let x = ChartAxis::linear("*α* (rad)", (0.03, 0.27));
+    let y = ChartAxis::linear("rejected levels (%)", (0.0, 100.0));
+    ChartPanel { title, x, y, series }
 }

@@ -68,20 +68,16 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             100.0 * several as f64 / all as f64,
         ));
     }
-    let mut answer = Answer::new(
+    Ok(table.answer(
         "inversion",
         "How biased is the inversion by the median point along the vertical?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Bias of the inversion",
         "Relative difference of the mean capacity to that of the monotone \
          inversion c1 - c2 + c3 - .., which averages to the area above the \
          stripe fragility; over five slendernesses, curves that reach the \
          level. Gap: largest difference of fragilities, a block.",
-    );
-    Ok(answer)
+    ))
 }
 
 #[derive(Default)]

@@ -6,176 +6,147 @@ use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 use rocking::statistics::multiple::{benjamini_hochberg, holm};
 use rocking::statistics::normality::Battery;
 
-use super::answer::{Answer, Cell, Rows, both, count, number, word};
+use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::estimates::mean;
 use crate::normality::{
     BAND_STRIDE, LEVEL, accepted_share, ends, every, over_critical,
 };
 use crate::results::Results;
-use crate::results::no_arm;
-use rocking_common::paper::Intensity;
+use rocking_common::paper::SuiteKind;
 use rocking_common::words::capital;
 
 /// Replicates behind the critical values of the other tests.
 const REPLICATES: u64 = 20_000;
 
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
-    let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
-    for suite in both(results) {
-        let size = suite.records.len();
-        let battery = Battery::simulate(size, REPLICATES, 0).ok();
-        for intensity in [Intensity::Pga, Intensity::Pgv] {
-            let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or_else(no_arm)?;
-            let mut low = [0_usize; 2];
-            let mut others = [Vec::new(), Vec::new(), Vec::new(), Vec::new()];
-            for block in &found.blocks {
-                for (shifted, tests) in
-                    [&block.original, &block.shifted].into_iter().enumerate()
-                {
-                    let row = Row::new(
-                        tests,
-                        block.bands[shifted].as_ref(),
-                        &battery,
-                    );
-                    low[shifted] += usize::from(row.p_of_share < LEVEL);
-                    if shifted == 1 {
-                        others[0].push(row.share);
-                        for (k, share) in row.others.iter().enumerate() {
-                            others[k + 1].push(*share);
-                        }
-                    }
-                    let kind = ["original", "shifted"][shifted];
-                    let mut cells = vec![
-                        ("suite", word(suite.kind.name())),
-                        ("im_kind", word(intensity.name())),
-                        ("sample", word(kind)),
-                        ("p_rad_s", number(block.p_rad_s, 0)),
-                        ("alpha_rad", number(block.alpha_rad, 2)),
-                    ];
-                    cells.extend(row.cells());
-                    table.row_if(shifted == 1, cells);
+    let batteries = SuiteKind::BOTH.map(|kind| {
+        let size = results.suite(kind).records.len();
+        (kind, Battery::simulate(size, REPLICATES, 0).ok())
+    });
+    for (suite, found) in results.common() {
+        let battery = batteries.iter().find(|b| b.0 == suite.kind);
+        let battery = battery.and_then(|b| b.1.as_ref());
+        let intensity = found.intensity;
+        let mut low = [0_usize; 2];
+        let mut shares: [Vec<f64>; 4] = Default::default();
+        for block in &found.blocks {
+            for (shifted, tests) in
+                [&block.original, &block.shifted].into_iter().enumerate()
+            {
+                let row =
+                    Row::new(tests, block.bands[shifted].as_ref(), battery);
+                low[shifted] += usize::from(row.p_of_share < LEVEL);
+                if shifted == 1 {
+                    shares
+                        .iter_mut()
+                        .zip(row.shares)
+                        .for_each(|(all, x)| all.push(x));
                 }
+                let kind = ["original", "shifted"][shifted];
+                let mut cells = vec![
+                    ("suite", word(suite.kind.name())),
+                    ("im", word(intensity.name())),
+                    ("sample", word(kind)),
+                    ("p_rad_s", number(block.p_rad_s, 0)),
+                    ("alpha_rad", number(block.alpha_rad, 2)),
+                ];
+                cells.extend(row.cells);
+                table.row_if(shifted == 1, cells);
             }
-            let [d, a, w, s] = others.map(|o| mean(o.iter().copied()));
-            words.push(format!(
-                "{}, {}: the accepted share is lower than lognormal \
-                 capacities with the same dependence between levels allow \
-                 (p < 0.05) for {} of {} original and {} shifted samples; \
-                 mean accepted share of the shifted ones {d:.2} by \
-                 Lilliefors, {a:.2} by Anderson-Darling, {w:.2} by Cramer-von \
-                 Mises, {s:.2} by Shapiro-Wilk.",
-                capital(suite.kind.name()),
-                intensity.name().to_uppercase(),
-                low[0],
-                found.blocks.len(),
-                low[1],
-            ));
         }
+        let [d, a, w, s] = shares.map(mean);
+        words.push(format!(
+            "{}, {}: the accepted share is lower than lognormal \
+             capacities with the same dependence between levels allow \
+             (p < 0.05) for {} of {} original and {} shifted samples; \
+             mean accepted share of the shifted ones {d:.2} by \
+             Lilliefors, {a:.2} by Anderson-Darling, {w:.2} by Cramer-von \
+             Mises, {s:.2} by Shapiro-Wilk.",
+            capital(suite.kind.name()),
+            intensity.name().to_uppercase(),
+            low[0],
+            found.blocks.len(),
+            low[1],
+        ));
     }
-    let mut answer = Answer::new(
+    Ok(table.answer(
         "levels",
         "What does an accepted share of levels that share records mean?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Accepted shares, their null bands and adjusted counts",
         "Band: central 95 % of the Gaussian-score bootstrap; effective \
          levels: (sum of eigenvalues)^2 over the sum of their squares, of \
          the correlation between levels; Holm and Benjamini-Hochberg at \
          5 % over 200 levels; the other tests at 5 % by simulation.",
-    );
-    Ok(answer)
+    ))
 }
 
+/// One sample of a block: its cells, the p-value of its accepted share, and
+/// that share by Lilliefors' test and by the others.
 struct Row {
-    share: f64,
-    band: (f64, f64),
+    cells: Vec<(&'static str, Cell)>,
     p_of_share: f64,
-    p_of_mean: f64,
-    effective: f64,
-    rejected: [usize; 3],
-    ties: usize,
-    by_step: [f64; 4],
-    others: [f64; 3],
+    shares: [f64; 4],
 }
 
 impl Row {
     fn new(
         tests: &[Assessment],
         band: Option<&NullBand>,
-        battery: &Option<Battery>,
+        battery: Option<&Battery>,
     ) -> Self {
-        let share = accepted_share(tests);
+        let accepted = accepted_share(tests);
         let stands: Vec<Assessment> =
             every(tests, BAND_STRIDE).cloned().collect();
         let observed = accepted_share(&stands);
-        let ratios: Vec<f64> = stands.iter().map(over_critical).collect();
+        let ratios = mean(stands.iter().map(over_critical));
         let p_values: Vec<f64> =
             tests.iter().filter_map(|t| Some(t.p_value?.value)).collect();
         let below = |adjusted: Vec<f64>| {
-            adjusted.iter().filter(|p| **p <= LEVEL).count()
+            count(adjusted.iter().filter(|p| **p <= LEVEL).count())
         };
         let counts = AcceptedShare::of(tests);
         let tied = |t: &&Assessment| {
             matches!(t.verdict, Err(Inapplicable::Ties { .. }))
         };
+        let share = |x: f64| number(x, 3);
         let with_step = |stride: usize| {
             let kept: Vec<Assessment> =
                 every(tests, stride).cloned().collect();
-            accepted_share(&kept)
+            share(accepted_share(&kept))
         };
-        let limits = band.and_then(ends);
-        Self {
-            share,
-            band: limits.unwrap_or((f64::NAN, f64::NAN)),
-            p_of_share: band.map_or(f64::NAN, |b| b.p_value(observed)),
-            p_of_mean: band.map_or(f64::NAN, |b| {
-                b.p_value_of_mean_ratio(mean(ratios.iter().copied()))
-            }),
-            effective: band.map_or(f64::NAN, |b| b.effective_levels),
-            rejected: [
-                counts.tested - counts.accepted,
-                below(holm(&p_values)),
+        let of_band =
+            |of: &dyn Fn(&NullBand) -> f64| band.map_or(f64::NAN, of);
+        let (low, high) = band.and_then(ends).unwrap_or((f64::NAN, f64::NAN));
+        let p_of_share = of_band(&|b| b.p_value(observed));
+        let p_of_mean = of_band(&|b| b.p_value_of_mean_ratio(ratios));
+        let effective = of_band(&|b| b.effective_levels);
+        let [a, w, s] = battery.map_or([f64::NAN; 3], |b| others(tests, b));
+        let cells = vec![
+            ("accepted_share", share(accepted)),
+            ("band_low", share(low)),
+            ("band_high", share(high)),
+            ("p_of_share", share(p_of_share)),
+            ("p_of_mean_d", share(p_of_mean)),
+            ("effective_levels", number(effective, 1)),
+            ("rejected_plain", count(counts.tested - counts.accepted)),
+            ("rejected_holm", below(holm(&p_values))),
+            (
+                "rejected_benjamini_hochberg",
                 below(benjamini_hochberg(&p_values)),
-            ],
-            ties: tests.iter().filter(tied).count(),
-            by_step: [
-                with_step(2),
-                with_step(4),
-                with_step(10),
-                accepted_share(&tests[19..]),
-            ],
-            others: battery
-                .as_ref()
-                .map_or([f64::NAN; 3], |battery| others(tests, battery)),
-        }
-    }
-
-    fn cells(&self) -> Vec<(&'static str, Cell)> {
-        let share = |x: f64| number(x, 3);
-        vec![
-            ("accepted_share", share(self.share)),
-            ("band_low", share(self.band.0)),
-            ("band_high", share(self.band.1)),
-            ("p_of_share", share(self.p_of_share)),
-            ("p_of_mean_d", share(self.p_of_mean)),
-            ("effective_levels", number(self.effective, 1)),
-            ("rejected_plain", count(self.rejected[0])),
-            ("rejected_holm", count(self.rejected[1])),
-            ("rejected_benjamini_hochberg", count(self.rejected[2])),
-            ("ties_decide", count(self.ties)),
-            ("share_step_0.01", share(self.by_step[0])),
-            ("share_step_0.02", share(self.by_step[1])),
-            ("share_step_0.05", share(self.by_step[2])),
-            ("share_from_0.1", share(self.by_step[3])),
-            ("accepted_anderson_darling", share(self.others[0])),
-            ("accepted_cramer_von_mises", share(self.others[1])),
-            ("accepted_shapiro_wilk", share(self.others[2])),
-        ]
+            ),
+            ("ties_decide", count(tests.iter().filter(tied).count())),
+            ("share_step_0.01", with_step(2)),
+            ("share_step_0.02", with_step(4)),
+            ("share_step_0.05", with_step(10)),
+            ("share_from_0.1", share(accepted_share(&tests[19..]))),
+            ("accepted_anderson_darling", share(a)),
+            ("accepted_cramer_von_mises", share(w)),
+            ("accepted_shapiro_wilk", share(s)),
+        ];
+        Self { cells, p_of_share, shares: [accepted, a, w, s] }
     }
 }
 

@@ -16,7 +16,7 @@ use rocking_common::paper::{
 };
 use rocking_common::words::capital;
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 const QUESTION: &str =
@@ -54,12 +54,6 @@ const COUNT: usize = SPECTRAL.end;
 
 /// The name of a measure, its periods over p.
 fn name(place: usize) -> String {
-    if SPECTRAL.contains(&place) {
-        return format!(
-            "SA, T = {:.1}/p",
-            OWN_PERIODS[place - SPECTRAL.start]
-        );
-    }
     let names = [
         "PGA",
         "PGV",
@@ -68,16 +62,15 @@ fn name(place: usize) -> String {
         "CAV",
         "PGV D5-75^(1/4)",
     ];
-    names.get(place).map_or_else(
-        || {
-            let (first, last) = (AVERAGED.start, AVERAGED.end - 1);
-            format!(
-                "average SA, T = {:.1}/p to {:.1}/p",
-                OWN_PERIODS[first], OWN_PERIODS[last]
-            )
-        },
-        |name| (*name).to_owned(),
-    )
+    let at = |k: usize| format!("{:.1}/p", OWN_PERIODS[k]);
+    let (first, last) = (AVERAGED.start, AVERAGED.end - 1);
+    match names.get(place) {
+        Some(name) => (*name).to_owned(),
+        None if place == AVERAGE => {
+            format!("average SA, T = {} to {}", at(first), at(last))
+        }
+        None => format!("SA, T = {}", at(place - SPECTRAL.start)),
+    }
 }
 
 /// Values over the PGA of each of [`measures`] for a record.
@@ -199,13 +192,14 @@ pub(super) fn answer(
         .into_iter()
         .collect::<Result<Vec<_>, _>>()?;
     let words: Vec<String> = found.iter().map(|f| words(f, draws)).collect();
-    let mut answer = Answer::new("measures", QUESTION, words.join(" "));
     let mut table = Rows::default();
     for one in &found {
         rows(one, &mut table);
     }
-    table.finish(
-        &mut answer,
+    let answer = table.answer(
+        "measures",
+        QUESTION,
+        words.join(" "),
         "Dispersion of the overturning intensity by intensity measure",
         "Dispersion is that of the lognormal of most likelihood, unshifted; a \
          record that never overturned counts as censored. SA has 5 % damping. \
@@ -215,8 +209,7 @@ pub(super) fn answer(
          Shown: alpha = 0.15, and of the single periods the one of least \
          dispersion.",
     );
-    answer.figures.push(figure(&found));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&found)], ..answer })
 }
 
 fn words(found: &Dispersions, draws: &Draws) -> String {
@@ -316,28 +309,21 @@ fn figure(found: &[Dispersions]) -> Figure {
             };
             let averaged =
                 (OWN_PERIODS[AVERAGED.start], OWN_PERIODS[AVERAGED.end - 1]);
+            let bars = SPECTRAL.map(|k| intervals[at(k)].unwrap_or(NONE));
             panels.push(ChartPanel {
                 title: format!("{}, *p* = {p} rad/s", one.suite),
-                x: ChartAxis::new("*p T*", Scale::Logarithmic, Some(ends)),
-                y: ChartAxis::new(
-                    "dispersion",
-                    Scale::Linear,
-                    Some((0.0, 1.2)),
-                ),
+                x: ChartAxis::logarithmic("*p T*", ends),
+                y: ChartAxis::linear("dispersion", (0.0, 1.2)),
                 series: vec![
                     flat(PGA, "*PGA*", Mark::Dashed, ends),
                     flat(PGV, "*PGV*", Mark::Line, ends),
-                    Series {
-                        label: "*SA*(*T*), with its 95 % interval".into(),
-                        mark: Mark::LineAndPoints,
-                        x: OWN_PERIODS.to_vec(),
-                        y: SPECTRAL
-                            .map(|k| one.measured.point(at(k)))
-                            .collect(),
-                        interval: SPECTRAL
-                            .map(|k| intervals[at(k)].unwrap_or(NONE))
-                            .collect(),
-                    },
+                    Series::new(
+                        "*SA*(*T*), with its 95 % interval",
+                        Mark::LineAndPoints,
+                        OWN_PERIODS.to_vec(),
+                        SPECTRAL.map(|k| one.measured.point(at(k))).collect(),
+                    )
+                    .with(bars.collect()),
                     flat(
                         AVERAGE,
                         "average *SA*, as long as its periods",
@@ -355,7 +341,6 @@ fn figure(found: &[Dispersions]) -> Figure {
          against period times p, with those of PGA, PGV and an average \
          spectral acceleration as lines; alpha = 0.15; ordinary and \
          pulse-type suites, p = 1, 3 and 4 rad/s.",
-        None,
     );
     let least: Vec<String> = found
         .iter()

@@ -2,16 +2,18 @@
 
 use rocking::statistics::lilliefors::{ShiftedNull, Table};
 
-use super::answer::{Answer, Rows, both, count, number, word};
+use super::answer::{Answer, Rows, count, number, word};
 use crate::analyses::SuiteResults;
 use crate::distributions::{BlockSamples, factors};
 use crate::estimates::median;
 use crate::normality::{LEVEL, over_critical};
-use crate::results::{Results, no_arm};
-use rocking_common::paper::{Arm, Intensity, demand_index, demands};
+use crate::results::Results;
+use rocking_common::paper::{
+    Arm, FREQUENCIES_RAD_S, Intensity, demand_index, demands,
+};
 use rocking_common::words::{capital, range};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// Demands at which the null is simulated; between them the ratio of the
@@ -40,9 +42,8 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let mut table = Rows::default();
     let mut words = Vec::new();
     let mut drawn = Vec::new();
-    for suite in both(results) {
-        let found = results.distributions(suite.kind, arm, Intensity::Pgv);
-        let found = found.ok_or_else(no_arm)?;
+    let all = results.common();
+    for (suite, found) in all.filter(|(_, d)| d.intensity == Intensity::Pgv) {
         let mut changes = Vec::new();
         let mut all_ratios = Vec::new();
         for block in &found.blocks {
@@ -50,6 +51,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             let finite: Vec<f64> =
                 row.ratios.iter().copied().filter(|x| x.is_finite()).collect();
             let (least, most) = range(finite.iter().copied());
+            let middle = median(&finite).value;
             let without = PLACES.len() - finite.len();
             table.row(vec![
                 ("suite", word(suite.kind.name())),
@@ -58,21 +60,13 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
                 ("accepted_shift_as_given", number(row.given, 3)),
                 ("accepted_shift_estimated_anew", number(row.anew, 3)),
                 ("critical_value_ratio_least", number(least, 3)),
-                (
-                    "critical_value_ratio_median",
-                    number(median(&finite).value, 3),
-                ),
+                ("critical_value_ratio_median", number(middle, 3)),
                 ("critical_value_ratio_largest", number(most, 3)),
                 ("places_without_a_null", count(without)),
                 ("largest_share_drawn_again", number(row.redrawn, 3)),
             ]);
             changes.push(row.anew - row.given);
-            drawn.push((
-                suite.kind.name(),
-                block.p_rad_s,
-                block.alpha_rad,
-                row,
-            ));
+            drawn.push((suite.kind.name(), block.p_rad_s, row));
             all_ratios.extend(finite);
         }
         let (least, most) = range(changes.iter().copied());
@@ -86,21 +80,17 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             median(&changes).value,
         ));
     }
-    let mut answer = Answer::new(
+    let answer = table.answer(
         "null",
         "What does the calibrated null do to Figure 14, where the shift is \
          the suite's own lowest PGV of uplift?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Figure 14 under the null of an estimated shift",
         "Shifted PGV; the null draws onset and capacity jointly and takes \
          the lowest onset of the draw as its shift. A level without a null \
          counts as not tested.",
     );
-    answer.figures.push(figure(&drawn, arm));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&drawn, arm)], ..answer })
 }
 
 fn of_block(
@@ -154,46 +144,34 @@ fn between(values: &[f64], edp: f64) -> f64 {
     }
 }
 
-fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
+fn figure(rows: &[(&'static str, f64, Row)], arm: Arm) -> Figure {
     // One scale for both suites, in whole per cent.
     let ratios = rows.iter().flat_map(|(.., row)| row.ratios.iter().copied());
     let (low, high) = range(ratios);
-    let ends = (low < high).then(|| {
-        ((100.0 * low).floor() / 100.0, (100.0 * high).ceil() / 100.0)
-    });
+    let ends = ((100.0 * low).floor() / 100.0, (100.0 * high).ceil() / 100.0);
+    let ends = (low < high).then_some(ends);
     let panel = |kind: &str| {
-        let series = [1.0, 3.0, 4.0]
+        let series = FREQUENCIES_RAD_S
             .iter()
             .map(|p| {
                 let at = |k: usize| {
                     let own: Vec<f64> = rows
                         .iter()
-                        .filter(|(suite, q, _, _)| *suite == kind && q == p)
+                        .filter(|(suite, q, _)| *suite == kind && q == p)
                         .map(|(.., row)| row.ratios[k])
                         .filter(|x| x.is_finite())
                         .collect();
-                    let (low, high) = range(own.iter().copied());
-                    (median(&own).value, (low, high))
+                    (median(&own).value, range(own.into_iter()))
                 };
-                let all: Vec<(f64, (f64, f64))> =
-                    (0..PLACES.len()).map(at).collect();
-                Series {
-                    label: format!("*p* = {p} rad/s"),
-                    mark: Mark::Line,
-                    x: PLACES.to_vec(),
-                    y: all.iter().map(|a| a.0).collect(),
-                    interval: all.iter().map(|a| a.1).collect(),
-                }
+                let (y, ends) = (0..PLACES.len()).map(at).unzip();
+                let label = format!("*p* = {p} rad/s");
+                Series::new(label, Mark::Line, PLACES.to_vec(), y).with(ends)
             })
             .collect();
         ChartPanel {
             title: format!("{kind} records"),
-            x: ChartAxis::new("*θ̃*", Scale::Linear, Some((0.0, 1.0))),
-            y: ChartAxis::new(
-                "critical value over the table's",
-                Scale::Linear,
-                ends,
-            ),
+            x: ChartAxis::linear("*θ̃*", (0.0, 1.0)),
+            y: ChartAxis::linear("critical value over the table's", ends),
             series,
         }
     };
@@ -201,12 +179,11 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
         heading: Heading::new(
             "figure-null",
             "Critical values with the shift estimated anew",
-            "Critical value of Lilliefors' test at 5 % \
-                              with the shift estimated in every draw, over \
-                              the tabulated one, along the demand; shifted \
-                              PGV, ordinary and pulse-type records.",
-            Some(arm),
-        ),
+            "Critical value of Lilliefors' test at 5 % with the shift \
+             estimated in every draw, over the tabulated one, along the \
+             demand; shifted PGV, ordinary and pulse-type records.",
+        )
+        .of(arm),
         panels: vec![panel("ordinary"), panel("pulse-type")],
         columns: 2,
     }
@@ -214,7 +191,7 @@ fn figure(rows: &[(&'static str, f64, f64, Row)], arm: Arm) -> Figure {
 }
 
 /// Largest departure of a critical value from the table's, in a sentence.
-fn words(rows: &[(&'static str, f64, f64, Row)]) -> String {
+fn words(rows: &[(&'static str, f64, Row)]) -> String {
     let ratios = rows.iter().flat_map(|(.., row)| row.ratios.iter());
     let (low, high) = range(ratios.map(|x| 100.0 * (x - 1.0)));
     format!(

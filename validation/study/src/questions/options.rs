@@ -15,11 +15,11 @@ use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 
-use super::answer::{Answer, Rows, count, number, word};
+use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::distributions::BlockSamples;
 use crate::estimates::median;
 use crate::fits::{BLOCK, THRESHOLDS};
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use rocking_common::paper::{
     FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
 };
@@ -56,10 +56,9 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
     let draws: Vec<Vec<usize>> =
         Bootstrap::new("study/options", 0, n, replicates).map(<[_]>::to_vec);
     let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
-    for intensity in [Intensity::Pga, Intensity::Pgv] {
-        let found = results.distributions(kind, arm, intensity);
-        for block in &found.ok_or_else(no_arm)?.blocks {
-            cells.extend(THRESHOLDS.map(|edp| (intensity, block, edp)));
+    for (_, found) in results.common().filter(|(_, d)| d.kind == kind) {
+        for block in &found.blocks {
+            cells.extend(THRESHOLDS.map(|e| (found.intensity, block, e)));
         }
     }
     let entries: Vec<Entry> = cells
@@ -74,26 +73,15 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
         .flatten()
         .collect();
     let summaries = summaries(&entries);
-    let mut answer = Answer::new(
-        "options",
-        "Which of the paper's three options gives the best fragility?",
-        words(&summaries),
-    );
     let mut table = Rows::default();
     for s in &summaries {
-        let parameters = s.recipe.parameters();
         table.row_if(
             s.recipe.option() != 3 || shown_constant(&s.recipe),
             vec![
                 ("option", count(usize::from(s.recipe.option()))),
                 ("recipe", word(s.recipe.to_string())),
-                (
-                    "numbers_reported",
-                    word(
-                        parameters.map_or("sample".into(), |n| n.to_string()),
-                    ),
-                ),
-                ("im_kind", word(s.intensity.name())),
+                ("numbers_reported", reported(&s.recipe)),
+                ("im", word(s.intensity.name())),
                 ("defined_share", number(s.defined, 3)),
                 ("median_ks", number(s.ks, 4)),
                 ("largest_ks", number(s.largest, 4)),
@@ -101,8 +89,10 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
             ],
         );
     }
-    table.finish(
-        &mut answer,
+    let mut answer = table.answer(
+        "options",
+        "Which of the paper's three options gives the best fragility?",
+        words(&summaries),
         "Options 1, 2 and 3",
         &format!(
             "Over 15 blocks and demands 0.15, 0.35 and 1.00, ordinary \
@@ -110,8 +100,7 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
              fragility; option 0 is the unshifted lognormal that FEMA P-58 \
              takes. Every block with {replicates} bootstrap draws of the \
              records: options-by-block.csv (intervals of the area for the \
-             paper's block alone, or with --full); for PACT: \
-             options-pact.csv."
+             paper's block alone, or with --full); for PACT: options-pact.csv."
         ),
     );
     answer.files = vec![
@@ -120,6 +109,11 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
     ];
     answer.figures.push(drawing::figure(&summaries, arm));
     Ok(answer)
+}
+
+fn reported(recipe: &Recipe) -> Cell {
+    let parameters = recipe.parameters().map(|n| n.to_string());
+    word(parameters.unwrap_or_else(|| "sample".into()))
 }
 
 fn shown_constant(recipe: &Recipe) -> bool {
@@ -220,26 +214,21 @@ fn words(summaries: &[Summary]) -> String {
             .iter()
             .find(|s| s.recipe == recipe && s.intensity == intensity);
         found.map_or_else(String::new, |s| {
-            let undefined = if s.defined < 1.0 {
-                format!(", undefined for {:.0} %", 100.0 * (1.0 - s.defined))
-            } else {
-                String::new()
-            };
-            format!("{:.3}{undefined}", s.ks)
+            let lost = 100.0 * (1.0 - s.defined);
+            match s.defined < 1.0 {
+                true => format!("{:.3}, undefined for {lost:.0} %", s.ks),
+                false => format!("{:.3}", s.ks),
+            }
         })
     };
-    let seven = |method, c| Recipe::Transformed {
-        method,
-        centre: Centre::FittedMedian,
-        c,
-    };
+    let centre = Centre::FittedMedian;
+    let seven = |method, c| Recipe::Transformed { method, centre, c };
     [Intensity::Pga, Intensity::Pgv]
         .map(|im| {
             format!(
-                "{}, median distance to the empirical fragility: Option 1 \
-                 {}, Option 2 {}, Option 3 trimmed {} (c = 1) and {} (c = \
-                 0.25), untrimmed {} (c = 1) and {} (c = 0.25), unshifted \
-                 {}.",
+                "{}, median distance to the empirical fragility: Option 1 {}, \
+                 Option 2 {}, Option 3 trimmed {} (c = 1) and {} (c = 0.25), \
+                 untrimmed {} (c = 1) and {} (c = 0.25), unshifted {}.",
                 im.name().to_uppercase(),
                 of(Recipe::Shifted(MLE), im),
                 of(Recipe::Quantiles(QuantileType::default()), im),
@@ -258,34 +247,25 @@ fn by_block(entries: &[Entry]) -> String {
     let mut table = Rows::default();
     for e in entries {
         let fragility = e.fragility.as_ref();
-        let of = |f: fn(&Lognormal) -> f64| {
-            fragility.map_or_else(|_| String::new(), |x| short(f(x)))
-        };
+        let of = |f: fn(&Lognormal) -> f64| six(fragility.map_or(f64::NAN, f));
         table.row(vec![
-            ("im_kind", word(e.intensity.name())),
+            ("im", word(e.intensity.name())),
             ("p_rad_s", number(e.p_rad_s, 0)),
             ("alpha_rad", number(e.alpha_rad, 0)),
             ("edp", number(e.edp, 0)),
-            ("im_r", word(short(e.shift))),
+            ("im_r", six(e.shift)),
             ("option", word(e.recipe.option().to_string())),
             ("recipe", word(e.recipe.to_string())),
-            (
-                "numbers_reported",
-                word(
-                    e.recipe
-                        .parameters()
-                        .map_or_else(|| "sample".into(), |n| n.to_string()),
-                ),
-            ),
-            ("ln_median", word(of(Lognormal::log_mean))),
-            ("dispersion", word(of(Lognormal::dispersion))),
-            ("shift", word(of(Lognormal::shift))),
-            ("ks_distance", word(short(e.ks))),
-            ("ks_low", word(short(e.ks_interval.0))),
-            ("ks_high", word(short(e.ks_interval.1))),
-            ("area_distance", word(short(e.area))),
-            ("area_low", word(short(e.area_interval.0))),
-            ("area_high", word(short(e.area_interval.1))),
+            ("numbers_reported", reported(&e.recipe)),
+            ("ln_median", of(Lognormal::log_mean)),
+            ("dispersion", of(Lognormal::dispersion)),
+            ("shift", of(Lognormal::shift)),
+            ("ks_distance", six(e.ks)),
+            ("ks_low", six(e.ks_interval.0)),
+            ("ks_high", six(e.ks_interval.1)),
+            ("area_distance", six(e.area)),
+            ("area_low", six(e.area_interval.0)),
+            ("area_high", six(e.area_interval.1)),
             ("draws_used", word(e.used.to_string())),
             (
                 "undefined_because",
@@ -297,8 +277,8 @@ fn by_block(entries: &[Entry]) -> String {
 }
 
 /// Six digits: more than 86 records say.
-fn short(x: f64) -> String {
-    digits(x, 6)
+fn six(x: f64) -> Cell {
+    word(digits(x, 6))
 }
 
 /// Median and dispersion as FEMA P-58 and its tool PACT take them: of the
@@ -322,10 +302,10 @@ fn pact(entries: &[Entry]) -> anyhow::Result<String> {
             ("edp", number(e.edp, 0)),
             ("fit", word(method.to_string())),
             ("demand", word(told.demand)),
-            ("median_dimensionless", word(short(fragility.median()))),
-            ("median", word(short(told.median))),
+            ("median_dimensionless", six(fragility.median())),
+            ("median", six(told.median)),
             ("unit", word(told.unit)),
-            ("dispersion", word(short(told.dispersion))),
+            ("dispersion", six(told.dispersion)),
         ]);
     }
     Ok(table.csv())

@@ -13,7 +13,7 @@ use super::answer::{Answer, Rows, count, number};
 use crate::normality::LEVEL;
 use crate::results::Results;
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// Excess medians of the truth, in units of the shift.
@@ -51,7 +51,7 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     }
     // At an excess median of 1.
     let at = |size: usize, test: usize| 100.0 * all[size][2][test];
-    let mut answer = Answer::new(
+    let answer = table.answer(
         "power",
         "What can a test of suites of these sizes see?",
         format!(
@@ -68,16 +68,12 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
             at(0, 3),
             at(1, 3),
         ),
-    );
-    table.finish(
-        &mut answer,
         "Power of four tests against the shift",
         "Share of simulated samples of ln x rejected at 5 % where the truth \
          is x = 1 + m exp(0.6 z); 1000 samples each, so a standard error of \
          at most 0.016.",
     );
-    answer.figures.push(figure(&sizes, &all));
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&sizes, &all)], ..answer })
 }
 
 /// Rejected shares of the four tests.
@@ -114,16 +110,11 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
         .zip(all)
         .map(|(n, rates)| ChartPanel {
             title: format!("{n} records"),
-            x: ChartAxis::new(
+            x: ChartAxis::logarithmic(
                 "excess median over the shift",
-                Scale::Logarithmic,
-                Some((0.2, 10.0)),
+                (0.2, 10.0),
             ),
-            y: ChartAxis::new(
-                "rejected samples (%)",
-                Scale::Linear,
-                Some((0.0, 100.0)),
-            ),
+            y: ChartAxis::linear("rejected samples (%)", (0.0, 100.0)),
             series: TESTS
                 .iter()
                 .enumerate()
@@ -142,11 +133,9 @@ fn figure(sizes: &[usize; 2], all: &[Vec<[f64; 4]>]) -> Figure {
         heading: Heading::new(
             "figure-power",
             "Power of four tests of lognormality",
-            "Share of simulated shifted-lognormal samples \
-                              that tests of the unshifted logarithms reject \
-                              at 5 %, against the excess median, for the \
-                              sizes of both suites.",
-            None,
+            "Share of simulated shifted-lognormal samples that tests of the \
+             unshifted logarithms reject at 5 %, against the excess median, \
+             for the sizes of both suites.",
         ),
         panels,
         columns: 2,

@@ -83,9 +83,10 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
          {ALPHA_RAD} rad and p = {P_RAD_S} rad/s in {overturned} of \
          {analyses} analyses, three corners of the high-pass each."
     );
-    let mut answer = Answer::new("recorded", QUESTION, words);
-    rows.finish(
-        &mut answer,
+    Ok(rows.answer(
+        "recorded",
+        QUESTION,
+        words,
         "Recorded motions that ship: Ridgecrest 2019, Mw 7.1",
         "Raw records of network CI at China Lake, Christmas Canyon and Tower 2, unscaled; \
          mean removed, then high-passed (Butterworth of order 4, forwards \
@@ -93,6 +94,5 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
          on the corner, PGD is what the corner makes it: three motions of \
          one earthquake are a check of the way from file to response, and \
          no suite.",
-    );
-    Ok(answer)
+    ))
 }

@@ -6,13 +6,12 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Null, Scale, Table};
 use rocking::streams::{Streams, below};
 
-use super::answer::{Answer, Rows, both, number, word};
+use super::answer::{Answer, Rows, number, word};
 use crate::distributions::BlockSamples;
 use crate::estimates::mean;
 use crate::estimates::median;
 use crate::normality::{LEVEL, accepted_share, every};
-use crate::results::{Results, no_arm};
-use rocking_common::paper::Intensity;
+use crate::results::Results;
 use rocking_common::words::{capital, range};
 
 /// Subsamples of the size of the pulse-type suite.
@@ -22,107 +21,87 @@ const SUBSAMPLES: u64 = 200;
 const STRIDE: usize = 8;
 
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
-    let arm = results.plan.common();
     let (large, small) =
         (results.ordinary.records.len(), results.pulse.records.len());
     let mut table = Rows::default();
     let mut words = Vec::new();
-    for suite in both(results) {
-        for intensity in [Intensity::Pga, Intensity::Pgv] {
-            let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or_else(no_arm)?;
-            let (mut gains, mut swings, mut moves) =
-                (Vec::new(), Vec::new(), Vec::new());
-            for block in &found.blocks {
-                let levels: Vec<&Vec<f64>> =
-                    every(&block.samples, STRIDE).collect();
-                let all: Vec<usize> = (0..suite.records.len()).collect();
-                let whole = share(&levels, &all, block.shift);
-                let shares = if small < suite.records.len() {
-                    subsamples(block, &levels, suite.records.len(), small)
-                } else {
-                    Vec::new()
-                };
-                let without: Vec<f64> = all
-                    .par_iter()
-                    .map(|left_out| {
-                        let kept: Vec<usize> = all
-                            .iter()
-                            .copied()
-                            .filter(|i| i != left_out)
-                            .collect();
-                        share(&levels, &kept, block.shift)
-                    })
-                    .collect();
-                let (low, high) = range(without.iter().copied());
-                let farthest = (0..without.len()).max_by(|i, j| {
-                    let off = |k: &usize| (without[*k] - whole).abs();
-                    off(i).total_cmp(&off(j)).then(j.cmp(i))
-                });
-                let nine = share(&levels, &all, 0.9 * block.shift);
-                let ends = quantiles(&shares);
-                gains.push(mean(shares.iter().copied()) - whole);
-                swings.push(high - low);
-                moves.push(nine - whole);
-                table.row(vec![
-                    ("suite", word(suite.kind.name())),
-                    ("im_kind", word(intensity.name())),
-                    ("p_rad_s", number(block.p_rad_s, 0)),
-                    ("alpha_rad", number(block.alpha_rad, 2)),
-                    ("accepted_share", number(whole, 2)),
-                    (
-                        "subsample_mean",
-                        number(mean(shares.iter().copied()), 2),
-                    ),
-                    ("subsample_low", number(ends.0, 2)),
-                    ("subsample_high", number(ends.1, 2)),
-                    ("without_one_record_low", number(low, 2)),
-                    ("without_one_record_high", number(high, 2)),
-                    (
-                        "most_influential_record",
-                        word(
-                            farthest
-                                .map(|i| suite.records[i].name.clone())
-                                .unwrap_or_default(),
-                        ),
-                    ),
-                    ("share_at_0.9_im_r", number(nine, 2)),
-                ]);
-            }
-            let of = |values: &[f64]| median(values).value;
-            let by_size = if gains.iter().any(|x| x.is_finite()) {
-                format!(
-                    "{small} of the {large} records instead of all change it \
-                     by {:+.2} (median over blocks), ",
-                    of(&gains)
-                )
-            } else {
-                String::new()
-            };
-            words.push(format!(
-                "{}, shifted {}, accepted share: {by_size}leaving one record out moves it \
-                 within a range of {:.2}, and 0.9 IM_R changes it by {:+.2}.",
-                capital(suite.kind.name()),
-                intensity.name().to_uppercase(),
-                of(&swings),
-                of(&moves),
-            ));
+    for (suite, found) in results.common() {
+        let intensity = found.intensity;
+        let (mut gains, mut swings, mut moves) =
+            (Vec::new(), Vec::new(), Vec::new());
+        for block in &found.blocks {
+            let levels: Vec<&Vec<f64>> =
+                every(&block.samples, STRIDE).collect();
+            let all: Vec<usize> = (0..suite.records.len()).collect();
+            let whole = share(&levels, &all, block.shift);
+            let n = suite.records.len();
+            let draws = if small < n { SUBSAMPLES } else { 0 };
+            let shares = subsamples(block, &levels, (n, small), draws);
+            let without: Vec<f64> = all
+                .par_iter()
+                .map(|left_out| {
+                    let mut kept = all.clone();
+                    kept.remove(*left_out);
+                    share(&levels, &kept, block.shift)
+                })
+                .collect();
+            let (low, high) = range(without.iter().copied());
+            let subsampled = mean(shares.iter().copied());
+            let farthest = (0..without.len()).max_by(|i, j| {
+                let off = |k: &usize| (without[*k] - whole).abs();
+                off(i).total_cmp(&off(j)).then(j.cmp(i))
+            });
+            let farthest =
+                farthest.map_or("", |i| suite.records[i].name.as_str());
+            let nine = share(&levels, &all, 0.9 * block.shift);
+            let ends = quantiles(&shares);
+            gains.push(subsampled - whole);
+            swings.push(high - low);
+            moves.push(nine - whole);
+            table.row(vec![
+                ("suite", word(suite.kind.name())),
+                ("im", word(intensity.name())),
+                ("p_rad_s", number(block.p_rad_s, 0)),
+                ("alpha_rad", number(block.alpha_rad, 2)),
+                ("accepted_share", number(whole, 2)),
+                ("subsample_mean", number(subsampled, 2)),
+                ("subsample_low", number(ends.0, 2)),
+                ("subsample_high", number(ends.1, 2)),
+                ("without_one_record_low", number(low, 2)),
+                ("without_one_record_high", number(high, 2)),
+                ("most_influential_record", word(farthest)),
+                ("share_at_0.9_im_r", number(nine, 2)),
+            ]);
         }
+        let of = |values: &[f64]| median(values).value;
+        let by_size = if gains.iter().any(|x| x.is_finite()) {
+            format!(
+                "{small} of the {large} records instead of all change it \
+                 by {:+.2} (median over blocks), ",
+                of(&gains)
+            )
+        } else {
+            String::new()
+        };
+        words.push(format!(
+            "{}, shifted {}, accepted share: {by_size}leaving one record out \
+             moves it within a range of {:.2}, and 0.9 IM_R changes it by {:+.2}.",
+            capital(suite.kind.name()),
+            intensity.name().to_uppercase(),
+            of(&swings),
+            of(&moves),
+        ));
     }
-    let mut answer = Answer::new(
+    Ok(table.answer(
         "robustness",
         "Does the accepted share hang on the number of records, on one \
          record, or on the shift?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Accepted shares with fewer records, without one, and with another shift",
         "Shifted samples, every eighth level. Fewer records reject less, \
          so shares of suites of unequal size are not to be compared; the \
          subsamples have the smaller suite's size (mean, 5 and 95 %).",
-    );
-    Ok(answer)
+    ))
 }
 
 /// Accepted share of the levels for these records; NaN if none was tested.
@@ -144,12 +123,12 @@ fn share(levels: &[&Vec<f64>], records: &[usize], shift: f64) -> f64 {
 fn subsamples(
     block: &BlockSamples,
     levels: &[&Vec<f64>],
-    n: usize,
-    size: usize,
+    (n, size): (usize, usize),
+    draws: u64,
 ) -> Vec<f64> {
     // The same records for every block and measure.
     let streams = Streams::new("study/subsamples", 0);
-    let mut shares: Vec<f64> = (0..SUBSAMPLES)
+    let mut shares: Vec<f64> = (0..draws)
         .into_par_iter()
         .map(|index| {
             let mut stream = streams.stream(index);

@@ -8,7 +8,7 @@ use crate::fits::Fits;
 use crate::results::Results;
 use rocking_common::paper::{Intensity, SuiteKind, demand_index};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 use rocking_surrogate::{
     FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
@@ -55,14 +55,14 @@ fn own(results: &Results) -> Vec<Fitted> {
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
     let surrogate = Surrogate::embedded()?;
     let own = own(results);
-    let mut answer =
-        Answer::new("surface", QUESTION, words(results, &surrogate, &own)?);
     let mut table = Rows::default();
     for (blocks, of) in [("study", &own), ("unseen", &surrogate.unseen)] {
         for (model, _) in &surrogate.models {
             for block in of.iter().filter(|b| b.suite == model.suite) {
                 let found = model.at(block.alpha_rad, block.p_rad_s)?;
-                let off = found.distance(&block.lognormal()?);
+                let off =
+                    found.distance(&block.lognormal()?).unwrap_or(f64::NAN);
+                let (own, fitted) = (block.dispersion, found.dispersion());
                 table.row_if(
                     blocks == "study",
                     vec![
@@ -74,33 +74,25 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
                         ("median_low", number(block.median_low, 3)),
                         ("median_high", number(block.median_high, 3)),
                         ("median_by_surface", number(found.median(), 3)),
-                        (
-                            "dispersion_by_analyses",
-                            number(block.dispersion, 3),
-                        ),
-                        (
-                            "dispersion_by_surface",
-                            number(found.dispersion(), 3),
-                        ),
-                        (
-                            "difference_in_probability",
-                            number(off.unwrap_or(f64::NAN), 3),
-                        ),
+                        ("dispersion_by_analyses", number(own, 3)),
+                        ("dispersion_by_surface", number(fitted, 3)),
+                        ("difference_in_probability", number(off, 3)),
                     ],
                 );
             }
         }
     }
-    table.finish(
-        &mut answer,
+    let answer = table.answer(
+        "surface",
+        QUESTION,
+        words(results, &surrogate, &own)?,
         "Overturning by a surface over p and alpha, and by analyses",
         "Intensity is PGA/(g tan alpha); the dispersion is that above the \
          uplift at 1; the difference is the largest one of the two \
          fragilities. Shown are the study's own blocks; intervals are of 95 \
          %, from resampled records.",
     );
-    answer.figures.push(figure(&surrogate)?);
-    Ok(answer)
+    Ok(Answer { figures: vec![figure(&surrogate)?], ..answer })
 }
 
 fn words(
@@ -188,9 +180,7 @@ fn beside(error: f64, records: f64) -> String {
 
 fn figure(surrogate: &Surrogate) -> anyhow::Result<Figure> {
     let (low, high) = FREQUENCY_RANGE_RAD_S;
-    let axis = || {
-        ChartAxis::new("*p* (rad/s)", Scale::Logarithmic, Some((low, high)))
-    };
+    let axis = || ChartAxis::logarithmic("*p* (rad/s)", (low, high));
     let places: Vec<f64> = (0..=POINTS)
         .map(|k| {
             let share = k as f64 / POINTS as f64;
@@ -199,11 +189,11 @@ fn figure(surrogate: &Surrogate) -> anyhow::Result<Figure> {
         })
         .collect();
     let kinds = [
-        ("median", "median *PGA*/(*g* tan *α*)"),
-        ("dispersion", "dispersion above uplift"),
+        ("median", "median *PGA*/(*g* tan *α*)", (1.0, 12.0)),
+        ("dispersion", "dispersion above uplift", (0.4, 1.2)),
     ];
     let mut panels = Vec::new();
-    for (kind, (name, label)) in kinds.into_iter().enumerate() {
+    for (kind, (name, label, ends)) in kinds.into_iter().enumerate() {
         let of = |b: &Fitted| [b.median, b.dispersion][kind];
         for (model, _) in &surrogate.models {
             let mut series = Vec::new();
@@ -237,11 +227,7 @@ fn figure(surrogate: &Surrogate) -> anyhow::Result<Figure> {
             panels.push(ChartPanel {
                 title: format!("{}: {name}", model.suite),
                 x: axis(),
-                y: ChartAxis::new(
-                    label,
-                    Scale::Logarithmic,
-                    Some([(1.0, 12.0), (0.4, 1.2)][kind]),
-                ),
+                y: ChartAxis::logarithmic(label, ends),
                 series,
             });
         }
@@ -256,7 +242,6 @@ fn figure(surrogate: &Surrogate) -> anyhow::Result<Figure> {
          slendernesses, with 100 blocks to which the surface was not fitted; \
          in the middle the dispersion; below, the relative error of the \
          median at those blocks; ordinary and pulse-type suites.",
-        None,
     );
     Ok(Chart { heading, panels, columns: 2 }.figure(
         "Lines are the surface, marks are analyses of blocks that it was not \
@@ -286,20 +271,11 @@ fn errors(
     Ok(ChartPanel {
         title: format!("{suite}: error of the median"),
         x: axis,
-        y: ChartAxis::new(
-            "surface − analyses (%)",
-            Scale::Linear,
-            Some((-30.0, 30.0)),
-        ),
+        y: ChartAxis::linear("surface − analyses (%)", (-30.0, 30.0)),
         series: vec![
             Series::new("", Mark::Dashed, vec![low, high], vec![0.0, 0.0]),
-            Series {
-                label: "error, with the records' 95 %".into(),
-                mark: Mark::Points,
-                x,
-                y,
-                interval,
-            },
+            Series::new("error, with the records' 95 %", Mark::Points, x, y)
+                .with(interval),
         ],
     })
 }

@@ -6,10 +6,10 @@ use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 use rocking::streams::{Streams, standard_normal};
 
-use super::answer::{self, Answer, Cell, Rows, both, number, word};
+use super::answer::{self, Answer, Cell, Rows, number, word};
 use crate::estimates::mean;
 use crate::normality::every;
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use rocking_common::paper::Intensity;
 use rocking_common::words::{capital, percent};
 
@@ -22,66 +22,53 @@ const EDGES: [f64; 3] = [-0.25, 0.25, 0.75];
 /// Samples of a truth that is shifted lognormal.
 const DRAWS: u64 = 1000;
 
-/// Trimmed against untrimmed.
+/// Trimmed against untrimmed: samples by [`Outcome`].
 #[derive(Clone, Copy, Default)]
-struct Count {
-    samples: usize,
-    helps: usize,
-    only_trimmed: usize,
-    neither: usize,
-}
+struct Count([usize; 4]);
 
 pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
-    let arm = results.plan.common();
     let mut table = Rows::default();
     let mut words = Vec::new();
-    for suite in both(results) {
-        for intensity in [Intensity::Pga, Intensity::Pgv] {
-            let found = results.distributions(suite.kind, arm, intensity);
-            let found = found.ok_or_else(no_arm)?;
-            let rows: Vec<(usize, [Outcome; 4])> = found
-                .blocks
-                .par_iter()
-                .flat_map_iter(|block| {
-                    every(&block.samples, STRIDE).filter_map(|values| {
-                        let sample = ExtendedSample::try_new(values).ok()?;
-                        let class = class(skewness(values, block.shift)?);
-                        Some((class, outcomes(&sample, block.shift, None)))
-                    })
+    for (suite, found) in results.common() {
+        let intensity = found.intensity;
+        let rows: Vec<(usize, [Outcome; 4])> = found
+            .blocks
+            .par_iter()
+            .flat_map_iter(|block| {
+                every(&block.samples, STRIDE).filter_map(|values| {
+                    let sample = ExtendedSample::try_new(values).ok()?;
+                    let class = class(skewness(values, block.shift)?);
+                    Some((class, outcomes(&sample, block.shift, None)))
+                })
+            })
+            .collect();
+        let counts = count(&rows);
+        for (class, by_constant) in counts.iter().enumerate() {
+            for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
+                let (suite, im) = (suite.kind.name(), intensity.name());
+                let cells = count.cells(suite, im, &class_words(class), c);
+                table.row_if(c == 0.25 || c == 1.0, cells);
+            }
+        }
+        if intensity == Intensity::Pga {
+            let shares: Vec<String> = (0..=EDGES.len())
+                .map(|class| {
+                    let [low, .., high] = counts[class];
+                    format!(
+                        "{} for skewness {} ({} samples; {} at c = 0.25)",
+                        percent(high.share(), 0),
+                        class_words(class),
+                        high.samples(),
+                        percent(low.share(), 0),
+                    )
                 })
                 .collect();
-            let counts = count(&rows);
-            for (class, by_constant) in counts.iter().enumerate() {
-                for (c, count) in CONSTANTS.into_iter().zip(by_constant) {
-                    let cells = count.cells(
-                        suite.kind.name(),
-                        intensity.name(),
-                        &class_words(class),
-                        c,
-                    );
-                    table.row_if(c == 0.25 || c == 1.0, cells);
-                }
-            }
-            if intensity == Intensity::Pga {
-                let shares: Vec<String> = (0..=EDGES.len())
-                    .map(|class| {
-                        let [low, .., high] = counts[class];
-                        format!(
-                            "{} for skewness {} ({} samples; {} at c = 0.25)",
-                            percent(high.share(), 0),
-                            class_words(class),
-                            high.samples,
-                            percent(low.share(), 0),
-                        )
-                    })
-                    .collect();
-                words.push(format!(
-                    "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
-                     empirical fragility in {}.",
-                    capital(suite.kind.name()),
-                    shares.join(", ")
-                ));
-            }
+            words.push(format!(
+                "{}, PGA, c = 1: trimming brings USFL7 nearer to the \
+                 empirical fragility in {}.",
+                capital(suite.kind.name()),
+                shares.join(", ")
+            ));
         }
     }
     let truth = simulated(results.ordinary.records.len())?;
@@ -96,20 +83,16 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         percent(truth[3].share(), 0),
         percent(truth[0].share(), 0),
     ));
-    let mut answer = Answer::new(
+    Ok(table.answer(
         "trimming",
         "When does trimming help Eq. 7?",
         words.join(" "),
-    );
-    table.finish(
-        &mut answer,
         "Trimming and Eq. 7",
         "USFL7 from the trimmed sample's moments against that from the \
          whole sample's maximum likelihood, both with the fitted median, by \
          Kolmogorov distance, by the skewness of ln(x - IM_R); 15 blocks, \
          20 demands.",
-    );
-    Ok(answer)
+    ))
 }
 
 #[derive(Clone, Copy)]
@@ -121,37 +104,37 @@ enum Outcome {
 }
 
 impl Count {
-    fn add(&mut self, outcome: Outcome) {
-        self.samples += 1;
-        match outcome {
-            Outcome::Helps => self.helps += 1,
-            Outcome::OnlyTrimmed => self.only_trimmed += 1,
-            Outcome::Neither => self.neither += 1,
-            Outcome::Harms => {}
-        }
+    fn of(&self, outcome: Outcome) -> usize {
+        self.0[outcome as usize]
+    }
+
+    fn samples(&self) -> usize {
+        self.0.iter().sum()
     }
 
     /// Samples in which the trimmed fragility is nearer, or the only one.
     fn share(&self) -> f64 {
-        (self.helps + self.only_trimmed) as f64 / self.samples as f64
+        let nearer = self.of(Outcome::Helps) + self.of(Outcome::OnlyTrimmed);
+        nearer as f64 / self.samples() as f64
     }
 
     fn cells(
         &self,
         suite: &str,
-        im_kind: &str,
+        im: &str,
         skewness: &str,
         c: f64,
     ) -> Vec<(&'static str, Cell)> {
+        let of = |outcome| answer::count(self.of(outcome));
         vec![
             ("suite", word(suite)),
-            ("im_kind", word(im_kind)),
+            ("im", word(im)),
             ("skewness", word(skewness)),
             ("c", number(c, 2)),
-            ("samples", answer::count(self.samples)),
-            ("trimmed_is_nearer", answer::count(self.helps)),
-            ("only_trimmed_is_defined", answer::count(self.only_trimmed)),
-            ("neither_is_defined", answer::count(self.neither)),
+            ("samples", answer::count(self.samples())),
+            ("trimmed_is_nearer", of(Outcome::Helps)),
+            ("only_trimmed_is_defined", of(Outcome::OnlyTrimmed)),
+            ("neither_is_defined", of(Outcome::Neither)),
             ("share_helped", number(self.share(), 3)),
         ]
     }
@@ -161,7 +144,7 @@ fn count(rows: &[(usize, [Outcome; 4])]) -> [[Count; 4]; 4] {
     let mut counts = [[Count::default(); 4]; 4];
     for (class, outcomes) in rows {
         for (count, outcome) in counts[*class].iter_mut().zip(outcomes) {
-            count.add(*outcome);
+            count.0[*outcome as usize] += 1;
         }
     }
     counts

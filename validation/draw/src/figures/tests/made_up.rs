@@ -15,12 +15,9 @@ pub const ALPHAS: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
 pub const FREQUENCIES: [f64; 3] = [1.0, 3.0, 4.0];
 
 pub fn heading(name: &str, arm: Option<Arm>) -> Heading {
-    Heading::new(
-        name,
-        format!("{name}: made up"),
-        "Made-up numbers & <marks>.",
-        arm,
-    )
+    let title = format!("{name}: made up");
+    let words = Heading::new(name, title, "Made-up numbers & <marks>.");
+    Heading { arm, ..words }
 }
 
 /// Between 0 and 1, without a pattern.
@@ -105,9 +102,7 @@ pub fn histories() -> Histories {
         HistoryPanel {
             p_rad_s: p,
             record: format!("RSN{}_QUAKE_A{}-090, 1994", 700 + i, i),
-            intensity: Intensity::Pga,
             im: 1.5 + 0.02 * i as f64,
-            until_s: 30.0,
             curves: ALPHAS.iter().enumerate().map(curve).collect(),
         }
     };
@@ -155,7 +150,6 @@ pub fn ida() -> IdaCurves {
     };
     IdaCurves {
         heading: heading("figure-04", Some(Arm::A)),
-        intensity: Intensity::Pga,
         panels: (0..9).map(panel).collect(),
         columns: 3,
     }
@@ -172,7 +166,6 @@ pub fn boxplots(panels: usize) -> Boxplots {
         p_rad_s: if panels == 4 { 1.0 } else { FREQUENCIES[1 + i / 4] },
         alpha_rad: [0.05, 0.15, 0.20, 0.25][i % 4],
         closed_form: None,
-        note: String::new(),
         stripes: levels
             .iter()
             .enumerate()
@@ -190,7 +183,6 @@ pub fn boxplots(panels: usize) -> Boxplots {
     Boxplots {
         heading: heading(&format!("figure-06-{panels}"), Some(Arm::C)),
         ratio_label: "*r*_{*α*} = *θ̃*_{*α*} / *θ̃*_{0.10}".into(),
-        stripes: StripeKind::Intensity(Intensity::Pga),
         panels: (0..panels).map(panel).collect(),
         columns: if panels == 4 { 2 } else { 4 },
     }
@@ -210,9 +202,7 @@ pub fn quantiles() -> Quantiles {
         };
         QuantileGroup {
             label: format!("*α* = {alpha:.2} rad"),
-            q16: curve(-1.0),
-            q50: curve(0.0),
-            q84: curve(1.0),
+            quantiles: [-1.0, 0.0, 1.0].map(curve),
             im,
         }
     };
@@ -223,7 +213,6 @@ pub fn quantiles() -> Quantiles {
     };
     Quantiles {
         heading: heading("figure-08", Some(Arm::A)),
-        intensity: Intensity::Pga,
         panels: FREQUENCIES.iter().map(panel).collect(),
         columns: 3,
     }

@@ -10,7 +10,6 @@ pub fn all() -> Vec<Figure> {
     let mut histories = made_up::histories();
     histories.heading = heading("spare-02", None);
     histories.panels[0].curves.clear();
-    histories.panels[1].until_s = f64::NAN;
     for curve in &mut histories.panels[1].curves {
         curve.ratio = HOLES.to_vec();
         curve.time_s = HOLES.to_vec();
@@ -48,8 +47,8 @@ pub fn all() -> Vec<Figure> {
     quantiles.heading = heading("spare-08", None);
     quantiles.panels[0].groups.clear();
     for group in &mut quantiles.panels[1].groups {
-        group.q16 = vec![f64::NAN; group.im.len()];
-        group.q84.clear();
+        group.quantiles[0] = vec![f64::NAN; group.im.len()];
+        group.quantiles[2].clear();
     }
 
     let mut capacities = made_up::capacities();

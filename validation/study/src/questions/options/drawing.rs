@@ -8,7 +8,7 @@ use super::summary::{MLE, Summary, trimmed};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_common::words::range;
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
 };
 
 /// Median distance over blocks and demands against the constant of Eq. 7.
@@ -50,16 +50,8 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
         let top = if most > 0.0 { 1.1 * most } else { 1.0 };
         ChartPanel {
             title: intensity.name().to_uppercase(),
-            x: ChartAxis::new(
-                "*c* of Eq. 7",
-                Scale::Linear,
-                Some((0.2, 1.05)),
-            ),
-            y: ChartAxis::new(
-                "median Kolmogorov distance",
-                Scale::Linear,
-                Some((0.0, top)),
-            ),
+            x: ChartAxis::linear("*c* of Eq. 7", (0.2, 1.05)),
+            y: ChartAxis::linear("median Kolmogorov distance", (0.0, top)),
             series: lines,
         }
     };
@@ -80,12 +72,11 @@ pub(super) fn figure(summaries: &[Summary], arm: Arm) -> Figure {
         heading: Heading::new(
             "figure-options",
             "Options 1, 2 and 3 compared",
-            "Median over 15 blocks and three demands of \
-                              the Kolmogorov distance to the empirical \
-                              fragility, against the constant of Eq. 7, for \
-                              each option; PGA and PGV, ordinary records.",
-            Some(arm),
-        ),
+            "Median over 15 blocks and three demands of the Kolmogorov \
+             distance to the empirical fragility, against the constant of Eq. \
+             7, for each option; PGA and PGV, ordinary records.",
+        )
+        .of(arm),
         panels: panels.into(),
         columns: 2,
     }

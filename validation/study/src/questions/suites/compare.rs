@@ -11,14 +11,12 @@ use super::row::{Group, Interval, Row, Side};
 use crate::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
 };
-use crate::certainty::Certainty;
 use crate::distributions::{BlockSamples, Distributions, of_suite};
 use crate::estimates::three_quantiles;
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
-use crate::results::Results;
-use crate::results::no_arm;
-use rocking_common::paper::{Arm, BLOCKS, Intensity, demand_index};
+use crate::results::{Results, no_arm};
+use rocking_common::paper::{Arm, BLOCKS, demand_index};
 use rocking_common::suites::StudySuite;
 
 /// Draws of the bootstrap.
@@ -43,7 +41,7 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
                 draws("recorded", recorded.records.len()),
             ],
         };
-        out.push(pair.source(&embedded, recorded));
+        out.push(pair.row(Group::Source, recorded.sha256.clone()));
         out.extend(pair.motions(&embedded.records, &recorded.records)?);
         let of_embedded = of_suite(&embedded, arm)?;
         for own in &of_embedded {
@@ -75,7 +73,6 @@ fn capacities(
         Adjust::RecordScaling,
         || (),
     )?;
-    let certainty: Certainty = chains.certainty;
     let curves = chains.curves.into_iter();
     Ok(SuiteResults {
         kind: suite.kind,
@@ -85,7 +82,7 @@ fn capacities(
         set_aside: suite.set_aside.clone(),
         list: Vec::new(),
         sha256: suite.sha256(),
-        work: Work { analyses: chains.analyses, certainty },
+        work: Work { analyses: chains.analyses, certainty: chains.certainty },
         records: suite.motions.iter().map(facts).collect::<Result<_, _>>()?,
         chosen: [0; 3],
         arms: curves.map(|curves| ArmCurves { arm, curves }).collect(),
@@ -127,10 +124,6 @@ impl Pair {
         }
     }
 
-    fn source(&self, _: &SuiteResults, recorded: &SuiteResults) -> Row {
-        self.row(Group::Source, recorded.sha256.clone())
-    }
-
     fn motions(
         &self,
         embedded: &[Facts],
@@ -162,8 +155,8 @@ impl Pair {
             .into_par_iter()
             .map(|(e, r, edp)| {
                 let level = demand_index(edp);
-                let mut row =
-                    self.row(Group::Capacity, name(embedded.intensity));
+                let name = embedded.intensity.name();
+                let mut row = self.row(Group::Capacity, name.to_owned());
                 row.p_rad_s = e.p_rad_s;
                 row.alpha_rad = e.alpha_rad;
                 row.edp = edp;
@@ -180,7 +173,7 @@ impl Pair {
         let mut out = Vec::new();
         for (k, kind) in ["original", "shifted"].into_iter().enumerate() {
             for (e, r) in embedded.blocks.iter().zip(&recorded.blocks) {
-                let quantity = format!("{kind}_{}", name(embedded.intensity));
+                let quantity = format!("{kind}_{}", embedded.intensity.name());
                 let mut row = self.row(Group::Accepted, quantity);
                 row.p_rad_s = e.p_rad_s;
                 row.alpha_rad = e.alpha_rad;
@@ -230,11 +223,6 @@ impl Pair {
         (row.distance, row.p_value) = (found.statistic, found.p_value);
         Ok(row)
     }
-}
-
-/// Quantity of capacities or shares in a measure.
-fn name(intensity: Intensity) -> String {
-    intensity.name().to_owned()
 }
 
 fn share(side: &mut Side, block: &BlockSamples, k: usize) {

@@ -1,11 +1,11 @@
 //! Figures of the comparison.
 
-use super::row::{Group, Row};
-use super::row::{MOTIONS, of_motion};
+use super::of_group;
+use super::row::{Group, Interval, MOTIONS, Row, of_motion};
 use crate::analyses::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Scale, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,
 };
 
 /// Demands at which capacities are drawn.
@@ -27,61 +27,43 @@ pub(super) fn motions(rows: &[Row], kinds: [&str; 2]) -> Figure {
             ..Heading::new(
                 "figure-suites",
                 "Embedded motions beside recorded ones",
-                "Above, the ratio of the embedded to the \
-                              recorded median of eight measures with its 95 \
-                              % interval; below, median and 16 to 84 % of \
-                              the response spectra at 5 % damping; ordinary \
-                              and pulse-type suites.",
-                None,
+                "Above, the ratio of the embedded to the recorded median of \
+                 eight measures with its 95 % interval; below, median and 16 \
+                 to 84 % of the response spectra at 5 % damping; ordinary and \
+                 pulse-type suites.",
             )
         },
         panels,
         columns: 2,
     }
     .figure(
-        "Where a bar does not reach the dashed line the embedded \
-                  median differs from the recorded one; bands are 16 to 84 \
-                  % of the motions.",
+        "Where a bar does not reach the dashed line the embedded median \
+         differs from the recorded one; bands are 16 to 84 % of the motions.",
     )
 }
 
 fn ratios(rows: &[Row], kind: &str) -> ChartPanel {
-    let found: Vec<Option<&Row>> = MOTIONS
-        .iter()
-        .map(|(quantity, _)| of_motion(rows, kind, quantity))
-        .collect();
-    let of = |value: fn(&Row) -> f64| -> Vec<f64> {
-        found.iter().map(|r| r.map_or(f64::NAN, value)).collect()
-    };
+    let found = MOTIONS.map(|(quantity, _)| {
+        of_motion(rows, kind, quantity).map_or(Interval::NONE, |r| r.ratio)
+    });
     let places = (1..=MOTIONS.len()).map(|k| k as f64).collect();
+    let own = ratio_series("ratio of medians, 95 %", places, &found);
     ChartPanel {
         title: format!("{kind}: ratio of medians"),
-        x: ChartAxis {
-            label: String::new(),
-            scale: Scale::Linear,
-            range: None,
-            categories: MOTIONS.map(|(_, label)| label.into()).into(),
-            second: None,
-        },
-        y: ChartAxis::new(
-            "embedded / recorded",
-            Scale::Logarithmic,
-            Some((0.25, 4.0)),
-        ),
-        series: vec![
-            one((0.5, MOTIONS.len() as f64 + 0.5)),
-            Series {
-                label: "ratio of medians, 95 %".into(),
-                mark: Mark::Points,
-                x: places,
-                y: of(|r| r.ratio.value),
-                interval: of(|r| r.ratio.low)
-                    .into_iter()
-                    .zip(of(|r| r.ratio.high))
-                    .collect(),
-            },
-        ],
+        x: ChartAxis::named(MOTIONS.map(|(_, label)| label.into()).into()),
+        y: ChartAxis::logarithmic("embedded / recorded", (0.25, 4.0)),
+        series: vec![one((0.5, MOTIONS.len() as f64 + 0.5)), own],
     }
+}
+
+fn ratio_series(
+    label: impl Into<String>,
+    x: Vec<f64>,
+    of: &[Interval],
+) -> Series {
+    let y = of.iter().map(|r| r.value).collect();
+    let ends = of.iter().map(|r| (r.low, r.high));
+    Series::new(label, Mark::Points, x, y).with(ends.collect())
 }
 
 fn spectra(rows: &[Row], kind: &str) -> ChartPanel {
@@ -95,26 +77,15 @@ fn spectra(rows: &[Row], kind: &str) -> ChartPanel {
         let sides = found.iter().map(|(_, row)| {
             if embedded { row.embedded } else { row.recorded }
         });
-        Series {
-            label: label.into(),
-            mark: Mark::Line,
-            x: found.iter().map(|(t, _)| *t).collect(),
-            y: sides.clone().map(|s| s.middle).collect(),
-            interval: sides.map(|s| (s.low, s.high)).collect(),
-        }
+        let x = found.iter().map(|(t, _)| *t).collect();
+        let y = sides.clone().map(|s| s.middle).collect();
+        let ends = sides.map(|s| (s.low, s.high)).collect();
+        Series::new(label, Mark::Line, x, y).with(ends)
     };
     ChartPanel {
         title: format!("{kind}: spectra"),
-        x: ChartAxis::new(
-            "period *T* (s)",
-            Scale::Logarithmic,
-            Some((0.05, 5.0)),
-        ),
-        y: ChartAxis::new(
-            "*S*_{a} (g)",
-            Scale::Logarithmic,
-            Some((0.01, 3.0)),
-        ),
+        x: ChartAxis::logarithmic("period *T* (s)", (0.05, 5.0)),
+        y: ChartAxis::logarithmic("*S*_{a} (g)", (0.01, 3.0)),
         series: vec![
             series("recorded, median and 16 to 84 %", false),
             series("embedded, median and 16 to 84 %", true),
@@ -138,11 +109,9 @@ pub(super) fn capacities(rows: &[Row], kinds: [&str; 2]) -> Figure {
             ..Heading::new(
                 "figure-suites-capacities",
                 "Capacities under embedded and recorded motions",
-                "Ratio of the embedded to the recorded median \
-                              capacity with its 95 % interval, block by \
-                              block, at demands 0.15 and 1.00, for PGA and \
-                              PGV, ordinary and pulse-type suites.",
-                None,
+                "Ratio of the embedded to the recorded median capacity with \
+                 its 95 % interval, block by block, at demands 0.15 and 1.00, \
+                 for PGA and PGV, ordinary and pulse-type suites.",
             )
         },
         panels,
@@ -163,41 +132,20 @@ fn blocks(
 ) -> ChartPanel {
     let mut series = vec![one((0.02, 0.28))];
     for (k, p) in FREQUENCIES_RAD_S.iter().enumerate() {
-        let own: Vec<&Row> = rows
-            .iter()
-            .filter(|r| {
-                r.group == Group::Capacity
-                    && r.suite == kind
-                    && r.quantity == intensity.name()
-                    && r.p_rad_s == *p
-                    && r.edp == edp
-            })
-            .collect();
+        let mut own = of_group(rows, Group::Capacity, kind, intensity.name());
+        own.retain(|r| r.p_rad_s == *p && r.edp == edp);
         // Beside each other, not on each other.
         let shift = 0.006 * (k as f64 - 1.0);
-        series.push(Series {
-            label: format!("*p* = {p} s^{{−1}}"),
-            mark: Mark::Points,
-            x: own.iter().map(|r| r.alpha_rad + shift).collect(),
-            y: own.iter().map(|r| r.ratio.value).collect(),
-            interval: own
-                .iter()
-                .map(|r| (r.ratio.low, r.ratio.high))
-                .collect(),
-        });
+        let x = own.iter().map(|r| r.alpha_rad + shift).collect();
+        let ratios: Vec<Interval> = own.iter().map(|r| r.ratio).collect();
+        let label = format!("*p* = {p} s^{{−1}}");
+        series.push(ratio_series(label, x, &ratios));
     }
-    let kind = if kind.starts_with('p') { "pulse-type" } else { "ordinary" };
+    let name = intensity.name().to_uppercase();
     ChartPanel {
-        title: format!(
-            "{kind}, *θ̃* = {edp:.2}, {}",
-            intensity.name().to_uppercase()
-        ),
-        x: ChartAxis::new("*α* (rad)", Scale::Linear, Some((0.02, 0.28))),
-        y: ChartAxis::new(
-            "embedded / recorded",
-            Scale::Logarithmic,
-            Some((0.4, 2.5)),
-        ),
+        title: format!("{kind}, *θ̃* = {edp:.2}, {name}"),
+        x: ChartAxis::linear("*α* (rad)", (0.02, 0.28)),
+        y: ChartAxis::logarithmic("embedded / recorded", (0.4, 2.5)),
         series,
     }
 }

@@ -1,34 +1,20 @@
 //! One quantity of the embedded and the recorded suite, and its CSV.
 
 use rocking_common::table::{Table, digits};
+use rocking_common::words::named;
 
-/// What kind of quantity a row holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Group {
-    /// Hash of the recorded suite, as the quantity's name.
-    Source,
-    /// A measure of the motions.
-    Motion,
-    /// Capacities of a block at a demand.
-    Capacity,
-    /// Share of demand levels at which a block's capacities pass as
-    /// lognormal: no quantiles, but the share with its null band.
-    Accepted,
-}
-
-impl Group {
-    fn name(self) -> &'static str {
-        match self {
-            Self::Source => "source",
-            Self::Motion => "motion",
-            Self::Capacity => "capacity",
-            Self::Accepted => "accepted",
-        }
-    }
-
-    fn parse(text: &str) -> Option<Self> {
-        let all = [Self::Source, Self::Motion, Self::Capacity, Self::Accepted];
-        all.into_iter().find(|group| group.name() == text)
+named! {
+    /// What kind of quantity a row holds.
+    pub(super) enum Group {
+        /// Hash of the recorded suite, as the quantity's name.
+        Source = "source",
+        /// A measure of the motions.
+        Motion = "motion",
+        /// Capacities of a block at a demand.
+        Capacity = "capacity",
+        /// Share of demand levels at which a block's capacities pass as
+        /// lognormal: no quantiles, but the share with its null band.
+        Accepted = "accepted",
     }
 }
 
@@ -121,32 +107,7 @@ impl Row {
     }
 }
 
-const HEADER: [&str; 24] = [
-    "suite",
-    "group",
-    "quantity",
-    "p_rad_s",
-    "alpha_rad",
-    "edp",
-    "embedded_records",
-    "embedded_low",
-    "embedded",
-    "embedded_high",
-    "recorded_records",
-    "recorded_low",
-    "recorded",
-    "recorded_high",
-    "ratio",
-    "ratio_low",
-    "ratio_high",
-    "embedded_dispersion",
-    "recorded_dispersion",
-    "dispersion_difference",
-    "dispersion_difference_low",
-    "dispersion_difference_high",
-    "ks_distance",
-    "ks_p_value",
-];
+const HEADER: &str = "suite,group,quantity,p_rad_s,alpha_rad,edp,embedded_records,embedded_low,embedded,embedded_high,recorded_records,recorded_low,recorded,recorded_high,ratio,ratio_low,ratio_high,embedded_dispersion,recorded_dispersion,dispersion_difference,dispersion_difference_low,dispersion_difference_high,ks_distance,ks_p_value";
 
 /// Four digits, more than so many records say; nothing where it is not finite.
 fn short(x: f64) -> String {
@@ -154,39 +115,29 @@ fn short(x: f64) -> String {
 }
 
 pub(super) fn to_csv(rows: &[Row]) -> String {
-    let mut table = Table::new(&HEADER);
+    let mut table = Table::headed(HEADER);
     for row in rows {
-        let (e, r) = (&row.embedded, &row.recorded);
-        let dispersion = |side: &Side| match row.group {
-            Group::Motion | Group::Capacity => short(side.dispersion()),
-            Group::Source | Group::Accepted => String::new(),
+        let dispersions = match row.group {
+            Group::Motion | Group::Capacity => {
+                [row.embedded, row.recorded].map(|side| side.dispersion())
+            }
+            Group::Source | Group::Accepted => [f64::NAN; 2],
         };
-        table.row([
-            row.suite.clone(),
-            row.group.name().into(),
-            row.quantity.clone(),
-            short(row.p_rad_s),
-            short(row.alpha_rad),
-            short(row.edp),
-            e.records.to_string(),
-            short(e.low),
-            short(e.middle),
-            short(e.high),
-            r.records.to_string(),
-            short(r.low),
-            short(r.middle),
-            short(r.high),
-            short(row.ratio.value),
-            short(row.ratio.low),
-            short(row.ratio.high),
-            dispersion(e),
-            dispersion(r),
-            short(row.spread.value),
-            short(row.spread.low),
-            short(row.spread.high),
-            short(row.distance),
-            short(row.p_value),
-        ]);
+        let side = |s: &Side| {
+            let ends = [s.low, s.middle, s.high].map(short);
+            std::iter::once(s.records.to_string()).chain(ends)
+        };
+        let three = |i: &Interval| [i.value, i.low, i.high].map(short);
+        let name = row.group.name().to_owned();
+        let cells = [row.suite.clone(), name, row.quantity.clone()]
+            .into_iter()
+            .chain([row.p_rad_s, row.alpha_rad, row.edp].map(short))
+            .chain(side(&row.embedded).chain(side(&row.recorded)))
+            .chain(three(&row.ratio))
+            .chain(dispersions.map(short))
+            .chain(three(&row.spread))
+            .chain([row.distance, row.p_value].map(short));
+        table.row(cells);
     }
     table.finish()
 }
@@ -211,7 +162,9 @@ pub(super) fn from_csv(text: &str) -> Vec<Row> {
         };
         Some(Row {
             suite: (*cells.first()?).to_owned(),
-            group: Group::parse(cells.get(1)?)?,
+            group: Group::ALL
+                .into_iter()
+                .find(|g| Some(&g.name()) == cells.get(1))?,
             quantity: (*cells.get(2)?).to_owned(),
             p_rad_s: number(3),
             alpha_rad: number(4),

@@ -85,7 +85,6 @@ pub fn tests_along() -> TestsAlongDemand {
     };
     TestsAlongDemand {
         heading: heading("figure-13", Some(Arm::A)),
-        intensity: Intensity::Pga,
         edp: 0.5,
         blocks: vec![block(0.05, 1), block(0.20, 2)],
     }
@@ -148,16 +147,15 @@ pub fn by_constant() -> ByConstant {
         sample: sample(86, 6, 0.7).iter().map(|x| x + 1.0).collect(),
         curves: [0.25, 0.5, 0.75, 1.0]
             .into_iter()
-            .map(|c| ConstantCurve {
-                c,
-                curve: (c < 1.0 || grow < 1.0)
-                    .then(|| fit(0.7 + grow * c * c)),
+            .map(|c| {
+                let curve =
+                    (c < 1.0 || grow < 1.0).then(|| fit(0.7 + grow * c * c));
+                (c, curve)
             })
             .collect(),
     };
     ByConstant {
         heading: heading("figure-18", Some(Arm::A)),
-        intensity: Intensity::Pga,
         edp: 0.15,
         panels: [("untrimmed MLE", 1.2), ("trimmed moments", 0.1)]
             .into_iter()
@@ -167,7 +165,12 @@ pub fn by_constant() -> ByConstant {
 }
 
 fn axis(label: &str, scale: Scale) -> ChartAxis {
-    ChartAxis::new(label, scale, None)
+    match scale {
+        Scale::Linear => ChartAxis::linear(label, None::<(f64, f64)>),
+        Scale::Logarithmic => {
+            ChartAxis::logarithmic(label, None::<(f64, f64)>)
+        }
+    }
 }
 
 pub fn chart() -> Chart {

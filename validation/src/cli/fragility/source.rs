@@ -17,7 +17,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
-use rocking_surrogate::{ORIGIN, RESTITUTION, Surrogate};
+use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
 use super::counts;
 use crate::cli::Failure;
@@ -281,7 +281,7 @@ fn surface(suite: SuiteKind) -> Result<Level, Failure> {
         im: IntensityMeasure::Pga,
         setting,
         values: Values::Surface(model),
-        origin: format!("{ORIGIN}, {suite} suite"),
+        origin: origin(suite),
     })
 }
 

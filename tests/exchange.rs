@@ -112,7 +112,7 @@ fn every_origin_and_measure_goes_out_by_the_same_door() {
     let other = format!("fragility export --sample sa.txt {other}");
     refused(&place, &other, "alpha 0.1 rad");
     // Baker's example of counts (Earthquake Spectra 31 (2015) 579): 1.076.
-    let counts = "im,exceeded,n\n0.2,0,40\n0.3,0,40\n0.4,0,40\n0.6,4,40\n\
+    let counts = "intensity,exceeded,n\n0.2,0,40\n0.3,0,40\n0.4,0,40\n0.6,4,40\n\
                   0.7,6,40\n0.8,13,40\n0.9,12,40\n1,16,40\n";
     fs::write(place.join("counts.csv"), counts).unwrap();
     let median = &row("--counts counts.csv --im pga")[0]["median"];

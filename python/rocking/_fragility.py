@@ -100,8 +100,13 @@ def surface_fragility(block: Block) -> SurfaceFragility:
 
 
 def _source(fit: Fit) -> str | int:
-    """The origin of a fit, or the size of its sample."""
-    return fit.origin if isinstance(fit, SuiteFragility) else fit.n
+    """The origin of a fit in words, or the size of its sample."""
+    if isinstance(fit, SuiteFragility):
+        return fit.origin
+    if isinstance(fit, CountsFragility):
+        stripes = fit.degrees_of_freedom + 2
+        return f"counts of exceedance at {stripes} intensities"
+    return fit.n
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -109,10 +109,11 @@ fn read((place, text, years, site_deg): &Written) -> PyResult<Hazard> {
 
 /// The points of a hazard curve, its measure, the unit of its intensities,
 /// and what was set aside.
+type Found = (Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>);
+
+/// A hazard curve.
 #[pyfunction]
-pub fn hazard(
-    written: Written,
-) -> PyResult<(Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>)> {
+pub fn hazard(written: Written) -> PyResult<Found> {
     let found = read(&written)?;
     let remarks = found.remarks.iter().map(ToString::to_string).collect();
     let im = found.im.as_ref().map(ToString::to_string);

@@ -184,7 +184,7 @@ def test_pelicun_reads_the_probabilities(
     assert abs(law.cdf(x * unit) - fit.fitted.cdf(x)).max() < 5e-4
 
 
-def test_limit_states_and_the_surface_have_the_bytes_of_the_command_line(
+def test_fits_of_any_origin_have_the_bytes_of_the_command_line(
     command: Command, tmp_path: Path
 ) -> None:
     levels = [SAMPLE, [2.0 * x for x in SAMPLE]]
@@ -195,12 +195,17 @@ def test_limit_states_and_the_surface_have_the_bytes_of_the_command_line(
         flags += ["--sample", file]
     fits = [rk.fit_fragility(values) for values in levels]
     surface = rk.surface_fragility(BLOCK).suites["ordinary"]
+    counts = [(1.0, 1, 10), (2.0, 4, 10), (4.0, 9, 10)]
+    table = tmp_path / "counts.csv"
+    lines = ["intensity,exceeded,n", *(f"{x},{k},{n}" for x, k, n in counts)]
+    table.write_text("\n".join(lines) + "\n")
     calls: list[tuple[Any, list[object]]] = [
         (fits, flags),
         (surface, ["--surrogate", "ordinary"]),
+        (rk.fit_stripes(counts), ["--counts", table, "--im", "pga"]),
     ]
     for fit, words in calls:
-        eta = None if fit is fits else 0.92
+        eta = 0.92 if fit is surface else None
         one = rk.BlockFragility(block=BLOCK, fit=fit, im="pga", eta=eta)
         out = tmp_path / "out.csv"
         words += ["--alpha", 0.2, "--p", 3, "--format", "csv", "--out", out]

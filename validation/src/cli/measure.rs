@@ -11,10 +11,10 @@ use rocking::procedures::ranking::Candidate;
 use rocking::record::{SetAside, SuiteMember};
 use rocking_exchange::ida::IdaTable;
 
+use super::Failure;
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::samples::Opened;
-use super::Failure;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 

@@ -49,7 +49,7 @@ pub struct SourceArgs {
     /// Which capacity is made of several crossings [default: median].
     #[arg(long, value_parser = names::crossing(), requires = "ida")]
     point: Option<InversionRule>,
-    /// Table of counts, columns im,exceeded,n; again for each limit state.
+    /// Table of counts, columns intensity,exceeded,n; again for each limit state.
     #[arg(
         long,
         value_name = "FILE.csv",
@@ -234,11 +234,8 @@ impl SourceArgs {
     fn counts(&self, path: &Path) -> Result<Level, Failure> {
         let stripes = counts::read(path)?;
         let im = self.im.clone().unwrap_or(IntensityMeasure::Pga);
-        let origin = format!(
-            "counts of exceedance at {} intensities, {}",
-            stripes.len(),
-            im.words()
-        );
+        let origin =
+            format!("counts of exceedance at {} intensities", stripes.len());
         Ok(Level {
             place: path.display().to_string(),
             im,

@@ -87,10 +87,10 @@ for measure in rk.rank_ims(ida, suite).measures:
 # pelicun in the same way.
 
 # %%
-one = rk.BlockFragility(block=block, fit=fit, im="pga")
-nrml = rk.export(
-    [one], "block.xml", format="nrml", limit_state="overturning"
+one = rk.BlockFragility(
+    block=block, fit=fit, im="pga", limit_states=["overturning"]
 )
+nrml = rk.export([one], "block.xml", format="nrml")
 print(nrml[:500], "...")
 
 # %% [markdown]

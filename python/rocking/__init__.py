@@ -21,10 +21,13 @@ capacities                `fit_fragility`, `choose`, `test_normality`,
                           `summarise`, `compare`
 counts of stripes         `fit_stripes`
 a record                  `intensity_measures`, `rotd50`, `velocity_pulse`
-an IDA                    its `fit`, `levels`, `stripes`; `rank_ims`
+an IDA                    its `fit`, `levels`, `stripes`, `summarise`,
+                          `pivot_forces`; `rank_ims`
 a table of `rocking ida`  `read_ida`
 a result                  its `to_json`, `to_pandas`, `plot`
+a block, and no analysis  `surface_fragility`
 fragilities of blocks     `export`
+a hazard curve            `read_hazard`, then `risk`
 ========================  ==================================================
 
 Angles are in rad, times in s, `alpha` is the slenderness angle atan(b/h) and
@@ -38,6 +41,16 @@ command line `rocking`, for any number of threads.
 """
 
 from ._analyses import Response, peak, respond, spectrum
+from ._fragility import (
+    BlockFragility,
+    Hazard,
+    Risk,
+    SurfaceFragility,
+    export,
+    read_hazard,
+    risk,
+    surface_fragility,
+)
 from ._ida import Ida, ImCurves, ida, rank_ims, read_ida
 from ._inputs import (
     STANDARD_GRAVITY,
@@ -54,10 +67,12 @@ from ._results import (
     Boxplot,
     Choice,
     Comparison,
+    IdaSummary,
     LevelCapacities,
     LevelCrossings,
     Measures,
     Normality,
+    PivotForces,
     Ranking,
     Reason,
     StripeResponses,
@@ -66,7 +81,6 @@ from ._results import (
 )
 from ._rocking import __version__
 from ._statistics import (
-    BlockFragility,
     CountsFragility,
     Fragility,
     FragilityFit,
@@ -74,7 +88,6 @@ from ._statistics import (
     Sample,
     choose,
     compare,
-    export,
     fit_fragility,
     fit_stripes,
     summarise,
@@ -82,7 +95,6 @@ from ._statistics import (
 )
 
 __all__ = [
-    "STANDARD_GRAVITY",
     "Block",
     "BlockFragility",
     "Boxplot",
@@ -91,22 +103,28 @@ __all__ = [
     "CountsFragility",
     "Fragility",
     "FragilityFit",
+    "Hazard",
     "Ida",
+    "IdaSummary",
     "ImCurves",
     "LevelCapacities",
     "LevelCrossings",
     "LevelFit",
     "Measures",
     "Normality",
+    "PivotForces",
     "Pulse",
     "Ranking",
     "Reason",
     "Record",
     "Response",
+    "Risk",
+    "STANDARD_GRAVITY",
     "Sample",
     "StripeResponses",
     "Suite",
     "Summary",
+    "SurfaceFragility",
     "VelocityPulse",
     "__version__",
     "choose",
@@ -119,13 +137,16 @@ __all__ = [
     "intensity_measures",
     "peak",
     "rank_ims",
+    "read_hazard",
     "read_ida",
     "read_record",
     "read_suite",
     "respond",
+    "risk",
     "rotd50",
     "spectrum",
     "summarise",
+    "surface_fragility",
     "test_normality",
     "velocity_pulse",
 ]

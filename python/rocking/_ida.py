@@ -29,8 +29,10 @@ from ._inputs import (
 )
 from ._outputs import replace
 from ._results import (
+    IdaSummary,
     LevelCapacities,
     LevelCrossings,
+    PivotForces,
     Ranking,
     StripeResponses,
     axes,
@@ -46,8 +48,8 @@ _UNITS = {
     "alpha_rad": "rad",
     "pga_g": "g",
     "pgv_m_s": "m s-1",
-    "im_pga": "1",
-    "im_pgv": "1",
+    "intensity_pga": "1",
+    "intensity_pgv": "1",
     "edp": "1",
     "margin": "1",
 }
@@ -228,7 +230,7 @@ class Ida(Curves):
     @property
     def im(self) -> tuple[Floats, ...]:
         """PGA/(g tan alpha) of each record's curve."""
-        return self._each("im_pga")
+        return self._each("intensity_pga")
 
     @property
     def edp(self) -> tuple[Floats, ...]:
@@ -275,6 +277,25 @@ class Ida(Curves):
     def _native(self) -> _rocking.IdaCurves:
         return self._table.against("pga", None)
 
+    def summarise(self) -> IdaSummary:
+        """The curves in a few numbers; of an analysis that was run here, not
+        of a table that was read."""
+        return IdaSummary._of(self._table.summary())
+
+    def pivot_forces(
+        self, suite: Sequence[Record], friction: ArrayLike
+    ) -> PivotForces:
+        """How many analyses need more friction |H|/N at the pivot than each
+        coefficient; the model does not slide.
+
+        Each analysis is run once more on the records of `suite`, so that it
+        takes an IDA that was run here, not a table that was read.
+        """
+        records = [given(record) for record in suite]
+        coefficients = floats(friction, "friction").tolist()
+        found = self._table.pivot_forces(records, coefficients)
+        return PivotForces._of(found)
+
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Writes the table that `rocking ida` writes and other commands and
         `read_ida` read."""
@@ -297,7 +318,7 @@ class Ida(Curves):
         Level 0 is the onset of rocking, the last level of a record its first
         overturned one. Curves end at different levels: beyond its end a row
         holds NaN, and the outcome "". The variables are columns of
-        `to_pandas`. `overturning_im_pga` has the first overturning of each
+        `to_pandas`. `overturning_intensity_pga` has the first overturning of each
         record as `capacities` gives it, refined, and infinite where the
         record never overturned the block.
         """
@@ -322,7 +343,7 @@ class Ida(Curves):
         variables["outcome"] = over, words
         overturning = self.capacities(np.inf)
         known = {"units": "1"}
-        variables["overturning_im_pga"] = "record", overturning, known
+        variables["overturning_intensity_pga"] = "record", overturning, known
         places = {
             "record": np.asarray(self.records),
             "level": np.arange(shape[1]),

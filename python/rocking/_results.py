@@ -22,6 +22,8 @@ def _made(kind: Any, value: Any) -> Any:
         return None
     if get_origin(kind) is tuple:
         return tuple(_made(get_args(kind)[0], one) for one in value)
+    if get_origin(kind) is dict:
+        return {key: _made(get_args(kind)[1], one) for key, one in value.items()}
     if get_origin(kind) is UnionType:
         kinds = [one for one in get_args(kind) if one is not NoneType]
         if Reason in kinds:
@@ -433,11 +435,73 @@ class Ranking(Result):
 
 
 @dataclass(frozen=True)
+class Certification(Result):
+    """In which arithmetic analyses were resolved."""
+
+    analyses: int
+    assessed: int
+    double: int
+    double_double: int
+    octuple: int
+    unresolved: int
+    moved: int
+    """Fates that double precision had told wrongly."""
+    only_these_doubles: int
+    """Resolved for the doubles given, not for all inputs that round to
+    them."""
+
+
+@dataclass(frozen=True)
+class CurveSummary(Result):
+    """One curve, counted; `overturning_im` is None where the block stands."""
+
+    record: str
+    levels: int
+    overturning_im: float | None
+
+
+@dataclass(frozen=True)
+class IdaSummary(Result):
+    """The curves of a suite, counted."""
+
+    records: int
+    analyses: int
+    """Bisection included."""
+    overturned_curves: int
+    median_overturning_im: float | None
+    """PGA/(g tan alpha); None where half of the curves stand."""
+    certification: Certification
+    resurrections: int | None
+    """Levels above a first overturning at which the block stands again."""
+    curves: tuple[CurveSummary, ...]
+
+
+@dataclass(frozen=True)
+class FrictionNeed(Result):
+    """How many analyses need more than this coefficient of friction."""
+
+    friction: float
+    need_more: int
+    share: float
+
+
+@dataclass(frozen=True)
+class PivotForces(Result):
+    """Friction |H|/N and normal force N/(m g) that analyses need at the
+    pivot; `largest_friction` is None where N is not positive."""
+
+    analyses: int
+    needs: tuple[FrictionNeed, ...]
+    largest_friction: float | None
+    least_normal_over_weight: float
+
+
+@dataclass(frozen=True)
 class StripeResponses(Result):
     """The responses at one intensity; quantiles are None where the block
     overturned, and `open` records were not run so far."""
 
-    im: float
+    intensity: float
     n: int
     edp16: float | None
     edp50: float | None

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 _Floats = NDArray[np.float64]
 Given = tuple[str, _Floats | None, float, dict[str, float]]
 _Block = tuple[float, float]
-_Law = tuple[float, float, float]
+Law = tuple[float, float, float]
 Sample = tuple[_Floats, Sequence[float | None]]
 Member = tuple[Given, dict[str, str]]
 _Read = tuple[str, _Floats, float, dict[str, str]]
+Written = tuple[str, str, float | None, tuple[float, float] | None]
 _Progress = Callable[[int, int], object] | None
 
 class Physics(TypedDict):
@@ -40,8 +41,7 @@ class Fit(TypedDict):
 
 class Wanted(TypedDict):
     block: _Block
-    law: _Law
-    n: int
+    limit_states: Sequence[tuple[str, Law, str | int]]
     im: str
     id: str | None
     eta: float | None
@@ -55,6 +55,10 @@ class IdaTable:
     def against(
         self, im: str, suite: Sequence[Member] | None
     ) -> IdaCurves: ...
+    def summary(self) -> str: ...
+    def pivot_forces(
+        self, suite: Sequence[Given], friction: Sequence[float]
+    ) -> str: ...
     def rank(
         self,
         suite: Sequence[Member],
@@ -161,10 +165,17 @@ def summarise(
     values: _Floats, probabilities: Sequence[float], quantile_type: int
 ) -> str: ...
 def compare(a: _Floats, b: _Floats, margin: float) -> str: ...
-def lognormal(law: _Law, function: str, numbers: _Floats) -> _Floats: ...
+def lognormal(law: Law, function: str, numbers: _Floats) -> _Floats: ...
 def exchange(
-    format: str,
-    blocks: Sequence[Wanted],
-    limit_state: str,
-    gravity: float,
+    format: str, blocks: Sequence[Wanted], gravity: float
 ) -> tuple[str, tuple[str, str] | None]: ...
+def hazard(
+    written: Written,
+) -> tuple[list[tuple[float, float]], str | None, str, list[str]]: ...
+def risk(
+    written: Written,
+    exposed: Sequence[tuple[str, Law | Wanted]],
+    gravity: float,
+    years: float,
+) -> str: ...
+def surface(block: _Block) -> str: ...

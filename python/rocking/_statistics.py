@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _rocking
-from ._inputs import (
-    STANDARD_GRAVITY,
-    Block,
-    Floats,
-    Frozen,
-    Model,
-    floats,
-)
-from ._outputs import replace
+from ._inputs import Floats, Frozen, floats
 from ._results import (
     Band,
     Choice,
@@ -108,11 +98,15 @@ class Fragility(Result):
     median: float
     """shift + exp(log_mean)."""
 
+    @property
+    def _law(self) -> _rocking.Law:
+        return self.shift, self.log_mean, self.dispersion
+
     def _at(self, function: str, x: ArrayLike) -> Floats:
         values = np.asarray(x, dtype=np.float64)
         flat = np.ascontiguousarray(values.ravel())
-        law = self.shift, self.log_mean, self.dispersion
-        return _rocking.lognormal(law, function, flat).reshape(values.shape)
+        found = _rocking.lognormal(self._law, function, flat)
+        return found.reshape(values.shape)
 
     def cdf(self, x: ArrayLike) -> Floats:
         """Probability of exceedance at intensity x."""
@@ -395,85 +389,3 @@ def compare(
     """
     values = given_sample(a)[0], given_sample(b)[0]
     return Comparison._of(_rocking.compare(*values, margin))
-
-
-@dataclass(frozen=True, kw_only=True)
-class BlockFragility:
-    """The fragility of one block, for the file of another program.
-
-    A fit is dimensionless. The file has the block's own PGA in g, or PGV in
-    the unit that the reader expects.
-    """
-
-    block: Block
-    fit: FragilityFit | CountsFragility
-    im: Literal["pga", "pgv"]
-    """What the fit is in: PGA/(g tan alpha), or p PGV/(g tan alpha)."""
-    id: str | None = None
-    """Name in the file, of ASCII letters, digits, `_` and `:`; from alpha and
-    p unless given."""
-    eta: float | None = None
-    model: Model = "nonlinear"
-    """The linearized equation has alpha in place of tan alpha."""
-    origin: str | None = None
-    """Where the fragility comes from, in words."""
-
-
-def export(
-    blocks: Sequence[BlockFragility],
-    path: str | os.PathLike[str] | None = None,
-    *,
-    format: Literal["nrml", "pelicun", "pact", "csv"],
-    limit_state: str = "exceeded",
-    gravity: float = STANDARD_GRAVITY,
-) -> str:
-    """Fragilities of blocks as one file of another program.
-
-    "nrml" is OpenQuake's NRML 0.5, "pelicun" a CSV with a JSON beside it,
-    "pact" median and dispersion, "csv" all parameters. OpenQuake and pelicun
-    have no lognormal with a shift: such a fit is written as points, which are
-    off by at most 5e-4 in probability.
-
-    Returns
-    -------
-    str
-        The text, with the bytes of `rocking fragility export`; it is written
-        to `path` where that is given, and a second file beside it.
-
-    >>> fit = fit_fragility([1.5, 2.0, 3.0], shift=1.0)
-    >>> one = BlockFragility(block=Block(alpha=0.2, p=3.0), fit=fit, im="pga")
-    >>> print(export([one], format="nrml").splitlines()[5])
-    <fragilityFunction id="block_a0_2_p3" format="discrete">
-    """
-    wanted: list[_rocking.Wanted] = [
-        {
-            "block": (one.block.alpha, one.block.p),
-            "law": (
-                one.fit.fitted.shift,
-                one.fit.fitted.log_mean,
-                one.fit.fitted.dispersion,
-            ),
-            "n": one.fit.n,
-            "im": one.im,
-            "id": one.id,
-            "eta": one.eta,
-            "model": one.model,
-            "origin": one.origin,
-        }
-        for one in blocks
-    ]
-    text, beside = _rocking.exchange(format, wanted, limit_state, gravity)
-    if path is None:
-        return text
-    files = [(Path(path), text)]
-    if beside is not None:
-        extension, second = beside
-        files.append((Path(path).with_suffix(f".{extension}"), second))
-        if files[1][0] == files[0][0]:
-            raise ValueError(
-                f"{path}: expected a file .csv, beside which a file "
-                f".{extension} is written"
-            )
-    for file, content in files:
-        replace(file, content)
-    return text

@@ -1,24 +1,40 @@
-//! Fragilities as texts of other programs.
+//! Fragilities as texts of other programs, and under a hazard curve.
 
 use pyo3::prelude::*;
-use rocking::intensity::Intensity;
+use rocking::fragility::hazard::{Hazard, HazardOptions};
+use rocking::intensity::IntensityMeasure;
+use rocking::procedures::risk as procedure;
 use rocking::statistics::Lognormal;
 use rocking_exchange::{
     BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
 };
+use rocking_surrogate::Surrogate;
 
 use crate::given::{block_of, choose, positive_gravity, refuse};
+use crate::procedures::answer;
 
-/// The dimensionless fragility of a block: `law` is (shift, log_mean,
-/// dispersion) of a sample of `n`.
+/// The shift, log_mean and dispersion of a lognormal.
+type Law = (f64, f64, f64);
+
+fn lognormal((shift, log_mean, dispersion): Law) -> PyResult<Lognormal> {
+    Lognormal::try_new(shift, log_mean, dispersion).map_err(refuse)
+}
+
+/// Where a fragility comes from, or the size of its sample.
+#[derive(FromPyObject)]
+pub enum Source {
+    Origin(String),
+    Size(usize),
+}
+
+/// The fragilities of a block in the unit of their samples: name, law and
+/// source of each limit state.
 #[derive(FromPyObject)]
 pub struct Wanted {
     #[pyo3(item)]
     block: (f64, f64),
     #[pyo3(item)]
-    law: (f64, f64, f64),
-    #[pyo3(item)]
-    n: usize,
+    limit_states: Vec<(String, Law, Source)>,
     #[pyo3(item)]
     im: String,
     #[pyo3(item)]
@@ -32,27 +48,36 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    fn fragility(
-        self,
-        name: &Id,
-        gravity_m_s2: f64,
-    ) -> PyResult<BlockFragility> {
-        let intensity: Intensity = self.im.parse().map_err(refuse)?;
+    /// The fragilities in the block's own measure, in so many units in one
+    /// of that measure.
+    fn fragility(self, gravity: f64, units: f64) -> PyResult<BlockFragility> {
+        let gravity_m_s2 = positive_gravity(gravity)?;
+        let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
         let model = self.model.parse().map_err(refuse)?;
-        let factor = unit_intensity(intensity, &block, model, gravity_m_s2);
-        let (shift, log_mean, dispersion) = self.law;
-        let law = Lognormal::try_new(shift, log_mean, dispersion);
-        let fragility = law.and_then(|f| f.scaled(factor)).map_err(refuse)?;
+        let factor = units
+            * im.dimensionless().map_or(1.0, |own| {
+                unit_intensity(own, &block, model, gravity_m_s2)
+            });
+        let (mut limit_states, mut origins) = (Vec::new(), Vec::new());
+        for (name, law, source) in self.limit_states {
+            let name: Id = name.parse().map_err(refuse)?;
+            let fragility = lognormal(law)?.scaled(factor).map_err(refuse)?;
+            limit_states.push(LimitState { name, fragility });
+            origins.push(match source {
+                Source::Origin(words) => words,
+                Source::Size(n) => unstated_origin(n, &im),
+            });
+        }
+        origins.dedup();
         let id = self.id.map_or_else(|| Id::of(&block), |id| id.parse());
-        let (n, im) = (self.n, intensity.into());
         Ok(BlockFragility {
             id: id.map_err(refuse)?,
             block,
             eta: self.eta,
-            origin: self.origin.unwrap_or_else(|| unstated_origin(n, &im)),
             im,
-            limit_states: vec![LimitState { name: name.clone(), fragility }],
+            limit_states,
+            origin: self.origin.unwrap_or_else(|| origins.join("; ")),
         })
     }
 }
@@ -63,15 +88,88 @@ impl Wanted {
 pub fn exchange(
     format: &str,
     blocks: Vec<Wanted>,
-    limit_state: &str,
     gravity: f64,
 ) -> PyResult<(String, Option<(&'static str, String)>)> {
     let formats = Format::ALL.map(|f| (f.name(), f));
     let format = choose("format", format, &formats)?;
-    let gravity_m_s2 = positive_gravity(gravity)?;
-    let name: Id = limit_state.parse().map_err(refuse)?;
-    let all = blocks.into_iter().map(|one| one.fragility(&name, gravity_m_s2));
+    let all = blocks.into_iter().map(|one| one.fragility(gravity, 1.0));
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let texts = format.texts(&all).map_err(refuse)?;
     Ok((texts.main, texts.beside))
+}
+
+/// A hazard curve as it is written: the place, its text, the years of its
+/// probabilities, and the longitude and latitude of the site.
+type Written = (String, String, Option<f64>, Option<(f64, f64)>);
+
+fn read((place, text, years, site_deg): &Written) -> PyResult<Hazard> {
+    let options = HazardOptions { years: *years, site_deg: *site_deg };
+    Hazard::parse(place, text, &options).map_err(refuse)
+}
+
+/// The points of a hazard curve, its measure, the unit of its intensities,
+/// and what was set aside.
+type Found = (Vec<(f64, f64)>, Option<String>, &'static str, Vec<String>);
+
+/// A hazard curve.
+#[pyfunction]
+pub fn hazard(written: Written) -> PyResult<Found> {
+    let found = read(&written)?;
+    let remarks = found.remarks.iter().map(ToString::to_string).collect();
+    let im = found.im.as_ref().map(ToString::to_string);
+    Ok((found.curve.points().to_vec(), im, found.unit(), remarks))
+}
+
+/// A fragility in the unit of a hazard curve, or those of a block.
+#[derive(FromPyObject)]
+pub enum Exposed {
+    Law(Law),
+    Block(Wanted),
+}
+
+/// Annual frequencies of named fragilities under a hazard curve.
+#[pyfunction]
+pub fn risk(
+    py: Python<'_>,
+    written: Written,
+    exposed: Vec<(String, Exposed)>,
+    gravity: f64,
+    years: f64,
+) -> PyResult<String> {
+    let hazard = read(&written)?;
+    let mut all = Vec::new();
+    for (name, one) in exposed {
+        let block = match one {
+            Exposed::Law(law) => {
+                all.push((name, lognormal(law)?));
+                continue;
+            }
+            Exposed::Block(block) => block,
+        };
+        let own = block.fragility(gravity, hazard.units_per_im_unit)?;
+        if hazard.im.as_ref() != Some(&own.im) {
+            let found = hazard.im.as_ref().map(ToString::to_string);
+            return Err(refuse(format!(
+                "{name}: a fragility in {}, a hazard curve in {}: expected \
+                 the same measure",
+                own.im,
+                found.as_deref().unwrap_or("a measure not stated"),
+            )));
+        }
+        let one = own.limit_states.len() == 1;
+        all.extend(own.limit_states.into_iter().map(|state| match one {
+            true => (name.clone(), state.fragility),
+            false => (format!("{name} {}", state.name), state.fragility),
+        }));
+    }
+    let all: Vec<(&str, Lognormal)> =
+        all.iter().map(|(name, law)| (name.as_str(), *law)).collect();
+    answer(py, || procedure(&hazard, &all, years))
+}
+
+/// Overturning fragilities of a block by the fitted surface.
+#[pyfunction]
+pub fn surface(py: Python<'_>, block: (f64, f64)) -> PyResult<String> {
+    let block = block_of(block)?;
+    answer(py, || Surrogate::embedded()?.fragility(&block))
 }

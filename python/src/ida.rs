@@ -1,6 +1,7 @@
 //! Incremental dynamic analysis of a suite, and what one asks of its table.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
@@ -13,14 +14,15 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::capacity::{CapacityError, InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
-use rocking::ida::{Analysis, Batch, Grid, curves};
+use rocking::ida::{Analysis, Batch, Grid, IdaCurve, curves};
 use rocking::integrator::uplift_threshold;
 use rocking::intensity::{
     AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
 };
 use rocking::procedures::ranking::{Candidate, Covariate};
 use rocking::procedures::{
-    Draws, ProcedureError, capacities, fit_levels, rank, stripes,
+    Draws, ProcedureError, capacities, fit_levels, pivot_forces, rank,
+    stripes, summarise_ida,
 };
 use rocking::record::Accelerogram;
 use rocking::stop;
@@ -47,9 +49,12 @@ pub struct Scan {
     highest_im: f64,
 }
 
-/// The table of an IDA.
+/// The table of an IDA, and unless it was read the run that made it.
 #[pyclass(frozen, module = "rocking._rocking")]
-pub struct IdaTable(tables::IdaTable);
+pub struct IdaTable {
+    table: tables::IdaTable,
+    run: Option<(Analysis, Vec<IdaCurve>)>,
+}
 
 /// IDA of every record.
 #[pyfunction]
@@ -81,21 +86,25 @@ pub fn ida<'py>(
     };
     let records = records_of(records)?;
     let found = work::run(py, threads, progress, records.len(), |done| {
-        let unit = |record| {
-            stop::point();
-            NormalisedRecord::new(record)
-        };
-        let units: Vec<_> =
-            records.par_iter().panic_fuse().map(unit).collect();
+        let units = normalised(&records);
         let batch = Batch { progress: &|| done.tick(), ..Batch::default() };
         curves(&units, &[analysis], &batch)
     })?
     .map_err(refuse)?;
+    let curves = found.into_iter().flatten().collect::<Vec<_>>();
     let about = ("none", concat!("rocking ", env!("CARGO_PKG_VERSION")));
     let none = |_: &str| String::new();
-    let table =
-        tables::IdaTable::of(&found[0], &analysis, gravity, about, none);
-    Ok(IdaTable(table))
+    let table = tables::IdaTable::of(&curves, &analysis, gravity, about, none);
+    Ok(IdaTable { table, run: Some((analysis, curves)) })
+}
+
+/// The records at a peak of 1 g.
+fn normalised(records: &[Accelerogram]) -> Vec<NormalisedRecord> {
+    let unit = |record| {
+        stop::point();
+        NormalisedRecord::new(record)
+    };
+    records.par_iter().panic_fuse().map(unit).collect()
 }
 
 /// Reads the table of an IDA.
@@ -110,14 +119,15 @@ pub fn read_ida(py: Python<'_>, path: PathBuf) -> PyResult<IdaTable> {
         }
     })?;
     let read = || tables::IdaTable::read(file, &path);
-    Ok(IdaTable(work::alone(py, read)?.map_err(refuse)?))
+    let table = work::alone(py, read)?.map_err(refuse)?;
+    Ok(IdaTable { table, run: None })
 }
 
 /// The table of a CSV text, for pickles.
 #[pyfunction]
 pub fn ida_of_csv(text: &str) -> PyResult<IdaTable> {
     let read = tables::IdaTable::read(text.as_bytes(), Path::new("CSV"));
-    read.map(IdaTable).map_err(refuse)
+    read.map(|table| IdaTable { table, run: None }).map_err(refuse)
 }
 
 /// A record of a suite, and what else is known of it.
@@ -167,14 +177,32 @@ fn cell(
 }
 
 impl IdaTable {
+    /// What was run.
+    fn run(&self) -> PyResult<&(Analysis, Vec<IdaCurve>)> {
+        self.run.as_ref().ok_or_else(|| {
+            refuse("a table that was read: expected the result of `ida`")
+        })
+    }
+
+    /// Refuses records that are not those of the table.
+    fn of_suite<'a>(
+        &self,
+        suite: impl Iterator<Item = &'a Accelerogram>,
+    ) -> PyResult<()> {
+        if suite.map(Accelerogram::name).eq(self.table.records()) {
+            return Ok(());
+        }
+        Err(refuse("records of another suite than those of the IDA"))
+    }
+
     fn ground(
         &self,
         py: Python<'_>,
         suite: Vec<Member<'_>>,
         ims: &[IntensityMeasure],
     ) -> PyResult<Ground> {
-        let setting = &self.0.setting;
-        let Some(alpha_rad) = self.0.alpha_rad() else {
+        let setting = &self.table.setting;
+        let Some(alpha_rad) = self.table.alpha_rad() else {
             return Err(refuse("the records are not scaled: no measure"));
         };
         let block = Block::try_new(alpha_rad, setting.p_rad_s);
@@ -194,12 +222,7 @@ impl IdaTable {
             record_of(record).map(|record| (record, known))
         });
         let members = members.collect::<PyResult<Vec<_>>>()?;
-        let records = members.iter().map(|(record, _)| record.name());
-        if !records.eq(self.0.records()) {
-            return Err(refuse(
-                "records of another suite than those of the IDA",
-            ));
-        }
+        self.of_suite(members.iter().map(|(record, _)| record))?;
         let measured = || {
             let one = |(record, known): (Accelerogram, _)| {
                 let measures = Measures::of(&record, &settings)?;
@@ -218,12 +241,12 @@ impl IdaTable {
 impl IdaTable {
     /// The CSV text, with the bytes of `rocking ida`.
     fn csv(&self) -> String {
-        self.0.csv()
+        self.table.csv()
     }
 
     /// The columns that differ by row.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let rows = &self.0.rows;
+        let rows = &self.table.rows;
         let out = PyDict::new(py);
         let texts = |text: fn(&Row) -> &str| {
             rows.iter().map(text).collect::<Vec<&str>>()
@@ -246,9 +269,9 @@ impl IdaTable {
 
     /// What all rows share; no alpha where the slenderness is adjusted.
     fn setting<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let setting = &self.0.setting;
+        let setting = &self.table.setting;
         let out = PyDict::new(py);
-        out.set_item("alpha_rad", self.0.alpha_rad())?;
+        out.set_item("alpha_rad", self.table.alpha_rad())?;
         out.set_item("p_rad_s", setting.p_rad_s)?;
         out.set_item("eta", setting.eta)?;
         out.set_item("model", setting.model.name())?;
@@ -260,6 +283,29 @@ impl IdaTable {
         Ok(out)
     }
 
+    /// The curves in a few numbers.
+    fn summary(&self, py: Python<'_>) -> PyResult<String> {
+        let (analysis, curves) = self.run()?;
+        let found = || Ok::<_, Infallible>(summarise_ida(curves, analysis));
+        answer(py, found)
+    }
+
+    /// What the analyses ask of the pivot.
+    fn pivot_forces(
+        &self,
+        py: Python<'_>,
+        suite: Vec<Given<'_>>,
+        friction: Vec<f64>,
+    ) -> PyResult<String> {
+        let (analysis, curves) = self.run()?;
+        let records = records_of(suite)?;
+        self.of_suite(records.iter())?;
+        answer(py, || {
+            let units = normalised(&records);
+            pivot_forces(&units, curves, analysis, &friction)
+        })
+    }
+
     /// The curves against a measure; all but pga and pgv need the suite.
     fn against(
         &self,
@@ -269,7 +315,7 @@ impl IdaTable {
     ) -> PyResult<IdaCurves> {
         let measure: IntensityMeasure = im.parse().map_err(refuse)?;
         if let Some(own) = measure.dimensionless() {
-            return Ok(IdaCurves(self.0.curves(own).map_err(of_record)?));
+            return Ok(IdaCurves(self.table.curves(own).map_err(of_record)?));
         }
         let Some(suite) = suite else {
             let words = measure.words();
@@ -277,7 +323,7 @@ impl IdaTable {
         };
         let ims = std::slice::from_ref(&measure);
         let factors = self.ground(py, suite, ims)?.at_uplift(&measure)?;
-        let curves = self.0.curves(Intensity::Pga).map_err(of_record)?;
+        let curves = self.table.curves(Intensity::Pga).map_err(of_record)?;
         let curves = curves.against(&factors, measure.is_squared());
         Ok(IdaCurves(curves.map_err(refuse)?))
     }
@@ -303,7 +349,7 @@ impl IdaTable {
                 .map(|im| im.parse().map_err(refuse))
                 .collect::<PyResult<_>>()?,
         };
-        let curves = self.0.curves(Intensity::Pga).map_err(of_record)?;
+        let curves = self.table.curves(Intensity::Pga).map_err(of_record)?;
         let found = capacities::intervals(&curves.into_curves(), edp, rule);
         let found = found.map_err(refuse)?;
         let ground = self.ground(py, suite, &ims)?;

@@ -47,5 +47,8 @@ fn _rocking(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(procedures::compare, m)?)?;
     m.add_function(wrap_pyfunction!(procedures::lognormal, m)?)?;
     m.add_function(wrap_pyfunction!(exchange::exchange, m)?)?;
+    m.add_function(wrap_pyfunction!(exchange::hazard, m)?)?;
+    m.add_function(wrap_pyfunction!(exchange::risk, m)?)?;
+    m.add_function(wrap_pyfunction!(exchange::surface, m)?)?;
     Ok(())
 }

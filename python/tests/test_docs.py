@@ -19,6 +19,7 @@ MODULES = (
     "._analyses",
     "._ida",
     "._statistics",
+    "._fragility",
     "._measures",
 )
 

@@ -19,7 +19,6 @@ BLOCK = rk.Block(alpha=0.2, p=3.0)
 def nrml(
     fit: rk.FragilityFit,
     path: Path | None = None,
-    limit_state: str = "exceeded",
     gravity: float = 9.80665,
     format: Any = "nrml",
     **about: Any,
@@ -27,9 +26,7 @@ def nrml(
     """The file of one block."""
     known: Any = {"block": BLOCK, "im": "pga", **about}
     one = rk.BlockFragility(fit=fit, **known)
-    return rk.export(
-        [one], path, format=format, limit_state=limit_state, gravity=gravity
-    )
+    return rk.export([one], path, format=format, gravity=gravity)
 
 
 CASES = [(im, shift) for im, both in SHIFTS.items() for shift in both]
@@ -63,7 +60,7 @@ def test_a_text_has_the_bytes_of_the_command_line(
 
 def test_names_and_origin_are_those_given() -> None:
     fit = rk.fit_fragility(SAMPLE)
-    text = nrml(fit, limit_state="fallen", id="statue", origin="A & B")
+    text = nrml(fit, limit_states=["fallen"], id="statue", origin="A & B")
     assert '<fragilityFunction id="statue" ' in text
     assert "<limitStates>fallen</limitStates>" in text
     assert "<description>A &amp; B</description>" in text
@@ -94,7 +91,7 @@ def test_what_no_reader_takes_is_refused_as_the_command_line_says(
             ["--sample", sample, "--shift", 1, "--id", "a.b"],
         ),
         (
-            lambda: nrml(fit, out, limit_state="x" * 76),
+            lambda: nrml(fit, out, limit_states=["x" * 76]),
             ["--sample", sample, "--shift", 1, "--limit-state", "x" * 76],
         ),
         (
@@ -113,7 +110,8 @@ def test_what_no_reader_takes_is_refused_as_the_command_line_says(
         assert done.returncode == 2, done.stdout
         assert str(refused.value) in done.stderr
     wrongs: list[tuple[dict[str, Any], str]] = [
-        ({"im": "sa"}, 'intensity "sa": expected one of pga, pgv'),
+        ({"im": "sa"}, 'intensity measure "sa": expected one of pga, pgv'),
+        ({"limit_states": ["a", "b"]}, "each of 1 limit states"),
         ({"im": "pgv", "gravity": 0.0}, "gravity 0 m/s2: expected"),
         ({"im": "pga", "model": "both"}, "expected one of nonlinear"),
     ]
@@ -184,6 +182,35 @@ def test_pelicun_reads_the_probabilities(
     x = np.linspace(0.05, 12.0, 40)
     unit = np.tan(0.15) * (1.0 if im == "pga" else 9.80665 / 3.0)
     assert abs(law.cdf(x * unit) - fit.fitted.cdf(x)).max() < 5e-4
+
+
+def test_fits_of_any_origin_have_the_bytes_of_the_command_line(
+    command: Command, tmp_path: Path
+) -> None:
+    levels = [SAMPLE, [2.0 * x for x in SAMPLE]]
+    flags: list[object] = ["--im", "pga"]
+    for k, values in enumerate(levels):
+        file = tmp_path / f"{k}.txt"
+        file.write_text("\n".join(map(repr, values)) + "\n")
+        flags += ["--sample", file]
+    fits = [rk.fit_fragility(values) for values in levels]
+    surface = rk.surface_fragility(BLOCK).suites["ordinary"]
+    counts = [(1.0, 1, 10), (2.0, 4, 10), (4.0, 9, 10)]
+    table = tmp_path / "counts.csv"
+    lines = ["intensity,exceeded,n", *(f"{x},{k},{n}" for x, k, n in counts)]
+    table.write_text("\n".join(lines) + "\n")
+    calls: list[tuple[Any, list[object]]] = [
+        (fits, flags),
+        (surface, ["--surrogate", "ordinary"]),
+        (rk.fit_stripes(counts), ["--counts", table, "--im", "pga"]),
+    ]
+    for fit, words in calls:
+        eta = 0.92 if fit is surface else None
+        one = rk.BlockFragility(block=BLOCK, fit=fit, im="pga", eta=eta)
+        out = tmp_path / "out.csv"
+        words += ["--alpha", 0.2, "--p", 3, "--format", "csv", "--out", out]
+        command("fragility", "export", *words)
+        assert rk.export([one], format="csv").encode() == out.read_bytes()
 
 
 def test_blocks_share_a_file(command: Command, tmp_path: Path) -> None:

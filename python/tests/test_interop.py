@@ -157,19 +157,19 @@ def test_curves_are_an_xarray_dataset_by_record_and_level(
         one = found.sel(record=name)
         stands = one.outcome.values != ""
         assert stands.tolist() == [j < len(rows) for j in range(longest)]
-        assert one.im_pga.values[stands].tolist() == ida.im[i].tolist()
+        assert one.intensity_pga.values[stands].tolist() == ida.im[i].tolist()
         assert one.edp.values[stands].tolist() == ida.edp[i].tolist()
         for key in found.data_vars:
-            if key == "overturning_im_pga":
+            if key == "overturning_intensity_pga":
                 continue
             values = one[key].values
             assert values[stands].tolist() == rows[key].tolist(), key
             if key != "outcome":
                 assert np.isnan(values[~stands]).all(), key
-    last = found.overturning_im_pga
+    last = found.overturning_intensity_pga
     assert last.values.tolist() == ida.capacities(np.inf).tolist()
     # Refinement lies within the last step, whose end is the curve's.
-    ends = found.im_pga.max("level")
+    ends = found.intensity_pga.max("level")
     assert bool((last <= ends).all()) and not bool((last == ends).all())
     assert found.attrs["p_rad_s"] == 3.0
     assert found.edp.attrs["units"] == "1"

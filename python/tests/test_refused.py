@@ -1,5 +1,6 @@
 """What is refused, by which exception, with the core's text."""
 
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,11 @@ LOBE = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="lobe")
 PACKET = rk.Record([0.0, 0.3, 0.0], 0.25, units="g", name="packet")
 # What a type checker refuses, too.
 WRONG: Any = "neither"
+HAZARD = rk.Hazard("h.csv", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")
+LAW = rk.Fragility(shift=0.0, log_mean=0.0, dispersion=0.5, median=1.0)
+BY_VELOCITY = rk.BlockFragility(
+    block=BLOCK, fit=rk.fit_fragility([1.5, 2.0, 3.0]), im="pgv"
+)
 
 REFUSED: list[tuple[Callable[[], object], str]] = [
     (lambda: rk.Block(alpha=0.0, p=1.0), "slenderness angle 0 rad: expected"),
@@ -72,6 +78,25 @@ REFUSED: list[tuple[Callable[[], object], str]] = [
         lambda: rk.rank_ims(rk.ida(BLOCK, LOBE), [LOBE], ims=["column:mw"]),
         "record lobe, attribute mw: found none: expected a positive",
     ),
+    (
+        lambda: rk.ida(BLOCK, LOBE).pivot_forces([PACKET], [0.3]),
+        "records of another suite",
+    ),
+    (
+        lambda: rk.ida(BLOCK, LOBE).pivot_forces([LOBE], [0.0]),
+        "coefficient of friction 0: expected",
+    ),
+    (
+        lambda: pickle.loads(pickle.dumps(rk.ida(BLOCK, LOBE))).summarise(),
+        "a table that was read: expected the result of `ida`",
+    ),
+    (lambda: rk.surface_fragility(rk.Block(alpha=0.2, p=8.0)), "p 8"),
+    (lambda: rk.Hazard("h.csv", "pga,rate\n"), "h.csv:1: found columns"),
+    (lambda: rk.risk(HAZARD, {"a": LAW}, years=0.0), "0 years: expected"),
+    (
+        lambda: rk.risk(HAZARD, {"a": BY_VELOCITY}),
+        "a: a fragility in pgv, a hazard curve in pga: expected the same",
+    ),
     (lambda: rk.fit_fragility([0.5, 2.0], shift=1.0), "above the shift"),
     (lambda: rk.fit_fragility([2.0, np.inf]), "1 of 2 values are infinite"),
     (
@@ -103,7 +128,7 @@ def test_bad_input_is_a_value_error_with_a_text(
 
 def test_a_missing_file_is_a_file_not_found_error(tmp_path: Path) -> None:
     missing = tmp_path / "none.AT2"
-    for read in (rk.read_record, rk.read_suite):
+    for read in (rk.read_record, rk.read_suite, rk.read_hazard):
         with pytest.raises(FileNotFoundError, match="none.AT2"):
             read(missing)
 

@@ -161,6 +161,12 @@ def read_ida(given: Given) -> Call:
 
 
 @long
+def pivot_forces(given: Given) -> Call:
+    ida = rk.ida(given.block, given.suite, step_g=1e-3)
+    return lambda: ida.pivot_forces(given.suite, [0.3])
+
+
+@long
 def cdf(given: Given) -> Call:
     law, x = (
         rk.fit_fragility([1.5, 2.0, 3.0]).fitted,

@@ -3,25 +3,36 @@
 use rocking::block::Block;
 use rocking::integrator::{self, uplift_threshold};
 use rocking::intensity::Intensity;
+use rocking::statistics::Lognormal;
 use serde::{Serialize, Serializer};
 
 use super::{
-    Errors, RESTITUTION, Recorded, SHIFT, Sampling, Surrogate, SurrogateError,
+    Errors, RESTITUTION, Recorded, Sampling, Surrogate, SurrogateError,
     ToRecorded,
 };
 use rocking_synthesis::SuiteKind;
 
-/// Where every fragility of the surface comes from, in words.
-pub const ORIGIN: &str = "overturning under the embedded suites, by a fitted \
-                          surface, without an analysis";
+/// Where the fragilities of the surface of a suite come from, in words.
+///
+/// ```
+/// use rocking_surrogate::{Surrogate, origin};
+/// let words = origin(Surrogate::embedded()?.models[0].0.suite);
+/// assert!(words.ends_with("without an analysis, ordinary suite"));
+/// # Ok::<(), rocking_surrogate::SurrogateError>(())
+/// ```
+#[must_use]
+pub fn origin(suite: SuiteKind) -> String {
+    format!(
+        "overturning under the embedded suites, by a fitted surface, without \
+         an analysis, {suite} suite"
+    )
+}
 
 /// Overturning fragilities of one block by the surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SurfaceFragility {
-    /// [`ORIGIN`].
-    pub origin: &'static str,
-    /// Unit of the shift and the medians.
+    /// Unit of the fragilities.
     pub im_unit: &'static str,
     /// Slenderness angle.
     pub alpha_rad: f64,
@@ -29,8 +40,6 @@ pub struct SurfaceFragility {
     pub p_rad_s: f64,
     /// Coefficient of restitution.
     pub eta: f64,
-    /// Shift of the lognormals.
-    pub shift: f64,
     /// One fragility a suite; in JSON an object whose keys are the suites.
     #[serde(serialize_with = "by_suite")]
     pub suites: Vec<SuiteFragility>,
@@ -39,16 +48,16 @@ pub struct SurfaceFragility {
 /// The overturning fragility of one block under one suite.
 ///
 /// Its three errors stand apart: none of them holds another.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SuiteFragility {
     /// The suite.
     #[serde(skip)]
     pub suite: SuiteKind,
-    /// Median in PGA/(g tan alpha).
-    pub median: f64,
-    /// Dispersion of ln(x - shift).
-    pub beta: f64,
+    /// Its [`origin`].
+    pub origin: String,
+    /// The fragility in PGA/(g tan alpha).
+    pub fitted: Lognormal,
     /// Median in PGA.
     pub median_pga_g: f64,
     /// From the surface to analyses under the same suite, at blocks that it
@@ -94,24 +103,22 @@ impl Surrogate {
         let recorded = Recorded::kept()?;
         let mut suites = Vec::new();
         for (model, errors) in &self.models {
-            let found = model.at(alpha_rad, p_rad_s)?;
+            let fitted = model.at(alpha_rad, p_rad_s)?;
             suites.push(SuiteFragility {
                 suite: model.suite,
-                median: found.median(),
-                beta: found.dispersion(),
-                median_pga_g: found.median() * onset_g,
+                origin: origin(model.suite),
+                fitted,
+                median_pga_g: fitted.median() * onset_g,
                 surface_to_analyses: *errors,
                 half_95_of_records: self.sampling(model.suite)?,
                 surface_to_recorded: model.to_recorded(&recorded)?,
             });
         }
         Ok(SurfaceFragility {
-            origin: ORIGIN,
             im_unit: Intensity::Pga.words(),
             alpha_rad,
             p_rad_s,
             eta: RESTITUTION,
-            shift: SHIFT,
             suites,
         })
     }

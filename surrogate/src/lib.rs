@@ -24,7 +24,7 @@ use rocking::statistics::SampleError;
 use rocking::statistics::lognormal::LognormalError;
 use thiserror::Error;
 
-pub use answer::{ORIGIN, SuiteFragility, SurfaceFragility};
+pub use answer::{SuiteFragility, SurfaceFragility, origin};
 pub use beside::{Recorded, Sampling, ToRecorded};
 pub use blocks::{Fitted, read_merged, read_table, table};
 pub use design::{design, point};

@@ -17,7 +17,7 @@ use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
-use rocking_surrogate::{ORIGIN, RESTITUTION, Surrogate};
+use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
 use super::counts;
 use crate::cli::blocks::{self, Row};
@@ -247,11 +247,8 @@ impl SourceArgs {
     fn counts(&self, path: &Path) -> Result<Level, Failure> {
         let stripes = counts::read(path)?;
         let im = self.im.clone().unwrap_or(IntensityMeasure::Pga);
-        let origin = format!(
-            "counts of exceedance at {} intensities, {}",
-            stripes.len(),
-            im.words()
-        );
+        let origin =
+            format!("counts of exceedance at {} intensities", stripes.len());
         Ok(Level {
             place: path.display().to_string(),
             im: Ok(im),
@@ -294,7 +291,7 @@ fn surface(suite: SuiteKind) -> Result<Level, Failure> {
         im: Ok(IntensityMeasure::Pga),
         setting,
         values: Values::Surface(model),
-        origin: format!("{ORIGIN}, {suite} suite"),
+        origin: origin(suite),
     })
 }
 

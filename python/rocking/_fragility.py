@@ -1,0 +1,355 @@
+"""Fragilities of blocks: of a fitted surface, for other programs, and under a
+hazard curve."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from . import _rocking
+from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen
+from ._outputs import replace
+from ._results import Result
+from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit
+
+
+@dataclass(frozen=True)
+class SurfaceSize(Result):
+    """Root mean square and largest of some errors."""
+
+    rms: float
+    largest: float
+
+
+@dataclass(frozen=True)
+class SurfaceErrors(Result):
+    """From the surface to analyses of blocks that it was not fitted to."""
+
+    blocks: int
+    median_relative: SurfaceSize
+    beta_relative: SurfaceSize
+    probability: SurfaceSize
+    share_within_interval: float
+
+
+@dataclass(frozen=True)
+class RecordsError(Result):
+    """Half the 95 % interval that the choice of the records leaves."""
+
+    median_relative: float
+    beta_relative: float
+    probability: float
+
+
+@dataclass(frozen=True)
+class RecordedErrors(Result):
+    """From the surface to recorded motions."""
+
+    blocks: int
+    median_relative: SurfaceSize
+    probability: SurfaceSize
+
+
+@dataclass(frozen=True)
+class SuiteFragility(_Fit):
+    """The overturning fragility of one block under one embedded suite.
+
+    None of its three errors holds another.
+    """
+
+    origin: str
+    """Where it comes from, in words."""
+    fitted: Fragility
+    """In PGA/(g tan alpha)."""
+    median_pga_g: float
+    surface_to_analyses: SurfaceErrors
+    half_95_of_records: RecordsError
+    surface_to_recorded: RecordedErrors
+
+
+@dataclass(frozen=True)
+class SurfaceFragility(Result):
+    """Overturning fragilities of one block by the fitted surface."""
+
+    im_unit: str
+    alpha_rad: float
+    p_rad_s: float
+    eta: float
+    suites: dict[str, SuiteFragility]
+    """By the name of the suite."""
+
+
+Fit = FragilityFit | CountsFragility | SuiteFragility
+
+
+def surface_fragility(block: Block) -> SurfaceFragility:
+    """Overturning fragility of a block under the embedded suites, by a fitted
+    surface and without an analysis, with its errors.
+
+    >>> found = surface_fragility(Block(alpha=0.15, p=3.0))
+    >>> round(found.suites["ordinary"].median_pga_g, 3)
+    0.301
+    """
+    found = _rocking.surface((block.alpha, block.p))
+    return SurfaceFragility._of(found)
+
+
+def _source(fit: Fit) -> str | int:
+    """The origin of a fit in words, or the size of its sample."""
+    if isinstance(fit, SuiteFragility):
+        return fit.origin
+    if isinstance(fit, CountsFragility):
+        stripes = fit.degrees_of_freedom + 2
+        return f"counts of exceedance at {stripes} intensities"
+    return fit.n
+
+
+@dataclass(frozen=True, kw_only=True)
+class BlockFragility:
+    """The fragilities of one block, for another program or a hazard curve.
+
+    A fit in PGA or PGV is dimensionless. The file has the block's own PGA in
+    g, or PGV in the unit that the reader expects.
+    """
+
+    block: Block
+    fit: Fit | Sequence[Fit]
+    """One, or one a limit state in the order of rising damage."""
+    im: str
+    """What the fit is in: "pga" for PGA/(g tan alpha), "pgv" for
+    p PGV/(g tan alpha), or another name of `Ida.against` in its own unit."""
+    id: str | None = None
+    """Name in the file, of ASCII letters, digits, `_` and `:`; from alpha and
+    p unless given."""
+    limit_states: Sequence[str] = ()
+    """Name of each limit state; "exceeded" unless given, or of several LS1,
+    LS2 and so on."""
+    eta: float | None = None
+    model: Model = "nonlinear"
+    """The linearized equation has alpha in place of tan alpha."""
+    origin: str | None = None
+    """Where the fragilities come from, in words."""
+
+    def _wanted(self) -> _rocking.Wanted:
+        fits = [self.fit] if isinstance(self.fit, Fit) else [*self.fit]
+        names = [*self.limit_states]
+        if not names and len(fits) == 1:
+            names = ["exceeded"]
+        names = names or [f"LS{i + 1}" for i in range(len(fits))]
+        if len(names) != len(fits):
+            raise ValueError(
+                f"limit_states: found {len(names)}: expected one for each of "
+                f"{len(fits)} limit states"
+            )
+        return {
+            "block": (self.block.alpha, self.block.p),
+            "limit_states": [
+                (name, fit.fitted._law, _source(fit))
+                for name, fit in zip(names, fits)
+            ],
+            "im": self.im,
+            "id": self.id,
+            "eta": self.eta,
+            "model": self.model,
+            "origin": self.origin,
+        }
+
+
+def export(
+    blocks: Sequence[BlockFragility],
+    path: str | os.PathLike[str] | None = None,
+    *,
+    format: Literal["nrml", "pelicun", "pact", "csv"],
+    gravity: float = STANDARD_GRAVITY,
+) -> str:
+    """Fragilities of blocks as one file of another program.
+
+    "nrml" is OpenQuake's NRML 0.5, "pelicun" a CSV with a JSON beside it,
+    "pact" median and dispersion, "csv" all parameters. OpenQuake and pelicun
+    have no lognormal with a shift: such a fit is written as points, which are
+    off by at most 5e-4 in probability.
+
+    Returns
+    -------
+    str
+        The text, with the bytes of `rocking fragility export`; it is written
+        to `path` where that is given, and a second file beside it.
+
+    >>> from rocking import fit_fragility
+    >>> fit = fit_fragility([1.5, 2.0, 3.0], shift=1.0)
+    >>> one = BlockFragility(block=Block(alpha=0.2, p=3.0), fit=fit, im="pga")
+    >>> print(export([one], format="nrml").splitlines()[5])
+    <fragilityFunction id="block_a0_2_p3" format="discrete">
+    """
+    wanted = [block._wanted() for block in blocks]
+    text, beside = _rocking.exchange(format, wanted, gravity)
+    if path is None:
+        return text
+    files = [(Path(path), text)]
+    if beside is not None:
+        extension, second = beside
+        files.append((Path(path).with_suffix(f".{extension}"), second))
+        if files[1][0] == files[0][0]:
+            raise ValueError(
+                f"{path}: expected a file .csv, beside which a file "
+                f".{extension} is written"
+            )
+    for file, content in files:
+        replace(file, content)
+    return text
+
+
+@dataclass(frozen=True)
+class HazardPoint(Result):
+    """A point of a hazard curve."""
+
+    intensity: float
+    annual_frequency: float
+
+
+@dataclass(frozen=True)
+class Hazard:
+    """A hazard curve, as its file has it.
+
+    `years` are those of probabilities of exceedance, where the file does not
+    say them, and `site` is the longitude and latitude in degrees, where it
+    has several.
+    """
+
+    place: str
+    """The file, for errors."""
+    text: str
+    years: float | None = None
+    site: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        # What is refused is refused here.
+        _ = self.points
+
+    def __repr__(self) -> str:
+        return f"Hazard({self.place!r}, im={self.im!r}, unit={self.unit!r})"
+
+    @property
+    def _written(self) -> _rocking.Written:
+        return self.place, self.text, self.years, self.site
+
+    @property
+    def points(self) -> Floats:
+        """(n, 2): intensity, and annual frequency of exceedance."""
+        return frozen(np.array(_rocking.hazard(self._written)[0]))
+
+    @property
+    def im(self) -> str | None:
+        """The intensity measure; None for that of the fragility."""
+        return _rocking.hazard(self._written)[1]
+
+    @property
+    def unit(self) -> str:
+        """Unit of the intensities."""
+        return _rocking.hazard(self._written)[2]
+
+    @property
+    def remarks(self) -> Sequence[str]:
+        """What was set aside of the file."""
+        return _rocking.hazard(self._written)[3]
+
+
+def read_hazard(
+    path: str | os.PathLike[str],
+    *,
+    years: float | None = None,
+    site: tuple[float, float] | None = None,
+) -> Hazard:
+    """Reads a hazard curve: OpenQuake's CSV, or a CSV of two columns.
+
+    The first is `pga_g`, `pgv_m_s`, `pgv_cm_s` or `intensity` (the unit of
+    the fragility), the second `annual_frequency` or
+    `probability_of_exceedance` in `years`.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder, "hazard.csv")
+    ...     text = "pga_g,annual_frequency\\n0.05,0.02\\n0.2,0.002\\n1,0\\n"
+    ...     _ = path.write_text(text)
+    ...     found = read_hazard(path)
+    >>> found.im, found.points.tolist()
+    ('pga', [[0.05, 0.02], [0.2, 0.002]])
+    """
+    text = Path(path).read_text(encoding="utf-8")
+    return Hazard(os.fspath(path), text, years, site)
+
+
+@dataclass(frozen=True)
+class FragilityRisk(Result):
+    """Annual frequency and probability of damage of one fragility.
+
+    Lower and upper are bounds of the hazard curve's truncation at its last
+    point, and no confidence interval.
+    """
+
+    fragility: str
+    """Its name."""
+    fitted: Fragility
+    """In the unit of the hazard curve."""
+    annual_frequency_truncation_lower: float
+    annual_frequency_truncation_upper: float
+    annual_frequency_covered: float
+    """Of what the points cover."""
+    probability_truncation_lower: float
+    probability_truncation_upper: float
+    probability_at_first_point: float
+    """Where it is not 0, weaker motions add to the frequency."""
+
+
+@dataclass(frozen=True)
+class Risk(Result):
+    """Annual frequencies of damage under a hazard curve, and probabilities of
+    damage in some years."""
+
+    im: str | None
+    unit: str
+    points: int
+    first: HazardPoint
+    last: HazardPoint
+    remarks: tuple[str, ...]
+    years: float
+    fragilities: tuple[FragilityRisk, ...]
+
+
+def risk(
+    hazard: Hazard,
+    fragilities: Mapping[str, Fragility | BlockFragility],
+    *,
+    years: float = 50.0,
+    gravity: float = STANDARD_GRAVITY,
+) -> Risk:
+    """Annual frequency of damage, and its probability in `years`.
+
+    Between the points of the hazard curve the frequency is a power of the
+    intensity; beyond the last one nothing is assumed.
+
+    Parameters
+    ----------
+    fragilities : mapping of names to Fragility or BlockFragility
+        Fragilities in the unit of the hazard curve, and those of blocks,
+        which are brought to it.
+    gravity : float
+        In m/s2, for the PGV of blocks.
+
+    >>> text = "intensity,annual_frequency\\n1e-6,1e8\\n1e6,1e-16\\n"
+    >>> hazard = Hazard("power law", text)
+    >>> law = Fragility(shift=0.0, log_mean=0.0, dispersion=0.5, median=1.0)
+    >>> row = risk(hazard, {"block": law}).fragilities[0]
+    >>> round(row.annual_frequency_truncation_lower, 9)  # exp(0.5)/10,000
+    0.000164872
+    """
+    exposed = [
+        (name, one._law if isinstance(one, Fragility) else one._wanted())
+        for name, one in fragilities.items()
+    ]
+    return Risk._of(_rocking.risk(hazard._written, exposed, gravity, years))

@@ -94,7 +94,9 @@ impl TryFrom<String> for Digits {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        let both = text.parse().ok().zip(decimal(&text));
+        // Words may follow the decimal.
+        let near = text.split_whitespace().next().map(str::parse);
+        let both = near.and_then(Result::ok).zip(decimal(&text));
         let (near, wide) = both.ok_or(format!("`{text}` is no decimal"))?;
         Ok(Self { near, wide })
     }

@@ -31,7 +31,7 @@ fn refused(name: &str, args: &[&str], words: &[&str]) {
 fn options_out_of_range() {
     refused("eta", &["--eta", "1.2"], &["1.2"]);
     refused("negative", &["--eta", "-0.5"], &["-0.5"]);
-    refused("refine", &["--refine", "-1"], &["--refine -1", "positive"]);
+    refused("refine", &["--refine", "-1"], &["-1", "--refine", "positive"]);
     refused("arms", &["--arms", "B"], &["A or C"]);
     refused("threads", &["--threads", "0"], &["0"]);
     refused("unknown", &["--colour"], &["--colour"]);

@@ -6,6 +6,7 @@ mod stripes;
 mod suite;
 
 pub use plan::Plan;
+pub(crate) use plan::no_arm;
 pub use single::HISTORY_INTERVAL_S;
 pub use suite::{
     Apart, ArmCurves, Facts, OWN_PERIODS, SPECTRUM_PERIODS_S, ShownHistory,

@@ -6,8 +6,9 @@ use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::paired::Pairs;
 use rocking::statistics::{ExtendedSample, QuantileType};
 
+use crate::analyses::no_arm;
 use crate::analyses::{Apart, SuiteResults};
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use crate::runs::capacities;
 use crate::sensitivities::Varied;
 use rocking_common::findings::Measured;

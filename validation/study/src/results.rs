@@ -1,17 +1,10 @@
 //! What the analyses gave: what claims, questions, figures and findings read.
 
-use anyhow::anyhow;
-
-use crate::analyses::{Plan, SuiteResults};
+use crate::analyses::{Plan, SuiteResults, no_arm};
 use crate::distributions::{BlockSamples, Distributions};
 use crate::inference::Draws;
 use crate::sensitivities::Varied;
 use rocking_common::paper::{Arm, Intensity, SuiteKind, position};
-
-/// Refuses to read an arm that was not run.
-pub(crate) fn no_arm() -> anyhow::Error {
-    anyhow!("no arm of the grid: expected one of A, B, C")
-}
 
 /// The analyses of both suites.
 #[derive(Clone, Debug)]

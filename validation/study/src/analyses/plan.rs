@@ -1,7 +1,14 @@
 //! What a study runs.
 
+use anyhow::anyhow;
+
 use crate::runs::Setup;
 use rocking_common::paper::Arm;
+
+/// Refuses to read an arm that was not run.
+pub(crate) fn no_arm() -> anyhow::Error {
+    anyhow!("no arm of the grid: expected one of A, B, C")
+}
 
 /// What a study runs.
 #[derive(Clone, Debug)]

@@ -6,9 +6,8 @@ use rocking::block::Block;
 use rocking::capacity::{InversionRule, ResponseCurve};
 use rocking::excitation::NormalisedRecord;
 
-use super::plan::Plan;
+use super::plan::{Plan, no_arm};
 use super::suite::{Apart, ShownHistory, SingleRecords, SuiteResults};
-use crate::results::no_arm;
 use crate::runs::capacities;
 use rocking_common::paper::{REFERENCE, SLENDERNESSES_RAD, position};
 

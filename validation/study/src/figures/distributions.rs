@@ -3,12 +3,12 @@
 use rocking::statistics::lilliefors::Assessment;
 use rocking::statistics::{QuantileType, Sample};
 
+use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
 use crate::normality::{
     BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
 };
 use crate::results::Results;
-use crate::results::no_arm;
 use crate::ties::critical_on_grid;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,

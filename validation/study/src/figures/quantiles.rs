@@ -4,8 +4,8 @@ use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 
 use crate::analyses::SuiteResults;
+use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
-use crate::results::no_arm;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
 };

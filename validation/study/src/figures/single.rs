@@ -1,7 +1,7 @@
 //! Figures 1 to 5: the block, and single records.
 
+use crate::analyses::no_arm;
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
-use crate::results::no_arm;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position,
 };

@@ -5,9 +5,9 @@ use libm::tan;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
 use super::source::{Found, Prepared, Source, block, ratios};
+use crate::analyses::no_arm;
 use crate::distributions::factors;
 use crate::inference::{Cell, Draw, Replicated};
-use crate::results::no_arm;
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
 use crate::stripes::of_arm;

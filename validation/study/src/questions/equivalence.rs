@@ -9,7 +9,8 @@ use rocking::statistics::paired::{
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use super::answer::{Answer, Cell, Rows, count, number, word};
-use crate::results::{Results, no_arm};
+use crate::analyses::no_arm;
+use crate::results::Results;
 use crate::runs::capacities;
 use crate::stripes::{of_arm, pairs};
 use rocking_common::paper::{

@@ -5,8 +5,9 @@ use rocking::statistics::ExtendedSample;
 use rocking::statistics::lilliefors::{Assessment, Inapplicable};
 
 use super::answer::{Answer, Rows, both, count, number, word};
+use crate::analyses::no_arm;
 use crate::fits::{Fits, of_intervals};
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use crate::ties::grid_alone;
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, SuiteKind, position,

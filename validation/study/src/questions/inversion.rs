@@ -3,7 +3,8 @@
 use rocking::capacity::{InversionRule, ResponseCurve, inversion_discrepancy};
 
 use super::answer::{Answer, Rows, both, count, number, word};
-use crate::results::{Results, no_arm};
+use crate::analyses::no_arm;
+use crate::results::Results;
 use crate::runs::capacities;
 use rocking_common::paper::{FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position};
 use rocking_common::words::capital;

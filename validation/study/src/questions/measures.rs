@@ -5,10 +5,11 @@ use libm::log;
 use rocking::intensity::IntensityMeasure;
 
 use super::answer::{Answer, Rows, both, number, word};
+use crate::analyses::no_arm;
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
 use crate::fits::of_intervals;
 use crate::inference::{Draw, Draws, Replicated, by_cell};
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use crate::runs::overturning;
 use rocking_common::findings::{Measured, Region};
 use rocking_common::paper::{

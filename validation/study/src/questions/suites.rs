@@ -6,7 +6,7 @@ mod compare;
 mod drawing;
 mod row;
 
-use row::{Group, Interval, MOTIONS, Row, Shown, of_motion};
+use row::{Group, Interval, MOTIONS, Row, Shown, of_group, of_motion};
 
 use super::answer::{Answer, Cell, Rows, count, number, word};
 use crate::estimates::median;
@@ -56,19 +56,6 @@ pub(super) fn answer(results: &Results) -> anyhow::Result<Answer> {
         drawing::capacities(&rows, kinds),
     ];
     Ok(Answer { csv: row::to_csv(&rows), tables, figures, ..answer })
-}
-
-fn of_group<'a>(
-    rows: &'a [Row],
-    group: Group,
-    kind: &str,
-    quantity: &str,
-) -> Vec<&'a Row> {
-    rows.iter()
-        .filter(|r| {
-            r.group == group && r.suite == kind && r.quantity == quantity
-        })
-        .collect()
 }
 
 fn words(rows: &[Row], kinds: [&str; 2]) -> String {

@@ -2,11 +2,12 @@
 
 use rocking::statistics::Lognormal;
 
+use crate::analyses::no_arm;
 use crate::claims::limit_of;
 use crate::fits::{THRESHOLDS, distance, usfl7};
 use crate::inference::{Draw, Draws, Replicated, by_cell};
 use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
 use rocking_draw::figures::Figure;

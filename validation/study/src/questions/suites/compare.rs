@@ -8,6 +8,7 @@ use rocking::statistics::bootstrap::{Bootstrap, estimate};
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 
 use super::row::{Group, Interval, Row, Side};
+use crate::analyses::no_arm;
 use crate::analyses::{
     ArmCurves, Facts, SPECTRUM_PERIODS_S, SuiteResults, Work, facts,
 };
@@ -15,7 +16,7 @@ use crate::distributions::{BlockSamples, Distributions, of_suite};
 use crate::estimates::three_quantiles;
 use crate::fits::THRESHOLDS;
 use crate::normality::ends;
-use crate::results::{Results, no_arm};
+use crate::results::Results;
 use rocking_common::paper::{Arm, BLOCKS, demand_index};
 use rocking_common::suites::StudySuite;
 

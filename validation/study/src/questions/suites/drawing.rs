@@ -1,7 +1,6 @@
 //! Figures of the comparison.
 
-use super::of_group;
-use super::row::{Group, Interval, MOTIONS, Row, of_motion};
+use super::row::{Group, Interval, MOTIONS, Row, of_group, of_motion};
 use crate::analyses::SPECTRUM_PERIODS_S;
 use rocking_common::paper::{FREQUENCIES_RAD_S, Intensity};
 use rocking_draw::figures::{

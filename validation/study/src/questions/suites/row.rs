@@ -203,3 +203,17 @@ pub(super) fn of_motion<'a>(
         r.group == Group::Motion && r.suite == kind && r.quantity == quantity
     })
 }
+
+/// The rows of a group, a suite and a quantity.
+pub fn of_group<'a>(
+    rows: &'a [Row],
+    group: Group,
+    kind: &str,
+    quantity: &str,
+) -> Vec<&'a Row> {
+    rows.iter()
+        .filter(|r| {
+            r.group == group && r.suite == kind && r.quantity == quantity
+        })
+        .collect()
+}

@@ -375,7 +375,7 @@ pub fn demand_at(
 /// // Uplift takes the friction tan(alpha) at least.
 /// let forces = forces_at(&record, &analysis, 1.1)?;
 /// assert!(forces.friction >= libm::tan(0.1) && forces.friction < 0.12);
-/// assert!(forces.normal > 0.9 && forces.normal <= 1.0);
+/// assert!(forces.least_normal_over_weight <= 1.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn forces_at(

@@ -48,17 +48,15 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// The fragilities in the block's own measure, in so many units in one
-    /// of that measure.
-    fn fragility(self, gravity: f64, units: f64) -> PyResult<BlockFragility> {
+    /// The fragilities in the block's own measure.
+    fn fragility(self, gravity: f64) -> PyResult<BlockFragility> {
         let gravity_m_s2 = positive_gravity(gravity)?;
         let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
         let model = self.model.parse().map_err(refuse)?;
-        let factor = units
-            * im.dimensionless().map_or(1.0, |own| {
-                unit_intensity(own, &block, model, gravity_m_s2)
-            });
+        let factor = im.dimensionless().map_or(1.0, |own| {
+            unit_intensity(own, &block, model, gravity_m_s2)
+        });
         let (mut limit_states, mut origins) = (Vec::new(), Vec::new());
         for (name, law, source) in self.limit_states {
             let name: Id = name.parse().map_err(refuse)?;
@@ -92,7 +90,7 @@ pub fn exchange(
 ) -> PyResult<(String, Option<(&'static str, String)>)> {
     let formats = Format::ALL.map(|f| (f.name(), f));
     let format = choose("format", format, &formats)?;
-    let all = blocks.into_iter().map(|one| one.fragility(gravity, 1.0));
+    let all = blocks.into_iter().map(|one| one.fragility(gravity));
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let texts = format.texts(&all).map_err(refuse)?;
     Ok((texts.main, texts.beside))
@@ -146,7 +144,7 @@ pub fn risk(
             }
             Exposed::Block(block) => block,
         };
-        let own = block.fragility(gravity, hazard.units_per_im_unit)?;
+        let own = block.fragility(gravity)?;
         if hazard.im.as_ref() != Some(&own.im) {
             let found = hazard.im.as_ref().map(ToString::to_string);
             return Err(refuse(format!(
@@ -157,10 +155,14 @@ pub fn risk(
             )));
         }
         let one = own.limit_states.len() == 1;
-        all.extend(own.limit_states.into_iter().map(|state| match one {
-            true => (name.clone(), state.fragility),
-            false => (format!("{name} {}", state.name), state.fragility),
-        }));
+        for state in own.limit_states {
+            let law = state.fragility.scaled(hazard.units_per_im_unit);
+            let name = match one {
+                true => name.clone(),
+                false => format!("{name} {}", state.name),
+            };
+            all.push((name, law.map_err(refuse)?));
+        }
     }
     let all: Vec<(&str, Lognormal)> =
         all.iter().map(|(name, law)| (name.as_str(), *law)).collect();

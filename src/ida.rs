@@ -6,10 +6,10 @@
 //! p PGV/PGA.
 
 mod batch;
-mod certification;
 mod climb;
 mod curve;
 mod levels;
+mod resolution;
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -23,10 +23,10 @@ use crate::integrator::{
 };
 use crate::names::named;
 use crate::number::dispatch::Isa;
-pub use certification::{Certification, Told};
 use climb::Climb;
 pub use curve::{FirstOverturning, IdaCurve, IdaPoint, Overturned};
 use levels::Levels;
+pub use resolution::{Resolution, ResolutionCounts};
 
 /// Intensities at which a curve is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,10 +85,11 @@ pub struct Analysis {
     /// Order at which Eq. 1 is stepped whatever that leaves; none: as high
     /// as each step needs for double precision.
     pub order: Option<Order>,
-    /// Analyses that double precision cannot tell are told in the precision
-    /// that they need (see [`certify`](crate::integrator::certify)), and the
-    /// curve goes on from that; otherwise they are flagged. Not at a fixed
-    /// order, whose own result was asked for.
+    /// Whether analyses that double precision cannot resolve run again in
+    /// the arithmetic that resolves them (see
+    /// [`certify`](crate::integrator::certify)); the curve goes on from
+    /// that result. Otherwise they are flagged. Ignored at a fixed order,
+    /// whose own result was asked for.
     pub certify: bool,
     /// Work beyond which a level is refused.
     pub work_limit: WorkLimit,
@@ -103,7 +104,7 @@ pub enum Resurrections {
     To(f64),
 }
 
-/// Where curves end that never overturn, unless told otherwise (IM).
+/// Where curves end that never overturn, by default (IM).
 pub const HIGHEST_IM: f64 = 100.0;
 
 /// Default width in IM to which the first overturning bracket is bisected.

@@ -1,7 +1,7 @@
 //! Recorded accelerograms: from a file's bytes to samples in multiples of
 //! gravity.
 //!
-//! Formats are told by content. A file is read whole or refused: a cut
+//! The content tells the format. A file is read whole or refused: a cut
 //! number, a changed count, an unknown unit or a missing sampling interval
 //! gives a [`RecordError`] with its place, never a repaired record.
 

@@ -374,7 +374,7 @@ fn a_rectangle_at_the_threshold_is_not_certain_for_all_inputs() {
     // 1.982740079599552418... by mpmath: fixtures/oracles/ends.csv.
     let peak = fate["edp"].as_f64().unwrap();
     assert!((peak / 1.982_740_079_599_552_4e-12 - 1.0).abs() < 1e-14);
-    assert_eq!(fate["decided_for_inputs"], false);
+    assert_eq!(fate["resolved_for_inputs"], false);
 }
 
 #[test]

@@ -227,10 +227,10 @@ fn a_sound_page_has_no_problem() {
 }
 
 #[test]
-fn every_defect_is_told() {
+fn every_defect_is_reported() {
     let Some(mut browser) = started("broken") else { return };
     let svg = "<svg width=\"200\" height=\"100\">";
-    for (name, style, body, told) in [
+    for (name, style, body, words) in [
         ("wide", "", "<p style=\"width: 50rem\">x</p>", "overflow"),
         (
             "folded",
@@ -242,7 +242,7 @@ fn every_defect_is_told() {
         (
             "error",
             "",
-            "<script>console.error('told')</script>",
+            "<script>console.error('said')</script>",
             "console error",
         ),
         ("exception", "", "<script>absent()</script>", "exception"),
@@ -297,8 +297,8 @@ fn every_defect_is_told() {
     ] {
         let page = small(name, style, body);
         let found = problems(&mut browser, &page, 360, "light");
-        let is_told = found.iter().any(|problem| problem.contains(told));
-        assert!(is_told, "{name}: {told:?} is not in {found:?}");
+        let is_reported = found.iter().any(|problem| problem.contains(words));
+        assert!(is_reported, "{name}: {words:?} is not in {found:?}");
     }
     // What is readable in the light may not be in the dark.
     let page = small("night", "footer { color: #333 }", "<h2>x</h2>");

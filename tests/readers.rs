@@ -52,9 +52,9 @@ fn channels(target: &str, bytes: &[u8]) -> Option<(Vec<Vec<f64>>, bool)> {
     let options = ReadOptions { dt_s, unit, ..ReadOptions::default() };
     let records = record::read_all("x", bytes, &options).ok()?;
     let samples = |r: &record::Record| r.accelerogram.samples_g().to_vec();
-    let told = |r: &record::Record| r.remarks.contains(&Remark::LastLine);
-    let told = records.iter().any(told);
-    Some((records.iter().map(samples).collect(), told))
+    let cut = |r: &record::Record| r.remarks.contains(&Remark::LastLine);
+    let cut = records.iter().any(cut);
+    Some((records.iter().map(samples).collect(), cut))
 }
 
 /// A changed file that was read, and not as before.
@@ -68,7 +68,7 @@ struct Passed {
     whole_lines: bool,
     /// Whether all but the last sample are those that were there, and a
     /// remark says that the last line has no end.
-    told: bool,
+    cut: bool,
 }
 
 /// Reads the changed files of every valid file of `targets`.
@@ -86,7 +86,7 @@ fn passed(
             let (whole, _) = channels(target, &bytes).unwrap();
             for (change, changed) in changes(&bytes) {
                 tried += 1;
-                let Some((read, told)) = channels(target, &changed) else {
+                let Some((read, cut)) = channels(target, &changed) else {
                     continue;
                 };
                 if read != whole {
@@ -94,7 +94,7 @@ fn passed(
                     let mut pairs = read.iter().zip(&whole);
                     let begins = read.len() <= whole.len()
                         && pairs.all(|(a, b)| b.starts_with(a));
-                    let told = told
+                    let cut = cut
                         && read.iter().zip(&whole).all(|(a, b)| {
                             a.len() <= b.len()
                                 && a[..a.len() - 1] == b[..a.len() - 1]
@@ -108,7 +108,7 @@ fn passed(
                         change,
                         begins,
                         whole_lines,
-                        told,
+                        cut,
                     });
                 }
             }
@@ -196,7 +196,7 @@ fn a_cut_file_never_passes() {
     // Without a count, a cut between two lines leaves no trace, and one
     // within the last number a remark.
     let mut found = passed(FREE, cut);
-    found.retain(|p| !(p.begins && p.whole_lines || p.told));
+    found.retain(|p| !(p.begins && p.whole_lines || p.cut));
     none(&found);
 }
 

@@ -120,7 +120,7 @@ plan array
 PATH=$(dirname "$rocking"):$PATH
 "$rocking" sweep slurm "$place/array" --tasks 6 >"$place/job.sh"
 job=$(sbatch --parsable --output="$place/array-%a.out" "$place/job.sh")
-# Process of task 3, by what SLURM told it.
+# Process of task 3, by SLURM's own account.
 process() {
     pid=
     local found

@@ -73,7 +73,7 @@ fn a_file_in_the_way_of_the_report() {
 #[test]
 fn a_folder_that_no_study_wrote() {
     let args = ["--arms", "A", "--out", "input"];
-    for (files, told) in [
+    for (files, words) in [
         (&["index.html", "data/findings.json"][..], "data/findings.json"),
         (&["data/mine.csv", "data/validation.json"], "data/mine.csv"),
         (&["figures/mine.svg"], "figures"),
@@ -87,8 +87,8 @@ fn a_folder_that_no_study_wrote() {
                 .expect("folder");
             std::fs::write(path, "mine\n").expect("write");
         }
-        let told = format!("cannot write input: it holds {told}, which no");
-        refused("stranger", &args, &[&told]);
+        let words = format!("cannot write input: it holds {words}, which no");
+        refused("stranger", &args, &[&words]);
     }
 }
 

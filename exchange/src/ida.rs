@@ -306,7 +306,7 @@ impl IdaTable {
 /// The name of what became of an analysis.
 fn outcome(point: &IdaPoint) -> &'static str {
     match point.outcome {
-        _ if !point.told.resolved => OUTCOMES[4],
+        _ if !point.resolution.resolved => OUTCOMES[4],
         Outcome::NoUplift => OUTCOMES[0],
         Outcome::Rocked { .. } => OUTCOMES[1],
         Outcome::Overturned { .. } => OUTCOMES[2],

@@ -1,5 +1,5 @@
 //! Sample files: one value a line, `>3.2` for one censored at 3.2, `inf` for
-//! one censored at a limit that is not told, `#` comments.
+//! one censored at a limit that is not known, `#` comments.
 //! The comment behind a value is the name of its record.
 
 use std::collections::BTreeMap;

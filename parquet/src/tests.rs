@@ -130,7 +130,7 @@ impl Write for Small {
 }
 
 #[test]
-fn a_full_disk_is_told_as_the_system_tells_it() {
+fn a_full_disk_is_reported_in_the_system_s_words() {
     let whole = file(&ROWS, 1).unwrap().len();
     for room in [0, 3, whole / 2, whole - 1] {
         let error = io::Error::from(

@@ -374,7 +374,7 @@ def read_record(
     units: Units | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Record:
-    """Reads one record file; its format is told by its content.
+    """Reads one record file; its content tells the format.
 
     PEER AT2, one or two columns, RESORCE, ESM, COSMOS and CSMIP, K-NET, SMC,
     AFAD, GeoNet. A file of several components is refused: `read_suite` takes

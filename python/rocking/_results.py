@@ -435,17 +435,17 @@ class Ranking(Result):
 
 
 @dataclass(frozen=True)
-class Certification(Result):
-    """In which arithmetic analyses were resolved."""
+class ResolutionCounts(Result):
+    """How many analyses each arithmetic resolved."""
 
     analyses: int
     assessed: int
-    double: int
-    double_double: int
-    octuple: int
+    resolved_by_double: int
+    resolved_by_double_double: int
+    resolved_by_octuple: int
     unresolved: int
-    moved: int
-    """Fates that double precision had told wrongly."""
+    wrong_in_double: int
+    """Analyses that have another fate in double precision."""
     only_these_doubles: int
     """Resolved for the doubles given, not for all inputs that round to
     them."""
@@ -470,7 +470,7 @@ class IdaSummary(Result):
     overturned_curves: int
     median_overturning_im: float | None
     """PGA/(g tan alpha); None where half of the curves stand."""
-    certification: Certification
+    resolution: ResolutionCounts
     resurrections: int | None
     """Levels above a first overturning at which the block stands again."""
     curves: tuple[CurveSummary, ...]

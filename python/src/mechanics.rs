@@ -155,7 +155,7 @@ pub fn respond<'py>(
     if let Some(fate) = fate {
         out.set_item("outcome", outcome_name(&fate.outcome))?;
         out.set_item("peak_ratio", fate.outcome.edp())?;
-        out.set_item("resolved", fate.decided)?;
+        out.set_item("resolved", fate.resolved)?;
         out.set_item("fate_margin", fate.margin)?;
         out.set_item("error_estimate", fate.error)?;
         out.set_item("certified_by", fate.by.name())?;

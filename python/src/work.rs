@@ -12,7 +12,7 @@ use rocking::stop::Stop;
 
 use crate::given::refuse;
 
-/// How often signals are looked at and progress is told.
+/// How often signals are looked at and progress is reported.
 const BEAT: Duration = Duration::from_millis(50);
 
 /// Numbers of which fewer are done sooner than a thread is started.
@@ -55,13 +55,13 @@ pub fn run<T: Send>(
                 let result = heeded.run(threads.unwrap_or(0), || work(parts));
                 let _ = sender.send(result);
             });
-            let mut told = 0;
+            let mut reported = 0;
             let mut tell = |py: Python<'_>| {
                 let done = done.0.load(Ordering::Relaxed);
                 if let Some(progress) = &progress
-                    && done > told
+                    && done > reported
                 {
-                    told = done;
+                    reported = done;
                     progress.call1(py, (done, total))?;
                 }
                 Ok::<(), PyErr>(())

@@ -1,4 +1,4 @@
-"""What double precision does not tell is flagged, and told by `certify`."""
+"""What double precision does not resolve is flagged; `certify` resolves it."""
 
 import numpy as np
 import rocking as rk

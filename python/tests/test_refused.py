@@ -157,7 +157,7 @@ def test_an_array_is_no_excitation() -> None:
 def test_what_a_folder_sets_aside_is_warned_of(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("t_s,a_g\n0,0\n0.1,0.2\n0.2,0\n")
     (tmp_path / "notes.txt").write_text("About these records.\n")
-    told = r"set aside: 1 in no known format \(first: notes.txt\)"
-    with pytest.warns(UserWarning, match=told):
+    words = r"set aside: 1 in no known format \(first: notes.txt\)"
+    with pytest.warns(UserWarning, match=words):
         suite = rk.read_suite(tmp_path)
     assert [record.name for record in suite] == ["a"]

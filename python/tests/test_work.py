@@ -36,19 +36,19 @@ def test_two_python_threads_work_at_once(
     assert found == [ida] * 2
 
 
-def test_progress_is_told_in_the_calling_thread(
+def test_progress_is_reported_in_the_calling_thread(
     block: rk.Block, suite: rk.Suite
 ) -> None:
-    told: list[tuple[int, int]] = []
+    reported: list[tuple[int, int]] = []
     threads: set[int] = set()
 
     def progress(done: int, total: int) -> None:
-        told.append((done, total))
+        reported.append((done, total))
         threads.add(threading.get_ident())
 
     rk.ida(block, suite, progress=progress)
-    assert told[-1] == (86, 86)
-    assert told == sorted(told)
+    assert reported[-1] == (86, 86)
+    assert reported == sorted(reported)
     assert threads == {threading.get_ident()}
 
 
@@ -64,7 +64,7 @@ def test_what_progress_raises_ends_the_work(
     begin = time.monotonic()
     with pytest.raises(Enough):
         rk.ida(block, suite, step_g=2e-4, progress=progress)
-    # Progress is told once a curve is done; the whole takes longer.
+    # Progress is reported once a curve is done; the whole takes longer.
     assert time.monotonic() - begin < 30.0
 
 

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use crate::excitation::NormalisedRecord;
 use crate::ida::levels::{Level, Levels};
 use crate::ida::{
-    Analysis, Certification, FirstOverturning, IdaCurve, IdaError, IdaPoint,
-    Resurrections,
+    Analysis, FirstOverturning, IdaCurve, IdaError, IdaPoint,
+    ResolutionCounts, Resurrections,
 };
 
 /// What an analysis is made for.
@@ -239,11 +239,11 @@ impl<'a> Climb<'a> {
     pub fn finish(self) -> IdaCurve {
         let record = self.levels.record;
         let analyses = self.points.len() + self.above.len();
-        let mut certification = Certification::default();
+        let mut resolution = ResolutionCounts::default();
         let refined = self.overturning.and_then(|first| first.refined);
         let above = self.above.values();
         for point in self.points.iter().chain(&refined).chain(above) {
-            certification.count(point);
+            resolution.count(point);
         }
         IdaCurve {
             record: record.name().to_owned(),
@@ -253,7 +253,7 @@ impl<'a> Climb<'a> {
             points: self.points,
             overturning: self.overturning,
             above: self.above.into_values().collect(),
-            certification,
+            resolution,
             analyses: analyses as u64 + self.middles,
         }
     }

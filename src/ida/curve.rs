@@ -1,7 +1,7 @@
 //! Curves of demand against intensity.
 
 use crate::capacity::{CapacityError, ResponseCurve};
-use crate::ida::{Certification, Told};
+use crate::ida::{Resolution, ResolutionCounts};
 use crate::integrator::Outcome;
 
 /// One analysis of a curve.
@@ -17,8 +17,8 @@ pub struct IdaPoint {
     pub outcome: Outcome,
     /// Margin to the other fate.
     pub fate_margin: f64,
-    /// How outcome and peak were told.
-    pub told: Told,
+    /// Whether outcome and peak are resolved.
+    pub resolution: Resolution,
 }
 
 impl IdaPoint {
@@ -66,8 +66,8 @@ pub struct IdaCurve {
     pub overturning: Option<FirstOverturning>,
     /// Levels above the first overturning, where resurrections were sought.
     pub above: Vec<IdaPoint>,
-    /// How many analyses were told in which arithmetic.
-    pub certification: Certification,
+    /// How many analyses each arithmetic resolved.
+    pub resolution: ResolutionCounts,
     /// Analyses made, bisection included.
     pub analyses: u64,
 }

@@ -3,7 +3,7 @@
 
 use crate::block::Block;
 use crate::excitation::{Excitation, NormalisedRecord, ScaledRecord};
-use crate::ida::certification::{Told, WORTH_ASSESSING};
+use crate::ida::resolution::{Resolution, WORTH_ASSESSING};
 use crate::ida::{Adjust, Analysis, Grid, IdaError, IdaPoint, Resurrections};
 use crate::integrator::{
     self, Certify, DOUBTFUL, Forces, Model, Observe, Order, Outcome, Response,
@@ -84,7 +84,7 @@ impl<'a> Levels<'a> {
             slenderness_rad,
             outcome: Outcome::NoUplift,
             fate_margin: 0.0,
-            told: Told::roughly(true),
+            resolution: Resolution::roughly(true),
         }
     }
 
@@ -203,26 +203,30 @@ impl Level<'_> {
         let clear = response.doubt.is_some_and(|doubt| doubt < most);
         let (outcome, fate_margin) = (response.outcome, response.fate_margin);
         if clear || !self.certify {
-            return Ok(self.made(outcome, fate_margin, Told::roughly(clear)));
+            return Ok(self.made(
+                outcome,
+                fate_margin,
+                Resolution::roughly(clear),
+            ));
         }
         let work_limit = self.work_limit;
         let ask = Certify { work_limit, ..Certify::default() };
         let fate =
             certify(&self.scene, &ask).map_err(|error| self.refused(error))?;
-        let told = Told {
+        let resolution = Resolution {
             by: Some(fate.by),
-            resolved: fate.decided,
-            moved: fate.moved(),
-            for_inputs: fate.decided_for_inputs,
+            resolved: fate.resolved,
+            wrong_in_double: fate.wrong_in_double(),
+            for_inputs: fate.resolved_for_inputs,
         };
-        Ok(self.made(fate.outcome, fate.margin, told))
+        Ok(self.made(fate.outcome, fate.margin, resolution))
     }
 
     fn made(
         &self,
         outcome: Outcome,
         fate_margin: f64,
-        told: Told,
+        resolution: Resolution,
     ) -> IdaPoint {
         IdaPoint {
             im: self.im,
@@ -230,7 +234,7 @@ impl Level<'_> {
             slenderness_rad: self.scene.block.slenderness_rad(),
             outcome,
             fate_margin,
-            told,
+            resolution,
         }
     }
 }

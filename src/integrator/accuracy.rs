@@ -261,7 +261,7 @@ impl Accuracy {
 
     /// Notes the time between an event and the end of observation, for a
     /// bound of the error of the event's place and the time (1/p) that both
-    /// are told in.
+    /// are resolved in.
     pub fn end(&mut self, between: f64, late: f64, [time, time_s]: [f64; 2]) {
         let error = late + self.mistimed(time);
         self.decide(Decision::End, between, error, time_s);

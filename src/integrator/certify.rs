@@ -1,4 +1,4 @@
-//! Fates told in the precision that they need.
+//! Fates resolved in the arithmetic that they need.
 
 use std::fmt;
 
@@ -46,7 +46,7 @@ named!(Arithmetic, "arithmetic", {
 /// // The block stands after 2 s, and its peak is the release.
 /// let ask = Certify { until_s: Some(2.0), ..Certify::default() };
 /// let fate = certify(&free, &ask)?;
-/// assert!(fate.decided);
+/// assert!(fate.resolved);
 /// assert_eq!(fate.outcome, Outcome::Rocked { peak_ratio: 0.5 });
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -81,23 +81,23 @@ impl fmt::Debug for Certify<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certified {
-    /// What became of the block, by the engine named in `by`.
+    /// What became of the block, in the arithmetic `by`.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub outcome: Outcome,
     /// Distance from the other fate, in units of the slenderness angle.
     pub margin: f64,
-    /// Bound on the error of the peak ratio; none where it is undecided.
+    /// Bound on the error of the peak ratio; none where it is unresolved.
     pub error: Option<f64>,
     /// The least clear decision of the run.
     pub least: Clearance,
     /// False where a decision is not clear in the widest arithmetic.
-    pub decided: bool,
+    pub resolved: bool,
     /// False where other inputs that round to the same doubles may have
     /// another outcome: the fate is that of these doubles alone.
-    pub decided_for_inputs: bool,
-    /// Which engine decided, or tried last.
+    pub resolved_for_inputs: bool,
+    /// The arithmetic that resolved the fate, or the widest one.
     pub by: Arithmetic,
-    /// What double precision says.
+    /// Outcome in double precision.
     pub double: Outcome,
 }
 
@@ -120,26 +120,26 @@ impl Certified {
             margin: response.fate_margin,
             error: response.error_estimate,
             least: certificate.least(),
-            decided: response.assessment() == Assessment::Clear,
-            decided_for_inputs: of_inputs.is_clear(),
+            resolved: response.assessment() == Assessment::Clear,
+            resolved_for_inputs: of_inputs.is_clear(),
             by,
             double: outcome,
         }
     }
 
-    /// True where the engines disagree about the fate.
+    /// Whether double precision gives another fate than `outcome`.
     #[must_use]
-    pub fn moved(&self) -> bool {
+    pub fn wrong_in_double(&self) -> bool {
         self.outcome.is_overturned() != self.double.is_overturned()
     }
 }
 
-/// Tells outcome and peak of a run: in double precision where every decision
-/// is clear of its error, in double-double where one is not, in octuple
-/// precision where one is not clear in that either; undecided beyond.
+/// Resolves outcome and peak of a run: in double precision where every
+/// decision is clear of its error, else in double-double, else in octuple
+/// precision. Where a decision is not clear even then, the run is unresolved.
 ///
-/// The problem told is that of the doubles given. Whether it is that of all
-/// inputs that round to them is told beside it. An end of observation is one
+/// The result holds for the doubles given. `resolved_for_inputs` says whether
+/// it holds for all inputs that round to them. An end of observation is one
 /// of the decisions.
 ///
 /// # Errors
@@ -163,7 +163,7 @@ impl Certified {
 /// };
 /// let fate = certify(&scene, &Certify::default())?;
 /// assert_eq!(fate.by, Arithmetic::DoubleDouble);
-/// assert!(fate.decided && fate.outcome.is_overturned());
+/// assert!(fate.resolved && fate.outcome.is_overturned());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn certify(
@@ -177,20 +177,20 @@ pub fn certify(
     let solver = Solver { peak_only: true, ..Solver::default() };
     let quick = solver.respond_once(scene, &observe)?;
     let quick = Certified::of(&quick, Arithmetic::Double);
-    if quick.decided {
+    if quick.resolved {
         return Ok(quick);
     }
     let double = quick.outcome;
     let by = Arithmetic::DoubleDouble;
-    let told = |time_s| progress(by, time_s);
-    let wide = respond_until_sure::<DoubleDouble>(scene, &observe, &told)?;
+    let report = |time_s| progress(by, time_s);
+    let wide = respond_until_sure::<DoubleDouble>(scene, &observe, &report)?;
     let wide = Certified::of(&wide, by);
-    if wide.decided {
+    if wide.resolved {
         return Ok(Certified { double, ..wide });
     }
     let by = Arithmetic::Octuple;
-    let told = |time_s| progress(by, time_s);
-    let widest = respond_until_sure::<Octuple>(scene, &observe, &told)?;
+    let report = |time_s| progress(by, time_s);
+    let widest = respond_until_sure::<Octuple>(scene, &observe, &report)?;
     let widest = Certified::of(&widest, by);
     Ok(Certified { double, ..widest })
 }
@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn the_doubles_around_a_critical_amplitude_are_told() {
+    fn the_doubles_around_a_critical_amplitude_are_resolved() {
         // The reference names the first double above the critical amplitude.
         let first = 4.072_395_807_424_461_f64;
         let mut below = first;
@@ -228,7 +228,7 @@ mod tests {
             below = below.next_down();
             for (amplitude, overturns) in [(below, false), (above, true)] {
                 let fate = fate(amplitude);
-                assert!(fate.decided, "{amplitude}: {fate:?}");
+                assert!(fate.resolved, "{amplitude}: {fate:?}");
                 assert_eq!(
                     fate.outcome.is_overturned(),
                     overturns,
@@ -241,11 +241,13 @@ mod tests {
     }
 
     #[test]
-    fn a_clear_fate_is_told_in_double_precision() {
+    fn a_clear_fate_is_resolved_in_double_precision() {
         for amplitude in [3.0, 5.0] {
             let fate = fate(amplitude);
             assert!(
-                fate.decided && fate.by == Arithmetic::Double && !fate.moved()
+                fate.resolved
+                    && fate.by == Arithmetic::Double
+                    && !fate.wrong_in_double()
             );
         }
     }

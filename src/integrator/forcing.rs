@@ -100,7 +100,7 @@ pub(crate) trait Forcing<N: Real, const F: usize> {
     ) -> (Option<Exceedance<N>>, Scan<N>);
 
     /// Time (in 1/p) whose rounding shifts the whole excitation: none where
-    /// places in it are told by their piece.
+    /// places in it belong to their piece.
     fn span(&self) -> f64 {
         0.0
     }

@@ -20,7 +20,7 @@ fn depth<N: Real>() -> u32 {
 /// this many times what the other terms can add to it.
 pub(crate) const SURELY: f64 = -1.01;
 
-/// Share of its size below which the sign of an end is not told.
+/// Share of its size below which the sign of an end is not certain.
 pub(crate) const NEAR_END: f64 = 1e-11;
 
 /// Newton's iterations at most.

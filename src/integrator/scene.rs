@@ -309,7 +309,7 @@ impl<N> Response<N> {
         }
     }
 
-    /// Whether outcome and peak can be told in this precision.
+    /// Whether outcome and peak are resolved in this precision.
     #[must_use]
     pub fn assessment(&self) -> Assessment {
         match self.certificate {
@@ -320,7 +320,7 @@ impl<N> Response<N> {
     }
 }
 
-/// Whether outcome and peak of a run can be told in its precision.
+/// Whether outcome and peak of a run are resolved in its precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Assessment {
     /// No error of the run can turn any of its decisions.

@@ -1,6 +1,6 @@
 //! A rough certificate of every run, by its impacts alone.
 //!
-//! Whether a run is worth the careful assessment of its decisions is told by
+//! Whether a run is worth the careful assessment of its decisions is decided by
 //! an estimate that costs next to nothing: the covariance of the error of
 //! (u, w) is carried from impact to impact, not from step to step. In flight
 //! it grows as that of a block near its base without ground motion,

@@ -3,7 +3,7 @@
 use super::{IntensityError, Oscillator};
 use crate::units::STANDARD_GRAVITY_M_S2;
 
-/// Periods of the response spectrum unless told otherwise, in s.
+/// Default periods of the response spectrum, in s.
 pub const DEFAULT_PERIODS_S: [f64; 7] = [0.1, 0.2, 0.5, 1.0, 2.0, 3.0, 5.0];
 
 /// Gravity, and damping and periods of the response spectrum.

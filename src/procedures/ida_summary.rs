@@ -1,6 +1,6 @@
 //! What the curves of a suite come to.
 
-use crate::ida::{Analysis, Certification, IdaCurve};
+use crate::ida::{Analysis, IdaCurve, ResolutionCounts};
 use crate::statistics::{ExtendedSample, QuantileType};
 
 /// The curves of a suite, counted.
@@ -17,8 +17,8 @@ pub struct IdaSummary {
     /// Median first overturning intensity PGA/(g tan alpha), infinite where
     /// half of the curves stand; none for no curve.
     pub median_overturning_im: Option<f64>,
-    /// In which arithmetic the analyses were resolved.
-    pub certification: Certification,
+    /// How many analyses each arithmetic resolved.
+    pub resolution: ResolutionCounts,
     /// Levels above a first overturning at which the block stands again;
     /// none where they were not sought.
     pub resurrections: Option<usize>,
@@ -67,9 +67,9 @@ pub struct CurveSummary {
 /// ```
 #[must_use]
 pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
-    let mut certification = Certification::default();
+    let mut resolution = ResolutionCounts::default();
     for curve in curves {
-        certification.add(&curve.certification);
+        resolution.add(&curve.resolution);
     }
     let one = |curve: &IdaCurve| CurveSummary {
         record: curve.record.clone(),
@@ -88,7 +88,7 @@ pub fn summarise_ida(curves: &[IdaCurve], analysis: &Analysis) -> IdaSummary {
             .filter(|curve| curve.overturning.is_some())
             .count(),
         median_overturning_im: ims.and_then(median),
-        certification,
+        resolution,
         resurrections: analysis
             .resurrections
             .map(|_| curves.iter().map(IdaCurve::resurrections).sum()),

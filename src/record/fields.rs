@@ -259,7 +259,7 @@ impl Forms {
     /// the numbers' one form tells that the last number is whole.
     ///
     /// # Errors
-    /// A last number that was cut, where that can be told: fewer digits than
+    /// A last number that was cut, where that is visible: fewer digits than
     /// all numbers before, a shorter exponent, or none in a number that may
     /// be what an exponent follows. A cut without an exponent leaves a number
     /// nearer to zero.

@@ -147,7 +147,7 @@ fn identical_results_say_so() {
 }
 
 #[test]
-fn a_number_beyond_its_interval_is_told_in_engineering_terms() {
+fn a_number_beyond_its_interval_is_reported_in_engineering_terms() {
     let place = sides("number", &[("2.31,", "2.35,")], &[]);
     let (status, out, error) = run(&place, "diff old new");
     assert_eq!(status, 1);

@@ -60,18 +60,18 @@ fn a_grazing_first_hop_is_flagged_alone_and_in_lanes() {
     let record = record();
     let alone = curve(&record, &analysis(false)).unwrap();
     let point = level(&alone.points);
-    assert!(!point.told.resolved);
+    assert!(!point.resolution.resolved);
     // It is flagged for a reason.
     assert!((point.outcome.edp() - PEAK).abs() > 0.01);
     let all = [analysis(false), analysis(true)];
     let found = curves(std::slice::from_ref(&record), &all, &Batch::default())
         .unwrap();
     assert_eq!(found[0][0], alone);
-    let told = level(&found[1][0].points);
-    assert_eq!(told, level(&curve(&record, &all[1]).unwrap().points));
-    assert_eq!(told.told.by, Some(Arithmetic::DoubleDouble));
-    assert!(told.told.resolved);
-    assert!((told.outcome.edp() - PEAK).abs() < 1e-14, "{told:?}");
+    let certified = level(&found[1][0].points);
+    assert_eq!(certified, level(&curve(&record, &all[1]).unwrap().points));
+    assert_eq!(certified.resolution.by, Some(Arithmetic::DoubleDouble));
+    assert!(certified.resolution.resolved);
+    assert!((certified.outcome.edp() - PEAK).abs() < 1e-14, "{certified:?}");
 }
 
 #[test]

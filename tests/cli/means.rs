@@ -105,9 +105,9 @@ fn a_result_for_a_closed_standard_output_is_refused() {
     ] {
         let (status, error) = shell(&place, &format!("rocking {command} >&-"));
         assert_eq!(status, 2, "{command}");
-        let told = "standard output: it is closed, or /dev/null opened for";
+        let words = "standard output: it is closed, or /dev/null opened for";
         let written = "cannot write -: it is closed, or /dev/null opened for";
-        assert!(error.contains(told) || error.contains(written), "{error}");
+        assert!(error.contains(words) || error.contains(written), "{error}");
         for silent in [">/dev/null", "1<>/dev/null 2<>/dev/null"] {
             let line = format!("rocking {command} {silent}");
             assert_eq!(shell(&place, &line).0, 0, "{line}");

@@ -115,9 +115,9 @@ fn a_run_that_nobody_assessed_is_not_called_clear() {
     let quiet = respond(&free, &Observe::default()).unwrap();
     assert_eq!(quiet.assessment(), Assessment::NotAssessed);
     let observe = Observe { accuracy: true, ..Observe::default() };
-    let told = respond(&free, &observe).unwrap();
-    assert_eq!(told.assessment(), Assessment::Clear);
-    let least = told.certificate.unwrap().least();
+    let found = respond(&free, &observe).unwrap();
+    assert_eq!(found.assessment(), Assessment::Clear);
+    let least = found.certificate.unwrap().least();
     assert!(least.ratio > 1e10 && least.ratio.is_finite(), "{least:?}");
 }
 

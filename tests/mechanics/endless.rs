@@ -77,7 +77,7 @@ fn long_pulses_take_no_longer_than_short_ones() {
 
 /// A pulse whose peak is at most a share of the uplift threshold.
 fn endures(kind: PulseKind, model: Model, share: f64) {
-    let told = format!("{kind:?} {model:?} {share}");
+    let scene_said = format!("{kind:?} {model:?} {share}");
     let pulse = Pulse::try_new(kind).unwrap();
     let of = scene(model, 0.92, Excitation::Pulse(&pulse));
     let few = WorkLimit { impacts: 20_000, steps: 20_000 };
@@ -91,15 +91,15 @@ fn endures(kind: PulseKind, model: Model, share: f64) {
         // It rocks through millions of cycles.
         return refused(found, "steps");
     }
-    let found = found.unwrap_or_else(|error| panic!("{told}: {error}"));
+    let found = found.unwrap_or_else(|error| panic!("{scene_said}: {error}"));
     let work = found.work;
-    assert!(work.rest_scans < 1_000_000, "{told} {work:?}");
+    assert!(work.rest_scans < 1_000_000, "{scene_said} {work:?}");
     if share < 1.0 {
-        assert_eq!(found.outcome, Outcome::NoUplift, "{told}");
+        assert_eq!(found.outcome, Outcome::NoUplift, "{scene_said}");
     } else if share > 1.5 {
-        assert!(found.uplift_time_s.is_some(), "{told}");
-        let brief = told.contains("period_s: 1.0,");
-        assert!(brief || found.outcome.is_overturned(), "{told}");
+        assert!(found.uplift_time_s.is_some(), "{scene_said}");
+        let brief = scene_said.contains("period_s: 1.0,");
+        assert!(brief || found.outcome.is_overturned(), "{scene_said}");
     }
 }
 

@@ -69,7 +69,7 @@ fn a_rise_after_the_excitation_that_observation_cuts_is_the_peak() {
 /// A rectangle of 1.2 times the threshold overturns the block at
 /// cosh(p t) = 6, in free motion where it ends before.
 #[test]
-fn an_overturning_at_the_end_of_observation_is_not_told() {
+fn an_overturning_at_the_end_of_observation_is_not_resolved() {
     for duration_s in [5.0, 1.0] {
         let pulse = rectangle(1.2 * ALPHA, duration_s);
         let scene = scene(Excitation::Pulse(&pulse));
@@ -96,7 +96,7 @@ fn an_overturning_at_the_end_of_observation_is_not_told() {
             assert_eq!(quiet.assessment(), Assessment::Unresolved);
             let ask = Certify { until_s, ..Certify::default() };
             let fate = certify(&scene, &ask).unwrap();
-            assert!(fate.decided && !fate.decided_for_inputs, "{fate:?}");
+            assert!(fate.resolved && !fate.resolved_for_inputs, "{fate:?}");
             assert_eq!(fate.by, Arithmetic::DoubleDouble);
         }
         for (share, falls) in [(1.0 - 1e-9, false), (1.0 + 1e-9, true)] {
@@ -110,12 +110,12 @@ fn an_overturning_at_the_end_of_observation_is_not_told() {
 
 /// A triangle of 3 alpha that lasts 0.8 s lifts the block after a sixth of it.
 #[test]
-fn a_first_uplift_at_the_end_of_observation_is_not_told() {
+fn a_first_uplift_at_the_end_of_observation_is_not_resolved() {
     let kind = PulseKind::Triangle { amplitude: 3.0 * ALPHA, duration_s: 0.8 };
     let pulse = Pulse::try_new(kind).unwrap();
     let scene = scene(Excitation::Pulse(&pulse));
     let sixth_s = 0.8_f64 / 6.0;
-    for (until_s, is_told) in [
+    for (until_s, is_resolved) in [
         (sixth_s, false),
         (sixth_s.next_up(), false),
         (sixth_s.next_down(), false),
@@ -126,18 +126,22 @@ fn a_first_uplift_at_the_end_of_observation_is_not_told() {
         let lifts = until_s.mul_add(6.0, -0.8) > 0.0;
         let found = until(&scene, until_s);
         let is_clear = found.assessment() == Assessment::Clear;
-        assert_eq!(is_clear, is_told, "{until_s}: {:?}", found.certificate);
+        assert_eq!(
+            is_clear, is_resolved,
+            "{until_s}: {:?}",
+            found.certificate
+        );
         let ask = Certify { until_s: Some(until_s), ..Certify::default() };
         let fate = certify(&scene, &ask).unwrap();
-        assert!(fate.decided);
+        assert!(fate.resolved);
         assert_eq!(fate.outcome != Outcome::NoUplift, lifts);
-        assert!(!is_told || (found.outcome != Outcome::NoUplift) == lifts);
+        assert!(!is_resolved || (found.outcome != Outcome::NoUplift) == lifts);
     }
 }
 
-/// A rest within the observation is told, though the block lifts later.
+/// A rest within the observation is resolved, though the block lifts later.
 #[test]
-fn a_rest_before_the_end_of_observation_is_told() {
+fn a_rest_before_the_end_of_observation_is_resolved() {
     let mut samples = vec![0.0; 200];
     for place in [5, 190] {
         samples[place] = 1.3 * ALPHA;
@@ -161,7 +165,7 @@ fn a_rest_before_the_end_of_observation_is_told() {
 #[test]
 fn a_peak_at_the_threshold_is_a_decision() {
     let unit = 0.5 * f64::EPSILON;
-    for (ulps, told) in [
+    for (ulps, clear) in [
         (0.0, false),
         (1.0, false),
         (-1.0, false),
@@ -181,13 +185,13 @@ fn a_peak_at_the_threshold_is_a_decision() {
             let pulse = Pulse::try_new(kind).unwrap();
             let found = until(&scene(Excitation::Pulse(&pulse)), 40.0);
             let uplift = found.certificate.unwrap().of(Decision::Uplift);
-            assert_eq!(uplift.is_clear(), told, "{kind:?}: {uplift:?}");
-            assert!(!told || (found.work.uplifts > 0) == (ulps > 0.0));
+            assert_eq!(uplift.is_clear(), clear, "{kind:?}: {uplift:?}");
+            assert!(!clear || (found.work.uplifts > 0) == (ulps > 0.0));
         }
         for sign in [1.0, -1.0] {
             let found = under(vec![sign * amplitude, 0.1 * ALPHA, 0.0]);
             let uplift = found.certificate.unwrap().of(Decision::Uplift);
-            assert_eq!(uplift.is_clear(), told, "{ulps}: {uplift:?}");
+            assert_eq!(uplift.is_clear(), clear, "{ulps}: {uplift:?}");
         }
     }
 }
@@ -196,7 +200,7 @@ fn a_peak_at_the_threshold_is_a_decision() {
 #[test]
 fn a_low_crest_above_the_threshold_lifts() {
     for ulps in [17.0, 25.0, 40.0] {
-        // A block that bounces long at the threshold is not told at all.
+        // A block that bounces long at the threshold is not resolved at all.
         let restitution = Restitution::constant(0.5).unwrap();
         let amplitude = ALPHA * (1.0 + ulps * f64::EPSILON);
         let kind = PulseKind::OneSine { amplitude, omega_rad_s: 40.0 };
@@ -204,7 +208,7 @@ fn a_low_crest_above_the_threshold_lifts() {
         let scene = scene(Excitation::Pulse(&pulse));
         let scene = Scene { restitution, ..scene };
         let fate = certify(&scene, &Certify::default()).unwrap();
-        assert!(fate.decided, "{fate:?}");
+        assert!(fate.resolved, "{fate:?}");
         // (9/2) eps^2/Omega^2, and Omega = 20.
         let excess = ulps * f64::EPSILON;
         let due = 4.5 * excess * excess / 400.0;
@@ -214,7 +218,7 @@ fn a_low_crest_above_the_threshold_lifts() {
 }
 
 #[test]
-fn a_certification_says_where_it_stands() {
+fn certify_says_where_it_stands() {
     let pulse = rectangle(1.2 * ALPHA, 5.0);
     let scene = scene(Excitation::Pulse(&pulse));
     let until_s = Some(0.5 * libm::acosh(6.0));

@@ -121,7 +121,7 @@ fn estimates_bound_the_distance_from_double_double() {
 
 /// The two doubles around the critical amplitude of `trajectories.json`.
 #[test]
-fn neighbours_of_a_critical_amplitude_are_told() {
+fn neighbours_of_a_critical_amplitude_are_resolved() {
     let first = 4.072_395_807_424_461_f64;
     for (amplitude, overturns, by) in [
         (first.next_down(), false, Arithmetic::DoubleDouble),
@@ -136,12 +136,12 @@ fn neighbours_of_a_critical_amplitude_are_told() {
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
         let fate = certify(&near, &Certify::default()).unwrap();
-        assert!(fate.decided && fate.by == by, "{fate:?}");
+        assert!(fate.resolved && fate.by == by, "{fate:?}");
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();
         assert_eq!(fate.double, quick.outcome);
         let other = fate.double.is_overturned() != overturns;
-        assert_eq!(fate.moved(), other);
+        assert_eq!(fate.wrong_in_double(), other);
         assert!(fate.least.is_clear());
         if let Outcome::Rocked { peak_ratio } = fate.outcome {
             assert!(peak_ratio > 0.0 && peak_ratio < 1.0);
@@ -153,7 +153,7 @@ fn neighbours_of_a_critical_amplitude_are_told() {
 /// the fates of two amplitudes, and of none on either side of them; what it
 /// says is kept beside what is so.
 #[test]
-fn a_fate_that_double_precision_misses_is_told_and_said_so() {
+fn a_fate_that_double_precision_misses_is_resolved_and_said_so() {
     for (amplitude, overturns, missed) in [
         (9.922_004_265_836_232, false, false),
         (9.922_004_265_836_234, true, true),
@@ -167,12 +167,12 @@ fn a_fate_that_double_precision_misses_is_told_and_said_so() {
             ..scene(Model::Nonlinear, Excitation::Pulse(&pulse))
         };
         let fate = certify(&near, &Certify::default()).unwrap();
-        assert!(fate.decided && fate.by == Arithmetic::DoubleDouble);
+        assert!(fate.resolved && fate.by == Arithmetic::DoubleDouble);
         assert_eq!(fate.outcome.is_overturned(), overturns);
         let quick = respond(&near, &Observe::default()).unwrap();
         assert_eq!(fate.double, quick.outcome);
         assert_eq!(fate.double.is_overturned(), overturns != missed);
-        assert_eq!(fate.moved(), missed);
+        assert_eq!(fate.wrong_in_double(), missed);
     }
 }
 

@@ -131,12 +131,12 @@ fn trajectories_are_met() {
     for case in cases(&file) {
         // Double precision can't tell the threshold of the one, and the fate
         // of the other.
-        let told = &case["attainable_float64"]["alpha_verdict_ok"];
+        let fate_ok = &case["attainable_float64"]["alpha_verdict_ok"];
         let name = case["name"].as_str().unwrap();
-        let untold = name == "adv-touch-ulp-above"
+        let unresolved = name == "adv-touch-ulp-above"
             || name.starts_with("smp-A-divflip")
-            || told == false;
-        if untold {
+            || fate_ok == false;
+        if unresolved {
             continue;
         }
         let get = |key: &str| number(&case[key]);

@@ -144,7 +144,7 @@ fn nothing_costs_nothing() {
 fn engines_disagree_about_a_fate_or_they_do_not() {
     let over = Outcome::Overturned { time_s: 1.0, side: Side::Negative };
     let stands = Outcome::Rocked { peak_ratio: 0.99 };
-    for (outcome, double, moved) in [
+    for (outcome, double, wrong) in [
         (over, stands, true),
         (stands, over, true),
         (over, over, false),
@@ -156,11 +156,11 @@ fn engines_disagree_about_a_fate_or_they_do_not() {
             margin: 1.0,
             error: Some(0.0),
             least: Certificate::default().least(),
-            decided: true,
-            decided_for_inputs: true,
+            resolved: true,
+            resolved_for_inputs: true,
             by: Arithmetic::DoubleDouble,
             double,
         };
-        assert_eq!(fate.moved(), moved);
+        assert_eq!(fate.wrong_in_double(), wrong);
     }
 }

@@ -20,11 +20,11 @@
       }
       return false;
     };
-    let told = 0;
+    let shown = 0;
     for (const element of all("body *")) {
       const right = element.getBoundingClientRect().right;
-      if (right > root.clientWidth + 0.5 && !clipped(element) && told < 5) {
-        told += 1;
+      if (right > root.clientWidth + 0.5 && !clipped(element) && shown < 5) {
+        shown += 1;
         say(`overflow: ${where(element)} ends at ${Math.round(right)} px`);
       }
     }

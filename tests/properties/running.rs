@@ -58,7 +58,7 @@ pub fn close(
     }
 }
 
-/// Whether outcome and peak can be told.
+/// Whether outcome and peak are resolved.
 pub fn is_clear(response: &Response) -> bool {
     response.assessment() == Assessment::Clear
 }

@@ -60,7 +60,7 @@ fn what_is_set_aside_is_in_every_result() {
         assert_eq!(code(0), (&"vertical".into(), &1.into()));
         assert_eq!(code(1), (&"format".into(), &4.into()));
         assert_eq!(codes[1]["first"], "x.txt");
-        for (command, told) in [
+        for (command, words) in [
             (
                 format!(
                     "sweep plan --blocks blocks.csv --suite {suite} --out plan"
@@ -70,7 +70,7 @@ fn what_is_set_aside_is_in_every_result() {
             (format!("suite export --suite {suite} --out out"), row.into()),
         ] {
             let out = answer(&folder, &command);
-            assert!(out.contains(&told), "{command}: {out}");
+            assert!(out.contains(&words), "{command}: {out}");
             let _ = fs::remove_dir_all(folder.join("out"));
             let _ = fs::remove_dir_all(folder.join("plan"));
         }
@@ -89,9 +89,9 @@ fn what_is_set_aside_is_in_every_result() {
         ] {
             let strict = format!("{command} --strict");
             let (status, _, error) = run(&folder, &strict);
-            let told = format!("rocking: --strict: set aside: {WORDS}");
+            let words = format!("rocking: --strict: set aside: {WORDS}");
             assert_eq!(status, 2, "{strict}");
-            assert!(error.starts_with(&told), "{strict}: {error}");
+            assert!(error.starts_with(&words), "{strict}: {error}");
             assert!(!folder.join("out").exists(), "{strict}");
         }
     }
@@ -106,7 +106,7 @@ fn what_is_set_aside_is_in_every_result() {
 
 #[cfg(unix)]
 #[test]
-fn links_to_nothing_and_folders_are_told() {
+fn links_to_nothing_and_folders_are_reported() {
     let folder = folder("aside-links", &[]);
     let write = |name: &str| {
         let path = folder.join(name);
@@ -131,7 +131,7 @@ fn links_to_nothing_and_folders_are_told() {
 }
 
 #[test]
-fn a_name_that_comes_twice_in_a_zip_is_told() {
+fn a_name_that_comes_twice_in_a_zip_is_reported() {
     let folder = folder("aside-doubled", &[]);
     let mut bytes = std::io::Cursor::new(Vec::new());
     let mut zip = zip::ZipWriter::new(&mut bytes);
@@ -152,7 +152,7 @@ fn a_name_that_comes_twice_in_a_zip_is_told() {
         bytes[at] = b'A';
     }
     fs::write(folder.join("two.zip"), &bytes).unwrap();
-    let told = "1 under a name that comes again (first: A_0.csv)";
+    let words = "1 under a name that comes again (first: A_0.csv)";
     let out = answer(&folder, "records two.zip");
     assert!(out.contains("doubled"), "{out}");
     // The last one is read, as by what unpacks it.
@@ -161,7 +161,7 @@ fn a_name_that_comes_twice_in_a_zip_is_told() {
     assert_eq!([pga(0), pga(1)], [0.2, 0.4]);
     let ida = format!("{IDA} --suite two.zip --strict");
     let error = failure(&folder, &ida);
-    assert!(error.contains(told), "{error}");
+    assert!(error.contains(words), "{error}");
 }
 
 /// A folder of one record of this name, and what the program says of it.

@@ -45,10 +45,10 @@ fn remarks_travel_to_every_result() {
     let folder = folder("remarks", &files);
     let ida = format!("{IDA} --suite . --out ida.out");
     let out = answer(&folder, &ida);
-    let told = "mean is 25.0 % of PGA: instrument offset? PGA is \
+    let words = "mean is 25.0 % of PGA: instrument offset? PGA is \
                 4.000e-1 g, and 3.000e-1 g without the mean (--demean)";
     let row = "  records                       1\n  of                            2\n";
-    assert!(out.contains(row) && out.contains(told), "{out}");
+    assert!(out.contains(row) && out.contains(words), "{out}");
     let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
     let of_b = table.lines().find(|line| line.starts_with("b_E,")).unwrap();
     assert!(of_b.contains(",end-velocity offset,0.92,"), "{of_b}");
@@ -57,7 +57,7 @@ fn remarks_travel_to_every_result() {
     assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));
     let respond = "respond --alpha 0.1 --p 3 --record b_E.csv";
     let (status, out, _) = rocking(&folder, respond, "");
-    assert!(status == 0 && out.contains(told), "{out}");
+    assert!(status == 0 && out.contains(words), "{out}");
     // The table is no record, and would be set aside.
     std::fs::remove_file(folder.join("ida.out")).unwrap();
     for command in [&*ida, respond, "records b_E.csv"] {
@@ -119,7 +119,7 @@ fn an_input_is_never_an_output() {
     for (file, bytes) in files {
         assert_eq!(std::fs::read(folder.join(file)).unwrap(), bytes);
     }
-    // Told before the work, which would take an hour.
+    // Reported before the work, which would take an hour.
     let command = format!("{IDA} --suite x.AT2 --step-im 1e-5 --out no/x");
     let error = failure(&folder, &command);
     assert!(error.contains("cannot write no/x"), "{error}");
@@ -150,11 +150,11 @@ fn two_outputs_never_go_to_one_file() {
             format!("{respond} --history {one} --plot {other}"),
         ] {
             let error = refused(&folder, &command);
-            let told = format!(
+            let words = format!(
                 "cannot write {other}: another output goes there: expected \
                  a file of its own"
             );
-            assert!(error.contains(&told), "{command}: {error}");
+            assert!(error.contains(&words), "{command}: {error}");
         }
     }
     assert_eq!(std::fs::read(folder.join("old")).unwrap(), b"old");
@@ -223,7 +223,7 @@ fn tables_and_samples_know_what_they_are() {
     assert!(error.contains("as the other file"), "{error}");
 }
 
-/// A cause is told once, with the number of its files.
+/// A cause is reported once, with the number of its files.
 #[test]
 fn one_line_a_cause() {
     let names: Vec<String> = (0..12).map(|i| format!("{i:02}.txt")).collect();

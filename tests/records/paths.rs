@@ -46,9 +46,9 @@ fn a_folder_may_hold_names_that_are_no_utf_8() {
 }
 
 /// The last line of a file need not have an end; what that leaves open is
-/// told, and refused with `--strict`.
+/// reported, and refused with `--strict`.
 #[test]
-fn an_open_last_line_is_told_with_the_results() {
+fn an_open_last_line_is_reported_with_the_results() {
     let open: (&str, &[u8]) = ("hall_NS.txt", b"0.1\n-0.25\n0.125\n0\n0.5");
     let folder = folder("open", &[open]);
     let ida = ida("hall_NS.txt", "x.csv");
@@ -59,7 +59,7 @@ fn an_open_last_line_is_told_with_the_results() {
 
 /// A record that is named alone is applied, whatever its direction.
 #[test]
-fn a_vertical_that_is_named_is_told() {
+fn a_vertical_that_is_named_is_reported() {
     let folder = folder("vertical", &[("hall_UD.txt", b"0.1\n-0.2\n0.1\n")]);
     let respond = "respond --alpha 0.1 --p 3 --dt 0.01 --units g --record \
                    hall_UD.txt --strict";

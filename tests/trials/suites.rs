@@ -38,7 +38,7 @@ pub struct Survey {
     /// Condition number of the peak of blocks that rocked, in rising order.
     pub conditions: Vec<f64>,
     /// Analyses near the first overturning (itself and the last five levels
-    /// below it) that wider arithmetic told.
+    /// below it) that wider arithmetic resolved.
     pub near: Near,
 }
 
@@ -47,7 +47,7 @@ pub struct Survey {
 pub struct Near {
     /// All of them.
     pub analyses: usize,
-    /// Told by octuple precision, the others by double-double; by none.
+    /// Resolved by octuple precision, the others by double-double; by none.
     pub by_octuple: usize,
     /// See `by_octuple`.
     pub undecided: usize,
@@ -170,7 +170,7 @@ impl Survey {
                 excitation: Excitation::Record(record),
                 initial_ratio: 0.0,
             };
-            let flagged = !point.told.resolved;
+            let flagged = !point.resolution.resolved;
             let near =
                 curve.overturning.is_some() && k + LEVELS_BELOW >= count - 1;
             out.look(&scene, flagged, near)?;
@@ -207,7 +207,7 @@ impl Survey {
                 Truth::of(&respond_precise::<Octuple>(scene, &observe)?),
                 true,
             ),
-            told => (told, false),
+            truth => (truth, false),
         };
         let own = Truth {
             overturned: quick.outcome.is_overturned(),

@@ -8,7 +8,7 @@ use crate::columns::FRAGILITIES;
 use crate::fragility::BlockFragility;
 use crate::table::{Table, number, optional};
 
-/// Median and dispersion as FEMA P-58's PACT is told them by hand.
+/// Median and dispersion in the form in which FEMA P-58's PACT takes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pact {
     /// What of the ground motion: PGA or PGV.
@@ -30,9 +30,9 @@ impl Pact {
     /// use rocking::intensity::Intensity;
     /// use rocking_exchange::Pact;
     /// let fitted = Lognormal::try_new(0.0, 0.0, 0.5)?;
-    /// let told = Pact::of(Intensity::Pgv, &fitted).expect("no shift");
-    /// assert_eq!((told.demand, told.unit), ("PGV", "m/s"));
-    /// assert_eq!((told.median, told.dispersion), (1.0, 0.5));
+    /// let pact = Pact::of(Intensity::Pgv, &fitted).expect("no shift");
+    /// assert_eq!((pact.demand, pact.unit), ("PGV", "m/s"));
+    /// assert_eq!((pact.median, pact.dispersion), (1.0, 0.5));
     /// let shifted = Lognormal::try_new(0.1, 0.0, 0.5)?;
     /// assert_eq!(Pact::of(Intensity::Pgv, &shifted), None);
     /// # Ok::<(), rocking::statistics::lognormal::LognormalError>(())
@@ -74,16 +74,16 @@ pub(super) fn pact(
                 expected: "pga or pgv",
             })?;
         for state in &one.limit_states {
-            let told = Pact::of(intensity, &state.fragility)
+            let pact = Pact::of(intensity, &state.fragility)
                 .ok_or_else(|| ExchangeError::Shifted { id: id.clone() })?;
             table.row([
                 id.to_string(),
                 state.name.to_string(),
-                told.demand.into(),
-                told.unit.into(),
+                pact.demand.into(),
+                pact.unit.into(),
                 "yes".into(),
-                number(told.median),
-                number(told.dispersion),
+                number(pact.median),
+                number(pact.dispersion),
             ]);
         }
     }

@@ -1,7 +1,7 @@
 use super::*;
 
 #[test]
-fn what_lies_beyond_the_last_point_is_bounded_and_below_the_first_told() {
+fn what_lies_beyond_the_last_point_is_bounded_and_below_the_first_reported() {
     let hazard = HazardCurve::try_new(&[(0.3, 0.004), (0.9, 0.0003)]).unwrap();
     let certain = Lognormal::try_new(0.0, -9.0, 0.1).unwrap();
     let found = hazard.annual_frequency(&certain);

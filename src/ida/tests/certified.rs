@@ -18,7 +18,7 @@ fn analysis(refine: Option<f64>) -> Analysis {
 }
 
 #[test]
-fn certified_fates_agree_where_double_precision_tells_them() {
+fn certified_fates_agree_where_double_precision_resolves_them() {
     let analysis = analysis(Some(1e-4));
     let plain = curve(&lobe(), &analysis).unwrap();
     let certified = Analysis { certify: true, ..analysis };
@@ -28,8 +28,8 @@ fn certified_fates_agree_where_double_precision_tells_them() {
         curve.points.iter().map(of).collect::<Vec<_>>()
     };
     assert_eq!(bits(&certified), bits(&plain));
-    let Certification { unresolved, moved, .. } = certified.certification;
-    assert_eq!((unresolved, moved), (0, 0));
+    let count = certified.resolution;
+    assert_eq!((count.unresolved, count.wrong_in_double), (0, 0));
     assert!(plain.overturning.is_some());
 }
 
@@ -38,16 +38,16 @@ fn bisection_to_the_last_bit_needs_double_double() {
     // The bracket's ends are neighbours, a rounding of the margin apart.
     let analysis = analysis(Some(f64::MIN_POSITIVE));
     let plain = curve(&lobe(), &analysis).unwrap().overturning.unwrap();
-    assert!(!plain.refined.unwrap().told.resolved);
+    assert!(!plain.refined.unwrap().resolution.resolved);
     let certified = Analysis { certify: true, ..analysis };
     let curve = curve(&lobe(), &certified).unwrap();
-    let count = curve.certification;
+    let count = curve.resolution;
     let first = curve.overturning.unwrap();
     let top = first.refined.unwrap();
-    assert!(count.double_double > 0, "{count:?}");
+    assert!(count.resolved_by_double_double > 0, "{count:?}");
     assert_eq!(count.unresolved, 0, "{count:?}");
-    assert!(top.told.resolved && top.outcome.is_overturned());
-    assert_eq!(top.told.by, Some(Arithmetic::DoubleDouble));
+    assert!(top.resolution.resolved && top.outcome.is_overturned());
+    assert_eq!(top.resolution.by, Some(Arithmetic::DoubleDouble));
     assert!(first.standing_im.next_up() >= top.im, "{first:?}");
     // Double precision is off by roundings.
     let plain_im = plain.refined.unwrap().im;

@@ -154,7 +154,7 @@ fn runs_that_end_early_say_what_whole_runs_say() {
                 } else {
                     same += 1;
                 }
-                let told = |response: &Response| {
+                let shown = |response: &Response| {
                     (
                         response.outcome,
                         response.peak_ratio,
@@ -164,8 +164,8 @@ fn runs_that_end_early_say_what_whole_runs_say() {
                     )
                 };
                 assert_eq!(
-                    told(&peak),
-                    told(&whole),
+                    shown(&peak),
+                    shown(&whole),
                     "run that ends early and whole run: {scene:?}"
                 );
             }

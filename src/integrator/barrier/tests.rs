@@ -166,7 +166,7 @@ fn what_the_ground_travels_until_the_calm_is_allowed_for() {
     let remainder = Remainder::new(&index, 0.01, 1.0);
     let mut barrier = Barrier::none();
     barrier.raise(0.12, &d, &remainder);
-    // Later than the change, for it is told by what is left.
+    // Later than the change: the bound rests on what is left.
     assert!(barrier.calm > 2900 && barrier.calm < 3100, "{}", barrier.calm);
     assert!(barrier.safe < barrier.height);
     let calm = remainder.left(barrier.calm);

@@ -2,7 +2,7 @@
 //!
 //! Uplift and overturning are compared with it as times, a rotation that it
 //! finds below overturning as a rotation. Free motion that it cuts is stepped
-//! to it; the closed form does for one whose outcome and peak are told well
+//! to it; the closed form does for one whose outcome and peak are known well
 //! before.
 
 use std::mem;
@@ -20,7 +20,7 @@ use crate::integrator::forcing::{
 use crate::integrator::screen::Screen;
 use crate::number::Real;
 
-/// Time (in 1/p) by which what is told in closed form lies before the end of
+/// Time (in 1/p) by which what the closed form resolves lies before the end of
 /// observation.
 const WELL_BEFORE: f64 = 1.0;
 
@@ -134,8 +134,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 
     /// True where observation ends before free motion from `motion` on has
-    /// surely told outcome and peak. Notes the end against an overturning
-    /// that it has told.
+    /// surely resolved outcome and peak. Notes the end against an overturning
+    /// that it has resolved.
     #[inline(never)]
     pub(super) fn cuts(&mut self, motion: Motion<N>) -> bool {
         let Some(until_s) = self.until_s else { return false };

@@ -6,7 +6,7 @@ use crate::integrator::taylor::{slope, value};
 use crate::number::Real;
 use crate::number::lanes::{Mask, Simd};
 
-/// What is told of the first descent of polynomials over a length.
+/// First descent of polynomials over a length, where it is certain.
 pub(super) struct Descent<T> {
     /// There is none.
     pub none: T,
@@ -45,10 +45,10 @@ pub(super) fn descent<V: Simd, const SIZE: usize>(
     let end = value(q, length);
     let size = q[0].abs() + q[1].abs() * length;
     let clear = (size * V::from_f64(NEAR_END)).lt(end.abs());
-    let told = falls.or(concave).and(clear);
-    let below = told.and(end.lt(zero));
+    let certain = falls.or(concave).and(clear);
+    let below = certain.and(end.lt(zero));
     Descent {
-        none: begins.and(positive.or(told.but_not(below))),
+        none: begins.and(positive.or(certain.but_not(below))),
         one: begins.and(below).but_not(positive),
         falls,
     }

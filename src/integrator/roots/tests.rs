@@ -169,7 +169,7 @@ fn screens_tell_up_to_their_bounds() {
     // It falls all the way where |c_1| > 1.01 (2 |c_2| L + 3 |c_3| L^2 + ..),
     // and is concave where 2 |c_2| > 1.01 (6 |c_3| L + 12 |c_4| L^2 + ..).
     let (none, above) = (None, Some(false));
-    for (c, length, told) in [
+    for (c, length, below) in [
         ([1.0, -1.0, 0.4950, 0.0, 0.0], 1.0, above),
         ([1.0, -1.0, 0.4951, 0.0, 0.0], 1.0, none),
         ([1.5, -1.0, 0.0, 0.3300, 0.0], 1.0, above),
@@ -189,7 +189,7 @@ fn screens_tell_up_to_their_bounds() {
         ([0.5, -1.0, 0.1, 0.1, 0.1], 1.0, Some(true)),
         ([0.5, 0.1, -1.0, 0.1, 0.05], 1.0, Some(true)),
         ([0.5, 0.1, 1.0, -0.1, -0.05], 1.0, none),
-        // An end within 1e-11 of |c_0| + |c_1| L is not told.
+        // An end within 1e-11 of |c_0| + |c_1| L is not certain.
         ([1.0, -1.0 - 1.9e-11, 0.0, 0.0, 0.0], 1.0, none),
         ([1.0, -1.0 - 2.1e-11, 0.0, 0.0, 0.0], 1.0, Some(true)),
         ([1.0, -1.0 + 1.9e-11, 0.0, 0.0, 0.0], 1.0, none),
@@ -197,7 +197,7 @@ fn screens_tell_up_to_their_bounds() {
         ([1.0, -2.0 - 3.5e-11, 0.0, 0.0, 0.0], 0.5, none),
         ([1.0, -2.0 - 4.5e-11, 0.0, 0.0, 0.0], 0.5, Some(true)),
     ] {
-        assert_eq!(ends_below(&c, length), told, "{c:?} {length}");
+        assert_eq!(ends_below(&c, length), below, "{c:?} {length}");
     }
     assert_eq!(ends_below(&[1.0, -2.0], 1.0), None);
 }
@@ -206,7 +206,7 @@ fn screens_tell_up_to_their_bounds() {
 #[test]
 fn what_screens_tell_is_true() {
     let mut draws = Draws(11);
-    let (mut sure, mut told) = (0, [0, 0]);
+    let (mut sure, mut seen) = (0, [0, 0]);
     for _ in 0..3000 {
         let mut c = [0.0; 6];
         c[0] = draws.next();
@@ -222,11 +222,11 @@ fn what_screens_tell_is_true() {
         let changes =
             (0..1000).filter(|k| (at(*k) > 0.0) != (at(k + 1) > 0.0));
         if let Some(below) = ends_below(&c, length) {
-            told[usize::from(below)] += 1;
+            seen[usize::from(below)] += 1;
             assert_eq!(changes.count(), usize::from(below), "{c:?}");
         }
     }
-    assert!(sure > 500 && told[0] > 200 && told[1] > 200, "{sure} {told:?}");
+    assert!(sure > 500 && seen[0] > 200 && seen[1] > 200, "{sure} {seen:?}");
 }
 
 #[test]

@@ -85,13 +85,13 @@ fn every_level_has_the_bits_of_numbers_alone() {
                     "{x} {y} {z}: {several}, alone {alone}"
                 );
             }
-            let told = |k: usize| truths[k] >> lane & 1 == 1;
+            let truth = |k: usize| truths[k] >> lane & 1 == 1;
             let signs = x.is_sign_negative() != y.is_sign_negative()
                 || z.is_sign_negative();
-            assert_eq!(told(0), x < y);
-            assert_eq!(told(1), x == y);
-            assert_eq!(told(2), x <= y);
-            assert_eq!(told(3), signs);
+            assert_eq!(truth(0), x < y);
+            assert_eq!(truth(1), x == y);
+            assert_eq!(truth(2), x <= y);
+            assert_eq!(truth(3), signs);
             assert_eq!(counts[lane], 7 + u64::from(x < y));
         }
         for level in Isa::available() {

@@ -184,7 +184,7 @@ fn an_index_may_have_semicolons_capitals_and_names() {
 
 /// SMC files name event, station and component: names of files say nothing.
 #[test]
-fn smc_components_are_told_by_their_header() {
+fn smc_components_are_known_by_their_header() {
     let text = |station: &str, component: &str| {
         let mut lines: Vec<String> =
             crate::record::tests::smc().lines().map(str::to_owned).collect();
@@ -303,7 +303,7 @@ fn a_suite_has_the_name_of_its_folder_or_file() {
 
 /// AT2 names the component at the end of its second line.
 #[test]
-fn at2_components_are_told_by_their_header() {
+fn at2_components_are_known_by_their_header() {
     let text = |component: &str| {
         format!(
             "PEER NGA STRONG MOTION DATABASE RECORD\n\

@@ -174,7 +174,7 @@ fn a_last_line_needs_no_end() {
         \x20  0.001220704020000\n                   0\n  -0.032411769120000\n";
     let powers = "0.0012\n-1.25e-05\n0.0034\n2.5e-12\n0.004\n-0.05\n";
     let pairs = "0.00 0.1\n0.01 -0.25\n0.02 0.125\n0.03 0\n0.04 0.5\n";
-    for (text, told) in [
+    for (text, cut) in [
         (even, false),
         (uneven, true),
         (powers, true),
@@ -185,7 +185,7 @@ fn a_last_line_needs_no_end() {
         assert_eq!(whole.remarks, []);
         let open = read(text.trim_end()).expect(text);
         assert_eq!(open.accelerogram, whole.accelerogram);
-        let expected = told.then_some(Remark::LastLine);
+        let expected = cut.then_some(Remark::LastLine);
         assert_eq!(open.remarks, Vec::from_iter(expected), "{text}");
     }
     let cases = [

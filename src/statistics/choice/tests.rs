@@ -65,7 +65,7 @@ fn draws_follow_their_distribution() {
 }
 
 #[test]
-fn a_model_that_is_wrong_is_told_by_its_p_value() {
+fn a_model_that_is_wrong_has_a_small_p_value() {
     // Quantiles of a Weibull with shape 2: no lognormal.
     let values: Vec<f64> = (0..200)
         .map(|i| (-log((f64::from(i) + 0.5) / 200.0)).sqrt())

@@ -11,7 +11,7 @@ use crate::statistics::{ExtendedSample, Sample};
 const PLACES: usize = 64;
 /// The end comes as near as range/sinh(this) to the sample.
 const REACH: f64 = 9.0;
-/// An end farther off than this many ranges is no longer told from none.
+/// An end farther off than this many ranges cannot be distinguished from none.
 const FARTHEST: f64 = 1e4;
 
 /// F(x) = exp(-(1 + shape (x - location)/scale)^(-1/shape)) where the

@@ -1,5 +1,5 @@
 //! Files and folders as outputs: opened before the work, so that a bad place
-//! is told at once, and written whole or not at all.
+//! is reported at once, and written whole or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, Write as _};

@@ -26,7 +26,7 @@ pub use claims::{
 
 /// Version of the file's shape. It rises with every change of a field or of
 /// its meaning.
-pub const SCHEMA: u32 = 4;
+pub const SCHEMA: u32 = 5;
 
 /// Everything that a study found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,10 +90,10 @@ pub struct Suite {
     pub set_aside: Vec<Aside>,
     /// Analyses made.
     pub analyses: u64,
-    /// Analyses whose peak or fate rounding may have changed.
-    pub not_told_by_double_precision: usize,
-    /// First overturnings among them.
-    pub first_overturnings_told_again: ToldAgain,
+    /// Analyses whose peak or fate double precision does not resolve.
+    pub unresolved: usize,
+    /// First overturnings among the unresolved analyses.
+    pub first_overturnings_reevaluated: Reevaluated,
     /// Largest shift of an overturning quantile if all open fates flipped.
     #[serde(with = "nine")]
     pub largest_shift_if_flipped: f64,
@@ -121,22 +121,23 @@ pub struct RecordName {
     pub sha256: String,
 }
 
-/// First overturnings that were told again in wider precision.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// First overturnings that ran again with every decision assessed, by the
+/// arithmetic that resolved them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ToldAgain {
+pub struct Reevaluated {
     /// All of them.
     pub all: usize,
-    /// Told by double precision, every decision being assessed.
-    pub by_double: usize,
-    /// Told by double-double precision.
-    pub by_double_double: usize,
-    /// Told by octuple precision.
-    pub by_octuple: usize,
-    /// Told by none.
-    pub left_open: usize,
-    /// Told wrongly at first.
-    pub told_wrongly_in_double: usize,
+    /// Resolved by double precision.
+    pub resolved_by_double: usize,
+    /// Resolved by double-double precision.
+    pub resolved_by_double_double: usize,
+    /// Resolved by octuple precision.
+    pub resolved_by_octuple: usize,
+    /// Resolved by none of these.
+    pub unresolved: usize,
+    /// Fates that were wrong in double precision.
+    pub wrong_in_double: usize,
 }
 
 /// What a table is about.

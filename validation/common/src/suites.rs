@@ -165,7 +165,7 @@ impl StudySuite {
     }
 
     /// SHA-256 over names, sampling intervals and samples of the study
-    /// components, so that results can be told apart by their input.
+    /// components, so that results can be distinguished by their input.
     #[must_use]
     pub fn sha256(&self) -> String {
         let mut sum = Sha256::new();

@@ -308,21 +308,21 @@ pub(super) fn work(suite: &SuiteResults) -> String {
     if certainty.unresolved == 0 {
         return format!("{work}; double precision tells every one.");
     }
-    let ends = certainty.ends;
+    let ends = certainty.reevaluated;
     format!(
         "{work}. In {} of them the motion is chaotic, and rounding in double \
          precision may have changed the peak or the fate. {} of these are \
          first overturnings, on which capacities rest. Assessed double \
-         precision settles {}, double-double {}, octuple precision {}, none \
+         precision resolves {}, double-double {}, octuple precision {}, none \
          {}. {} had been wrong; the 16, 50 and 84 % overturning intensities \
          would move by {} at most.",
         certainty.unresolved,
         ends.all,
-        ends.double,
-        ends.double_double,
-        ends.octuple,
-        ends.undecided,
-        ends.moved,
+        ends.resolved_by_double,
+        ends.resolved_by_double_double,
+        ends.resolved_by_octuple,
+        ends.unresolved,
+        ends.wrong_in_double,
         rounded_text(certainty.largest_shift)
     )
 }
@@ -334,7 +334,7 @@ pub(super) fn rounding(results: &Results) -> String {
     let open = suites.iter().map(|s| s.work.certainty.unresolved);
     format!(
         "In {} of {all} analyses rounding may have changed the peak or the \
-         fate. First overturnings among them are told in wider arithmetic \
+         fate. First overturnings among them are resolved in wider arithmetic \
          (annex).",
         open.sum::<usize>()
     )

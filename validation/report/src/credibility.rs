@@ -142,7 +142,7 @@ pub fn levels(assessment: &PlainTable) -> String {
 }
 
 /// After ASME V&V 20: E = S - D and its uncertainty. `shift` is the largest
-/// relative change that first overturnings told wrongly make.
+/// relative change that wrong first overturnings make.
 fn comparison(compared: &[Compared], shift: f64) -> PlainTable {
     let rows = compared.iter().map(|one| row(one, shift)).collect();
     let header = [
@@ -320,7 +320,7 @@ fn assessment(
         [
             "Uncertainty characterization",
             "2",
-            "Error estimates, and first overturnings told again where \
+            "Error estimates, and first overturnings reevaluated where \
              double precision may not tell them, for the numerics; for the \
              records, one joint resampling gives every finding an \
              interval, simultaneous over cells; coverage on simulated \
@@ -341,7 +341,7 @@ fn assessment(
             "Use history",
             "0",
             "None.",
-            "Nobody has yet used these results for a decision and told.",
+            "Nobody has yet used these results for a decision and reported it.",
         ],
         [
             "Management of model and process",
@@ -425,7 +425,7 @@ mod tests {
     }
 
     #[test]
-    fn recorded_results_beside_a_synthetic_run_are_told() {
+    fn recorded_results_beside_a_synthetic_run_are_shown() {
         let recorded = crate::recorded::recorded().unwrap();
         let (evidence, gap) = synthetic(Some(&recorded));
         assert!(evidence.contains("86 ordinary and 44 pulse-type recorded"));

@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn tables_differ_by_rows_and_the_first_is_told() {
+    fn tables_differ_by_rows_and_the_first_is_shown() {
         let old = "p_rad_s,option,share\n1,\"a, b\",0.9\n3,c,0.8\n3,d,0.7\n";
         let new = "p_rad_s,option,share\n1,\"a, b\",0.9\n3,c,0.81\n3,d,0.6\n";
         assert_eq!(

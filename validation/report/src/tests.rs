@@ -86,13 +86,13 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
         input::provenance(&results).iter().all(|r| !r.0.contains("aside"))
     );
     results.pulse.set_aside = set_aside();
-    let told: Vec<_> = input::provenance(&results)
+    let shown: Vec<_> = input::provenance(&results)
         .into_iter()
         .filter(|row| row.0.contains("aside"))
         .collect();
     let words = "1 in no known format (first: <notes>.txt)";
     assert_eq!(
-        told,
+        shown,
         [("Set aside, pulse-type suite".to_owned(), words.to_owned())]
     );
     let found = findings_of(&results.pulse.set_aside);

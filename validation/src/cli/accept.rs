@@ -278,14 +278,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_changed_line_is_told() {
-        let told = lines("pin", b"a 1\nb 2\nc 3\n", b"a 1\nb 4\nc 5\nd 6\n");
+    fn the_first_changed_line_is_shown() {
+        let shown = lines("pin", b"a 1\nb 2\nc 3\n", b"a 1\nb 4\nc 5\nd 6\n");
         let first = "  line 2: b 2\n  now: b 4\n";
-        assert_eq!(told, format!("pin: 3 of 4 lines differ\n{first}"));
+        assert_eq!(shown, format!("pin: 3 of 4 lines differ\n{first}"));
     }
 
     #[test]
-    fn results_of_another_form_are_told_and_no_obstacle() {
+    fn results_of_another_form_are_shown_and_no_obstacle() {
         let case = |verdict: &str| {
             let rest = "\"quantities\": {}, \"rejected\": {}";
             let kind = "\"kind\": \"regression\", \"method\": \"m\"";

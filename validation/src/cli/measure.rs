@@ -74,11 +74,12 @@ impl GroundArgs {
         measures: &[IntensityMeasure],
     ) -> Result<Ground, Failure> {
         let Some(path) = &self.suite else {
-            let told = measures.iter().find(|m| m.dimensionless().is_none());
-            let told =
-                told.map_or(String::new(), |m| format!("{}: ", m.words()));
+            let measure =
+                measures.iter().find(|m| m.dimensionless().is_none());
+            let measure =
+                measure.map_or(String::new(), |m| format!("{}: ", m.words()));
             return Err(Failure::input(format!(
-                "{told}expected --suite, the records that the table was made \
+                "{measure}expected --suite, the records that the table was made \
                  of"
             )));
         };

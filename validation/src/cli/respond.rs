@@ -152,7 +152,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         response.input_certificate = None;
     }
     let certified = certified.map(|found| {
-        let outcome = match found.decided {
+        let outcome = match found.resolved {
             true => found.outcome.name(),
             false => "unresolved",
         };

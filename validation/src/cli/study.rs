@@ -25,7 +25,7 @@ use rocking_study::Study;
 use rocking_study::analyses::Plan;
 use rocking_study::runs::Setup;
 
-/// Folder that a study writes to unless told otherwise.
+/// Default folder of a study.
 pub const REPORT: &str = "rocking-report";
 
 /// Repeats the whole study and writes a report: 15 blocks, two suites,

@@ -69,7 +69,7 @@ struct PlanArgs {
     /// Coefficient of restitution of blocks whose row has none.
     #[arg(long, value_name = "ETA", default_value_t = 0.92)]
     eta: f64,
-    /// Demands |theta|/alpha at which capacities are told.
+    /// Demands |theta|/alpha at which capacities are reported.
     #[arg(
         long,
         value_name = "E",

@@ -41,7 +41,7 @@ pub struct Plan {
     pub software: String,
     /// Levels of a curve.
     pub levels: Levels,
-    /// Demands at which capacities are told.
+    /// Demands at which capacities are reported.
     pub demands: Vec<f64>,
     /// Replicates of the bootstrap of a fragility's parameters.
     pub replicates: usize,

@@ -106,7 +106,7 @@ pub fn left(planned: &Planned, (task, of): (usize, usize)) -> Vec<usize> {
     own.filter(|tile| state(planned, *tile) != State::Done).collect()
 }
 
-/// Runs the tiles of task `task` of `of` that are not done; `done` is told
+/// Runs the tiles of task `task` of `of` that are not done; `done` receives
 /// each tile that was finished. A tile that is stopped leaves no file.
 ///
 /// # Errors
@@ -149,7 +149,7 @@ pub fn run(
 }
 
 fn unresolved(curve: &IdaCurve) -> usize {
-    curve.points.iter().filter(|point| !point.told.resolved).count()
+    curve.points.iter().filter(|point| !point.resolution.resolved).count()
 }
 
 /// Capacities of a curve at the plan's demands.
@@ -186,7 +186,7 @@ fn fill(
                     let name: &dyn ToString = &curve.record;
                     let numbers = [point.im, point.pga_g, point.edp()];
                     let [im, pga_g, edp] = numbers.each_ref();
-                    let resolved = &point.told.resolved;
+                    let resolved = &point.resolution.resolved;
                     row(&[name, im, pga_g, edp, &refined, resolved], &[]);
                 }
             }

@@ -6,56 +6,37 @@ use rayon::prelude::*;
 use rocking::excitation::{Excitation, NormalisedRecord, ScaledRecord};
 use rocking::ida::{self, Analysis, IdaCurve, IdaPoint, Resurrections};
 use rocking::integrator::{Arithmetic, Certified, Certify, Scene, certify};
+use rocking_common::findings::Reevaluated;
 
 /// What is known of outcomes and peaks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certainty {
-    /// Levels and refined ends whose outcome and peak double precision may
-    /// not tell.
+    /// Levels and refined ends that double precision does not resolve.
     pub unresolved: usize,
-    /// First overturnings, scanned and refined, among them: all of these
-    /// are told again.
-    pub ends: Ends,
+    /// First overturnings, scanned and refined, among them.
+    pub reevaluated: Reevaluated,
     /// Largest relative change of a 16, 50 or 84 % overturning intensity of
-    /// a block if every first overturning that is told otherwise, or not at
-    /// all, moves to the next level that overturns.
+    /// a block if every first overturning that was wrong in double
+    /// precision, or is resolved by no arithmetic, moves to the next level
+    /// that overturns.
     pub largest_shift: f64,
 }
 
-/// First overturnings that were told again, and by which arithmetic.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ends {
-    /// All of them.
-    pub all: usize,
-    /// By double precision, every decision being assessed.
-    pub double: usize,
-    /// By double-double.
-    pub double_double: usize,
-    /// By octuple precision.
-    pub octuple: usize,
-    /// By none.
-    pub undecided: usize,
-    /// Of all, those that double precision had told wrongly.
-    pub moved: usize,
-}
-
-impl Ends {
-    fn count(&mut self, fate: &Certified) {
-        self.all += 1;
-        self.moved += usize::from(fate.moved());
-        let by = match fate.by {
-            _ if !fate.decided => &mut self.undecided,
-            Arithmetic::Double => &mut self.double,
-            Arithmetic::DoubleDouble => &mut self.double_double,
-            Arithmetic::Octuple => &mut self.octuple,
-        };
-        *by += 1;
-    }
+fn count(out: &mut Reevaluated, fate: &Certified) {
+    out.all += 1;
+    out.wrong_in_double += usize::from(fate.wrong_in_double());
+    let by = match fate.by {
+        _ if !fate.resolved => &mut out.unresolved,
+        Arithmetic::Double => &mut out.resolved_by_double,
+        Arithmetic::DoubleDouble => &mut out.resolved_by_double_double,
+        Arithmetic::Octuple => &mut out.resolved_by_octuple,
+    };
+    *by += 1;
 }
 
 /// Counts the analyses of the curves `runs[a][r]` of `analyses[a]` and
-/// `records[r]` that double precision may not tell, and tells the first
-/// overturnings among them again.
+/// `records[r]` that double precision does not resolve, and evaluates the
+/// first overturnings among them again in wider arithmetic.
 ///
 /// # Errors
 /// Where a level cannot be run again.
@@ -81,21 +62,21 @@ pub fn certainty(
         let first = |curve: &IdaCurve| {
             curve.overturning.map_or(f64::INFINITY, |first| first.im())
         };
-        let told: Vec<f64> = curves.iter().map(first).collect();
-        let mut flipped = told.clone();
+        let found: Vec<f64> = curves.iter().map(first).collect();
+        let mut flipped = found.clone();
         for ((r, point), fate) in open.iter().zip(&fates) {
-            out.ends.count(fate);
-            if fate.moved() || !fate.decided {
+            count(&mut out.reevaluated, fate);
+            if fate.wrong_in_double() || !fate.resolved {
                 flipped[*r] = next(analysis, &records[*r], point)?;
             }
         }
-        out.largest_shift = out.largest_shift.max(shift(told, flipped));
+        out.largest_shift = out.largest_shift.max(shift(found, flipped));
     }
     Ok(out)
 }
 
 fn is_open(point: &IdaPoint) -> bool {
-    !point.told.resolved
+    !point.resolution.resolved
 }
 
 /// Every level of a curve, the bisected end among them.
@@ -149,13 +130,13 @@ fn next(
 }
 
 /// Largest relative change of the 16, 50 and 84 % of two samples.
-fn shift(mut told: Vec<f64>, mut flipped: Vec<f64>) -> f64 {
-    told.sort_by(f64::total_cmp);
+fn shift(mut found: Vec<f64>, mut flipped: Vec<f64>) -> f64 {
+    found.sort_by(f64::total_cmp);
     flipped.sort_by(f64::total_cmp);
     let mut largest = 0.0;
     for share in [0.16, 0.5, 0.84] {
-        let k = (share * told.len() as f64) as usize;
-        let (Some(a), Some(b)) = (told.get(k), flipped.get(k)) else {
+        let k = (share * found.len() as f64) as usize;
+        let (Some(a), Some(b)) = (found.get(k), flipped.get(k)) else {
             continue;
         };
         let change = if a == b { 0.0 } else { (b / a - 1.0).abs() };
@@ -174,10 +155,10 @@ mod tests {
 
     use super::*;
 
-    /// A triangular lobe, bisected to the last bit: its end cannot be told
-    /// in double precision.
+    /// A triangular lobe, bisected to the last bit: double precision
+    /// cannot resolve its end.
     #[test]
-    fn an_open_fate_is_told_and_hardly_moves_anything() {
+    fn an_open_fate_is_resolved_and_hardly_moves_anything() {
         let samples =
             (0..=50).map(|k| 0.2 - 0.008 * f64::from((k - 25_i32).abs()));
         let record = Accelerogram::try_new("lobe", 0.01, samples.collect());
@@ -192,10 +173,11 @@ mod tests {
         let runs = ida::curves(&records, &[analysis], &ida::Batch::default())
             .unwrap();
         let found = certainty(&[analysis], &records, &runs).unwrap();
-        let ends = found.ends;
+        let ends = found.reevaluated;
         assert!(found.unresolved > 0 && ends.all > 0, "{found:?}");
-        assert!(ends.undecided == 0, "{found:?}");
-        assert!(ends.double_double + ends.double == ends.all, "{found:?}");
+        assert!(ends.unresolved == 0, "{found:?}");
+        let by = ends.resolved_by_double + ends.resolved_by_double_double;
+        assert_eq!(by, ends.all, "{found:?}");
         // The next level of the grid overturns as well.
         assert!(found.largest_shift < 0.1, "{found:?}");
         // Nothing is open at the study's own refinement.
@@ -208,11 +190,11 @@ mod tests {
 
     #[test]
     fn quantiles_that_move_are_seen() {
-        let told = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        let mut flipped = told.clone();
+        let found = vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        let mut flipped = found.clone();
         flipped[3] = 8.0;
         // Sorted: 1 2 3 5 6 8; the median goes from 4 to 5.
-        assert!((shift(told.clone(), flipped) - 1.0 / 3.0).abs() < 1e-15);
-        assert!(shift(told.clone(), told).abs() < 1e-300);
+        assert!((shift(found.clone(), flipped) - 1.0 / 3.0).abs() < 1e-15);
+        assert!(shift(found.clone(), found).abs() < 1e-300);
     }
 }

@@ -13,7 +13,7 @@ use crate::results::Results;
 use crate::stripes::{adjusted_split, of_arm};
 use rocking_common::findings::{
     Aside, Claim, Findings, Measured, Place, Quantity, Row, SCHEMA, Settings,
-    Suite, Table, ToldAgain, Topic, Unit,
+    Suite, Table, Topic, Unit,
 };
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
 use rocking_draw::figures::Stripe;
@@ -70,15 +70,8 @@ fn suite(suite: &SuiteResults) -> Suite {
         remarks: suite.remarks.clone(),
         set_aside: set_aside(&suite.set_aside),
         analyses: suite.work.analyses,
-        not_told_by_double_precision: certainty.unresolved,
-        first_overturnings_told_again: ToldAgain {
-            all: certainty.ends.all,
-            by_double: certainty.ends.double,
-            by_double_double: certainty.ends.double_double,
-            by_octuple: certainty.ends.octuple,
-            left_open: certainty.ends.undecided,
-            told_wrongly_in_double: certainty.ends.moved,
-        },
+        unresolved: certainty.unresolved,
+        first_overturnings_reevaluated: certainty.reevaluated,
         largest_shift_if_flipped: certainty.largest_shift,
     }
 }

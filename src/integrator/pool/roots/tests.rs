@@ -42,12 +42,12 @@ fn is_short(seed: u64) -> bool {
 }
 
 /// Screens and roots of polynomials over lengths.
-struct Told<'p> {
+struct Descents<'p> {
     polynomials: &'p [[f64; 6]; WIDTH],
     lengths: &'p Lanes,
 }
 
-impl WithSimd for Told<'_> {
+impl WithSimd for Descents<'_> {
     type Output = (u8, u8, Lanes);
 
     fn run<V: Simd>(self) -> (u8, u8, Lanes) {
@@ -55,10 +55,10 @@ impl WithSimd for Told<'_> {
             V::load(&Lanes(self.polynomials.map(|c| c[k])))
         });
         let lengths = V::load(self.lengths);
-        let told = descent(&lanes, lengths);
+        let found = descent(&lanes, lengths);
         let mut tau = Lanes::splat(0.0);
-        refine(&lanes, lengths, told.one).store(&mut tau);
-        (told.none.bits(), told.one.bits(), tau)
+        refine(&lanes, lengths, found.one).store(&mut tau);
+        (found.none.bits(), found.one.bits(), tau)
     }
 }
 
@@ -74,13 +74,14 @@ fn lanes_decide_and_solve_as_the_scalar_root_finder() {
         let lengths = Lanes(std::array::from_fn(|lane| {
             if seed(lane).is_multiple_of(7) { 1.0 } else { 0.7 }
         }));
-        let work = || Told { polynomials: &polynomials, lengths: &lengths };
-        let told = work().run::<Lanes>();
+        let work =
+            || Descents { polynomials: &polynomials, lengths: &lengths };
+        let found = work().run::<Lanes>();
         for level in Isa::available() {
-            let (none, one, tau) = level.run_wide(work()).unwrap_or(told);
-            assert_eq!((none, one), (told.0, told.1), "{}", level.name());
+            let (none, one, tau) = level.run_wide(work()).unwrap_or(found);
+            assert_eq!((none, one), (found.0, found.1), "{}", level.name());
             for lane in (0..WIDTH).filter(|lane| one >> lane & 1 == 1) {
-                let (here, due) = (tau[lane], told.2[lane]);
+                let (here, due) = (tau[lane], found.2[lane]);
                 assert_eq!(here.to_bits(), due.to_bits(), "{}", level.name());
             }
         }
@@ -92,12 +93,12 @@ fn lanes_decide_and_solve_as_the_scalar_root_finder() {
             let below = roots::ends_below(c, length);
             let none = begins && (positive || below == Some(false));
             let one = begins && !positive && below == Some(true);
-            assert_eq!(told.0 >> lane & 1 == 1, none, "{c:?}");
-            assert_eq!(told.1 >> lane & 1 == 1, one, "{c:?}");
+            assert_eq!(found.0 >> lane & 1 == 1, none, "{c:?}");
+            assert_eq!(found.1 >> lane & 1 == 1, one, "{c:?}");
             if one {
                 let start = roots::guess(c);
                 let due = roots::refine(c, 0.0, length, start);
-                assert_eq!(told.2[lane].to_bits(), due.to_bits(), "{c:?}");
+                assert_eq!(found.2[lane].to_bits(), due.to_bits(), "{c:?}");
             }
             ones += u32::from(one);
             nones += u32::from(none);

@@ -77,12 +77,12 @@ fn a_folder_says_what_is_no_record_in_it() {
     // Nothing else is there: the refusal says what is.
     fs::remove_file(folder.0.join("a.AT2")).unwrap();
     let error = folder.suite().unwrap_err().to_string();
-    let told = "expected at least one; set aside: 2 vertical (first: b.AT2),";
-    assert!(error.contains(told), "{error}");
+    let words = "expected at least one; set aside: 2 vertical (first: b.AT2),";
+    assert!(error.contains(words), "{error}");
 }
 
 #[test]
-fn of_a_doubled_name_one_file_is_read_and_the_other_told() {
+fn of_a_doubled_name_one_file_is_read_and_the_other_reported() {
     let names = ["a.AT2", "b.AT2", "b.AT2"].map(str::to_owned);
     let options = SuiteOptions::default();
     let survey =
@@ -100,7 +100,7 @@ fn of_a_doubled_name_one_file_is_read_and_the_other_told() {
 }
 
 #[test]
-fn files_beside_peers_index_are_told() {
+fn files_beside_peers_index_are_reported() {
     let results = "Result ID, Record Sequence Number, \
         Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename\n\
         1, 9001, A000.AT2, A090.AT2\n";
@@ -125,9 +125,9 @@ fn names_that_break_a_line_or_compute_are_refused() {
         folder.write(name, &at2("0"));
         let error = folder.suite().unwrap_err();
         assert_eq!(error.code(), "name", "{name:?}");
-        let told = error.to_string();
-        assert!(told.contains("expected no control character"), "{told}");
-        assert!(!told.contains(char::is_control), "{told:?}");
+        let shown = error.to_string();
+        assert!(shown.contains("expected no control character"), "{shown}");
+        assert!(!shown.contains(char::is_control), "{shown:?}");
     }
     for (head, row) in [
         ("file,dt_s,name", "a,0.01,=1+1"),

@@ -1,4 +1,4 @@
-//! What is suspicious about the records of a command, told wherever its
+//! What is suspicious about the records of a command, reported wherever its
 //! results are.
 
 use rocking::record::{Remark, Remarked, Suite, remarks_together};

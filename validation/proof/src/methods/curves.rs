@@ -61,7 +61,7 @@ pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
         if at_landing {
             level.at_landing < FLAGGED
         } else {
-            point.told.resolved
+            point.resolution.resolved
         }
     };
     let count = |is: &dyn Fn(&Level) -> bool| {
@@ -76,7 +76,7 @@ pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
     let lanes = count(&|level| silent(level, &level.lanes));
     answer.put("wrong-and-resolved-in-lanes", lanes, [0.0]);
     let certified = count(&|level| {
-        level.certified.told.resolved
+        level.certified.resolution.resolved
             && level.is_other(&level.certified, level.error)
     });
     answer.put("wrong-and-certified", certified, [0.0]);
@@ -84,8 +84,8 @@ pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
     answer.put("levels-that-lanes-change", differ, [0.0]);
     answer.see("levels", [found.len() as f64]);
     answer.see("wrong", count(&|level| level.is_other(&level.alone, ANOTHER)));
-    answer.see("unresolved", count(&|level| !level.alone.told.resolved));
-    let open = count(&|level| !level.certified.told.resolved);
+    answer.see("unresolved", count(&|level| !level.alone.resolution.resolved));
+    let open = count(&|level| !level.certified.resolution.resolved);
     answer.see("unresolved-when-certified", open);
     Ok(answer)
 }
@@ -165,7 +165,7 @@ fn level(index: u64) -> Result<Option<Level>, MethodError> {
     };
     let truth = match truth::<DoubleDouble>(&scene)? {
         None => truth::<Octuple>(&scene)?,
-        told => told,
+        truth => truth,
     };
     let options = Certify { work_limit: WORK, ..Certify::default() };
     let error = certify(&scene, &options).map_err(refused)?.error;

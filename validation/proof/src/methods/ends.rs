@@ -19,7 +19,7 @@ struct Row {
     values: Vec<DoubleDouble>,
 }
 
-/// Relative error of a peak that is told to all digits of a double.
+/// Relative error of a peak that is right to all digits of a double.
 const PRINTED: f64 = 0.5 * f64::EPSILON;
 
 fn missing(what: &str) -> MethodError {
@@ -110,7 +110,7 @@ struct Counts {
     wrong_and_unresolved: usize,
     certified_wrong: usize,
     certified_open: usize,
-    /// Told for all inputs that round to the same doubles, which have more
+    /// Resolved for all inputs that round to the same doubles, which have more
     /// than one fate.
     wrong_for_inputs: usize,
 }
@@ -142,11 +142,12 @@ impl Counts {
         self.wrong_and_unresolved += usize::from(!clear && !right);
         let fate: Certified = certify(scene)?;
         let error = fate.error.unwrap_or(f64::INFINITY);
-        self.certified_open += usize::from(!fate.decided);
+        self.certified_open += usize::from(!fate.resolved);
         self.certified_wrong +=
-            usize::from(fate.decided && !due.is(&fate.outcome, error));
-        self.wrong_for_inputs +=
-            usize::from(fate.decided && fate.decided_for_inputs && !one_fate);
+            usize::from(fate.resolved && !due.is(&fate.outcome, error));
+        self.wrong_for_inputs += usize::from(
+            fate.resolved && fate.resolved_for_inputs && !one_fate,
+        );
         Ok(())
     }
 

@@ -163,7 +163,7 @@ impl Finding {
 pub fn truth(trial: &Trial) -> Result<Truth, EngineError> {
     match by::<DoubleDouble>(trial)? {
         Truth::Undecided => by::<Octuple>(trial),
-        told => Ok(told),
+        truth => Ok(truth),
     }
 }
 

@@ -26,7 +26,7 @@ pub struct CaseResult {
     pub oracle: OracleKind,
     /// Quantities by name.
     pub quantities: BTreeMap<String, QuantityResult>,
-    /// Wrong models that were told from the right one.
+    /// Wrong models that the case rejected.
     pub rejected: BTreeMap<String, Rejected>,
     /// The verdict.
     pub verdict: Verdict,
@@ -124,7 +124,7 @@ fn quantity(check: &Check) -> QuantityResult {
         first: shown.map(|x| Extended(rounded(*x, digits))).collect(),
         kind: check.bound.kind().to_owned(),
         // An error at the rounding level moves with every change of the
-        // code: its size is told, not its digits.
+        // code: its size is shown, not its digits.
         margin: Extended(rounded(check.margin, 1)),
         values: check.observed.len(),
     }

@@ -161,24 +161,27 @@ fn suite(out: &mut Vec<Item>, suite: &Suite) {
     let nothing = aside.is_empty().then(|| String::from("none"));
     own.setting("set aside", nothing.unwrap_or(aside));
     own.text("shown alone", &suite.shown_alone.join(", "));
-    let again = &suite.first_overturnings_told_again;
-    let told = "first overturnings told again";
+    let again = &suite.first_overturnings_reevaluated;
+    let ends = "first overturnings reevaluated";
     for (name, value) in [
         ("records".to_owned(), suite.records as f64),
         ("analyses".to_owned(), suite.analyses as f64),
+        ("unresolved by double precision".to_owned(), suite.unresolved as f64),
+        (format!("{ends} all"), again.all as f64),
         (
-            "not told by double precision".to_owned(),
-            suite.not_told_by_double_precision as f64,
+            format!("{ends} resolved by double"),
+            again.resolved_by_double as f64,
         ),
-        (format!("{told} all"), again.all as f64),
-        (format!("{told} by double"), again.by_double as f64),
-        (format!("{told} by double double"), again.by_double_double as f64),
-        (format!("{told} by octuple"), again.by_octuple as f64),
-        (format!("{told} left open"), again.left_open as f64),
         (
-            format!("{told} told wrongly in double"),
-            again.told_wrongly_in_double as f64,
+            format!("{ends} resolved by double double"),
+            again.resolved_by_double_double as f64,
         ),
+        (
+            format!("{ends} resolved by octuple"),
+            again.resolved_by_octuple as f64,
+        ),
+        (format!("{ends} unresolved"), again.unresolved as f64),
+        (format!("{ends} wrong in double"), again.wrong_in_double as f64),
         (
             "largest shift of an overturning quantile if all open fates \
              flipped"

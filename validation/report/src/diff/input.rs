@@ -76,7 +76,7 @@ impl Results {
         self.parse(&text).map_err(|e| anyhow!("{}: {e}", path.display()))
     }
 
-    /// Results from the text of a file; `path` is only told in messages.
+    /// Results from the text of a file; `path` only appears in messages.
     ///
     /// # Errors
     /// For what is no JSON, or JSON of another form.

@@ -67,8 +67,9 @@ fn tolerances_are_widened_by_the_last_digit() {
     assert!(change((14.697, limit), (14.699, limit)).unwrap().significant);
     let exact = Limit::Tolerance(0.0, 0.0);
     assert!(change((7.0, exact), (8.0, exact)).unwrap().significant);
-    let told = change((1.0, Limit::Verdict), (9.0, Limit::Verdict)).unwrap();
-    assert!(!told.significant);
+    let change_found =
+        change((1.0, Limit::Verdict), (9.0, Limit::Verdict)).unwrap();
+    assert!(!change_found.significant);
 }
 
 #[test]

@@ -86,7 +86,7 @@ impl Proof {
         Self::from_texts(folder, &text(RESULTS)?, text(DIGITS)?)
     }
 
-    /// Results from the texts of both files; `folder` is only told.
+    /// Results from the texts of both files; `folder` only appears in messages.
     ///
     /// # Errors
     /// For damaged texts, and for results of other cases than
@@ -147,7 +147,7 @@ impl Proof {
         Ok(Coverage { rows })
     }
 
-    /// Number of wrong models that the cases told from the right one.
+    /// Number of wrong models that the cases rejected.
     pub fn rejected(&self) -> usize {
         self.results.values().map(|case| case.rejected.len()).sum()
     }

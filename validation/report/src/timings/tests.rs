@@ -53,8 +53,8 @@ fn ratios_are_at_no_larger_error() {
     let quick = |kept: &Timings, peer: &Throughput| {
         kept.fastest(&STOPPED, peer).map(|(setting, _)| setting.to_owned())
     };
-    let told = quick(&kept, &peer).expect("a setting");
-    assert!(kept.plain().contains(&format!("At {told}, our fastest")));
+    let setting = quick(&kept, &peer).expect("a setting");
+    assert!(kept.plain().contains(&format!("At {setting}, our fastest")));
 
     // Order 4 has the smaller medians, but a larger worst case.
     let of = |[tool, method, setting]: [&str; 3]| {
@@ -66,11 +66,12 @@ fn ratios_are_at_no_larger_error() {
         of([TOOL, STOPPED.method, TOLERANCE]),
     );
     assert!(low.peak_error_worst > theirs.peak_error_worst);
-    assert_ne!(told, "order 4");
+    assert_ne!(setting, "order 4");
 
-    let moved = kept.of_many(&format!("{PAPER}, {told}")).expect("work").moved;
+    let moved =
+        kept.of_many(&format!("{PAPER}, {setting}")).expect("work").moved;
     peer.moved = moved.map(|n| n - 1);
-    assert_ne!(quick(&kept, &peer), Some(told));
+    assert_ne!(quick(&kept, &peer), Some(setting));
     let theirs = |t: &&mut Total| t.label[0] == TOOL;
     for total in kept.singles.iter_mut().filter(theirs) {
         total.peak_error = 0.0;

@@ -295,17 +295,17 @@ fn pact(entries: &[Entry]) -> anyhow::Result<String> {
         let (model, gravity) = (Model::Nonlinear, STANDARD_GRAVITY_M_S2);
         let unit = unit_intensity(e.intensity, &block, model, gravity);
         let own = fragility.scaled(unit)?;
-        let Some(told) = Pact::of(e.intensity, &own) else { continue };
+        let Some(pact) = Pact::of(e.intensity, &own) else { continue };
         table.row(vec![
             ("p_rad_s", number(e.p_rad_s, 0)),
             ("alpha_rad", number(e.alpha_rad, 0)),
             ("edp", number(e.edp, 0)),
             ("fit", word(method.to_string())),
-            ("demand", word(told.demand)),
+            ("demand", word(pact.demand)),
             ("median_dimensionless", six(fragility.median())),
-            ("median", six(told.median)),
-            ("unit", word(told.unit)),
-            ("dispersion", six(told.dispersion)),
+            ("median", six(pact.median)),
+            ("unit", word(pact.unit)),
+            ("dispersion", six(pact.dispersion)),
         ]);
     }
     Ok(table.csv())

@@ -1,4 +1,4 @@
-//! Can overturning be told from p and alpha alone? The surface that ships is
+//! Can overturning be predicted from p and alpha alone? The surface that ships is
 //! set against blocks that it was not fitted to, and against the study's own.
 
 use rocking::statistics::ExtendedSample;
@@ -14,8 +14,7 @@ use rocking_surrogate::{
     FREQUENCY_RANGE_RAD_S, Fitted, RESTITUTION, Recorded, SHIFT, Surrogate,
 };
 
-const QUESTION: &str =
-    "Can overturning be told from p and alpha alone, without an analysis?";
+const QUESTION: &str = "Can overturning be predicted from p and alpha alone, without an analysis?";
 
 /// Slendernesses of the lines in the figure.
 const LINES_RAD: [f64; 3] = [0.05, 0.25, 0.60];

@@ -1,4 +1,4 @@
-//! In which arithmetic the analyses of a curve were told.
+//! Which arithmetic resolved the analyses of a curve.
 
 use crate::ida::IdaPoint;
 use crate::integrator::Arithmetic;
@@ -8,59 +8,66 @@ use crate::integrator::Arithmetic;
 /// certified.
 pub(crate) const WORTH_ASSESSING: f64 = 3e-5;
 
-/// How outcome and peak of an analysis were told.
+/// Whether outcome and peak of an analysis are resolved, and by which
+/// arithmetic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Told {
+pub struct Resolution {
     /// Which arithmetic assessed every decision, the widest if several did;
     /// none where the rough estimate of the run was enough.
     pub by: Option<Arithmetic>,
     /// False where outcome and peak are not known: the error of the run may
     /// have turned one of its decisions.
     pub resolved: bool,
-    /// True where double precision told another fate.
-    pub moved: bool,
+    /// True where double precision gives another fate.
+    pub wrong_in_double: bool,
     /// False where other inputs that round to the same doubles may have
     /// another outcome.
     pub for_inputs: bool,
 }
 
-impl Told {
+impl Resolution {
     /// By the rough estimate.
     pub(crate) fn roughly(resolved: bool) -> Self {
-        Self { by: None, resolved, moved: false, for_inputs: resolved }
+        Self {
+            by: None,
+            resolved,
+            wrong_in_double: false,
+            for_inputs: resolved,
+        }
     }
 }
 
-/// How many analyses of a curve were told in which arithmetic.
+/// How many analyses of a curve each arithmetic resolved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Certification {
+pub struct ResolutionCounts {
     /// Analyses counted: levels, the refined end, and levels above.
     pub analyses: u64,
-    /// Those whose decisions were assessed one by one.
+    /// Analyses whose decisions were assessed one by one.
     pub assessed: u64,
     /// Assessed analyses that double precision resolved.
-    pub double: u64,
-    /// Those that double-double arithmetic resolved.
-    pub double_double: u64,
-    /// Those that octuple precision resolved.
-    pub octuple: u64,
-    /// Analyses of which outcome and peak are not known.
+    pub resolved_by_double: u64,
+    /// Analyses that double-double arithmetic resolved.
+    pub resolved_by_double_double: u64,
+    /// Analyses that octuple precision resolved.
+    pub resolved_by_octuple: u64,
+    /// Analyses whose outcome and peak are not known.
     pub unresolved: u64,
-    /// Fates that double precision had told wrongly.
-    pub moved: u64,
-    /// Analyses told for the doubles given, but not for all inputs that
+    /// Analyses that have another fate in double precision.
+    pub wrong_in_double: u64,
+    /// Analyses resolved for the doubles given, but not for all inputs that
     /// round to them.
     pub only_these_doubles: u64,
 }
 
-impl Certification {
+impl ResolutionCounts {
     /// Takes an analysis in.
     pub(crate) fn count(&mut self, point: &IdaPoint) {
-        let Told { by, resolved, moved, for_inputs } = point.told;
+        let Resolution { by, resolved, wrong_in_double, for_inputs } =
+            point.resolution;
         self.analyses += 1;
         self.assessed += u64::from(by.is_some());
-        self.moved += u64::from(moved);
+        self.wrong_in_double += u64::from(wrong_in_double);
         if !resolved {
             self.unresolved += 1;
             return;
@@ -68,9 +75,11 @@ impl Certification {
         self.only_these_doubles += u64::from(!for_inputs);
         match by {
             None => {}
-            Some(Arithmetic::Double) => self.double += 1,
-            Some(Arithmetic::DoubleDouble) => self.double_double += 1,
-            Some(Arithmetic::Octuple) => self.octuple += 1,
+            Some(Arithmetic::Double) => self.resolved_by_double += 1,
+            Some(Arithmetic::DoubleDouble) => {
+                self.resolved_by_double_double += 1;
+            }
+            Some(Arithmetic::Octuple) => self.resolved_by_octuple += 1,
         }
     }
 
@@ -78,11 +87,11 @@ impl Certification {
     pub fn add(&mut self, other: &Self) {
         self.analyses += other.analyses;
         self.assessed += other.assessed;
-        self.double += other.double;
-        self.double_double += other.double_double;
-        self.octuple += other.octuple;
+        self.resolved_by_double += other.resolved_by_double;
+        self.resolved_by_double_double += other.resolved_by_double_double;
+        self.resolved_by_octuple += other.resolved_by_octuple;
         self.unresolved += other.unresolved;
-        self.moved += other.moved;
+        self.wrong_in_double += other.wrong_in_double;
         self.only_these_doubles += other.only_these_doubles;
     }
 }

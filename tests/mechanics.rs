@@ -18,10 +18,6 @@ mod engines;
 mod names;
 #[path = "properties/mechanics.rs"]
 mod properties;
-#[path = "mechanics/pulses.rs"]
-mod pulses;
-#[path = "mechanics/references.rs"]
-mod references;
 #[path = "mechanics/regressions.rs"]
 mod regressions;
 #[path = "properties/running.rs"]

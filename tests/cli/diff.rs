@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::support::{folder, json, refused_for, run};
 
 const FINDINGS: &str = r#"{
-  "schema": 4,
+  "schema": 5,
   "version": "0.1.0",
   "settings": {
     "arms": ["C"], "eta": 0.92, "overturning": "alpha", "refinement_im": 0.0001
@@ -261,7 +261,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("list.json", "[1]", "found a list, expected findings"),
         ("other.json", "{\"a\": 1}", "found the keys `a`"),
         ("twice.json", "{\"claims\": [], \"claims\": []}", "stands twice"),
-        ("first.json", "{\"claims\": []}", "schema 1, expected schema 4"),
+        ("first.json", "{\"claims\": []}", "schema 1, expected schema 5"),
     ];
     for (name, text, _) in files {
         fs::write(place.join(name), text).unwrap();

@@ -1,289 +1,150 @@
 //! Which module may name which.
 
-/// Which top-level module may name which: the data flow. Tests inside a module
-/// count as the module.
-pub type Edges = &'static [(&'static str, &'static [&'static str])];
+/// Which top-level module may name which: the data flow. A line is a module
+/// and what it may name. Tests inside a module count as the module.
+pub type Edges = &'static str;
 
 /// The modules of the core.
-const CORE: Edges = &[
-    ("block", &[]),
-    ("capacity", &["names", "statistics"]),
-    ("excitation", &["names", "number", "record"]),
-    ("fragility", &["intensity", "statistics"]),
-    (
-        "ida",
-        &[
-            "block",
-            "capacity",
-            "excitation",
-            "integrator",
-            "names",
-            "number",
-            "record",
-        ],
-    ),
-    (
-        "integrator",
-        &["block", "excitation", "names", "number", "record", "stop"],
-    ),
-    ("intensity", &["names", "record", "stop", "units"]),
-    ("names", &[]),
-    ("number", &[]),
-    (
-        "procedures",
-        &[
-            "block",
-            "capacity",
-            "excitation",
-            "fragility",
-            "ida",
-            "integrator",
-            "intensity",
-            "statistics",
-            "stop",
-        ],
-    ),
-    ("record", &["stop", "units"]),
-    ("statistics", &["names", "number", "stop", "streams"]),
-    ("stop", &[]),
-    ("streams", &[]),
-    ("units", &[]),
-];
+const CORE: Edges = "
+    block
+    capacity names statistics
+    excitation names number record
+    fragility intensity statistics
+    ida block capacity excitation integrator names number record
+    integrator block excitation names number record stop
+    intensity names record stop units
+    names
+    number
+    procedures block capacity excitation fragility ida integrator intensity \
+        statistics stop
+    record stop units
+    statistics names number stop streams
+    stop
+    streams
+    units
+";
 
 /// The modules of the texts that other programs read.
-const EXCHANGE: Edges = &[
-    ("columns", &[]),
-    ("format", &["columns", "fragility", "table"]),
-    ("fragility", &[]),
-    ("ida", &["columns", "read", "table"]),
-    ("read", &["columns"]),
-    ("sample", &["ida", "read"]),
-    ("table", &["columns"]),
-];
+const EXCHANGE: Edges = "
+    columns
+    format columns fragility table
+    fragility
+    ida columns read table
+    read columns
+    sample ida read
+    table columns
+";
 
 /// The modules of the embedded suites.
-const SYNTHESIS: Edges = &[
-    ("near_fault", &["draws", "noise", "pair", "special"]),
-    ("ordinary", &["draws", "noise", "pair", "special"]),
-    ("pair", &["noise"]),
-    ("kind", &[]),
-    ("noise", &["draws"]),
-    ("draws", &[]),
-    ("special", &[]),
-    ("tests", &["near_fault", "ordinary", "pair"]),
-];
+const SYNTHESIS: Edges = "
+    near_fault draws noise pair special
+    ordinary draws noise pair special
+    pair noise
+    kind
+    noise draws
+    draws
+    special
+    tests near_fault ordinary pair
+";
 
 /// The modules that all crates of the harness share. Between those crates the
 /// manifests hold the walls.
-const COMMON: Edges = &[
-    ("curves", &[]),
-    ("files", &[]),
-    ("findings", &["json", "paper"]),
-    ("json", &["words"]),
-    ("paper", &["words"]),
-    ("suites", &["paper", "table"]),
-    ("table", &[]),
-    ("words", &[]),
-];
+const COMMON: Edges = "
+    curves
+    files
+    findings json paper
+    json words
+    paper words
+    suites paper table
+    table
+    words
+";
 
 /// The modules of the drawings.
-const DRAW: Edges = &[
-    ("axis", &[]),
-    ("colour", &[]),
-    (
-        "figures",
-        &[
-            "axis", "colour", "geometry", "grid", "legend", "markup", "panel",
-            "scene", "text",
-        ],
-    ),
-    ("geometry", &[]),
-    ("grid", &["geometry"]),
-    ("legend", &["colour", "markup", "panel", "scene", "text"]),
-    ("markup", &[]),
-    ("panel", &["axis", "colour", "geometry", "markup", "scene", "text"]),
-    ("scene", &["colour", "geometry", "svg", "text"]),
-    ("svg", &["colour", "geometry", "markup", "text"]),
-    ("tests", &["axis", "colour", "geometry", "markup", "scene", "text"]),
-    ("text", &["colour", "geometry", "markup"]),
-];
+const DRAW: Edges = "
+    axis
+    colour
+    figures axis colour geometry grid legend markup panel scene text
+    geometry
+    grid geometry
+    legend colour markup panel scene text
+    markup
+    panel axis colour geometry markup scene text
+    scene colour geometry svg text
+    svg colour geometry markup text
+    tests axis colour geometry markup scene text
+    text colour geometry markup
+";
 
 /// The modules of the declared cases.
-const PROOF: Edges = &[
-    ("arithmetic", &[]),
-    ("cases", &["references"]),
-    ("edge", &[]),
-    ("engine", &["arithmetic", "scene"]),
-    ("error", &["scene"]),
-    (
-        "methods",
-        &[
-            "arithmetic",
-            "cases",
-            "edge",
-            "engine",
-            "error",
-            "naive",
-            "oracles",
-            "references",
-            "scene",
-            "trials",
-        ],
-    ),
-    ("naive", &["scene"]),
-    ("oracles", &["scene"]),
-    ("references", &["arithmetic", "error", "scene"]),
-    ("scene", &[]),
-    ("trials", &["arithmetic", "cases", "engine", "scene"]),
-    ("verdict", &["cases", "error", "methods"]),
-];
+const PROOF: Edges = "
+    arithmetic
+    cases references
+    edge
+    engine arithmetic scene
+    error scene
+    methods arithmetic cases edge engine error naive oracles references scene \
+        trials
+    naive scene
+    oracles scene
+    references arithmetic error scene
+    scene
+    trials arithmetic cases engine scene
+    verdict cases error methods
+";
 
 /// The modules of the report.
-const REPORT: Edges = &[
-    ("answers", &["evidence", "page", "quantity", "recorded", "timings"]),
-    ("credibility", &["evidence", "recorded"]),
-    ("diff", &[]),
-    ("evidence", &["diff"]),
-    ("findings", &["answers", "page"]),
-    ("head", &[]),
-    (
-        "input",
-        &[
-            "answers",
-            "credibility",
-            "evidence",
-            "findings",
-            "head",
-            "ledger",
-            "method",
-            "page",
-            "recorded",
-            "timings",
-        ],
-    ),
-    ("ledger", &["evidence", "recorded"]),
-    ("method", &[]),
-    (
-        "output",
-        &[
-            "answers", "evidence", "head", "input", "page", "quantity",
-            "timings",
-        ],
-    ),
-    ("page", &["evidence", "quantity", "recorded"]),
-    ("quantity", &[]),
-    ("readme", &["answers", "evidence", "page", "recorded", "timings"]),
-    ("recorded", &[]),
-    ("speed", &[]),
-    ("stale", &["diff", "output"]),
-    (
-        "tests",
-        &[
-            "answers",
-            "credibility",
-            "evidence",
-            "findings",
-            "head",
-            "input",
-            "ledger",
-            "output",
-            "recorded",
-        ],
-    ),
-    ("timings", &["speed"]),
-];
+const REPORT: Edges = "
+    answers evidence page quantity recorded timings
+    credibility evidence recorded
+    diff
+    evidence diff
+    findings answers page
+    head
+    input answers credibility evidence findings head ledger method page recorded \
+        timings
+    ledger evidence recorded
+    method
+    output answers evidence head input page quantity timings
+    page evidence quantity recorded
+    quantity
+    readme answers evidence page recorded timings
+    recorded
+    speed
+    stale diff output
+    tests answers credibility evidence findings head input ledger output \
+        recorded
+    timings speed
+";
 
 /// The modules of the study: results, then fits, stripes and ties, then
 /// measures, then claims, questions and figures, then findings.
-const STUDY: Edges = &[
-    ("analyses", &["certainty", "runs"]),
-    ("certainty", &[]),
-    ("claims", &["inference", "measures", "results", "shares"]),
-    ("contents", &["analyses"]),
-    ("distributions", &["analyses", "normality", "runs"]),
-    ("estimates", &["analyses", "results", "runs", "sensitivities"]),
-    (
-        "figures",
-        &[
-            "analyses",
-            "claims",
-            "distributions",
-            "estimates",
-            "fits",
-            "inference",
-            "measures",
-            "normality",
-            "results",
-            "stripes",
-            "ties",
-        ],
-    ),
-    (
-        "findings",
-        &[
-            "analyses",
-            "estimates",
-            "figures",
-            "inference",
-            "normality",
-            "questions",
-            "results",
-            "stripes",
-        ],
-    ),
-    ("fits", &[]),
-    ("inference", &[]),
-    (
-        "measures",
-        &[
-            "analyses",
-            "distributions",
-            "estimates",
-            "fits",
-            "inference",
-            "results",
-            "runs",
-            "sensitivities",
-            "shares",
-            "stripes",
-        ],
-    ),
-    ("normality", &[]),
-    (
-        "questions",
-        &[
-            "analyses",
-            "contents",
-            "distributions",
-            "estimates",
-            "fits",
-            "inference",
-            "normality",
-            "results",
-            "runs",
-            "stripes",
-            "ties",
-        ],
-    ),
-    ("results", &["analyses", "distributions", "inference", "sensitivities"]),
-    ("runs", &["certainty"]),
-    ("sensitivities", &["analyses", "runs"]),
-    ("shares", &["distributions", "inference", "normality", "results"]),
-    ("stripes", &["analyses"]),
-    ("ties", &["distributions", "normality"]),
-    (
-        "whole",
-        &[
-            "analyses",
-            "claims",
-            "distributions",
-            "figures",
-            "findings",
-            "questions",
-            "results",
-        ],
-    ),
-];
+const STUDY: Edges = "
+    analyses certainty runs
+    certainty
+    claims inference measures results shares
+    contents analyses
+    distributions analyses normality runs
+    estimates analyses results runs sensitivities
+    figures analyses claims distributions estimates fits inference measures \
+        normality results stripes ties
+    findings analyses estimates figures inference normality questions results \
+        stripes
+    fits
+    inference
+    measures analyses distributions estimates fits inference results runs \
+        sensitivities shares stripes
+    normality
+    questions analyses contents distributions estimates fits inference normality \
+        results runs stripes ties
+    results analyses distributions inference sensitivities
+    runs certainty
+    sensitivities analyses runs
+    shares distributions inference normality results
+    stripes analyses
+    ties distributions normality
+    whole analyses claims distributions figures findings questions results
+";
 
 /// Each source folder with its table.
 pub const TREES: [(&str, Edges); 8] = [

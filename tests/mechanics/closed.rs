@@ -3,8 +3,8 @@
 use rocking::block::{Block, BlockError, Restitution};
 use rocking::excitation::{Excitation, Pulse, PulseKind, ScaledRecord};
 use rocking::integrator::{
-    Assessment, Model, Observe, Order, Outcome, Overturning, Scene,
-    SceneError, Side, Solver, respond, uplift_threshold,
+    Assessment, Model, Observe, Outcome, Overturning, Scene, SceneError, Side,
+    respond, uplift_threshold,
 };
 use rocking::record::Accelerogram;
 
@@ -121,45 +121,6 @@ fn a_run_that_nobody_assessed_is_not_called_clear() {
     assert!(least.ratio > 1e10 && least.ratio.is_finite(), "{least:?}");
 }
 
-/// Eq. 2 in free motion: theta = alpha - (alpha - theta0) cosh(p t), by the
-/// impact at p t1 = acosh(1/(1 - ratio)), and the next hop likewise.
-#[test]
-fn a_history_of_free_motion_is_a_hyperbolic_cosine() {
-    let (alpha, p, ratio, eta) = (0.2, 2.0, 0.6, 0.92);
-    let plain = scene(Model::Linearized, Excitation::Free);
-    let free = Scene { initial_ratio: ratio, ..plain };
-    let observe = Observe {
-        history_interval_s: Some(0.05),
-        until_s: Some(2.0),
-        ..Observe::default()
-    };
-    let history = respond(&free, &observe).unwrap().history;
-    assert_eq!(history.len(), 41);
-    let first = libm::acosh(1.0 / (1.0 - ratio)) / p;
-    let speed = (1.0 - (1.0 - ratio) * (1.0 - ratio)).sqrt();
-    let next = eta * speed;
-    for (k, point) in history.iter().enumerate() {
-        let t = 0.05 * k as f64;
-        assert_eq!(point.time_s, t);
-        let (y, v) = if t < first {
-            let room = 1.0 - ratio;
-            let (c, s) = (libm::cosh(p * t), libm::sinh(p * t));
-            (1.0 - room * c, -room * s)
-        } else if t < first + 2.0 * libm::atanh(next) / p {
-            let x = p * (t - first);
-            let (c, s) = (libm::cosh(x), libm::sinh(x));
-            // On the other side, from the base at speed `next`.
-            (-(1.0 - c + next * s), -(-s + next * c))
-        } else {
-            continue;
-        };
-        let what = format!("rotation at {t} s, rad");
-        near(what, point.rotation_rad, alpha * y, 1e-14);
-        let what = format!("velocity at {t} s, rad/s");
-        near(what, point.velocity_rad_s, alpha * p * v, 1e-13);
-    }
-}
-
 #[test]
 fn a_history_ends_with_rest_and_shows_it() {
     for model in [Model::Nonlinear, Model::Linearized] {
@@ -242,52 +203,6 @@ fn a_condition_number_is_the_derivative_by_eta() {
             "{model:?}, condition number: got {found}, expected 0.98 to 100 \
              times the derivative by eta, {relative}, which is above 0.01"
         );
-    }
-}
-
-/// Eq. 1 at a fixed order under a record converges with that order.
-#[test]
-fn orders_converge() {
-    let samples = (0..60)
-        .map(|k| 0.6 * libm::sin(0.4 * f64::from(k)))
-        .collect::<Vec<_>>();
-    let record = Accelerogram::try_new("wave", 0.12, samples).unwrap();
-    let record = ScaledRecord::by_factor(&record, 1.0);
-    let wave = scene(Model::Nonlinear, Excitation::Record(record));
-    let observe = Observe { until_s: Some(0.6), ..Observe::default() };
-    let exact = respond(&wave, &observe).unwrap();
-    let solver = |order| Solver { order: Some(order), ..Solver::default() };
-    let errors = [Order::Four, Order::Six, Order::Eight, Order::Ten]
-        .map(|order| solver(order).respond(&wave, &observe).unwrap())
-        .map(|found| (found.peak_ratio - exact.peak_ratio).abs());
-    assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
-    assert!(errors[0] > 1e-9 && errors[3] < 1e-10, "{errors:?}");
-}
-
-/// Under a record of zeros a released block moves as without one, and comes
-/// to rest within it; so it does under forcing that is too weak to lift it.
-#[test]
-fn silence_is_free_motion() {
-    let record = Accelerogram::try_new("zeros", 0.02, vec![0.0; 600]).unwrap();
-    let record = ScaledRecord::by_factor(&record, 1.0);
-    let observe = Observe { events: true, ..Observe::default() };
-    for model in [Model::Nonlinear, Model::Linearized] {
-        let [free, silent] = [Excitation::Free, Excitation::Record(record)]
-            .map(|what| Scene { initial_ratio: 0.1, ..scene(model, what) })
-            .map(|scene| respond(&scene, &observe).unwrap());
-        assert!(silent.impacts.len() > 100);
-        let pairs = free.impacts.iter().zip(&silent.impacts);
-        for (k, (free, silent)) in pairs.enumerate() {
-            let what = format!("{model:?}, time of impact {k}, s");
-            near(what, silent.time_s, free.time_s, 1e-12);
-            let what = format!("{model:?}, speed before impact {k}, rad/s");
-            let speed = free.speed_before_rad_s;
-            near(what, silent.speed_before_rad_s, speed, 1e-11 * speed);
-        }
-        let rest = free.rest_time_s.unwrap();
-        near("rest, s", silent.rest_time_s.unwrap(), rest, 1e-8);
-        assert_eq!(silent.uplift_time_s, None);
-        near("peak ratio", silent.peak_ratio, 0.1, 1e-15);
     }
 }
 

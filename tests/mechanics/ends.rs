@@ -35,13 +35,6 @@ fn until(scene: &Scene<'_>, until_s: f64) -> Response {
     respond(scene, &observe).unwrap()
 }
 
-fn under(samples: Vec<f64>) -> Response {
-    let record = Accelerogram::try_new("made", 0.1, samples).unwrap();
-    let record = ScaledRecord::by_factor(&record, 1.0);
-    let observe = Observe { accuracy: true, ..Observe::default() };
-    respond(&scene(Excitation::Record(record)), &observe).unwrap()
-}
-
 /// After a rectangle of d = 0.2/p at twice the threshold the block rises on:
 /// u/alpha = 1 - (2 - cosh d) cosh t + sinh d sinh t, until it turns.
 #[test]
@@ -108,37 +101,6 @@ fn an_overturning_at_the_end_of_observation_is_not_resolved() {
     }
 }
 
-/// A triangle of 3 alpha that lasts 0.8 s lifts the block after a sixth of it.
-#[test]
-fn a_first_uplift_at_the_end_of_observation_is_not_resolved() {
-    let kind = PulseKind::Triangle { amplitude: 3.0 * ALPHA, duration_s: 0.8 };
-    let pulse = Pulse::try_new(kind).unwrap();
-    let scene = scene(Excitation::Pulse(&pulse));
-    let sixth_s = 0.8_f64 / 6.0;
-    for (until_s, is_resolved) in [
-        (sixth_s, false),
-        (sixth_s.next_up(), false),
-        (sixth_s.next_down(), false),
-        (sixth_s * (1.0 + 1e-12), true),
-        (sixth_s * (1.0 - 1e-12), true),
-    ] {
-        // With one rounding, which leaves the sign.
-        let lifts = until_s.mul_add(6.0, -0.8) > 0.0;
-        let found = until(&scene, until_s);
-        let is_clear = found.assessment() == Assessment::Clear;
-        assert_eq!(
-            is_clear, is_resolved,
-            "{until_s}: {:?}",
-            found.certificate
-        );
-        let ask = Certify { until_s: Some(until_s), ..Certify::default() };
-        let fate = certify(&scene, &ask).unwrap();
-        assert!(fate.resolved);
-        assert_eq!(fate.outcome != Outcome::NoUplift, lifts);
-        assert!(!is_resolved || (found.outcome != Outcome::NoUplift) == lifts);
-    }
-}
-
 /// A rest within the observation is resolved, though the block lifts later.
 #[test]
 fn a_rest_before_the_end_of_observation_is_resolved() {
@@ -158,63 +120,6 @@ fn a_rest_before_the_end_of_observation_is_resolved() {
     assert_eq!(at(Some(18.0)).rest_time_s, Some(rest_s));
     assert_eq!(at(Some(0.99 * rest_s)).rest_time_s, None);
     assert!(at(None).rest_time_s.unwrap() > 19.0);
-}
-
-/// A constant stretch, a corner, a crest, and a first sample at the
-/// threshold to some units in the last place.
-#[test]
-fn a_peak_at_the_threshold_is_a_decision() {
-    let unit = 0.5 * f64::EPSILON;
-    for (ulps, clear) in [
-        (0.0, false),
-        (1.0, false),
-        (-1.0, false),
-        (2.0, false),
-        (-2.0, false),
-        (100.0, true),
-        (-100.0, true),
-    ] {
-        let amplitude = ALPHA * (1.0 + ulps * unit);
-        let kinds = [
-            PulseKind::Rectangle { amplitude, duration_s: 1.0 },
-            PulseKind::Triangle { amplitude, duration_s: 1.0 },
-            PulseKind::OneCosine { amplitude, omega_rad_s: 4.0 },
-            PulseKind::OneSine { amplitude, omega_rad_s: 4.0 },
-        ];
-        for kind in kinds {
-            let pulse = Pulse::try_new(kind).unwrap();
-            let found = until(&scene(Excitation::Pulse(&pulse)), 40.0);
-            let uplift = found.certificate.unwrap().of(Decision::Uplift);
-            assert_eq!(uplift.is_clear(), clear, "{kind:?}: {uplift:?}");
-            assert!(!clear || (found.work.uplifts > 0) == (ulps > 0.0));
-        }
-        for sign in [1.0, -1.0] {
-            let found = under(vec![sign * amplitude, 0.1 * ALPHA, 0.0]);
-            let uplift = found.certificate.unwrap().of(Decision::Uplift);
-            assert_eq!(uplift.is_clear(), clear, "{ulps}: {uplift:?}");
-        }
-    }
-}
-
-/// Some units in the last place above the threshold a sine lifts the block.
-#[test]
-fn a_low_crest_above_the_threshold_lifts() {
-    for ulps in [17.0, 25.0, 40.0] {
-        // A block that bounces long at the threshold is not resolved at all.
-        let restitution = Restitution::constant(0.5).unwrap();
-        let amplitude = ALPHA * (1.0 + ulps * f64::EPSILON);
-        let kind = PulseKind::OneSine { amplitude, omega_rad_s: 40.0 };
-        let pulse = Pulse::try_new(kind).unwrap();
-        let scene = scene(Excitation::Pulse(&pulse));
-        let scene = Scene { restitution, ..scene };
-        let fate = certify(&scene, &Certify::default()).unwrap();
-        assert!(fate.resolved, "{fate:?}");
-        // (9/2) eps^2/Omega^2, and Omega = 20.
-        let excess = ulps * f64::EPSILON;
-        let due = 4.5 * excess * excess / 400.0;
-        let found = fate.outcome.edp();
-        assert!((found / due - 1.0).abs() < 1e-3, "{found:e} {due:e}");
-    }
 }
 
 #[test]

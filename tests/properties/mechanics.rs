@@ -3,15 +3,11 @@
 use proptest::prelude::*;
 
 use rocking::excitation::{Excitation, Pulse, PulseKind};
-use rocking::integrator::{
-    Model, Outcome, Overturning, Response, Scene, respond,
-};
+use rocking::integrator::{Model, Outcome, Overturning, Response};
 
 use super::CASES;
 use super::drawn::{body, config, record, samples};
-use super::running::{
-    UNTIL_S, close, interval_s, is_clear, observe, run, scene, under,
-};
+use super::running::{UNTIL_S, interval_s, run, under};
 
 proptest! {
     #![proptest_config(config(CASES))]
@@ -98,108 +94,6 @@ proptest! {
         let moves = response.outcome != Outcome::NoUplift;
         if (pga_g / threshold - 1.0).abs() > 1e-12 {
             prop_assert_eq!(moves, pga_g > threshold);
-        }
-    }
-
-    /// Zeros before a motion delay it; zeros after it change nothing.
-    #[test]
-    fn holds_under_zeros_around_the_motion(
-        body in body(), samples in samples(), zeros in 1..40_usize
-    ) {
-        // A jump at the ends would become a ramp over one interval.
-        let mut whole = vec![0.0];
-        whole.extend(&samples);
-        whole.push(0.0);
-        let dt_s = 1.0 / 64.0;
-        let mut later = vec![0.0; zeros];
-        later.extend(&whole);
-        let mut longer = whole.clone();
-        longer.extend(vec![0.0; zeros]);
-        let one = under(body, &record(dt_s, &whole));
-        let padded = under(body, &record(dt_s, &longer));
-        let shifted = under(body, &record(dt_s, &later));
-        let shift_s = dt_s * zeros as f64;
-        // Both may end by observation, at another phase of the motion.
-        let resolved = is_clear(&one) && is_clear(&shifted);
-        prop_assume!(resolved && is_clear(&padded));
-        let condition = one.condition_number.unwrap_or(1.0);
-        let tolerance = 1e-13 * condition.max(1.0);
-        prop_assume!(tolerance < 1e-6);
-        for other in [&padded, &shifted] {
-            let gap = (one.peak_ratio - other.peak_ratio).abs();
-            let ends = one.outcome.is_overturned();
-            prop_assert_eq!(ends, other.outcome.is_overturned());
-            prop_assert!(
-                ends || gap <= tolerance,
-                "peak ratio with zeros: got {}, expected {} within \
-                 {tolerance:e}: off by {gap:e}",
-                other.peak_ratio,
-                one.peak_ratio
-            );
-        }
-        prop_assert!(close(
-            one.uplift_time_s, shifted.uplift_time_s, shift_s, 1e-12
-        ));
-        prop_assert!(close(
-            one.uplift_time_s, padded.uplift_time_s, 0.0, 0.0
-        ));
-    }
-
-    /// Halving the interval of a motion that is linear between its samples
-    /// leaves the motion as it is.
-    #[test]
-    fn holds_when_the_interval_is_halved(
-        body in body(), dt_s in interval_s(), samples in samples()
-    ) {
-        // Multiples of 2^-20 g, so that midpoints are exact.
-        let round = |a: &f64| (a * 1_048_576.0).round() / 1_048_576.0;
-        let coarse: Vec<f64> = samples.iter().map(round).collect();
-        let mut fine = Vec::new();
-        for pair in coarse.windows(2) {
-            fine.extend([pair[0], 0.5 * (pair[0] + pair[1])]);
-        }
-        fine.push(coarse[coarse.len() - 1]);
-        let one = under(body, &record(dt_s, &coarse));
-        let two = under(body, &record(0.5 * dt_s, &fine));
-        prop_assume!(is_clear(&one) && is_clear(&two));
-        let condition = one.condition_number.unwrap_or(1.0);
-        let tolerance = 1e-13 * condition.max(100.0);
-        prop_assume!(tolerance < 1e-6);
-        let fates = (one.outcome.is_overturned(), two.outcome.is_overturned());
-        prop_assert_eq!(fates.0, fates.1);
-        let gap = (one.peak_ratio - two.peak_ratio).abs();
-        prop_assert!(
-            fates.0 || gap <= tolerance,
-            "peak ratio at half the interval: got {}, expected {} within \
-             {tolerance:e}: off by {gap:e}",
-            two.peak_ratio,
-            one.peak_ratio
-        );
-        prop_assert!(close(
-            one.uplift_time_s, two.uplift_time_s, 0.0, 1e-12
-        ));
-    }
-
-    /// In free motion each impact is slower than the one before, by eta: no
-    /// energy comes from nowhere.
-    #[test]
-    fn holds_loss_of_energy_in_free_motion(
-        body in body(), ratio in 0.01..0.98_f64
-    ) {
-        let scene =
-            Scene { initial_ratio: ratio, ..scene(body, Excitation::Free) };
-        let response = respond(&scene, &observe()).unwrap();
-        prop_assert!(!response.outcome.is_overturned());
-        // Without loss a later peak may be larger, by rounding of the energy
-        // over its slope there.
-        let slope = body.alpha_rad * body.alpha_rad * (1.0 - ratio);
-        let rounding = 16.0 * f64::EPSILON / slope;
-        let later = if body.eta < 0.99 { 4.0 * f64::EPSILON } else { rounding };
-        prop_assert!((response.peak_ratio - ratio).abs() <= later);
-        for pair in response.impacts.windows(2) {
-            let expected = body.eta * pair[0].speed_before_rad_s;
-            let gap = (pair[1].speed_before_rad_s - expected).abs();
-            prop_assert!(gap <= 1e-13 * pair[0].speed_before_rad_s);
         }
     }
 

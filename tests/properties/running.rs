@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use rocking::block::{Block, Restitution};
 use rocking::excitation::{Excitation, ScaledRecord};
-use rocking::integrator::{Assessment, Observe, Response, Scene, respond};
+use rocking::integrator::{Observe, Response, Scene, respond};
 use rocking::record::Accelerogram;
 
 use super::drawn::Body;
@@ -43,22 +43,4 @@ pub fn run(body: Body, excitation: Excitation<'_>) -> Response {
 
 pub fn under(body: Body, record: &Accelerogram) -> Response {
     run(body, Excitation::Record(ScaledRecord::by_factor(record, 1.0)))
-}
-
-pub fn close(
-    a: Option<f64>,
-    b: Option<f64>,
-    shift: f64,
-    tolerance: f64,
-) -> bool {
-    match (a, b) {
-        (Some(a), Some(b)) => (a + shift - b).abs() <= tolerance,
-        (None, None) => true,
-        _ => false,
-    }
-}
-
-/// Whether outcome and peak are resolved.
-pub fn is_clear(response: &Response) -> bool {
-    response.assessment() == Assessment::Clear
 }

@@ -1,4 +1,4 @@
-//! What double precision tells of the analyses of a suite.
+//! What double precision resolves of the analyses of a suite.
 
 use rayon::prelude::*;
 use rocking::block::{Block, Restitution};
@@ -12,7 +12,7 @@ use rocking::number::Real;
 use rocking::number::double::DoubleDouble;
 use rocking::number::octuple::Octuple;
 
-/// Levels below the first overturning that wider arithmetic tells.
+/// Levels below the first overturning that wider arithmetic runs.
 const LEVELS_BELOW: usize = 5;
 
 /// Difference of a peak ratio that counts as another peak.
@@ -22,105 +22,91 @@ const ANOTHER: f64 = 1e-6;
 /// the first overturning, Eq. 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Survey {
-    /// Curves and analyses.
-    pub curves: usize,
-    /// See `curves`.
-    pub analyses: usize,
-    /// Analyses that a curve flags, by the rough estimate of each run.
-    pub flagged: usize,
-    /// Analyses whose certificate in double precision is not clear.
-    pub unclear: usize,
-    /// Those of them that are not flagged.
-    pub missed: usize,
-    /// Those of these whose fate, or whose peak by more than 1e-6, is another
-    /// in wider arithmetic.
-    pub missed_and_wrong: usize,
+    /// Numbers by [`Count`].
+    counts: [usize; COUNTS.len()],
     /// Condition number of the peak of blocks that rocked, in rising order.
-    pub conditions: Vec<f64>,
-    /// Analyses near the first overturning (itself and the last five levels
-    /// below it) that wider arithmetic resolved.
-    pub near: Near,
+    conditions: Vec<f64>,
 }
 
-/// Analyses near first overturnings, in wider arithmetic.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Near {
-    /// All of them.
-    pub analyses: usize,
-    /// Resolved by octuple precision, the others by double-double; by none.
-    pub by_octuple: usize,
-    /// See `by_octuple`.
-    pub undecided: usize,
-    /// Flagged ones; fates and peaks (by more than 1e-6) that are others.
-    pub flagged: usize,
-    /// See `flagged`.
-    pub fates_moved: usize,
-    /// See `flagged`.
-    pub peaks_moved: usize,
-    /// Moved ones that were not flagged.
-    pub moved_and_not_flagged: usize,
+/// What is counted; the place in [`COUNTS`]. *Near* are the first overturning
+/// and the last five levels below it, which wider arithmetic runs as well.
+#[derive(Clone, Copy)]
+pub enum Count {
+    Curves,
+    Analyses,
+    /// Flagged by the curve, by the rough estimate of each run.
+    Flagged,
+    /// Analyses whose certificate in double precision is not clear.
+    Unclear,
+    /// Unclear ones that are not flagged.
+    Missed,
+    /// Missed ones whose fate, or whose peak by more than 1e-6, is another in
+    /// wider arithmetic.
+    MissedAndWrong,
+    Near,
+    NearFlagged,
+    /// Near ones that octuple precision resolved, the others by double-double.
+    NearByOctuple,
+    NearUnresolved,
+    /// Near ones that have another fate, or another peak, in double precision.
+    FatesWrong,
+    PeaksWrong,
+    /// Wrong ones that are not flagged.
+    WrongAndNotFlagged,
 }
+
+/// Names of the counts.
+const COUNTS: [&str; 13] = [
+    "curves",
+    "analyses",
+    "flagged",
+    "unclear",
+    "missed",
+    "missed_and_wrong",
+    "near",
+    "near_flagged",
+    "near_by_octuple",
+    "near_unresolved",
+    "fates_wrong",
+    "peaks_wrong",
+    "wrong_and_not_flagged",
+];
+
+/// Shares of the condition numbers that are shown, in thousandths.
+const SHARES: [usize; 5] = [500, 900, 990, 999, 1000];
 
 impl Survey {
+    pub fn of_count(&self, count: Count) -> usize {
+        self.counts[count as usize]
+    }
+
+    fn count(&mut self, count: Count, is_one: bool) {
+        self.counts[count as usize] += usize::from(is_one);
+    }
+
     fn add(&mut self, other: Self) {
-        self.curves += other.curves;
-        self.analyses += other.analyses;
-        self.flagged += other.flagged;
-        self.unclear += other.unclear;
-        self.missed += other.missed;
-        self.missed_and_wrong += other.missed_and_wrong;
+        for (own, more) in self.counts.iter_mut().zip(other.counts) {
+            *own += more;
+        }
         self.conditions.extend(other.conditions);
-        let (near, more) = (&mut self.near, other.near);
-        near.analyses += more.analyses;
-        near.by_octuple += more.by_octuple;
-        near.undecided += more.undecided;
-        near.flagged += more.flagged;
-        near.fates_moved += more.fates_moved;
-        near.peaks_moved += more.peaks_moved;
-        near.moved_and_not_flagged += more.moved_and_not_flagged;
     }
 
     /// Names of what [`Self::row`] gives.
-    pub const HEADER: &str = "curves,analyses,flagged,unclear,missed,\
-        missed_and_wrong,condition_50,condition_90,condition_99,\
-        condition_99_9,condition_largest,near,near_flagged,near_by_octuple,\
-        near_undecided,fates_moved,peaks_moved,moved_and_not_flagged";
+    pub fn header() -> String {
+        let shares = SHARES.map(|share| format!(",condition_{share}"));
+        COUNTS.join(",") + &shares.concat()
+    }
 
     /// The numbers as a row of a table.
-    #[must_use]
     pub fn row(&self) -> String {
-        let near = &self.near;
-        let counts = |all: &[usize]| {
-            let all: Vec<String> = all.iter().map(usize::to_string).collect();
-            all.join(",")
-        };
-        let conditions = [500, 900, 990, 999, 1000]
-            .map(|share| format!("{:.1e}", self.condition(share)));
-        let first = [
-            self.curves,
-            self.analyses,
-            self.flagged,
-            self.unclear,
-            self.missed,
-            self.missed_and_wrong,
-        ];
-        let last = [
-            near.analyses,
-            near.flagged,
-            near.by_octuple,
-            near.undecided,
-            near.fates_moved,
-            near.peaks_moved,
-            near.moved_and_not_flagged,
-        ];
-        let (first, last) = (counts(&first), counts(&last));
-        format!("{first},{},{last}", conditions.join(","))
+        let counts = self.counts.map(|n| n.to_string()).join(",");
+        let at = |share| format!(",{:.1e}", self.condition(share));
+        counts + &SHARES.map(at).concat()
     }
 
     /// Condition number below which this share of the peaks lies, in
     /// thousandths.
-    #[must_use]
-    pub fn condition(&self, thousandths: usize) -> f64 {
+    fn condition(&self, thousandths: usize) -> f64 {
         let last = self.conditions.len().saturating_sub(1);
         let at = (last * thousandths).div_ceil(1000);
         self.conditions.get(at).copied().unwrap_or(f64::NAN)
@@ -158,7 +144,8 @@ impl Survey {
         restitution: Restitution,
     ) -> Result<Self, IdaError> {
         let curve = curve(record, &Analysis::paper(*block, restitution))?;
-        let mut out = Self { curves: 1, ..Self::default() };
+        let mut out = Self::default();
+        out.count(Count::Curves, true);
         let count = curve.points.len();
         for (k, point) in curve.points.iter().enumerate() {
             let record = ScaledRecord::to_pga(record, point.pga_g);
@@ -187,14 +174,14 @@ impl Survey {
         let observe = Observe { accuracy: true, ..Observe::default() };
         let run = respond(scene, &observe)?;
         let unclear = run.assessment() != Assessment::Clear;
-        self.analyses += 1;
-        self.flagged += usize::from(flagged);
-        self.unclear += usize::from(unclear);
+        self.count(Count::Analyses, true);
+        self.count(Count::Flagged, flagged);
+        self.count(Count::Unclear, unclear);
         if let Outcome::Rocked { .. } = run.outcome {
             self.conditions.extend(run.condition_number);
         }
         let missed = unclear && !flagged;
-        self.missed += usize::from(missed);
+        self.count(Count::Missed, missed);
         if !(missed || near) {
             return Ok(());
         }
@@ -218,23 +205,21 @@ impl Survey {
             let gap = (t.peak_ratio - own.peak_ratio).abs();
             !t.overturned && !own.overturned && !(gap <= ANOTHER)
         });
-        self.missed_and_wrong += usize::from(missed && (fate || peak));
-        if near {
-            let near = &mut self.near;
-            near.analyses += 1;
-            near.by_octuple += usize::from(octuple && truth.is_some());
-            near.undecided += usize::from(truth.is_none());
-            near.flagged += usize::from(flagged);
-            near.fates_moved += usize::from(fate);
-            near.peaks_moved += usize::from(peak);
-            let silent = (fate || peak) && !flagged;
-            near.moved_and_not_flagged += usize::from(silent);
-        }
+        let wrong = fate || peak;
+        self.count(Count::MissedAndWrong, missed && wrong);
+        self.count(Count::Near, near);
+        self.count(Count::NearFlagged, near && flagged);
+        let by_octuple = octuple && truth.is_some();
+        self.count(Count::NearByOctuple, near && by_octuple);
+        self.count(Count::NearUnresolved, near && truth.is_none());
+        self.count(Count::FatesWrong, near && fate);
+        self.count(Count::PeaksWrong, near && peak);
+        self.count(Count::WrongAndNotFlagged, near && wrong && !flagged);
         Ok(())
     }
 }
 
-/// Fate and peak as wider arithmetic tells them.
+/// Fate and peak in wider arithmetic.
 #[derive(Clone, Copy)]
 struct Truth {
     overturned: bool,
@@ -242,7 +227,7 @@ struct Truth {
 }
 
 impl Truth {
-    /// None where it does not.
+    /// None where it is not resolved.
     fn of<N: Real>(response: &Response<N>) -> Option<Self> {
         let clear = response.assessment() == Assessment::Clear;
         clear.then(|| Self {

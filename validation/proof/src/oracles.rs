@@ -8,9 +8,6 @@ pub mod overturning;
 pub mod rectangular;
 pub mod square;
 
-#[cfg(test)]
-mod tests;
-
 /// Root of `f` between `low` and `high`, where it has opposite signs; not a
 /// number where it has not.
 #[must_use]

@@ -9,6 +9,7 @@ pub mod bootstrap;
 pub mod boxplot;
 pub mod censored;
 pub mod choice;
+pub mod clusters;
 pub mod lilliefors;
 pub mod lognormal;
 mod monte_carlo;
@@ -26,6 +27,7 @@ pub mod two_sample;
 
 pub use boxplot::Boxplot;
 pub use censored::CensoredSample;
+pub use clusters::Clusters;
 pub use lognormal::Lognormal;
 pub use proportion::Proportion;
 pub use quantile::QuantileType;

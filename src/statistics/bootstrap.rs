@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::clusters::Clusters;
 use super::sample::mean;
 use super::{QuantileType, Sample, normal};
 use crate::stop;
@@ -28,8 +29,9 @@ pub struct Estimate {
     pub replicates: usize,
 }
 
-/// Draws of n records out of n with replacement, the same for every
-/// statistic that uses them: blocks and levels stay paired.
+/// Draws with replacement, the same for every statistic that uses them:
+/// blocks and levels stay paired. G of G clusters are drawn, each with all
+/// its records; without clusters n of n records.
 ///
 /// Draw i comes from stream i of the family of that name and seed.
 ///
@@ -47,7 +49,7 @@ pub struct Estimate {
 #[derive(Clone, Debug)]
 pub struct Bootstrap {
     streams: Streams,
-    n: usize,
+    clusters: Clusters,
     replicates: usize,
 }
 
@@ -55,7 +57,19 @@ impl Bootstrap {
     /// `replicates` draws out of n records.
     #[must_use]
     pub fn new(name: &str, seed: u64, n: usize, replicates: usize) -> Self {
-        Self { streams: Streams::new(name, seed), n, replicates }
+        Self::of(name, seed, &Clusters::singletons(n), replicates)
+    }
+
+    /// `replicates` draws out of the records of clusters.
+    #[must_use]
+    pub fn of(
+        name: &str,
+        seed: u64,
+        clusters: &Clusters,
+        replicates: usize,
+    ) -> Self {
+        let clusters = clusters.clone();
+        Self { streams: Streams::new(name, seed), clusters, replicates }
     }
 
     /// Applies a function to the places of every draw, in parallel; results
@@ -71,17 +85,21 @@ impl Bootstrap {
             .collect()
     }
 
-    /// The places of one draw.
+    /// The places of the records of one draw. Draws of clusters of unequal
+    /// sizes hold unequal numbers of records.
     #[must_use]
     pub fn draw(&self, index: u64) -> Vec<usize> {
         let mut stream = self.streams.stream(index);
-        (0..self.n).map(|_| below(&mut stream, self.n)).collect()
+        let count = self.clusters.count();
+        let drawn = (0..count).map(|_| below(&mut stream, count));
+        drawn.flat_map(|g| self.clusters.members(g)).copied().collect()
     }
 }
 
-/// Estimate from replicates: percentile interval of type 7 at `level`.
-/// Replicates without a finite value are left out and counted; none if fewer
-/// than two are left, or the point is not finite.
+/// Estimate from replicates of records: percentile interval of type 7 at
+/// `level`. Replicates without a finite value are left out and counted; none
+/// if fewer than two are left, or the point is not finite. Replicates of
+/// clusters have [`Clusters::estimate`].
 #[must_use]
 pub fn estimate(
     point: f64,
@@ -164,6 +182,56 @@ pub fn accelerated(
     };
     let (low, high) = (end(0.5 - 0.5 * level)?, end(0.5 + 0.5 * level)?);
     Some(Estimate { low, high, ..plain })
+}
+
+impl Clusters {
+    /// [`estimate`] from replicates that draw
+    /// these clusters. Of few clusters the ends are the percentiles
+    /// Phi(-w) and Phi(w) with w of [`Self::half_width`]: the expanded
+    /// percentile interval (Hesterberg, American Statistician 69 (2015) 371),
+    /// which a monotone transformation does not change.
+    #[must_use]
+    pub fn estimate(
+        &self,
+        point: f64,
+        replicates: &[f64],
+        level: f64,
+    ) -> Option<Estimate> {
+        let nominal = self.nominal(level)?;
+        let found = estimate(point, replicates, nominal)?;
+        Some(self.corrected(found, level))
+    }
+
+    /// [`accelerated`] from replicates that
+    /// draw these clusters, with +-w of [`Self::half_width`] for +-z.
+    /// `jackknife` holds the statistic without each cluster in turn
+    /// ([`Self::without`]).
+    #[must_use]
+    pub fn accelerated(
+        &self,
+        point: f64,
+        replicates: &[f64],
+        jackknife: &[f64],
+        level: f64,
+    ) -> Option<Estimate> {
+        let nominal = self.nominal(level)?;
+        let found = accelerated(point, replicates, jackknife, nominal)?;
+        Some(self.corrected(found, level))
+    }
+
+    /// The level whose normal interval has the half width of these clusters.
+    fn nominal(&self, level: f64) -> Option<f64> {
+        if self.is_singletons() {
+            return Some(level);
+        }
+        let nominal = 2.0 * normal::cdf(self.half_width(level)) - 1.0;
+        (nominal > 0.0 && nominal < 1.0).then_some(nominal)
+    }
+
+    fn corrected(&self, found: Estimate, level: f64) -> Estimate {
+        let standard_error = found.standard_error * self.unbiased();
+        Estimate { standard_error, level, ..found }
+    }
 }
 
 #[cfg(test)]

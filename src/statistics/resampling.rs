@@ -11,6 +11,7 @@
 use rayon::prelude::*;
 
 use super::bootstrap::{Bootstrap, Estimate, estimate};
+use super::clusters::Clusters;
 use super::{QuantileType, Sample};
 use crate::stop;
 use crate::streams::{Streams, below};
@@ -45,13 +46,41 @@ impl Bootstrap {
     }
 }
 
-/// Draws of some of n records without replacement.
+impl Clusters {
+    /// How often replicate `index` of a bootstrap holds each record: G of G
+    /// clusters with replacement, with all their records. Of clusters of one
+    /// record these are the multiplicities of [`Bootstrap::new`].
+    ///
+    /// ```
+    /// use rocking::statistics::bootstrap::Bootstrap;
+    /// use rocking::statistics::clusters::Clusters;
+    /// let clusters = Clusters::from_labels(["a", "b", "a"]);
+    /// let counts = clusters.multiplicities("doc", 0, 1);
+    /// assert_eq!(counts[0], counts[2]);
+    /// assert_eq!(
+    ///     Clusters::singletons(5).multiplicities("doc", 0, 3),
+    ///     Bootstrap::new("doc", 0, 5, 10).multiplicities(3)
+    /// );
+    /// ```
+    #[must_use]
+    pub fn multiplicities(
+        &self,
+        name: &str,
+        seed: u64,
+        index: u64,
+    ) -> Vec<u32> {
+        Bootstrap::of(name, seed, self, 1).multiplicities(index)
+    }
+}
+
+/// Draws of some of n records, or of the clusters of records, without
+/// replacement.
 ///
 /// Draw i is a shuffle by stream i of the family of that name and seed.
 #[derive(Clone, Debug)]
 pub struct Subsampling {
     streams: Streams,
-    n: usize,
+    clusters: Clusters,
     size: usize,
 }
 
@@ -60,10 +89,26 @@ impl Subsampling {
     /// larger.
     #[must_use]
     pub fn new(name: &str, seed: u64, n: usize, size: usize) -> Self {
-        Self { streams: Streams::new(name, seed), n, size: size.min(n) }
+        Self::of(name, seed, &Clusters::singletons(n), size)
     }
 
-    /// The multiplicities of one draw: `size` ones, the rest 0.
+    /// Subsamples of the clusters whose share of all is nearest to that of
+    /// `size` among the records. A subsample holds about `size` records.
+    #[must_use]
+    pub fn of(
+        name: &str,
+        seed: u64,
+        clusters: &Clusters,
+        size: usize,
+    ) -> Self {
+        let (n, count) = (clusters.records(), clusters.count());
+        let share = (2 * size.min(n) * count + n) / (2 * n).max(1);
+        let clusters = clusters.clone();
+        Self { streams: Streams::new(name, seed), clusters, size: share }
+    }
+
+    /// The multiplicities of one draw: 1 for each record of a cluster drawn,
+    /// 0 for the rest.
     ///
     /// ```
     /// use rocking::statistics::resampling::Subsampling;
@@ -73,12 +118,19 @@ impl Subsampling {
     #[must_use]
     pub fn multiplicities(&self, index: u64) -> Vec<u32> {
         let mut stream = self.streams.stream(index);
-        let mut places: Vec<usize> = (0..self.n).collect();
+        let count = self.clusters.count();
+        let mut places: Vec<usize> = (0..count).collect();
         for i in 0..self.size {
-            let j = i + below(&mut stream, self.n - i);
+            let j = i + below(&mut stream, count - i);
             places.swap(i, j);
         }
-        multiplicities(&places[..self.size], self.n)
+        let mut counts = vec![0; self.clusters.records()];
+        for cluster in &places[..self.size] {
+            for record in self.clusters.members(*cluster) {
+                counts[*record] = 1;
+            }
+        }
+        counts
     }
 
     /// The interval of a measure from its values over subsamples, at a
@@ -87,7 +139,9 @@ impl Subsampling {
     /// `point` - f q(low), and at least as wide as the range of
     /// `without_one`, the measure without each record in turn: what one
     /// record carries across a limit is not known. `without_one` may be
-    /// empty.
+    /// empty. Of clusters, n and size count clusters, `without_one` leaves
+    /// out each cluster in turn, and f is wider by t/z, with Student's t of
+    /// [`Clusters::degrees_of_freedom`] and the normal quantile z.
     ///
     /// Without replacement, a mean over `size` of n records varies by
     /// s^2 (1/size - 1/n), a mean over n records by s^2/n: f is the root of
@@ -107,13 +161,14 @@ impl Subsampling {
             values.iter().copied().filter(|x| x.is_finite()).collect();
         let sum = finite.iter().fold(0.0, |sum, x| sum + x);
         let centre = sum / finite.len() as f64;
-        let (n, size) = (self.n as f64, self.size as f64);
+        let (n, size) = (self.clusters.count() as f64, self.size as f64);
         let factor = (size / (n - size)).sqrt();
-        if !factor.is_finite() {
+        let wider = factor * self.clusters.student_over_normal(level);
+        if !wider.is_finite() {
             return None;
         }
-        let mut low = point - factor * (plain.high - centre);
-        let mut high = point - factor * (plain.low - centre);
+        let mut low = point - wider * (plain.high - centre);
+        let mut high = point - wider * (plain.low - centre);
         for x in without_one {
             if *x < low {
                 low = *x;

@@ -10,6 +10,7 @@ pub mod boxplot;
 pub mod censored;
 pub mod choice;
 pub mod clusters;
+pub mod confidence;
 pub mod lilliefors;
 pub mod lognormal;
 mod monte_carlo;

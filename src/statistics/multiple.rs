@@ -43,6 +43,22 @@ pub fn benjamini_hochberg(p_values: &[f64]) -> Vec<f64> {
     adjusted
 }
 
+/// Benjamini and Yekutieli's adjusted p-values, in the order given: those of
+/// [`benjamini_hochberg`] times 1 + 1/2 + ... + 1/n, at most 1 (Ann. Statist.
+/// 29 (2001) 1165). Valid for any dependence.
+///
+/// ```
+/// use rocking::statistics::multiple::benjamini_yekutieli;
+/// let adjusted = benjamini_yekutieli(&[0.01, 0.04, 0.03]);
+/// assert!((adjusted[0] - 0.03 * 11.0 / 6.0).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn benjamini_yekutieli(p_values: &[f64]) -> Vec<f64> {
+    let harmonic = (1..=p_values.len()).map(|i| 1.0 / i as f64).sum::<f64>();
+    let raised = |p: f64| (p * harmonic).min(1.0);
+    benjamini_hochberg(p_values).into_iter().map(raised).collect()
+}
+
 fn ascending(p_values: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..p_values.len()).collect();
     order.sort_by(|&i, &j| p_values[i].total_cmp(&p_values[j]));
@@ -63,5 +79,8 @@ mod tests {
         assert!(close(holm(&p), [0.006, 0.1, 0.12, 0.12, 0.5, 0.12]));
         let expected = [0.006, 0.048, 0.048, 0.048, 0.5, 0.048];
         assert!(close(benjamini_hochberg(&p), expected));
+        // R 4.2: p.adjust(p, "BY").
+        let by = [0.0147, 0.1176, 0.1176, 0.1176, 1.0, 0.1176];
+        assert!(close(benjamini_yekutieli(&p), by));
     }
 }

@@ -11,6 +11,9 @@ use std::fmt;
 
 use rocking::block::Block;
 use rocking::integrator::Overturning;
+use rocking::statistics::multiple::{
+    benjamini_hochberg, benjamini_yekutieli,
+};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
@@ -76,6 +79,9 @@ pub struct Suite {
     pub component_rule: String,
     /// Number of records.
     pub records: usize,
+    /// Number of earthquakes; none where they are not known, and each record
+    /// counts as one.
+    pub earthquakes: Option<usize>,
     /// SHA-256 over the records.
     pub sha256: String,
     /// The records, each by its name and the hash of its samples.
@@ -316,6 +322,17 @@ pub struct Question {
     pub data: String,
 }
 
+/// Decisions that a false discovery rate withdraws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Withdrawn {
+    /// Decisions made.
+    pub decided: usize,
+    /// Withdrawn by Benjamini and Hochberg, for positively dependent results.
+    pub positive: usize,
+    /// Withdrawn by Benjamini and Yekutieli, for any dependence.
+    pub any: usize,
+}
+
 impl Findings {
     /// The file's text: one value a line, a line break at the end.
     #[must_use]
@@ -398,6 +415,29 @@ impl Findings {
     pub fn count(&self, verdict: Verdict) -> usize {
         let results = self.claims.iter().flat_map(|claim| &claim.results);
         results.filter(|r| r.by_equivalence == Some(verdict)).count()
+    }
+
+    /// How many decisions do not hold at a false discovery rate, over all
+    /// results with a verdict.
+    #[must_use]
+    pub fn withdrawn(&self, rate: f64) -> Withdrawn {
+        let results = self.claims.iter().flat_map(|claim| &claim.results);
+        let judged: Vec<(f64, bool)> = results
+            .filter_map(|r| {
+                let decided = r.by_equivalence? != Verdict::Inconclusive;
+                Some((if r.p <= 1.0 { r.p } else { 1.0 }, decided))
+            })
+            .collect();
+        let p: Vec<f64> = judged.iter().map(|(p, _)| *p).collect();
+        let beyond = |adjusted: Vec<f64>| {
+            let all = adjusted.iter().zip(&judged);
+            all.filter(|(q, (_, decided))| *decided && **q > rate).count()
+        };
+        Withdrawn {
+            decided: judged.iter().filter(|(_, decided)| *decided).count(),
+            positive: beyond(benjamini_hochberg(&p)),
+            any: beyond(benjamini_yekutieli(&p)),
+        }
     }
 
     /// The table of a topic, if there is one.

@@ -8,7 +8,10 @@ use crate::paper::SuiteKind;
 use std::fmt;
 use std::path::Path;
 
-use rocking::record::{Accelerogram, Processing, ReadOptions, SetAside};
+use rocking::record::{
+    Accelerogram, Processing, ReadOptions, SetAside, Suite,
+};
+use rocking::statistics::Clusters;
 use rocking_synthesis::Pair;
 use sha2::{Digest as _, Sha256};
 
@@ -80,6 +83,8 @@ pub struct StudySuite {
     pub set_aside: SetAside,
     /// The motions, in the suite's order.
     pub motions: Vec<Motion>,
+    /// The earthquakes that the motions belong to.
+    pub clusters: Clusters,
 }
 
 impl StudySuite {
@@ -94,6 +99,7 @@ impl StudySuite {
             component_rule: "the first component of each pair".into(),
             remarks: Remarks::default(),
             set_aside: SetAside::default(),
+            clusters: Clusters::singletons(pairs.len()),
             motions: pairs
                 .into_iter()
                 .map(|Pair { components: [study, other], .. }| Motion {
@@ -150,6 +156,7 @@ impl StudySuite {
             component_rule: suite.study_rule().to_string(),
             remarks,
             set_aside: suite.set_aside().clone(),
+            clusters: clusters(&suite),
             motions,
         })
     }
@@ -176,6 +183,20 @@ impl StudySuite {
         }
         hex(&sum.finalize())
     }
+}
+
+/// The earthquakes of a suite's study components, by the index's column
+/// `event`; each record by itself where one has none.
+fn clusters(suite: &Suite) -> Clusters {
+    let events: Option<Vec<&str>> = suite
+        .study_components()
+        .map(|study| study.attributes.get("event").map(String::as_str))
+        .collect();
+    let named = events.filter(|all| all.iter().all(|e| !e.is_empty()));
+    named.map_or_else(
+        || Clusters::singletons(suite.study_components().count()),
+        Clusters::from_labels,
+    )
 }
 
 /// Sampling interval and samples, added to a hash.

@@ -245,6 +245,9 @@ pub(super) fn rows(
     rows
 }
 
+/// False discovery rate that decisions are held against.
+const FALSE_DISCOVERIES: f64 = 0.05;
+
 /// The number of a claim on the suite and arm where it is worst.
 fn effect(findings: &Findings, asked: &Asked) -> String {
     let own = |c: &&Claim| c.id == asked.effect;
@@ -340,31 +343,28 @@ pub(super) fn rounding(results: &Results) -> String {
     )
 }
 
-/// How verdicts come about, and how many of them chance may have given.
+/// How many decisions chance may have given, by the two false discovery
+/// rates.
 pub(super) fn trust(
     findings: &Findings,
     recorded: Option<&Findings>,
 ) -> String {
-    let judged = |findings: &Findings| -> usize {
-        Verdict::ALL.map(|verdict| findings.count(verdict)).iter().sum()
-    };
-    let by_chance = |findings: &Findings| {
-        let n = judged(findings);
-        format!("about {:.0} of {n}", 0.025 * n as f64)
+    let counts = |findings: &Findings| {
+        let found = findings.withdrawn(FALSE_DISCOVERIES);
+        format!(
+            "{} (any dependence: {}) of {}",
+            found.positive, found.any, found.decided
+        )
     };
     let counts = match recorded {
-        Some(recorded) => format!(
-            "{} recorded, {} embedded",
-            by_chance(recorded),
-            by_chance(findings)
-        ),
-        None => by_chance(findings),
+        Some(recorded) => {
+            format!("{} recorded, {} embedded", counts(recorded), counts(findings))
+        }
+        None => counts(findings),
     };
     format!(
-        "Chance. A 95 % interval misses on the deciding side in 2.5 % of \
-         cases: chance alone may have given some verdicts ({counts}). \
-         Results share records, so misses come together; arms A and C, and \
-         claims of one quotation, are not independent."
+        "Chance. Kept to 5 % false discoveries (Benjamini and Hochberg; \
+         Benjamini and Yekutieli), we would withdraw {counts} decisions."
     )
 }
 

@@ -152,18 +152,18 @@ pub fn rule_text(claim: &Claim) -> String {
 }
 
 /// What stands beside a result: cells, the deciding one, details, how the
-/// interval was made, records needed.
+/// interval was made.
 pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
     let mut remarks = Vec::new();
     match &result.cells {
         Some(cells) => remarks.push(format!(
-            "{} of {} cells inside, {} outside{}",
+            "{} of {} cells shown inside, {} refuted{}",
             cells.inside,
             cells.deciding,
             cells.outside,
             match cells.too_few {
                 0 => String::new(),
-                few => format!(", {few} with fewer than 30 records"),
+                few => format!(", {few} with too few records"),
             }
         )),
         None => remarks.push(result.at.clone()),
@@ -182,10 +182,7 @@ pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
         remarks.push(format!("{}: {value}{ends}", detail.name));
     }
     if let Some(interval) = result.interval {
-        remarks.push(format!("95 % interval: {}", interval.words()));
-    }
-    if let Some(needed) = result.records_needed {
-        remarks.push(format!("about {needed} records would decide"));
+        remarks.push(format!("interval: {}", interval.words()));
     }
     remarks
 }

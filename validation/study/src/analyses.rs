@@ -62,6 +62,7 @@ impl Plan {
                 .collect(),
             work,
             records: facts,
+            clusters: suite.clusters.clone(),
             chosen,
             arms,
             single: Vec::new(),

@@ -1,12 +1,15 @@
 //! The paper's claims: declared as data in `validation/claims`, measured by
 //! [`super::measures`], judged by [`super::inference`].
 
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::inference::{Draws, Replicated, Rule, judge, share};
+use crate::inference::{
+    Draws, Judged, MORE, Replicated, Rule, judge, share,
+};
 use crate::measures::{Measure, Source};
 use crate::results::Results;
 use crate::shares::{self, Shares};
@@ -158,18 +161,22 @@ pub fn limit_of(measure: Measure) -> f64 {
 /// Where a measure cannot be computed.
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
     let shares = shares::all(results, draws);
-    declared()
-        .iter()
-        .map(|claim| measured(claim, results, draws, &shares))
-        .collect()
+    let more = OnceCell::new();
+    let drawn = Drawn { results, draws, more: &more, shares: &shares };
+    declared().iter().map(|claim| measured(claim, &drawn)).collect()
 }
 
-fn measured(
-    claim: &Declared,
-    results: &Results,
-    draws: &Draws,
-    shares: &[Shares],
-) -> anyhow::Result<Claim> {
+/// The draws that all claims share, and more of them, made where a verdict
+/// needs them.
+struct Drawn<'a> {
+    results: &'a Results,
+    draws: &'a Draws,
+    more: &'a OnceCell<Draws>,
+    shares: &'a [Shares],
+}
+
+fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
+    let results = drawn.results;
     let mut found = Vec::new();
     if let (Some(measure), Some(quantifier), Some(region)) =
         (claim.measure, claim.quantifier, claim.region)
@@ -189,27 +196,18 @@ fn measured(
             for (arm, shown) in &arms {
                 let source = Source {
                     results,
-                    draws,
-                    shares,
+                    draws: drawn.draws,
+                    shares: drawn.shares,
                     tested: *suite,
                     arm: *arm,
                 };
-                let Some(prepared) = measure.prepare(&source)? else {
-                    continue;
+                let asked = Asked { claim, measure, rule, shown: *shown };
+                let Some(first) = asked.judged(&source)? else { continue };
+                let result = if first.settled {
+                    first.result
+                } else {
+                    asked.with_more(&source, drawn.more)?.unwrap_or(first).result
                 };
-                let mut result = judge(
-                    draws,
-                    *suite,
-                    *shown,
-                    &rule,
-                    &prepared.cells,
-                    &prepared.measured,
-                );
-                if let Some(criterion) = &prepared.criterion
-                    && !claim.criterion.is_empty()
-                {
-                    by_criterion(draws, claim, criterion, &mut result);
-                }
                 found.push(result);
             }
         }
@@ -231,6 +229,58 @@ fn measured(
         note: claim.note.clone(),
         results: found,
     })
+}
+
+/// A claim on a suite and arm.
+struct Asked<'a> {
+    claim: &'a Declared,
+    measure: Measure,
+    rule: Rule,
+    shown: Option<Arm>,
+}
+
+impl Asked<'_> {
+    /// The verdict by the draws of a source; none where what it needs was
+    /// not run.
+    fn judged(&self, source: &Source<'_>) -> anyhow::Result<Option<Judged>> {
+        let Some(prepared) = self.measure.prepare(source)? else {
+            return Ok(None);
+        };
+        let mut judged = judge(
+            source.draws,
+            source.tested,
+            self.shown,
+            &self.rule,
+            &prepared.cells,
+            &prepared.measured,
+        );
+        if let Some(criterion) = &prepared.criterion
+            && !self.claim.criterion.is_empty()
+        {
+            let result = &mut judged.result;
+            by_criterion(source.draws, self.claim, criterion, result);
+        }
+        Ok(Some(judged))
+    }
+
+    /// The verdict by more draws than all claims share.
+    fn with_more(
+        &self,
+        source: &Source<'_>,
+        more: &OnceCell<Draws>,
+    ) -> anyhow::Result<Option<Judged>> {
+        let draws = more.get_or_init(|| source.results.draws(MORE));
+        let source = Source { draws, shares: &[], ..*source };
+        let found = self.judged(&source)?;
+        if found.is_some() {
+            return Ok(found);
+        }
+        // Accepted shares, which many claims share otherwise.
+        let suite = source.kind();
+        let own = Shares::new(source.results, draws, suite, source.arm);
+        let shares = own.as_slice();
+        self.judged(&Source { shares, ..source })
+    }
 }
 
 /// The verdict by the paper's own criterion: the share of notches that cover

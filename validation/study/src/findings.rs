@@ -1,7 +1,7 @@
 //! Everything that a study found, as [`Findings`].
 
 use rocking::record::{AsideCount, SetAside};
-use rocking::statistics::Proportion;
+use rocking::statistics::{Clusters, Proportion, clusters};
 
 use crate::analyses::{Plan, SuiteResults};
 use crate::estimates;
@@ -64,6 +64,7 @@ fn suite(suite: &SuiteResults) -> Suite {
         source: suite.source.to_string(),
         component_rule: suite.component_rule.clone(),
         records: suite.records.len(),
+        earthquakes: earthquakes(&suite.clusters),
         sha256: suite.sha256.clone(),
         list: suite.list.clone(),
         shown_alone: suite.chosen.iter().map(name).collect(),
@@ -74,6 +75,11 @@ fn suite(suite: &SuiteResults) -> Suite {
         first_overturnings_reevaluated: certainty.reevaluated,
         largest_shift_if_flipped: certainty.largest_shift,
     }
+}
+
+/// Number of earthquakes, where they are known.
+fn earthquakes(clusters: &Clusters) -> Option<usize> {
+    (clusters.unit() == clusters::Unit::Earthquake).then_some(clusters.count())
 }
 
 /// What a suite set aside, by reason.

@@ -22,10 +22,12 @@ pub struct Results {
 }
 
 impl Results {
-    /// The draws of the records that bands and claims share.
+    /// The draws of the earthquakes that bands and claims share; `times` as
+    /// many as are enough for most claims.
     #[must_use]
-    pub fn draws(&self) -> Draws {
-        Draws::new([&self.ordinary, &self.pulse].map(|s| s.records.len()))
+    pub fn draws(&self, times: usize) -> Draws {
+        let clusters = [&self.ordinary, &self.pulse].map(|s| &s.clusters);
+        Draws::new(clusters.map(Clone::clone), times)
     }
 
     /// Whether the suites are the embedded ones.

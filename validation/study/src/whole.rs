@@ -46,7 +46,7 @@ impl Study {
         distributions.extend(of_suite(&pulse, common)?);
         let varied = plan.sensitivities(first, full)?;
         let results = Results { plan, ordinary, pulse, distributions, varied };
-        let draws = results.draws();
+        let draws = results.draws(1);
         let mut figures = figures::all(&results, &draws)?;
         let mut answers = questions::all(&results, &draws, full)?;
         for answer in &mut answers {

@@ -268,18 +268,27 @@ pub struct ClaimResult {
     /// cell, of "most" and "almost all" the share of cells in the region.
     #[serde(with = "nine")]
     pub value: f64,
-    /// Lower end of its 95 % interval; missing for an identity.
+    /// Lower end of its interval, of 95 %, or of 90 % for one cell among
+    /// many; missing for an identity.
     #[serde(with = "nine")]
     pub low: f64,
     /// Upper end of it.
     #[serde(with = "nine")]
     pub high: f64,
+    /// Standard error, over sets of draws, of the end that is nearest to a
+    /// limit.
+    #[serde(with = "nine")]
+    pub monte_carlo_error: f64,
     /// Unit of the three.
     pub unit: Unit,
     /// Verdict by the paper's own criterion, where it states one.
     pub by_criterion: Option<Verdict>,
     /// Verdict by practical equivalence; none for an identity.
     pub by_equivalence: Option<Verdict>,
+    /// The one-sided p-value of that verdict: of the value on the other side
+    /// of the limit. Where nothing is decided, the smaller of both sides.
+    #[serde(with = "nine")]
+    pub p: f64,
     /// Which cell decides, or where the one value is.
     pub at: String,
     /// How the interval was made.
@@ -290,9 +299,6 @@ pub struct ClaimResult {
     pub deciding_cell: Option<Detail>,
     /// What else was measured, by name.
     pub details: Vec<Detail>,
-    /// How many records would decide, where these do not, if the value
-    /// stayed.
-    pub records_needed: Option<u64>,
 }
 
 impl ClaimResult {
@@ -318,17 +324,21 @@ impl ClaimResult {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Interval {
-    /// Bootstrap of records, bias-corrected and accelerated.
+    /// Bootstrap, bias-corrected and accelerated.
     Accelerated,
-    /// Bootstrap of records, percentiles.
+    /// Bootstrap, percentiles.
     Percentile,
-    /// Bootstrap of records, simultaneous over all cells.
+    /// Bootstrap, one cell among many by itself.
+    Own,
+    /// Bootstrap, the share of the cells in the region.
+    ShareOfCells,
+    /// Bootstrap, simultaneous over the cells that may lie outside.
     Simultaneous,
-    /// Subsamples of records without replacement.
+    /// Subsamples without replacement.
     Subsampling,
-    /// Exact binomial, of a count of records.
+    /// Exact, of a count or of the order statistics of a median.
     Exact,
-    /// Exact binomial, simultaneous over all cells.
+    /// Exact, simultaneous over the cells that may lie outside.
     ExactSimultaneous,
 }
 
@@ -337,19 +347,20 @@ impl Interval {
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Self::Accelerated => "bootstrap of records, BCa",
-            Self::Percentile => "bootstrap of records, percentile",
+            Self::Accelerated => "95 %, bootstrap, BCa",
+            Self::Percentile => "95 %, bootstrap, percentile",
+            Self::Own => "90 %, bootstrap, of this cell alone",
+            Self::ShareOfCells => "95 %, bootstrap of the share of cells",
             Self::Simultaneous => {
-                "bootstrap of records, simultaneous over all cells"
+                "95 %, bootstrap, at once for all cells not shown inside \
+                 (Romano and Wolf)"
             }
             Self::Subsampling => {
-                "subsamples of 90 % of the records, with the range of \
-                 leaving one out"
+                "95 %, subsamples of 90 %, with the range of leaving one out"
             }
-            Self::Exact => "exact binomial (Clopper and Pearson)",
+            Self::Exact => "exact, records as the unit",
             Self::ExactSimultaneous => {
-                "exact binomial (Clopper and Pearson), simultaneous over all \
-                 cells by Bonferroni"
+                "exact, records as the unit, at once for all cells (Holm)"
             }
         }
     }

@@ -4,6 +4,7 @@ use rocking::block::Block;
 use rocking::capacity::ResponseCurve;
 use rocking::intensity::{Measures, Settings};
 use rocking::record::SetAside;
+use rocking::statistics::Clusters;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
 use crate::certainty::Certainty;
@@ -92,6 +93,8 @@ pub struct SuiteResults {
     pub work: Work,
     /// The records.
     pub records: Vec<Facts>,
+    /// The earthquakes that they belong to.
+    pub clusters: Clusters,
     /// Positions of the records that the single-record figures show.
     pub chosen: [usize; 3],
     /// Curves by arm.

@@ -15,14 +15,7 @@ impl Replicated {
             without_one: Vec::new(),
             halves: Vec::new(),
             counts,
+            samples: Vec::new(),
         }
-    }
-
-    /// Some of the cells.
-    pub(super) fn select(&self, places: &[usize]) -> Self {
-        let count = |k: &usize| self.counts.get(*k).copied();
-        let counts = places.iter().filter_map(count).collect();
-        let own = self.map(|row| places.iter().map(|k| row[*k]).collect());
-        Self { counts, ..own }
     }
 }

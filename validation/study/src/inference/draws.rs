@@ -1,15 +1,12 @@
 //! Draws of the records, and what a measure gives in them.
 
 use rayon::prelude::*;
-use rocking::statistics::Proportion;
-use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
-use rocking::statistics::resampling::Subsampling;
+use rocking::statistics::bootstrap::Bootstrap;
+use rocking::statistics::resampling::{Ranked, Subsampling};
+use rocking::statistics::{Clusters, Proportion};
 
-use rocking_common::findings::{Interval, Tested};
+use rocking_common::findings::Tested;
 use rocking_common::paper::SuiteKind;
-
-/// Level of all intervals.
-pub const LEVEL: f64 = 0.95;
 
 /// Replicates of the bootstrap.
 pub const REPLICATES: usize = 2000;
@@ -17,7 +14,12 @@ pub const REPLICATES: usize = 2000;
 /// Subsamples without replacement.
 pub const SUBSAMPLES: usize = 1000;
 
-/// A cell with fewer records than this decides nothing.
+/// How many times as many are drawn where a verdict would change with the
+/// draws.
+pub const MORE: usize = 8;
+
+/// A cell with fewer records has no bootstrap: a median has its exact
+/// interval, other measures have none.
 pub const LEAST_DECIDING: usize = 30;
 
 /// How often a replicate holds each record, by suite.
@@ -43,14 +45,6 @@ impl<'a> Draw<'a> {
 struct Set([Vec<Vec<u32>>; 2]);
 
 impl Set {
-    fn new(
-        sizes: [usize; 2],
-        of: impl Fn(usize, SuiteKind) -> Vec<Vec<u32>>,
-    ) -> Self {
-        let [a, b] = SuiteKind::BOTH;
-        Self([of(sizes[0], a), of(sizes[1], b)])
-    }
-
     fn draw(&self, index: usize) -> Draw<'_> {
         Draw { ordinary: &self.0[0][index], pulse: &self.0[1][index] }
     }
@@ -69,79 +63,84 @@ pub type Measure<'a> = dyn Fn(Draw<'_>) -> Vec<f64> + Sync + 'a;
 /// The draws that all claims share.
 #[derive(Debug)]
 pub struct Draws {
-    sizes: [usize; 2],
+    clusters: [Clusters; 2],
     whole: Set,
     bootstrap: Set,
     subsamples: Set,
     halves: Set,
     without_one: [Set; 2],
-    pub(super) rules: [Subsampling; 2],
+    rules: [Subsampling; 2],
 }
 
 impl Draws {
-    /// The draws for suites of these sizes, ordinary and pulse-type.
+    /// The draws for suites of these earthquakes, ordinary and pulse-type;
+    /// `times` as many as are enough for most claims.
     ///
     /// Streams: `study/records/SUITE` (bootstrap), `study/nine-tenths/SUITE`
     /// and `study/halves/SUITE` (subsamples), each of seed 0.
     #[must_use]
-    pub fn new(sizes: [usize; 2]) -> Self {
-        let ones = |n: usize| vec![1; n];
-        let whole = Set::new(sizes, |n, _| vec![ones(n)]);
-        let bootstrap = Set::new(sizes, |n, suite| {
-            let name = format!("study/records/{suite}");
-            let draws = Bootstrap::new(&name, 0, n, REPLICATES);
-            (0..REPLICATES as u64).map(|i| draws.multiplicities(i)).collect()
-        });
-        let nine_tenths = |n: usize, suite: SuiteKind| {
-            let name = format!("study/nine-tenths/{suite}");
-            Subsampling::new(&name, 0, n, n - n.div_ceil(10))
+    pub fn new(clusters: [Clusters; 2], times: usize) -> Self {
+        let ones = |place: usize| vec![1; clusters[place].records()];
+        let rule = |name: &str, place: usize, size: fn(usize) -> usize| {
+            let suite = SuiteKind::BOTH[place];
+            let own = &clusters[place];
+            let name = format!("study/{name}/{suite}");
+            Subsampling::of(&name, 0, own, size(own.records()))
         };
-        let drawn = |rule: &Subsampling, count: usize| {
+        let nine_tenths =
+            |place| rule("nine-tenths", place, |n| n - n.div_ceil(10));
+        let drawn = |rule: Subsampling, count: usize| -> Vec<Vec<u32>> {
             (0..count as u64).map(|i| rule.multiplicities(i)).collect()
         };
-        let subsamples = Set::new(sizes, |n, suite| {
-            drawn(&nine_tenths(n, suite), SUBSAMPLES)
-        });
-        let halves = Set::new(sizes, |n, suite| {
-            let name = format!("study/halves/{suite}");
-            drawn(&Subsampling::new(&name, 0, n, n / 2), SUBSAMPLES / 5)
-        });
-        let without = |place: usize| {
-            let n = sizes[place];
-            let one = |left_out: usize| {
-                let mut counts = ones(n);
-                counts[left_out] = 0;
-                counts
-            };
-            let other = vec![ones(sizes[1 - place]); n];
-            let own: Vec<Vec<u32>> = (0..n).map(one).collect();
-            if place == 0 { Set([own, other]) } else { Set([other, own]) }
+        let bootstrap = |place: usize| -> Vec<Vec<u32>> {
+            let name = format!("study/records/{}", SuiteKind::BOTH[place]);
+            let count = REPLICATES * times;
+            let own = Bootstrap::of(&name, 0, &clusters[place], count);
+            (0..count as u64).map(|i| own.multiplicities(i)).collect()
         };
-        let [a, b] = SuiteKind::BOTH;
+        let without = |place: usize| {
+            let own = &clusters[place];
+            let left: Vec<Vec<u32>> =
+                (0..own.count()).map(|g| own.without(g)).collect();
+            let other = vec![ones(1 - place); own.count()];
+            if place == 0 { Set([left, other]) } else { Set([other, left]) }
+        };
+        let both = [0, 1];
         Self {
-            sizes,
-            whole,
-            bootstrap,
-            subsamples,
-            halves,
-            without_one: [without(0), without(1)],
-            rules: [nine_tenths(sizes[0], a), nine_tenths(sizes[1], b)],
+            whole: Set(both.map(|place| vec![ones(place)])),
+            bootstrap: Set(both.map(bootstrap)),
+            subsamples: Set(both.map(|place| {
+                drawn(nine_tenths(place), SUBSAMPLES * times)
+            })),
+            halves: Set(both.map(|place| {
+                let half = rule("halves", place, |n| n / 2);
+                drawn(half, SUBSAMPLES / 5)
+            })),
+            without_one: both.map(without),
+            rules: both.map(nine_tenths),
+            clusters,
         }
+    }
+
+    /// The earthquakes that bound what is known of a suite; of a comparison
+    /// those of the suite with fewer.
+    pub(super) fn clusters(&self, tested: Tested) -> &Clusters {
+        let [ordinary, pulse] = &self.clusters;
+        match tested {
+            Tested::PulseType => pulse,
+            Tested::Both if pulse.count() < ordinary.count() => pulse,
+            _ => ordinary,
+        }
+    }
+
+    pub(super) fn rule(&self, tested: Tested) -> &Subsampling {
+        &self.rules[usize::from(tested == Tested::PulseType)]
     }
 
     /// Every record once.
     #[must_use]
     pub fn whole(&self) -> Draw<'_> {
         self.whole.draw(0)
-    }
-
-    pub(super) fn size(&self, tested: Tested) -> usize {
-        match tested {
-            Tested::PulseType => self.sizes[1],
-            // Of a comparison, the smaller suite bounds what is known.
-            Tested::Both => self.sizes[0].min(self.sizes[1]),
-            Tested::Ordinary | Tested::None => self.sizes[0],
-        }
     }
 
     /// A smooth measure over the replicates of the bootstrap.
@@ -159,7 +158,24 @@ impl Draws {
             without_one,
             halves: Vec::new(),
             counts: Vec::new(),
+            samples: Vec::new(),
         }
+    }
+
+    /// Medians of the values of a suite's records, over the replicates of
+    /// the bootstrap.
+    #[must_use]
+    pub fn medians(
+        &self,
+        suite: SuiteKind,
+        samples: Vec<Ranked>,
+    ) -> Replicated {
+        let of = |draw: Draw<'_>| -> Vec<f64> {
+            let counts = draw.of(suite);
+            samples.iter().map(|s| s.median(counts)).collect()
+        };
+        let medians = self.smooth(suite.into(), &of);
+        Replicated { samples, ..medians }
     }
 
     /// A measure that ties spoil, over subsamples without replacement.
@@ -179,6 +195,7 @@ impl Draws {
             without_one,
             halves: self.halves.map(f),
             counts: Vec::new(),
+            samples: Vec::new(),
         }
     }
 }
@@ -205,11 +222,13 @@ pub struct Replicated {
     pub(super) halves: Vec<Vec<f64>>,
     /// The cells where they are counts; empty otherwise.
     pub(super) counts: Vec<Proportion>,
+    /// What the cells are the medians of; empty where they are none.
+    pub(super) samples: Vec<Ranked>,
 }
 
 impl Replicated {
     /// Other measures made of this one's cells; of counts they have no
-    /// interval.
+    /// interval, and of medians no exact one.
     #[must_use]
     pub fn map(&self, f: impl Fn(&[f64]) -> Vec<f64>) -> Self {
         let all = |rows: &[Vec<f64>]| rows.iter().map(|row| f(row)).collect();
@@ -220,6 +239,7 @@ impl Replicated {
             without_one: all(&self.without_one),
             halves: all(&self.halves),
             counts: Vec::new(),
+            samples: Vec::new(),
         }
     }
 
@@ -248,39 +268,5 @@ impl Replicated {
 
     pub(super) fn column(rows: &[Vec<f64>], k: usize) -> Vec<f64> {
         rows.iter().map(|row| row[k]).collect()
-    }
-
-    /// The interval of one cell.
-    pub(super) fn interval(
-        &self,
-        k: usize,
-        rules: &[Subsampling; 2],
-        tested: Tested,
-        level: f64,
-    ) -> Option<(f64, f64, Interval)> {
-        let point = self.points[k];
-        let values = Self::column(&self.replicates, k);
-        let others = Self::column(&self.without_one, k);
-        match self.scheme {
-            Scheme::Bootstrap => {
-                if !others.is_empty()
-                    && let Some(e) =
-                        accelerated(point, &values, &others, level)
-                {
-                    return Some((e.low, e.high, Interval::Accelerated));
-                }
-                let e = estimate(point, &values, level)?;
-                Some((e.low, e.high, Interval::Percentile))
-            }
-            Scheme::Subsampling => {
-                let rule = &rules[usize::from(tested == Tested::PulseType)];
-                let e = rule.interval(point, &values, &others, level)?;
-                Some((e.low, e.high, Interval::Subsampling))
-            }
-            Scheme::Counted => {
-                let (low, high) = self.counts.get(k)?.interval(level).ok()?;
-                Some((low, high, Interval::Exact))
-            }
-        }
     }
 }

@@ -41,7 +41,7 @@ pub struct Prepared {
 }
 
 impl Source<'_> {
-    pub(super) fn kind(&self) -> SuiteKind {
+    pub(crate) fn kind(&self) -> SuiteKind {
         match self.tested {
             Tested::PulseType => SuiteKind::PulseType,
             _ => SuiteKind::Ordinary,

@@ -57,7 +57,7 @@ impl Ours {
         };
         let measured = draws.smooth(kind.into(), &of);
         let none = (f64::NAN, f64::NAN);
-        let intervals = measured.percentiles();
+        let intervals = measured.percentiles(draws, kind.into());
         let intervals =
             intervals.into_iter().map(|ends| ends.unwrap_or(none)).collect();
         Ok(Self { suite: kind, measured, intervals })

@@ -8,12 +8,11 @@ use super::answer::{Answer, Rows, both, number, word};
 use crate::analyses::no_arm;
 use crate::analyses::{Facts, OWN_PERIODS, SuiteResults};
 use crate::fits::of_intervals;
-use crate::inference::{Draw, Draws, Replicated, by_cell};
+use crate::inference::{Draw, Draws, Replicated, at_once};
 use crate::results::Results;
 use crate::runs::overturning;
-use rocking_common::findings::{Measured, Region};
 use rocking_common::paper::{
-    BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, Verdict, position,
+    BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind, position,
 };
 use rocking_common::words::capital;
 use rocking_draw::figures::{
@@ -182,8 +181,6 @@ fn dispersion(known: &[(f64, f64)], logs: &[f64], counts: &[u32]) -> f64 {
 /// No interval.
 const NONE: (f64, f64) = (f64::NAN, f64::NAN);
 
-const NOT_NEGATIVE: (f64, f64) = (0.0, f64::INFINITY);
-
 pub(super) fn answer(
     results: &Results,
     draws: &Draws,
@@ -195,7 +192,7 @@ pub(super) fn answer(
     let words: Vec<String> = found.iter().map(|f| words(f, draws)).collect();
     let mut table = Rows::default();
     for one in &found {
-        rows(one, &mut table);
+        rows(one, draws, &mut table);
     }
     let answer = table.answer(
         "measures",
@@ -204,13 +201,14 @@ pub(super) fn answer(
         "Dispersion of the overturning intensity by intensity measure",
         "Dispersion is that of the lognormal of most likelihood, unshifted; a \
          record that never overturned counts as censored. SA has 5 % damping. \
-         Intervals are the central 95 % of 2000 draws of the records, the \
-         same for all rows, of one row at a time; the counts of the answer \
-         are by a band that holds for all blocks at once, which is wider. \
+         Intervals are the central 95 % of 2000 draws of the earthquakes, \
+         the same for all rows, of one row at a time; the counts of the \
+         answer are by limits that hold for all blocks at once, which are \
+         wider. \
          Shown: alpha = 0.15, and of the single periods the one of least \
          dispersion.",
     );
-    Ok(Answer { figures: vec![figure(&found)], ..answer })
+    Ok(Answer { figures: vec![figure(&found, draws)], ..answer })
 }
 
 fn words(found: &Dispersions, draws: &Draws) -> String {
@@ -229,20 +227,11 @@ fn words(found: &Dispersions, draws: &Draws) -> String {
     };
     let clause = |place: usize, limit: f64, less: &str, more: &str| {
         let ratios = found.ratios_of(place);
-        let cells = by_cell(draws, found.suite.into(), NOT_NEGATIVE, &ratios);
-        let count = |verdict| {
-            let is = |c: &&Measured| {
-                c.interval.is_some_and(|(low, high)| {
-                    Region::Below(limit).verdict(low, high) == verdict
-                })
-            };
-            cells.iter().filter(is).count()
-        };
         let (inside, outside) =
-            (count(Verdict::Confirmed), count(Verdict::NotConfirmed));
+            at_once(draws, found.suite.into(), limit, &ratios);
         format!(
             "{less} for {inside} and {more} for {outside}, {} open",
-            cells.len() - inside - outside
+            BLOCKS.len() - inside - outside
         )
     };
     format!(
@@ -262,10 +251,11 @@ fn words(found: &Dispersions, draws: &Draws) -> String {
     )
 }
 
-fn rows(found: &Dispersions, table: &mut Rows) {
-    let own = found.measured.percentiles();
+fn rows(found: &Dispersions, draws: &Draws, table: &mut Rows) {
+    let suite = found.suite.into();
+    let own = found.measured.percentiles(draws, suite);
     let ratios = found.ratios();
-    let of_ratios = ratios.percentiles();
+    let of_ratios = ratios.percentiles(draws, suite);
     for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
         for (slenderness, alpha) in SLENDERNESSES_RAD.iter().enumerate() {
             let block = position(frequency, slenderness);
@@ -297,11 +287,11 @@ fn rows(found: &Dispersions, table: &mut Rows) {
 }
 
 /// Dispersion against p T, for alpha = 0.15.
-fn figure(found: &[Dispersions]) -> Figure {
+fn figure(found: &[Dispersions], draws: &Draws) -> Figure {
     let ends = (OWN_PERIODS[0], OWN_PERIODS[OWN_PERIODS.len() - 1]);
     let mut panels = Vec::new();
     for one in found {
-        let intervals = one.measured.percentiles();
+        let intervals = one.measured.percentiles(draws, one.suite.into());
         for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
             let at = |place| position(frequency, SHOWN) * COUNT + place;
             let flat = |place, label: &str, mark, x: (f64, f64)| {

@@ -10,8 +10,10 @@ use rayon::prelude::*;
 use rocking::block::Block;
 use rocking::fragility::options::{Centre, Recipe};
 use rocking::integrator::Model;
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
+use rocking::statistics::bootstrap::Bootstrap;
+use rocking::statistics::{
+    Clusters, ExtendedSample, Lognormal, QuantileType,
+};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 
@@ -52,9 +54,10 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
     let kind = results.ordinary.kind;
     let replicates = REPLICATES[usize::from(full)];
     // Records drawn once for all blocks, measures and thresholds.
-    let n = results.ordinary.records.len();
+    let clusters = &results.ordinary.clusters;
     let draws: Vec<Vec<usize>> =
-        Bootstrap::new("study/options", 0, n, replicates).map(<[_]>::to_vec);
+        Bootstrap::of("study/options", 0, clusters, replicates)
+            .map(<[_]>::to_vec);
     let mut cells: Vec<(Intensity, &BlockSamples, f64)> = Vec::new();
     for (_, found) in results.common().filter(|(_, d)| d.kind == kind) {
         for block in &found.blocks {
@@ -66,7 +69,8 @@ pub(super) fn answer(results: &Results, full: bool) -> anyhow::Result<Answer> {
         .map(|(intensity, block, edp)| {
             let paper = block.p_rad_s == FREQUENCIES_RAD_S[BLOCK.0]
                 && block.alpha_rad == SLENDERNESSES_RAD[BLOCK.1];
-            entries(*intensity, block, *edp, &draws, full || paper)
+            let areas = full || paper;
+            entries(*intensity, block, *edp, (&draws, clusters), areas)
         })
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
@@ -124,7 +128,7 @@ fn entries(
     intensity: Intensity,
     block: &BlockSamples,
     edp: f64,
-    draws: &[Vec<usize>],
+    (draws, clusters): (&[Vec<usize>], &Clusters),
     areas: bool,
 ) -> anyhow::Result<Vec<Entry>> {
     let values = &block.samples[demand_index(edp)];
@@ -159,7 +163,7 @@ fn entries(
             });
             let (ks, area) = distances.unwrap_or((f64::NAN, f64::NAN));
             let interval = |point, values: &[f64]| {
-                let found = estimate(point, values, 0.95);
+                let found = clusters.estimate(point, values, 0.95);
                 found.map_or((f64::NAN, f64::NAN), |e| (e.low, e.high))
             };
             Entry {

@@ -134,7 +134,7 @@ pub(in super::super) fn thresholds(
             _ => {
                 "The band is SSFL plus 95 % of the differences of USFL7 to \
                  it over resampled suites, so that USFL7 need not lie in it; \
-                 brackets are 95 % intervals, at once for the three demands."
+                 brackets are 90 % intervals."
             }
         }
         .into(),
@@ -197,7 +197,8 @@ fn panel(
         };
         all(a, None).chain(all(b, less)).collect()
     };
-    let bands = source.draws.smooth(source.tested, &over).percentiles();
+    let bands = source.draws.smooth(source.tested, &over);
+    let bands = bands.percentiles(source.draws, source.tested);
     let (of_first, of_second) = bands.split_at(grid.len());
     let laid_on = |on: Option<Lognormal>, ends: &[Option<(f64, f64)>]| {
         grid.iter()

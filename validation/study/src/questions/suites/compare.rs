@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
 use rocking::statistics::ExtendedSample;
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::Clusters;
+use rocking::statistics::bootstrap::Bootstrap;
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 
 use super::row::{Group, Interval, Row, Side};
@@ -31,16 +32,18 @@ pub(super) fn rows(results: &Results) -> anyhow::Result<Vec<Row>> {
     for embedded in StudySuite::embedded()? {
         let recorded = results.suite(embedded.kind);
         let embedded = capacities(results, &embedded, arm)?;
-        let draws = |side: &str, n: usize| -> Vec<Vec<usize>> {
+        let draws = |side: &str, clusters: &Clusters| -> Vec<Vec<usize>> {
             let name = format!("study/suites/{side}/{}", recorded.kind);
-            Bootstrap::new(&name, 0, n, REPLICATES).map(<[_]>::to_vec)
+            Bootstrap::of(&name, 0, clusters, REPLICATES).map(<[_]>::to_vec)
         };
         let pair = Pair {
             kind: recorded.kind.name(),
             draws: [
-                draws("embedded", embedded.records.len()),
-                draws("recorded", recorded.records.len()),
+                draws("embedded", &embedded.clusters),
+                draws("recorded", &recorded.clusters),
             ],
+            clusters: recorded.clusters.clone(),
+            records: [&embedded, recorded].map(|s| s.records.len()),
         };
         out.push(pair.row(Group::Source, recorded.sha256.clone()));
         out.extend(pair.motions(&embedded.records, &recorded.records)?);
@@ -91,6 +94,7 @@ fn capacities(
         stripes: Vec::new(),
         adjusted: Vec::new(),
         contents: Vec::new(),
+        clusters: suite.clusters.clone(),
     })
 }
 
@@ -99,12 +103,16 @@ struct Pair {
     kind: &'static str,
     /// Records drawn once for all quantities: embedded, recorded.
     draws: [Vec<Vec<usize>>; 2],
+    /// The recorded earthquakes, which are fewer than embedded motions.
+    clusters: Clusters,
+    /// Number of records: embedded, recorded.
+    records: [usize; 2],
 }
 
 impl Pair {
     fn row(&self, group: Group, quantity: String) -> Row {
         let side = |k: usize| Side {
-            records: self.draws[k].first().map_or(0, Vec::len),
+            records: self.records[k],
             low: f64::NAN,
             middle: f64::NAN,
             high: f64::NAN,
@@ -210,19 +218,28 @@ impl Pair {
             spreads.push(dispersion(e) - dispersion(r));
         }
         let [e, r] = points;
-        let ratio = interval(libm::log(e[1] / r[1]), &ratios);
+        let ratio = self.interval(libm::log(e[1] / r[1]), &ratios);
         row.ratio = Interval {
             value: libm::exp(ratio.value),
             low: libm::exp(ratio.low),
             high: libm::exp(ratio.high),
         };
-        row.spread = interval(dispersion(e) - dispersion(r), &spreads);
+        row.spread = self.interval(dispersion(e) - dispersion(r), &spreads);
         let found = kolmogorov_smirnov(
             &ExtendedSample::try_new(embedded)?,
             &ExtendedSample::try_new(recorded)?,
         );
         (row.distance, row.p_value) = (found.statistic, found.p_value);
         Ok(row)
+    }
+
+    fn interval(&self, value: f64, replicates: &[f64]) -> Interval {
+        match self.clusters.estimate(value, replicates, 0.95) {
+            Some(found) => {
+                Interval { value, low: found.low, high: found.high }
+            }
+            None => Interval { value, ..Interval::NONE },
+        }
     }
 }
 
@@ -256,11 +273,4 @@ fn measures(facts: &Facts) -> Vec<(String, f64)> {
 
 fn dispersion([low, _, high]: [f64; 3]) -> f64 {
     0.5 * libm::log(high / low)
-}
-
-fn interval(value: f64, replicates: &[f64]) -> Interval {
-    match estimate(value, replicates, 0.95) {
-        Some(found) => Interval { value, low: found.low, high: found.high },
-        None => Interval { value, ..Interval::NONE },
-    }
 }

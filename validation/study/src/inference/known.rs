@@ -1,0 +1,239 @@
+//! What is known of the cells of a measure: intervals at any level, and how
+//! far other draws would move their ends.
+
+use rayon::prelude::*;
+use rocking::statistics::boxplot::median_interval;
+use rocking::statistics::confidence::Confidence;
+use rocking::statistics::{Clusters, ExtendedSample};
+
+use super::draws::{Draws, LEAST_DECIDING, Replicated, Scheme};
+use rocking::statistics::resampling::Subsampling;
+use rocking_common::findings::{Interval, Measured, Region, Tested};
+use rocking_common::paper::Verdict;
+
+/// Errors of the draws that an end has to be away from a limit.
+const MARGIN: f64 = 4.0;
+
+/// An interval; the standard error of each end over sets of draws; the ends
+/// that the value cannot cross.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ends {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) errors: (f64, f64),
+    pub(super) range: (f64, f64),
+    pub(super) way: Interval,
+}
+
+impl Ends {
+    /// The ends, each moved outwards by so many errors.
+    fn moved(&self, by: f64) -> (f64, f64) {
+        let low = self.low - by * self.errors.0;
+        let high = self.high + by * self.errors.1;
+        (clipped(low, self.range), clipped(high, self.range))
+    }
+
+    pub(super) fn both(&self) -> (f64, f64) {
+        self.moved(0.0)
+    }
+
+    /// On which side of a region the interval lies, wherever other draws put
+    /// its ends, or would put them in all likelihood.
+    pub(super) fn verdict(&self, region: Region, caution: Caution) -> Verdict {
+        let (low, high) = self.moved(caution.errors());
+        region.verdict(low, high)
+    }
+
+    /// Error of the end that is nearest to one of the region's.
+    pub(super) fn deciding_error(&self, region: Region) -> f64 {
+        let (low, high) = self.both();
+        let away = |x: f64| (x - region.nearest_end(x)).abs();
+        let error =
+            if away(low) < away(high) { self.errors.0 } else { self.errors.1 };
+        if error.is_finite() { error } else { f64::NAN }
+    }
+}
+
+/// Whether ends are moved outwards or inwards by what the draws leave open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Caution {
+    /// Outwards: what is decided stays so with other draws.
+    Careful,
+    /// Inwards: what other draws may decide.
+    Bold,
+}
+
+impl Caution {
+    pub(super) fn errors(self) -> f64 {
+        match self {
+            Self::Careful => MARGIN,
+            Self::Bold => -MARGIN,
+        }
+    }
+}
+
+/// The cells of a measure with what is needed for their intervals.
+pub(super) struct Known<'a> {
+    pub(super) measured: &'a Replicated,
+    pub(super) clusters: &'a Clusters,
+    rule: &'a Subsampling,
+    range: (f64, f64),
+    /// Of a bootstrap, by cell.
+    confidence: Vec<Option<Confidence>>,
+}
+
+impl<'a> Known<'a> {
+    pub(super) fn new(
+        draws: &'a Draws,
+        tested: Tested,
+        range: (f64, f64),
+        measured: &'a Replicated,
+    ) -> Self {
+        let of = |k: usize| {
+            let values = Replicated::column(&measured.replicates, k);
+            // What no replicate moves is not certain: no error is known.
+            if values.iter().all(|x| *x == measured.points[k]) {
+                return None;
+            }
+            let others = Replicated::column(&measured.without_one, k);
+            Confidence::new(measured.points[k], &values, &others)
+        };
+        let confidence = match measured.scheme {
+            Scheme::Bootstrap => (0..measured.points.len())
+                .into_par_iter()
+                .map(of)
+                .collect(),
+            _ => Vec::new(),
+        };
+        Self {
+            measured,
+            clusters: draws.clusters(tested),
+            rule: draws.rule(tested),
+            range,
+            confidence,
+        }
+    }
+
+    /// The interval of a cell by the replicates, at a level.
+    pub(super) fn drawn(&self, k: usize, level: f64) -> Option<Ends> {
+        let (low, high, errors, way) = match self.measured.scheme {
+            Scheme::Bootstrap => {
+                let own = self.confidence.get(k)?.as_ref()?;
+                let ends = own.interval(self.clusters.half_width(level));
+                let way = match own.is_accelerated() {
+                    true => Interval::Accelerated,
+                    false => Interval::Percentile,
+                };
+                let errors = (ends.low_error, ends.high_error);
+                (ends.low, ends.high, errors, way)
+            }
+            Scheme::Subsampling => {
+                let point = self.measured.points[k];
+                let column = |rows| Replicated::column(rows, k);
+                let values = column(&self.measured.replicates);
+                let others = column(&self.measured.without_one);
+                let of = |others: &[f64]| {
+                    self.rule.interval(point, &values, others, level)
+                };
+                let (found, plain) = (of(&others)?, of(&[])?);
+                let own = Confidence::new(point, &values, &[])?;
+                let z = Clusters::singletons(0).half_width(level);
+                let ends = own.interval(z);
+                let scale =
+                    (plain.high - plain.low) / (ends.high - ends.low);
+                // What one earthquake carries moves with no draw.
+                let error = |moves: bool, error: f64| {
+                    if moves && scale.is_finite() { scale * error } else { 0.0 }
+                };
+                let errors = (
+                    error(found.low == plain.low, ends.high_error),
+                    error(found.high == plain.high, ends.low_error),
+                );
+                (found.low, found.high, errors, Interval::Subsampling)
+            }
+            Scheme::Counted => {
+                let count = self.measured.counts.get(k)?;
+                let (low, high) = count.interval(level).ok()?;
+                (low, high, (0.0, 0.0), Interval::Exact)
+            }
+        };
+        let there = !low.is_nan() && !high.is_nan();
+        let range = self.range;
+        there.then_some(Ends { low, high, errors, range, way })
+    }
+
+    /// The interval of a cell of few records: exact, of the order statistics
+    /// of a median; its unit is the record.
+    fn exact(&self, k: usize, level: f64) -> Option<Ends> {
+        let ranked = self.measured.samples.get(k)?;
+        let values: Vec<f64> = ranked.each().map(|(x, _)| x).collect();
+        let sample = ExtendedSample::try_new(&values).ok()?;
+        let found = median_interval(&sample, level)?;
+        (found.low.is_finite() && found.high.is_finite()).then_some(Ends {
+            low: found.low,
+            high: found.high,
+            errors: (0.0, 0.0),
+            range: self.range,
+            way: Interval::Exact,
+        })
+    }
+
+    /// The interval by which a cell of so many records is judged.
+    pub(super) fn cell(
+        &self,
+        k: usize,
+        records: usize,
+        level: f64,
+    ) -> Option<Ends> {
+        let few =
+            records < LEAST_DECIDING && self.measured.scheme != Scheme::Counted;
+        if few { self.exact(k, level) } else { self.drawn(k, level) }
+    }
+
+    /// A cell with its interval.
+    pub(super) fn shown(&self, k: usize, ends: Option<Ends>) -> Measured {
+        Measured {
+            value: self.measured.points[k],
+            interval: ends.map(|ends| ends.both()),
+        }
+    }
+}
+
+/// The least one-sided level at which an interval lies on one side of a
+/// region: by bisection, 1 where the value itself does not.
+pub(super) fn p_value(
+    ends: impl Fn(f64) -> Option<Ends>,
+    region: Region,
+    wanted: Verdict,
+) -> f64 {
+    let lies = |p: f64| {
+        let ends = ends(1.0 - 2.0 * p);
+        ends.is_some_and(|e| {
+            let (low, high) = e.both();
+            region.verdict(low, high) == wanted
+        })
+    };
+    // What 2000 draws cannot tell from 0, and next to no width at all.
+    let (mut no, mut yes) = (0.5 / super::REPLICATES as f64, 0.499);
+    if lies(no) {
+        return no;
+    }
+    if !lies(yes) {
+        return 1.0;
+    }
+    for _ in 0..14 {
+        let middle = (no * yes).sqrt();
+        if lies(middle) { yes = middle } else { no = middle }
+    }
+    yes
+}
+
+pub(super) fn clipped(x: f64, (low, high): (f64, f64)) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}

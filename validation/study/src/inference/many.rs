@@ -1,0 +1,298 @@
+//! Verdicts over many cells.
+//!
+//! *All*: confirmed where every cell is shown to lie in the region by its own
+//! interval (intersection-union test: Berger, Technometrics 24 (1982) 295),
+//! not confirmed where a cell is refuted, all cells considered at once.
+//! *Most* and *almost all*: by the interval of the share of the cells that
+//! lie in the region.
+
+use super::draws::Scheme;
+use super::known::{Caution, Ends, Known, clipped, p_value};
+use super::refuted::refuted;
+use super::{Cell, FAMILY, LEVEL, OWN, Rule};
+use rocking::statistics::confidence::Confidence;
+use rocking_common::findings::{
+    CellCounts, ClaimResult, Detail, Interval, Measured, Quantifier, Region,
+    Unit,
+};
+use rocking_common::paper::Verdict;
+
+/// A cell that decides: its place, and its own interval.
+struct Deciding {
+    k: usize,
+    ends: Ends,
+}
+
+/// Fills in a result over many cells.
+pub(super) fn many(
+    rule: &Rule,
+    cells: &[Cell],
+    known: &Known<'_>,
+    caution: Caution,
+    result: &mut ClaimResult,
+) {
+    let deciding = deciding(cells, known);
+    if deciding.is_empty() {
+        result.at = "no cell has an interval".into();
+        result.cells = Some(CellCounts {
+            deciding: 0,
+            inside: 0,
+            outside: 0,
+            too_few: cells.len(),
+        });
+        return;
+    }
+    let mut shown = vec![false; cells.len()];
+    for cell in &deciding {
+        shown[cell.k] =
+            cell.ends.verdict(rule.region, caution) == Verdict::Confirmed;
+    }
+    let among = |k: usize| deciding.iter().any(|cell| cell.k == k);
+    let left_out: Vec<bool> =
+        (0..cells.len()).map(|k| shown[k] || !among(k)).collect();
+    let refuted = refuted(known, rule.region, &left_out, caution);
+    let outside = refuted.ends.iter().flatten().count();
+    let mut counts = CellCounts {
+        deciding: deciding.len(),
+        inside: shown.iter().filter(|shown| **shown).count(),
+        outside,
+        too_few: cells.len() - deciding.len(),
+    };
+    if rule.quantifier == Quantifier::All {
+        let verdict = if outside > 0 {
+            Verdict::NotConfirmed
+        } else if counts.inside == deciding.len() {
+            Verdict::Confirmed
+        } else {
+            Verdict::Inconclusive
+        };
+        let bears = |cell: &&Deciding| match verdict {
+            Verdict::NotConfirmed => refuted.ends[cell.k].is_some(),
+            Verdict::Confirmed => true,
+            Verdict::Inconclusive => !shown[cell.k],
+        };
+        let ends_of = |cell: &Deciding| {
+            refuted.ends[cell.k].unwrap_or(cell.ends)
+        };
+        let Some(worst) =
+            worst(deciding.iter().filter(bears), rule.region, &ends_of)
+        else {
+            return;
+        };
+        let ends = ends_of(worst);
+        result.value = known.measured.points[worst.k];
+        (result.low, result.high) = ends.both();
+        result.monte_carlo_error = ends.deciding_error(rule.region);
+        result.interval = Some(own_way(ends.way));
+        result.at = named(&cells[worst.k], known);
+        result.by_equivalence = Some(verdict);
+        result.p = match verdict {
+            Verdict::NotConfirmed => refuted.p,
+            _ => {
+                let largest = deciding.iter().map(|cell| {
+                    let records = cells[cell.k].records;
+                    let ends = |level| known.cell(cell.k, records, level);
+                    p_value(ends, rule.region, Verdict::Confirmed)
+                });
+                largest.fold(0.0, |most, p| if p > most { p } else { most })
+            }
+        };
+    } else {
+        counts.inside = discovered(rule.region, cells, known, &deciding);
+        share(rule, &deciding, known, caution, result);
+        let any = |_: &&Deciding| true;
+        let ends_of = |cell: &Deciding| cell.ends;
+        let worst =
+            worst(deciding.iter().filter(any), rule.region, &ends_of);
+        result.deciding_cell = worst.map(|cell| Detail {
+            name: named(&cells[cell.k], known),
+            measured: known.shown(cell.k, Some(cell.ends)),
+        });
+    }
+    result.cells = Some(counts);
+    if let Region::Within(a, b) = rule.region
+        && known.measured.scheme == Scheme::Bootstrap
+    {
+        details(&deciding, known, 0.5 * (a + b), result);
+    }
+}
+
+/// Cells with a value and an interval of their own.
+fn deciding(cells: &[Cell], known: &Known<'_>) -> Vec<Deciding> {
+    let of = |(k, cell): (usize, &Cell)| {
+        let ends = known.cell(k, cell.records, OWN)?;
+        let there = known.measured.points[k].is_finite();
+        there.then_some(Deciding { k, ends })
+    };
+    cells.iter().enumerate().filter_map(of).collect()
+}
+
+/// How an interval of one cell among many is called.
+fn own_way(way: Interval) -> Interval {
+    match way {
+        Interval::Accelerated | Interval::Percentile => Interval::Own,
+        other => other,
+    }
+}
+
+/// The name of a cell; of few records, whose they are.
+fn named(cell: &Cell, known: &Known<'_>) -> String {
+    let few = cell.records < super::LEAST_DECIDING
+        && known.measured.scheme != Scheme::Counted;
+    match few {
+        true => format!("{}, of the {} survivors", cell.at, cell.records),
+        false => cell.at.clone(),
+    }
+}
+
+/// The cell whose interval reaches furthest to the wrong side.
+fn worst<'a>(
+    cells: impl Iterator<Item = &'a Deciding>,
+    region: Region,
+    ends_of: &impl Fn(&Deciding) -> Ends,
+) -> Option<&'a Deciding> {
+    let reach = |cell: &Deciding| {
+        let (a, b) = ends_of(cell).both();
+        let (a, b) = (region.badness(a), region.badness(b));
+        let reach = if a > b { a } else { b };
+        // An endless interval has no reach to be compared.
+        (reach.is_finite(), reach)
+    };
+    cells.max_by(|a, b| {
+        let ((known_a, a), (known_b, b)) = (reach(a), reach(b));
+        known_a.cmp(&known_b).then(a.total_cmp(&b))
+    })
+}
+
+/// Number of cells shown to lie inside with a false discovery rate of
+/// [`FAMILY`]: the largest k whose share of that level shows k cells
+/// (Benjamini and Hochberg, J. R. Statist. Soc. B 57 (1995) 289).
+fn discovered(
+    region: Region,
+    cells: &[Cell],
+    known: &Known<'_>,
+    deciding: &[Deciding],
+) -> usize {
+    let total = deciding.len() as f64;
+    let mut count = deciding.len();
+    loop {
+        let level = 1.0 - 2.0 * FAMILY * count as f64 / total;
+        let inside = |cell: &&Deciding| {
+            let ends = known.cell(cell.k, cells[cell.k].records, level);
+            ends.is_some_and(|ends| {
+                let (low, high) = ends.both();
+                region.verdict(low, high) == Verdict::Confirmed
+            })
+        };
+        let found = deciding.iter().filter(inside).count();
+        if found >= count {
+            return count;
+        }
+        count = found;
+    }
+}
+
+/// The share of the cells in the region, with its interval.
+fn share(
+    rule: &Rule,
+    deciding: &[Deciding],
+    known: &Known<'_>,
+    caution: Caution,
+    result: &mut ClaimResult,
+) {
+    let total = deciding.len() as f64;
+    // A cell without a value in a replicate lies outside.
+    let of = |row: &[f64]| {
+        let holds = |cell: &&Deciding| rule.region.holds(row[cell.k]);
+        deciding.iter().filter(holds).count() as f64 / total
+    };
+    let value = of(&known.measured.points);
+    let values: Vec<f64> =
+        known.measured.replicates.iter().map(|row| of(row)).collect();
+    result.value = value;
+    result.unit = Unit::Share;
+    result.at = "share of the cells".into();
+    let Some(confidence) = Confidence::new(value, &values, &[]) else {
+        // A count without replicates.
+        return;
+    };
+    let ends = |level: f64| {
+        let half_width = known.clusters.half_width(level);
+        Some(of_share(value, &confidence, half_width))
+    };
+    let Some(own) = ends(LEVEL) else { return };
+    let region = match rule.quantifier {
+        Quantifier::Most => Region::Above(0.5),
+        _ => Region::Within(0.9, 1.0),
+    };
+    (result.low, result.high) = own.both();
+    result.monte_carlo_error = own.deciding_error(region);
+    result.interval = Some(own.way);
+    let verdict = own.verdict(region, caution);
+    result.by_equivalence = Some(verdict);
+    let p = |verdict| p_value(ends, region, verdict);
+    let both = (p(Verdict::Confirmed), p(Verdict::NotConfirmed));
+    result.p = if both.0 < both.1 { both.0 } else { both.1 };
+}
+
+/// The interval of a share of cells. Scatter moves cells across the region's
+/// ends, which biases the share of a replicate twice as much as the share
+/// itself: the ends are those of the percentiles and of the percentiles
+/// reflected at the value, whichever lies further out.
+fn of_share(value: f64, known: &Confidence, half_width: f64) -> Ends {
+    let plain = known.interval(half_width);
+    let reflected = (2.0 * value - plain.high, 2.0 * value - plain.low);
+    let (low, low_error) = if reflected.0 < plain.low {
+        (reflected.0, plain.high_error)
+    } else {
+        (plain.low, plain.low_error)
+    };
+    let (high, high_error) = if reflected.1 > plain.high {
+        (reflected.1, plain.low_error)
+    } else {
+        (plain.high, plain.high_error)
+    };
+    let errors = (low_error, high_error);
+    let way = Interval::ShareOfCells;
+    Ends { low, high, errors, range: (0.0, 1.0), way }
+}
+
+/// The middle and the 90 % value over the cells of the distance from the
+/// region's middle. Scatter only raises such a distance, in a replicate more
+/// than in the sample: its percentiles are reflected at the value.
+fn details(
+    deciding: &[Deciding],
+    known: &Known<'_>,
+    middle: f64,
+    result: &mut ClaimResult,
+) {
+    for (name, share) in [("median", 0.5), ("90 %", 0.9)] {
+        let over = |row: &[f64]| {
+            let mut away: Vec<f64> = deciding
+                .iter()
+                .map(|cell| (row[cell.k] - middle).abs())
+                .filter(|x| x.is_finite())
+                .collect();
+            away.sort_by(f64::total_cmp);
+            let place = (share * away.len() as f64).ceil() as usize;
+            away.get(place.saturating_sub(1)).copied().unwrap_or(f64::NAN)
+        };
+        let rows = &known.measured.replicates;
+        let values: Vec<f64> = rows.iter().map(|row| over(row)).collect();
+        let value = over(&known.measured.points);
+        let confidence = Confidence::new(value, &values, &[]);
+        let interval = confidence.map(|known_| {
+            let plain = known_.interval(known.clusters.half_width(LEVEL));
+            let reflected = |x: f64| {
+                clipped(2.0 * value - x, (0.0, f64::INFINITY))
+            };
+            (reflected(plain.high), reflected(plain.low))
+        });
+        result.details.push(Detail {
+            name: format!(
+                "{name} over the cells of the distance from {middle}"
+            ),
+            measured: Measured { value, interval },
+        });
+    }
+}

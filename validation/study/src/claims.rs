@@ -6,10 +6,10 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::inference::{Draws, Replicated, Rule, judge, share};
-use crate::measures::{Measure, Source};
+use crate::distances::{self, Distances};
+use crate::inference::{Draws, Rule, judge, share};
+use crate::measures::{Criterion, Measure, Source};
 use crate::results::Results;
-use crate::shares::{self, Shares};
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
 };
@@ -56,8 +56,7 @@ pub struct Declared {
     #[serde(default)]
     pub reason: String,
     /// The paper's own criterion.
-    #[serde(default)]
-    pub criterion: String,
+    pub criterion: Option<OwnCriterion>,
     /// Suites that it is tested on.
     #[serde(default)]
     pub suites: Vec<Tested>,
@@ -69,6 +68,16 @@ pub struct Declared {
     /// What else a reader must know.
     #[serde(default)]
     pub note: String,
+}
+
+/// What the paper itself judges by.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OwnCriterion {
+    /// The criterion in words.
+    pub words: String,
+    /// Where the share of what meets it has to lie.
+    pub share: Region,
 }
 
 /// Arms of the grid that a claim is tested on.
@@ -157,10 +166,10 @@ pub fn limit_of(measure: Measure) -> f64 {
 /// # Errors
 /// Where a measure cannot be computed.
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
-    let shares = shares::all(results, draws);
+    let distances = distances::all(results, draws);
     declared()
         .iter()
-        .map(|claim| measured(claim, results, draws, &shares))
+        .map(|claim| measured(claim, results, draws, &distances))
         .collect()
 }
 
@@ -168,7 +177,7 @@ fn measured(
     claim: &Declared,
     results: &Results,
     draws: &Draws,
-    shares: &[Shares],
+    distances: &[Distances],
 ) -> anyhow::Result<Claim> {
     let mut found = Vec::new();
     if let (Some(measure), Some(quantifier), Some(region)) =
@@ -190,7 +199,7 @@ fn measured(
                 let source = Source {
                     results,
                     draws,
-                    shares,
+                    distances,
                     tested: *suite,
                     arm: *arm,
                 };
@@ -205,11 +214,12 @@ fn measured(
                     &prepared.cells,
                     &prepared.measured,
                 );
-                if let Some(criterion) = &prepared.criterion
-                    && !claim.criterion.is_empty()
+                if let (Some(own), Some(criterion)) =
+                    (&claim.criterion, &prepared.criterion)
                 {
-                    by_criterion(draws, claim, criterion, &mut result);
+                    by_criterion(draws, own, criterion, &mut result);
                 }
+                result.details.extend(prepared.details);
                 found.push(result);
             }
         }
@@ -226,32 +236,27 @@ fn measured(
         quantifier: claim.quantifier,
         region: claim.region,
         reason: claim.reason.clone(),
-        criterion: claim.criterion.clone(),
+        criterion: claim
+            .criterion
+            .as_ref()
+            .map_or_else(String::new, |own| own.words.clone()),
         case: claim.case.clone(),
         note: claim.note.clone(),
         results: found,
     })
 }
 
-/// The verdict by the paper's own criterion: the share of notches that cover
-/// 1, which an exception must not.
+/// The verdict by the paper's own criterion.
 fn by_criterion(
     draws: &Draws,
-    claim: &Declared,
-    notches: &Replicated,
+    own: &OwnCriterion,
+    found: &Criterion,
     result: &mut ClaimResult,
 ) {
-    let region = match claim.quantifier {
-        Some(Quantifier::Most) => Region::Above(0.5),
-        Some(Quantifier::One) => Region::Below(0.5),
-        _ => Region::Within(0.9, 1.0),
-    };
-    let (interval, verdict) = share(draws, result.suite, notches, region);
+    let (measured, verdict) =
+        share(draws, result.suite, &found.measured, own.share);
     result.by_criterion = Some(verdict);
-    result.details.push(Detail {
-        name: "share of the cells whose notch covers 1".into(),
-        measured: interval,
-    });
+    result.details.push(Detail { name: found.name.clone(), measured });
 }
 
 #[cfg(test)]

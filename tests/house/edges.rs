@@ -122,8 +122,9 @@ const REPORT: Edges = "
 const STUDY: Edges = "
     analyses certainty runs
     certainty
-    claims inference measures results shares
+    claims distances inference measures results
     contents analyses
+    distances distributions estimates inference normality results
     distributions analyses normality runs
     estimates analyses results runs sensitivities
     figures analyses claims distributions estimates fits inference measures \
@@ -132,15 +133,14 @@ const STUDY: Edges = "
         stripes
     fits
     inference
-    measures analyses distributions estimates fits inference results runs \
-        sensitivities shares stripes
+    measures analyses distances distributions estimates fits inference results \
+        runs sensitivities stripes
     normality
     questions analyses contents distributions estimates fits inference normality \
         results runs stripes ties
     results analyses distributions inference sensitivities
     runs certainty
     sensitivities analyses runs
-    shares distributions inference normality results
     stripes analyses
     ties distributions normality
     whole analyses claims distributions figures findings questions results

@@ -112,16 +112,20 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     args.threads.run(|| in_threads(args))?
 }
 
-/// The files of the report that the command writes without options.
-pub(super) fn default_report(proof: &Proof) -> Result<Files, Failure> {
+/// The files of the report that the command writes with these arguments.
+pub(super) fn report(
+    arguments: &[&str],
+    proof: Option<&Proof>,
+) -> Result<Files, Failure> {
     #[derive(Parser)]
     struct Line {
         #[command(flatten)]
         args: Args,
     }
-    let args = Line::try_parse_from(["study"])?.args;
+    let line = ["study"].iter().chain(arguments);
+    let args = Line::try_parse_from(line)?.args;
     let study = computed(plan(&args)?, &args, &suites(&args)?)?;
-    Ok(output::files(&study, Some(proof), &args.signatures)?)
+    Ok(output::files(&study, proof, &args.signatures)?)
 }
 
 /// The suites that the options name.

@@ -176,9 +176,8 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     if !args.check {
         refuse_foreign(&args.out)?;
     }
-    let suites = suites(args)?;
+    // Refused before the suites are made and minutes are spent.
     if args.check {
-        // Refused before minutes are spent.
         let place = args.out.display();
         let place = format_args!("no folder of a report at {place}");
         std::fs::read_dir(&args.out).at(place)?;
@@ -191,6 +190,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
     };
+    let suites = suites(args)?;
     let study = computed(plan, args, &suites)?;
     let files = output::files(&study, proof.as_ref(), &args.signatures)?;
     let Some(folder) = folder else { return check(&args.out, &files) };

@@ -329,7 +329,7 @@ fn threads_and_engine_do_not_change_a_byte() {
         .collect();
     let files: Vec<(&str, &str)> =
         motions.iter().map(|(n, t)| (n.as_str(), t.as_str())).collect();
-    let place = folder("threads", &files);
+    let place = folder("engines", &files);
     let ida = |name: &str, how: &str| {
         let out = answer(
             &place,

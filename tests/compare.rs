@@ -6,7 +6,7 @@ use std::fmt::{Debug, Display};
 use std::fs;
 use std::path::Path;
 
-/// Folder for what is found; `rocking accept` sets it.
+/// Folder for the files that tests find; `rocking accept` sets it.
 const ACCEPT: &str = "ROCKING_ACCEPT";
 
 /// Fails unless `got` is `expected` within `limit`. NaN is never within.
@@ -52,6 +52,22 @@ fn difference<T: PartialEq + Debug>(
     Some((first, words))
 }
 
+/// The text of a committed file, which a test finds to be `found`. None where
+/// `rocking accept` runs the test: then the text found goes to `accept`.
+pub fn committed(path: &str, found: &str) -> Option<String> {
+    if let Some(folder) = std::env::var_os(ACCEPT) {
+        let place = Path::new(&folder).join(path);
+        fs::create_dir_all(place.parent().unwrap()).unwrap();
+        fs::write(place, found).unwrap();
+        return None;
+    }
+    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut places = own.ancestors().map(|root| root.join(path));
+    let place = places.find(|place| place.is_file());
+    let place = place.unwrap_or_else(|| panic!("{path}: no such file"));
+    Some(fs::read_to_string(place).unwrap())
+}
+
 /// Fails where what was found is not the pin `name`, a text of this
 /// program's own results in `tests/pins`. `found` has a name and a line for
 /// each case; `columns` says what a line holds. Where `rocking accept` runs
@@ -59,16 +75,9 @@ fn difference<T: PartialEq + Debug>(
 #[track_caller]
 pub fn hold(name: &str, columns: &str, found: &[(String, String)]) {
     let lines: Vec<&str> = found.iter().map(|(_, line)| &**line).collect();
-    if let Some(folder) = std::env::var_os(ACCEPT) {
-        let text = lines.join("\n") + "\n";
-        fs::write(Path::new(&folder).join(name), text).unwrap();
-        return;
-    }
-    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut folders = own.ancestors().map(|root| root.join("tests/pins"));
-    let path = folders.find(|folder| folder.is_dir()).unwrap().join(name);
-    let pinned = fs::read_to_string(&path)
-        .unwrap_or_else(|error| panic!("tests/pins/{name}: {error}"));
+    let path = format!("tests/pins/{name}");
+    let text = lines.join("\n") + "\n";
+    let Some(pinned) = committed(&path, &text) else { return };
     let pinned: Vec<&str> = pinned.lines().collect();
     if let Some((k, words)) = difference(&lines, &pinned) {
         let case = found.get(k).map_or("no such case", |(case, _)| case);

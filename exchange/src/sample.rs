@@ -25,7 +25,7 @@ const MOST_DIFFERENT: f64 = 0.01;
 /// How the line begins that says what the values are.
 const SAMPLE_OF: &str = "# Sample of ";
 
-/// The block and model of which a sample file says that it is.
+/// The block and model that a sample file names.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SampleSetting {
     /// Slenderness angle in rad; none for adjusted blocks.

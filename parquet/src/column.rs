@@ -85,7 +85,7 @@ impl Buffer {
         Ok(())
     }
 
-    /// Writes the group's cells, of which none is left.
+    /// Writes the group's cells, and drops them.
     pub fn write(
         &mut self,
         mut column: SerializedColumnWriter<'_>,

@@ -28,7 +28,7 @@ use column::Buffer;
 /// What the cells of a column are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Numbers of which many rows share each (`DOUBLE`, never missing).
+    /// Numbers that many rows share (`DOUBLE`, never missing).
     Level,
     /// Numbers that hardly repeat (`DOUBLE`, null where the cell is empty).
     Value,

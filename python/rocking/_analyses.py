@@ -51,7 +51,7 @@ class Response(Frozen):
     """Peak |theta|/alpha, infinite where it overturned."""
     resolved: bool
     """False where rounding may have changed outcome or peak; `certify=True`
-    then tells them in wider arithmetic."""
+    then resolves them in wider arithmetic."""
     fate_margin: float
     """Distance from the other fate, in units of alpha."""
     error_estimate: float | None

@@ -15,7 +15,7 @@ use crate::given::refuse;
 /// How often signals are looked at and progress is reported.
 const BEAT: Duration = Duration::from_millis(50);
 
-/// Numbers of which fewer are done sooner than a thread is started.
+/// Fewer numbers than these are done sooner than a thread is started.
 const MANY: usize = 1 << 16;
 
 /// Parts of the work that are done.

@@ -137,7 +137,7 @@ impl<'a> Queue<'a> {
 /// A thread at a queue.
 struct Desk<'q, 'a> {
     queue: &'q Queue<'a>,
-    /// Curve of which it settled an analysis last.
+    /// Curve whose analysis it settled last.
     last: Option<usize>,
     watch: &'q Watch<'q>,
 }

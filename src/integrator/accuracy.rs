@@ -267,8 +267,9 @@ impl Accuracy {
         self.decide(Decision::End, between, error, time_s);
     }
 
-    /// The same of an uplift, whose time changes by `late` where the ground
-    /// acceleration does by the threshold and the clock by all of it.
+    /// Takes in an uplift as [`Self::end`] does. Its time changes by `late`
+    /// where the ground acceleration changes by the threshold and the clock
+    /// by all of it.
     pub fn end_at_rest(&mut self, between: f64, late: f64, times: [f64; 2]) {
         self.end(between, AT_REST * self.unit * late, times);
     }

@@ -19,7 +19,7 @@ use orbit::{Level, Place, hop, speed_at, transit, turning};
 /// Impacts logged at most where neither motion nor observation ends.
 const ENDLESS_IMPACTS: usize = 1000;
 
-/// Relative step of differences, of which one digit is asked.
+/// Relative step of differences: one digit of these is needed.
 const DIFFERENCE: f64 = 1e-6;
 
 /// Relative error of the time of a tail of impacts, at the speeds at which
@@ -214,7 +214,7 @@ impl Errors {
         })
     }
 
-    /// After a further hop of a level, `half` of which lasts so long.
+    /// State after a further hop of a level; `half` is half its duration.
     fn after_hop<N: Real>(
         self,
         d: &Dynamics<N>,

@@ -68,7 +68,7 @@ pub(crate) struct Scan<N> {
     pub nearest: N,
 }
 
-/// An excitation cut into pieces on each of which it is smooth.
+/// An excitation, cut into pieces on which it is smooth.
 pub(crate) trait Forcing<N: Real, const F: usize> {
     /// Number of pieces.
     fn pieces(&self) -> usize;

@@ -1,4 +1,4 @@
-//! Many analyses under records at once, of which outcome and peak are asked.
+//! Outcome and peak of many analyses under records at once.
 //!
 //! Slots hold runs, eight to a group. Whole samples in free flight are
 //! stepped in all lanes of a group together; a lane in which something may
@@ -43,7 +43,7 @@ const SAFETY: f64 = 1.001;
 
 /// Where analyses come from, and their responses go.
 pub(crate) trait Source<'a> {
-    /// What tells an analysis from others.
+    /// What identifies an analysis.
     type Task;
 
     /// The next analysis; none for now.

@@ -17,9 +17,8 @@ use crate::number::{Number, Real};
 /// Found by experiment: of 117,911 analyses of a suite of 86 recorded motions
 /// under fifteen blocks, up to the first overturning, the lowest estimate of
 /// one whose peak was another by more than 1e-6 in wider arithmetic was
-/// 1.5e-3. Certificates that were not clear, of which all peaks but that one
-/// were right to 2e-8, came with estimates from 3.6e-5 on, and four of them
-/// from below this value. `tests/trials.rs` looks at whole suites.
+/// 1.5e-3. Certificates that were not clear came with estimates from 3.6e-5 on, and four of them
+/// from below this value; all their peaks but that one were right to 2e-8. `tests/trials.rs` looks at whole suites.
 pub(crate) const DOUBTFUL: f64 = 1e-4;
 
 /// Share of the slenderness angle that the error is held against: above it

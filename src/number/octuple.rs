@@ -51,8 +51,8 @@ pub struct Octuple {
     limbs: [u64; LIMBS],
 }
 
-/// A significand with a guard limb as the least, the last bit of which says
-/// whether anything lies below.
+/// A significand with a guard limb as the least. The last bit of the guard
+/// says whether anything lies below.
 type Guarded = [u64; LIMBS + 1];
 
 impl Octuple {

@@ -1,4 +1,4 @@
-//! Values of which some are censored at limits of their own.
+//! Values, some of them censored at limits of their own.
 
 use super::lognormal::{
     FitError, FitMethod, LognormalFit, fit, fit_intervals,

@@ -126,9 +126,9 @@ pub struct Candidate {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Goodness {
-    /// Of D: (b + 1)/(N + 1), with b of N samples at least as large.
+    /// p-value of D: (b + 1)/(N + 1), with b of N samples at least as large.
     pub kolmogorov_p: f64,
-    /// The same of A2.
+    /// p-value of A2, likewise.
     pub anderson_darling_p: f64,
     /// Samples that could be fitted.
     pub used: usize,

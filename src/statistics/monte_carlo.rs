@@ -1,7 +1,7 @@
 //! p-values by simulation: one formula for all tests.
 
-/// The p-value of a sample of which b of N replicates lie at least as far
-/// from the null, (b + 1)/(N + 1): the share of those among the replicates
+/// The p-value of a sample, (b + 1)/(N + 1), where b of N replicates lie at
+/// least as far from the null as the sample: their share among the replicates
 /// and the sample itself. It is never 0, and at most a level with no more
 /// than that probability, over both draws (Davison and Hinkley, Bootstrap
 /// Methods and their Application, 1997, section 4.2).

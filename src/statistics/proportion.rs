@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ProportionError {
-    /// A count is at most the number of trials, of which there is one.
+    /// A count is at most the number of trials, and that is at least one.
     #[error("{successes} of {trials}: expected at most all of 1 or more")]
     Count {
         /// How often it happened.

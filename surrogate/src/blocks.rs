@@ -153,7 +153,7 @@ pub fn read_table(
     place: &str,
     text: &str,
 ) -> Result<Vec<Fitted>, SurrogateError> {
-    let expected = "a table of `rocking sweep fit`";
+    let expected = "a table of fixtures/surrogate";
     let found = rows(place, text, expected)?;
     Ok(found.into_iter().map(|(_, row)| row).collect())
 }

@@ -9,7 +9,7 @@
 //!
 //! The coefficients are fitted to 1,000 blocks of a sweep over each embedded
 //! suite with eta = 0.92; the error is that at 100 other blocks.
-//! `validation/surrogate/run` makes all of it again.
+//! `rocking accept` makes all of it again.
 
 #![deny(missing_docs)]
 

@@ -225,7 +225,7 @@ impl Surrogate {
                 coefficients: [Vec::new(), Vec::new()],
             })
             .into();
-        let expected = "a table of `rocking sweep fit`";
+        let expected = "a table of fixtures/surrogate";
         let found =
             rows::<Coefficient>("coefficients.csv", coefficients, expected)?;
         for (_, row) in found {

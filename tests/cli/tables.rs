@@ -9,6 +9,7 @@ use rocking_common::table::columns::{
     SCHEMA, SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS, TABLES,
 };
 
+use super::super::compare::committed;
 use super::support::{at2, folder, motion, run};
 
 /// The page that the registry makes.
@@ -44,15 +45,12 @@ fn page() -> String {
     text
 }
 
-/// Renewed, as the help snapshots, with `INSTA_UPDATE=always`.
+/// `rocking accept` renews it.
 #[test]
 fn the_page_of_tables_is_that_of_the_registry() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/tables.md");
-    if std::env::var("INSTA_UPDATE").is_ok_and(|mode| mode == "always") {
-        fs::write(path, page()).unwrap();
+    if let Some(kept) = committed("docs/tables.md", &page()) {
+        assert!(kept == page(), "docs/tables.md: expected\n{}", page());
     }
-    let kept = fs::read_to_string(path).unwrap_or_default();
-    assert!(kept == page(), "docs/tables.md: expected\n{}", page());
     // `im` is a name wherever it stands.
     assert!(TABLES.iter().all(|table| !table.columns.is_empty()));
     let all = TABLES.iter().flat_map(|table| &table.columns);

@@ -1,5 +1,5 @@
 //! Texts that people read, as committed snapshots: a changed word is seen in
-//! the change, and accepted with `INSTA_UPDATE=always cargo test --test gate cli`.
+//! the change, and renewed by `rocking accept`.
 
 use insta::{Settings, assert_snapshot};
 

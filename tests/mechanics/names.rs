@@ -13,7 +13,7 @@ use rocking::record::Accelerogram;
 use rocking::statistics::QuantileType;
 use rocking::statistics::lognormal::FitMethod;
 
-/// The texts of values, each of which is read as its value again.
+/// The texts of values; each text reads as its value again.
 fn texts<T>(values: impl IntoIterator<Item = T>) -> Vec<String>
 where
     T: Display + FromStr<Err = UnknownName> + PartialEq + Debug,

@@ -149,9 +149,9 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
     }
 }
 
-/// Says of which file or flag a refusal is.
+/// Names the file or the flag of a refusal.
 pub trait At<T> {
-    /// The same, with the file or the flag before the message.
+    /// Puts the file or the flag before the message.
     ///
     /// # Errors
     /// [`Failure`] where there was one.
@@ -167,8 +167,8 @@ impl<T, E: Into<Failure>> At<T> for Result<T, E> {
     }
 }
 
-/// Runs `work` on `threads` threads, or on as many as the machine has; more
-/// than eight times as many are not used, and that is said.
+/// Runs `work` on `threads` threads (default: all processors). Caps the count
+/// at eight per processor, with a note.
 ///
 /// # Errors
 /// [`Failure`] for zero threads, or threads that cannot be started.

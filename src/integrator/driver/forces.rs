@@ -157,8 +157,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
     }
 }
 
-/// Height of the parabola through three values of which the middle one is the
-/// highest, and a little more; minus infinity where it is not.
+/// Height of the parabola through three values, and a little more, where the
+/// middle one is the highest; minus infinity otherwise.
 fn crest([before, here, after]: [f64; 3]) -> f64 {
     if !(here >= before && here >= after && here.is_finite()) {
         return f64::NEG_INFINITY;

@@ -40,8 +40,8 @@ impl<N: Real, G: Forcing<N, F>, const F: usize, const HARD: usize>
             .unwrap_or_else(|| self.advance_hard(step, length))
     }
 
-    /// A step of which the short series leaves too much: a longer series,
-    /// then a shorter step.
+    /// A step whose truncation error under the short series is too large: a
+    /// longer series, then a shorter step.
     #[inline(never)]
     pub(super) fn advance_hard(
         &mut self,

@@ -1,4 +1,4 @@
-//! Series of the shapes of which pulses are made.
+//! Series of the shapes that make up pulses.
 
 use crate::excitation::Shape;
 use crate::number::Real;

@@ -1,4 +1,4 @@
-//! A smooth stretch of a pulse, cut into equal pieces, none of which is kept.
+//! A smooth stretch of a pulse, cut into equal pieces that are not stored.
 
 use crate::excitation::{Pulse, Shape};
 use crate::integrator::forcing::{LONGEST_PHASE, LONGEST_STEP};

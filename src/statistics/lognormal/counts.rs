@@ -27,7 +27,7 @@ pub struct CountsFit {
     /// Ends of the 95 % likelihood interval of the median; none where the
     /// likelihood does not fall so far.
     pub median: (Option<f64>, Option<f64>),
-    /// The same of the dispersion.
+    /// Ends of that interval of the dispersion.
     pub dispersion: (Option<f64>, Option<f64>),
     /// Pearson's chi-squared, sum (k - n F)^2/(n F (1 - F)): well above its
     /// degrees of freedom where records scatter more than binomially or the

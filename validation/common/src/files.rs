@@ -257,7 +257,7 @@ fn is_same_file(_: &Path, _: &Path) -> bool {
     false
 }
 
-/// Writes one file whole or not at all, of which nothing is read.
+/// Writes one file whole or not at all, without reading it.
 ///
 /// # Errors
 /// As [`Outputs::open`] and [`Output::write`].

@@ -1,11 +1,14 @@
 //! `rocking accept`: renews every committed file that holds results of this
 //! program.
 
+mod inputs;
+
 use std::env;
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::show::text;
@@ -21,13 +24,16 @@ use rocking_report::output::{FINDINGS, Files};
 use rocking_report::readme;
 use rocking_report::stale::{self, stale};
 
-/// Renews every committed file that holds results of this program: the pins
-/// in tests/pins, reports/, and the table of results in README.md.
+/// Renews every committed file that holds results of this program: pins,
+/// help snapshots, docs/tables.md, the surrogate, the results on recorded
+/// suites where ../shared/records has them, reports/, the README's table.
 ///
 /// It runs in the root of the repository, by cargo, so that the program is
-/// built from what is there. It runs the tests that hold pins, the declared
-/// cases and the study. Where a case fails, nothing is written. It prints
-/// what the results say differently, then writes the files that change.
+/// built from what is there. It runs the tests that hold such files, the
+/// declared cases and the study. Where a case fails, nothing is written. It
+/// prints what the results say differently, then writes the files that
+/// change. Where a file changes that the program compiles in, it builds the
+/// program again and goes on with that.
 #[derive(clap::Args)]
 #[command(after_help = "Examples:\n  \
     cargo run --release -- accept --check\n  \
@@ -49,16 +55,21 @@ const CASES: &str = "data/validation.json";
 /// Digits that each precision reaches.
 const DIGITS: &str = "data/precision.csv";
 
-/// The tests that hold pins, and the pins that they hold. A test hands over
+/// The tests that hold files, and a file that each holds. A test hands over
 /// what it found (`tests/compare.rs`): it alone can compute it, since
 /// some of it is private to the core.
-const HOLDERS: [(&str, &str); 5] = [
-    ("regresses_bits_of_a_thousand_analyses", "golden.txt"),
-    ("regresses_estimates_margins_and_work", "regressions.txt"),
-    ("regresses_the_sums_of_many_short_runs", "short.txt"),
-    ("regresses_the_bounds_of_the_proof", "rest.txt"),
-    ("a_pool_gives_the_whole_response_of_single_runs", "tallies.txt"),
+const HOLDERS: [(&str, &str); 8] = [
+    ("regresses_bits_of_a_thousand_analyses", "tests/pins/golden.txt"),
+    ("regresses_estimates_margins_and_work", "tests/pins/regressions.txt"),
+    ("regresses_the_sums_of_many_short_runs", "tests/pins/short.txt"),
+    ("regresses_the_bounds_of_the_proof", "tests/pins/rest.txt"),
+    ("a_pool_gives_the_whole_response_of", "tests/pins/tallies.txt"),
+    ("help_of_every_command", "tests/cli/snapshots/help.snap"),
+    ("what_changed_between", "tests/cli/snapshots/diff-text.snap"),
+    ("the_page_of_tables_is_that_of", "docs/tables.md"),
 ];
+/// Snapshots of help and messages.
+const SNAPSHOTS: &str = "tests/cli/snapshots";
 
 /// How they are run. Both packages: so `cargo test` has built them already.
 const TEST: [&str; 8] = [
@@ -80,21 +91,26 @@ const TEST: [&str; 8] = [
 /// that belong to no report, and with `--check` for any change (status 1).
 pub fn run(args: &Args) -> Result<(), Failure> {
     at_root()?;
-    let mut files = Files::new();
+    let mut files = from_tests()?;
+    let idle = idle_snapshots(&files)?;
     let mut put = |folder: &str, name: &str, text: Vec<u8>| {
         files.insert(format!("{folder}/{name}"), text);
     };
-    for (name, text) in from_tests()? {
-        put(PINS, &name, text);
-    }
     let (counters, results, precision) = cases()?;
     put(PINS, "work-counters.csv", counters.into_bytes());
     let old = file(&format!("{REPORTS}/{CASES}"))?;
     let mut words = compared(&old, &results);
+    let compiled_in = inputs::made(&mut words)?;
+    let compiled_in = changed(compiled_in, &mut words)?;
+    if !compiled_in.is_empty() && !args.check {
+        say(&words)?;
+        write(&compiled_in)?;
+        return again();
+    }
     put(REPORTS, CASES, results.clone().into_bytes());
     put(REPORTS, DIGITS, precision.clone().into_bytes());
     let proof = Proof::from_texts(Path::new("data"), &results, precision)?;
-    let report = study::default_report(&proof)?;
+    let report = study::report(&[], Some(&proof))?;
     let findings = report.get(FINDINGS).map(|f| String::from_utf8_lossy(f));
     let findings = Findings::parse(&findings.unwrap_or_default())
         .map_err(Failure::gate)?;
@@ -104,7 +120,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         put(REPORTS, name, content.clone());
     }
     files.insert(README.into(), readme.into_bytes());
-    let changed = changed(files, &mut words)?;
+    let mut changed = changed(files, &mut words)?;
+    changed.extend(compiled_in);
     say(&words)?;
     let list: Vec<&str> = changed.keys().map(String::as_str).collect();
     let list = list.join("\n  ");
@@ -115,14 +132,17 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             changed.len()
         )));
     }
-    if let Some((last, _)) = changed.last_key_value() {
-        Folder::open(Path::new("."))?.write(&changed, last)?;
-        say(&format!("{} files changed:\n  {list}\n", changed.len()))?;
-    }
+    write(&changed)?;
     // What is left are files that no study writes.
     if let Some(words) = stale(Path::new(REPORTS), &report)? {
         return Err(Failure::gate(format!(
             "{words}{REPORTS} holds more than the report: remove the rest"
+        )));
+    }
+    if !idle.is_empty() {
+        return Err(Failure::gate(format!(
+            "{SNAPSHOTS} holds what no test shows: remove {}",
+            idle.join(", ")
         )));
     }
     if changed.is_empty() {
@@ -153,17 +173,60 @@ fn at_root() -> Result<(), Failure> {
     Ok(())
 }
 
-/// What the tests that hold pins find, by the names of the pins.
+/// Puts files into the repository, and lists them.
+fn write(changed: &Files) -> Result<(), Failure> {
+    let Some((last, _)) = changed.last_key_value() else { return Ok(()) };
+    Folder::open(Path::new("."))?.write(changed, last)?;
+    let list: Vec<&str> = changed.keys().map(String::as_str).collect();
+    let list = list.join("\n  ");
+    say(&format!("{} files changed:\n  {list}\n", changed.len()))
+}
+
+/// Runs the command again, in a program that has the new files compiled in.
+fn again() -> Result<(), Failure> {
+    let mut line = vec!["run"];
+    line.extend((!cfg!(debug_assertions)).then_some("--release"));
+    line.extend(["--", "accept"]);
+    note(&format!("cargo {}", line.join(" ")));
+    let done = Command::new(cargo()).args(line).status()?;
+    match done.success() {
+        true => Ok(()),
+        false => Err(Failure::gate("the second run failed")),
+    }
+}
+
+fn cargo() -> OsString {
+    env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}
+
+/// Committed snapshots that the tests no longer write.
+fn idle_snapshots(written: &Files) -> Result<Vec<String>, Failure> {
+    let mut idle = Vec::new();
+    for entry in fs::read_dir(SNAPSHOTS).at(SNAPSHOTS)? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        let name = format!("{SNAPSHOTS}/{name}");
+        if !written.contains_key(&name) {
+            idle.push(name);
+        }
+    }
+    idle.sort();
+    Ok(idle)
+}
+
+/// The files that tests hold, as the tests find them.
 fn from_tests() -> Result<Files, Failure> {
     let folder = tempfile::tempdir()?;
-    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    // Snapshots go where insta takes the repository to be.
+    fs::create_dir(folder.path().join("validation"))?;
     let line: Vec<&str> =
         TEST.into_iter().chain(HOLDERS.map(|(test, _)| test)).collect();
     let words = format!("cargo {}", line.join(" "));
     note(&words);
-    let done = Command::new(&cargo)
+    let done = Command::new(cargo())
         .args(line)
         .env("ROCKING_ACCEPT", folder.path())
+        .env("INSTA_WORKSPACE_ROOT", folder.path())
+        .env("INSTA_UPDATE", "always")
         .stderr(Stdio::inherit())
         .output()?;
     if !done.status.success() {
@@ -171,16 +234,34 @@ fn from_tests() -> Result<Files, Failure> {
         return Err(Failure::gate(format!("failed: {words}")));
     }
     let mut found = Files::new();
-    for (test, pin) in HOLDERS {
-        let text = fs::read(folder.path().join(pin)).map_err(|error| {
-            Failure::gate(format!(
-                "{PINS}/{pin}: {error}: expected the test {test} to find it \
-                 (for the tallies on a machine with AVX2)"
-            ))
-        })?;
-        found.insert(pin.into(), text);
+    gather(folder.path(), &PathBuf::new(), &mut found)?;
+    let missing = HOLDERS.iter().find(|(_, file)| !found.contains_key(*file));
+    if let Some((test, file)) = missing {
+        return Err(Failure::gate(format!(
+            "{file}: expected the test {test} to find it (for the tallies on \
+             a machine with AVX2)"
+        )));
     }
     Ok(found)
+}
+
+/// The files below a folder of `root`, by their paths from there.
+fn gather(
+    root: &Path,
+    inner: &Path,
+    found: &mut Files,
+) -> Result<(), Failure> {
+    for entry in fs::read_dir(root.join(inner))? {
+        let entry = entry?;
+        let path = inner.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            gather(root, &path, found)?;
+        } else {
+            let name = path.display().to_string();
+            found.insert(name, fs::read(entry.path())?);
+        }
+    }
+    Ok(())
 }
 
 /// Work counters, results of the declared cases and digits of each

@@ -112,16 +112,20 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     args.threads.run(|| in_threads(args))?
 }
 
-/// The files of the report that the command writes without options.
-pub(super) fn default_report(proof: &Proof) -> Result<Files, Failure> {
+/// The files of the report that the command writes with these arguments.
+pub(super) fn report(
+    arguments: &[&str],
+    proof: Option<&Proof>,
+) -> Result<Files, Failure> {
     #[derive(Parser)]
     struct Line {
         #[command(flatten)]
         args: Args,
     }
-    let args = Line::try_parse_from(["study"])?.args;
+    let line = ["study"].iter().chain(arguments);
+    let args = Line::try_parse_from(line)?.args;
     let study = computed(plan(&args)?, &args, &suites(&args)?)?;
-    Ok(output::files(&study, Some(proof), &args.signatures)?)
+    Ok(output::files(&study, proof, &args.signatures)?)
 }
 
 /// The suites that the options name.
@@ -172,9 +176,8 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     if !args.check {
         refuse_foreign(&args.out)?;
     }
-    let suites = suites(args)?;
+    // Refused before the suites are made and minutes are spent.
     if args.check {
-        // Refused before minutes are spent.
         let place = args.out.display();
         let place = format_args!("no folder of a report at {place}");
         std::fs::read_dir(&args.out).at(place)?;
@@ -187,6 +190,7 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
         Some(folder) => Some(Proof::read(folder)?),
         None => Proof::find(&args.out.join("data"))?,
     };
+    let suites = suites(args)?;
     let study = computed(plan, args, &suites)?;
     let files = output::files(&study, proof.as_ref(), &args.signatures)?;
     let Some(folder) = folder else { return check(&args.out, &files) };

@@ -1,7 +1,5 @@
 //! `rocking sweep`: many blocks over one suite, on one machine or many.
 
-mod surrogate;
-
 use std::env;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,8 +48,6 @@ enum Action {
     Merge(MergeArgs),
     Export(ExportArgs),
     Slurm(SlurmArgs),
-    Design(surrogate::DesignArgs),
-    Fit(surrogate::FitArgs),
 }
 
 /// Writes a plan, packs the suite into its folder, and says what to expect.
@@ -216,8 +212,6 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Action::Merge(args) => merge(args),
         Action::Export(args) => export(args),
         Action::Slurm(args) => slurm(args),
-        Action::Design(args) => surrogate::design(args),
-        Action::Fit(args) => surrogate::fit(args),
     }
 }
 

@@ -325,7 +325,7 @@ impl Planned {
         let tiled: usize = plan.tiles.iter().map(|tile| tile.blocks).sum();
         if plan.blocks.is_empty() || tiled != plan.blocks.len() {
             return Err(refused(format!(
-                "{} blocks, of which the tiles hold {tiled}",
+                "{} blocks, while the tiles hold {tiled}",
                 plan.blocks.len()
             )));
         }

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use crate::references::trajectory;
 use rocking_common::words::rounded;
 
-/// A quantity of which the reference lists the error.
+/// A quantity whose error the reference lists.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Quantity {

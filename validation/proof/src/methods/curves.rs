@@ -49,7 +49,7 @@ static FOUND: Mutex<BTreeMap<u64, Arc<Vec<Level>>>> =
     Mutex::new(BTreeMap::new());
 
 /// Peaks and fates that a curve calls resolved and that are others in wider
-/// arithmetic; levels of which lanes say something else.
+/// arithmetic; levels at which the lanes give another result.
 pub(super) fn first_hops(context: &Context) -> Result<Answer, MethodError> {
     input! { context;
         /// Scenes whose first hop grazes: this many, from index 0 on.

@@ -22,7 +22,7 @@ const LONGEST: usize = 400;
 /// Time (in 1/p) after the ground motion that is looked at, at most.
 const AFTER: f64 = 4.0;
 
-/// Pulses of which the amplitude is the peak, and two more.
+/// Pulses whose amplitude is the peak, and two more.
 const PULSES: usize = 8;
 
 /// A scene whose observation ends about an overturning, about the first

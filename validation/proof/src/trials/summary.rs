@@ -81,7 +81,7 @@ pub struct Summary {
     pub unresolved: usize,
     /// Of those, runs with the wrong fate.
     pub wrong_and_unresolved: usize,
-    /// Clear runs of which the truth is not known.
+    /// Clear runs whose true fate is not known.
     pub undecided: usize,
     /// Clear runs with the wrong fate.
     pub wrong_and_clear: usize,

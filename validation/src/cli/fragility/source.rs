@@ -29,7 +29,7 @@ use crate::cli::{At as _, Failure, input};
 use rocking_common::paper::SuiteKind;
 use rocking_exchange::sample::SampleSetting;
 
-/// Where fragilities come from, and of which blocks they are.
+/// Where fragilities come from, and the blocks they belong to.
 #[derive(clap::Args)]
 pub struct SourceArgs {
     /// Sample of capacities; again for each limit state, by rising damage.

@@ -145,7 +145,8 @@ fn holds(
             };
             values.iter().enumerate().map(of)
         };
-        let levels = [0.4, 0.6, 0.8, 1.0, 1.25, 1.6, 2.2];
+        let levels = [0.5, 0.75, 1.0, 1.35, 2.0];
+        let draws = Draws { replicates: REPLICATES / 2, seed };
         let outcomes: Vec<Outcome> = levels.iter().flat_map(stripe).collect();
         let found = fit_outcomes(&outcomes, clusters, 0.0, draws);
         let median = found.map_err(refused)?.median;

@@ -112,7 +112,6 @@ pub const METHODS: &[(&str, Run)] = &[
     ("coverage-of-inference", statistics::inference),
     ("rates-by-earthquake", statistics::rates),
     ("earthquakes-of-other-packages", statistics::other_packages),
-    ("records-needed", statistics::needed),
     ("bias", statistics::bias),
     ("intensity", intensity::measures),
     ("velocity-pulse", velocity_pulse::pulses),

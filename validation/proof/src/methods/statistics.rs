@@ -18,7 +18,7 @@ mod two_samples;
 
 pub(super) use calibration::{bias, coverage, rejection};
 pub(super) use choice::choice;
-pub(super) use earthquakes::{needed, other_packages, rates};
+pub(super) use earthquakes::{other_packages, rates};
 pub(super) use equations::transforms;
 pub(super) use fits::{fits, paired, quantiles, tests};
 pub(super) use inference::coverage as inference;

@@ -235,8 +235,22 @@ pub(crate) fn other_packages(
         row.put(&mut answer, 5, &quantities)?;
     }
     for row in VALUES.rows("share")? {
-        let found = clusters(row.text(3)).intraclass(&list(row.text(2))?);
-        row.put(&mut answer, 4, &[("share", found.unwrap_or(0.0))])?;
+        let logs = list(row.text(2))?;
+        let clusters = clusters(row.text(3));
+        let share = clusters.intraclass(&logs).unwrap_or(0.0);
+        let values: Vec<f64> = logs.iter().map(|y| exp(*y)).collect();
+        let sample = CensoredSample::try_new(&values, &[]).map_err(refused)?;
+        let clusters = Some(clusters);
+        let options = FitOptions { clusters, ..FitOptions::default() };
+        let fit = fit_sample(&sample, &options).map_err(refused)?;
+        let none = || MethodError::Oracle("no design effect".into());
+        let needed = fit.needed.ok_or_else(none)?;
+        let quantities = [
+            ("share", share),
+            ("records", needed.for_median),
+            ("records", needed.for_dispersion),
+        ];
+        row.put(&mut answer, 4, &quantities)?;
     }
     for row in VALUES.rows("interval")? {
         let own = clusters(row.text(2));
@@ -244,36 +258,5 @@ pub(crate) fn other_packages(
         let width = own.half_width(0.95);
         row.put(&mut answer, 3, &[("freedom", nu), ("half-width", width)])?;
     }
-    Ok(answer)
-}
-
-/// Records that a precision of 10 % needs: of a sample whose dispersion and
-/// intraclass correlation are known, by the formula.
-pub(crate) fn needed(context: &Context) -> Result<Answer, MethodError> {
-    input! { context;
-        /// Logarithms of the values, by earthquake.
-        logs: Vec<Vec<f64>>,
-        /// Records for the median and for the dispersion.
-        expected: [f64; 2],
-    }
-    let labels = logs
-        .iter()
-        .enumerate()
-        .flat_map(|(g, own)| std::iter::repeat_n(g.to_string(), own.len()));
-    let clusters = match context.wrong {
-        Some(WrongModel::RecordsAsUnit) => {
-            Clusters::singletons(logs.iter().map(Vec::len).sum())
-        }
-        _ => Clusters::from_labels(labels),
-    };
-    let values: Vec<f64> = logs.iter().flatten().map(|y| exp(*y)).collect();
-    let sample = CensoredSample::try_new(&values, &[]).map_err(refused)?;
-    let options =
-        FitOptions { clusters: Some(clusters), ..FitOptions::default() };
-    let found = fit_sample(&sample, &options).map_err(refused)?.needed;
-    let own = found
-        .map_or([f64::NAN; 2], |own| [own.for_median, own.for_dispersion]);
-    let mut answer = Answer::default();
-    answer.put("records", own, expected);
     Ok(answer)
 }

@@ -15,7 +15,7 @@ from . import _rocking
 from ._inputs import STANDARD_GRAVITY, Block, Floats, Model, frozen
 from ._outputs import replace
 from ._results import Result
-from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit
+from ._statistics import CountsFragility, Fragility, FragilityFit, _Fit, seed
 
 
 @dataclass(frozen=True)
@@ -285,11 +285,26 @@ def read_hazard(
 
 
 @dataclass(frozen=True)
+class SamplingInterval(Result):
+    """What few records leave open of a frequency and a probability; the
+    hazard curve counts as known."""
+
+    replicates: int
+    seed: int
+    drawn: str
+    level: float
+    annual_frequency_low: float
+    annual_frequency_high: float
+    probability_low: float
+    probability_high: float
+
+
+@dataclass(frozen=True)
 class FragilityRisk(Result):
     """Annual frequency and probability of damage of one fragility.
 
     Lower and upper are bounds of the hazard curve's truncation at its last
-    point, and no confidence interval.
+    point, and no confidence interval: that is `sampling`.
     """
 
     fragility: str
@@ -304,6 +319,8 @@ class FragilityRisk(Result):
     probability_truncation_upper: float
     probability_at_first_point: float
     """Where it is not 0, weaker motions add to the frequency."""
+    sampling: SamplingInterval | None
+    """None for a fragility that counts as known."""
 
 
 @dataclass(frozen=True)
@@ -323,10 +340,12 @@ class Risk(Result):
 
 def risk(
     hazard: Hazard,
-    fragilities: Mapping[str, Fragility | BlockFragility],
+    fragilities: Mapping[str, Fragility | FragilityFit | BlockFragility],
     *,
     years: float = 50.0,
     gravity: float = STANDARD_GRAVITY,
+    n_resamples: int = 1000,
+    rng: int = 0,
 ) -> Risk:
     """Annual frequency of damage, and its probability in `years`.
 
@@ -335,11 +354,15 @@ def risk(
 
     Parameters
     ----------
-    fragilities : mapping of names to Fragility or BlockFragility
+    fragilities : mapping of names to Fragility, FragilityFit or BlockFragility
         Fragilities in the unit of the hazard curve, and those of blocks,
-        which are brought to it.
+        which are brought to it. Fits to a sample above a known shift have a
+        sampling interval; a Fragility counts as known.
     gravity : float
         In m/s2, for the PGV of blocks.
+    n_resamples, rng : int
+        Bootstrap samples of a fit's records, of earthquakes where they are
+        known, and their repetition; 0 for no interval.
 
     >>> text = "intensity,annual_frequency\\n1e-6,1e8\\n1e6,1e-16\\n"
     >>> hazard = Hazard("power law", text)
@@ -348,8 +371,20 @@ def risk(
     >>> round(row.annual_frequency_truncation_lower, 9)  # exp(0.5)/10,000
     0.000164872
     """
-    exposed = [
-        (name, one._law if isinstance(one, Fragility) else one._wanted())
-        for name, one in fragilities.items()
-    ]
-    return Risk._of(_rocking.risk(hazard._written, exposed, gravity, years))
+    exposed = [(name, *_exposed(one)) for name, one in fragilities.items()]
+    found = _rocking.risk(
+        hazard._written, exposed, gravity, years, n_resamples, seed(rng)
+    )
+    return Risk._of(found)
+
+
+def _exposed(
+    one: Fragility | FragilityFit | BlockFragility,
+) -> tuple[_rocking.Law | _rocking.Wanted, list[_rocking.Behind]]:
+    """A fragility, and the samples behind it."""
+    if isinstance(one, Fragility):
+        return one._law, []
+    if isinstance(one, FragilityFit):
+        return one.fitted._law, [one._behind]
+    fits = [one.fit] if isinstance(one.fit, Fit) else [*one.fit]
+    return one._wanted(), [getattr(fit, "_behind", None) for fit in fits]

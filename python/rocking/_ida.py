@@ -37,7 +37,16 @@ from ._results import (
     StripeResponses,
     axes,
 )
-from ._statistics import LevelFit, Method, Sample, Shift, options, seed
+from ._statistics import (
+    CountsFragility,
+    LevelFit,
+    Method,
+    Sample,
+    Shift,
+    given_sample,
+    options,
+    seed,
+)
 
 By = Literal["record-scaling", "slenderness-adjustment"]
 Rule = Literal["median", "first", "last", "monotone"]
@@ -68,11 +77,17 @@ class Curves:
     def _native(self) -> _rocking.IdaCurves:
         raise NotImplementedError
 
+    @property
+    def events(self) -> tuple[str, ...]:
+        """The earthquake of each record; empty where they are not known."""
+        raise NotImplementedError
+
     def sample(self, edp: float, *, rule: Rule = "median") -> Sample:
         """Capacities at one EDP level with the limits of censored ones."""
         levels = [float(edp)]
         found = self._native.capacities(levels, rule)
-        return Sample(*(frozen(table[0]) for table in found))
+        values, limits = (frozen(table[0]) for table in found)
+        return Sample(values, limits, self.events)
 
     def capacities(self, edp: ArrayLike, *, rule: Rule = "median") -> Floats:
         """Intensity at which each record reaches a response.
@@ -168,7 +183,32 @@ class Curves:
             shift, method, quantile_type, c, n_resamples, rng, band
         )
         levels = floats(edp, "EDP levels").tolist()
-        return LevelFit._all(self._native.fit(levels, rule, asked))
+        found = LevelFit._all(self._native.fit(levels, rule, asked))
+        return tuple(
+            fit._remember(given_sample(self.sample(level, rule=rule)), asked)
+            for level, fit in zip(levels, found)
+        )
+
+    def fit_stripes(
+        self,
+        ims: ArrayLike,
+        *,
+        edp: float,
+        shift: float = 0.0,
+        n_resamples: int = 1000,
+        rng: int = 0,
+    ) -> CountsFragility:
+        """Fits a fragility to the counts of records that exceed `edp` at given
+        intensities, by maximum likelihood.
+
+        The intervals are those of a bootstrap, which draws each record, or
+        earthquake where they are known, in all its stripes.
+        """
+        levels = floats(ims, "intensities").tolist()
+        found = self._native.fit_stripes(
+            levels, float(edp), float(shift), n_resamples, seed(rng)
+        )
+        return CountsFragility._of(found)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -274,6 +314,11 @@ class Ida(Curves):
         return ImCurves(self, im, None if suite is None else tuple(suite))
 
     @cached_property
+    def events(self) -> tuple[str, ...]:
+        """The earthquake of each record; empty where they are not known."""
+        return tuple(self._table.events())
+
+    @cached_property
     def _native(self) -> _rocking.IdaCurves:
         return self._table.against("pga", None)
 
@@ -372,12 +417,31 @@ class ImCurves(Curves):
         # What is refused is refused here.
         _ = self._native
 
+    @property
+    def events(self) -> tuple[str, ...]:
+        """The earthquake of each record; empty where they are not known."""
+        return self.ida.events
+
     @cached_property
     def _native(self) -> _rocking.IdaCurves:
         return self.ida._table.against(self.im, _members(self.suite))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return ImCurves, (self.ida, self.im, self.suite)
+
+
+def _events(records: Sequence[Record]) -> list[str]:
+    """The attribute `event` of all records; empty where none has it."""
+    found = [record.attributes.get("event", "") for record in records]
+    if not any(found):
+        return []
+    if not all(found):
+        name = records[found.index("")].name
+        raise ValueError(
+            f"record {name}: no attribute event: expected the earthquake of "
+            "every record, or of none"
+        )
+    return found
 
 
 def _unpickled(csv: str) -> Ida:
@@ -465,6 +529,7 @@ def ida(
     found = _rocking.ida(
         (block.alpha, block.p),
         [given(record) for record in records],
+        _events(records),
         physics(eta, model, overturn),
         scan,
         float(gravity),
@@ -491,7 +556,8 @@ def rank_ims(
     Efficiency is the dispersion of the capacities in a measure, by maximum
     likelihood, records that do not reach the response by the intensity up to
     which they were run. Sufficiency is the slope of ln(capacity) on magnitude
-    and on the logarithm of distance.
+    and on the logarithm of distance, with a random intercept for each
+    earthquake where they are known.
 
     Parameters
     ----------
@@ -505,7 +571,8 @@ def rank_ims(
     magnitude, distance : str
         Names of the records' attributes.
     n_resamples, rng : int
-        Bootstrap samples of records, and their repetition.
+        Bootstrap samples of records, of earthquakes where they are known,
+        and their repetition.
 
     >>> from rocking import Block, ida
     >>> suite = [

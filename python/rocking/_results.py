@@ -95,6 +95,8 @@ class FitIntervals(Result):
 
     replicates: int
     seed: int
+    drawn: str
+    """What was drawn: records, or earthquakes with all their records."""
     level: float
     log_mean: Intervals
     dispersion: Intervals
@@ -123,8 +125,24 @@ class Band(Result):
 
     replicates: int
     seed: int
+    drawn: str
     level: float
     points: tuple[BandPoint, ...]
+
+
+@dataclass(frozen=True)
+class Needed(Result):
+    """How many records bring median and dispersion to a relative precision at
+    a level, if dispersion and earthquakes stay as they are."""
+
+    precision: float
+    level: float
+    for_median: float
+    for_dispersion: float
+    intraclass_correlation: float | None
+    """None where no earthquake has two records."""
+    design_effect: float
+    """Number of records that are worth one independent record."""
 
 
 @dataclass(frozen=True)
@@ -149,7 +167,7 @@ class Transformed(Result):
 
 
 @dataclass(frozen=True)
-class LikelihoodInterval(Result):
+class Bounds(Result):
     """A number with the ends of its likelihood interval."""
 
     point: float
@@ -373,13 +391,17 @@ class Comparison(Result):
 
 @dataclass(frozen=True)
 class Slope(Result):
-    """Least-squares line of ln(capacity) on a property of the records."""
+    """Line of ln(capacity) on a property of the records, with a random
+    intercept for each earthquake that has several."""
 
     on: str
     intercept: float
     slope: float
     standard_error: float
     residual_deviation: float
+    event_deviation: float | None
+    """Between earthquakes; None of a line by least squares."""
+    degrees_of_freedom: float
     p_value: float
     n: int
 
@@ -412,6 +434,7 @@ class Ranking(Result):
     level: float
     replicates: int
     seed: int
+    drawn: str
     remark: str | None
     measures: tuple[Ranked, ...]
 

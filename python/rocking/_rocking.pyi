@@ -11,7 +11,7 @@ _Floats = NDArray[np.float64]
 Given = tuple[str, _Floats | None, float, dict[str, float]]
 _Block = tuple[float, float]
 Law = tuple[float, float, float]
-Sample = tuple[_Floats, Sequence[float | None]]
+Sample = tuple[_Floats, Sequence[float | None], Sequence[str]]
 Member = tuple[Given, dict[str, str]]
 _Read = tuple[str, _Floats, float, dict[str, str]]
 Written = tuple[str, str, float | None, tuple[float, float] | None]
@@ -39,6 +39,8 @@ class Fit(TypedDict):
     seed: int
     band: Sequence[float]
 
+Behind = tuple[Sample, Fit] | None
+
 class Wanted(TypedDict):
     block: _Block
     limit_states: Sequence[tuple[str, Law, str | int]]
@@ -55,6 +57,7 @@ class IdaTable:
     def against(
         self, im: str, suite: Sequence[Member] | None
     ) -> IdaCurves: ...
+    def events(self) -> list[str]: ...
     def summary(self) -> str: ...
     def pivot_forces(
         self, suite: Sequence[Given], friction: Sequence[float]
@@ -79,6 +82,14 @@ class IdaCurves:
     def levels(self, levels: Sequence[float], rule: str) -> str: ...
     def crossings(self, record: str, levels: Sequence[float]) -> str: ...
     def fit(self, levels: Sequence[float], rule: str, options: Fit) -> str: ...
+    def fit_stripes(
+        self,
+        ims: Sequence[float],
+        edp: float,
+        shift: float,
+        replicates: int,
+        seed: int,
+    ) -> str: ...
     def stripes(self, ims: Sequence[float], edp: float | None) -> str: ...
 
 __version__: str
@@ -131,6 +142,7 @@ def peak(
 def ida(
     block: _Block,
     records: Sequence[Given],
+    events: Sequence[str],
     physics: Physics,
     scan: Scan,
     gravity: float,
@@ -174,8 +186,10 @@ def hazard(
 ) -> tuple[list[tuple[float, float]], str | None, str, list[str]]: ...
 def risk(
     written: Written,
-    exposed: Sequence[tuple[str, Law | Wanted]],
+    exposed: Sequence[tuple[str, Law | Wanted, Sequence[Behind]]],
     gravity: float,
     years: float,
+    replicates: int,
+    seed: int,
 ) -> str: ...
 def surface(block: _Block) -> str: ...

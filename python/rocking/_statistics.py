@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +13,11 @@ from . import _rocking
 from ._inputs import Floats, Frozen, floats
 from ._results import (
     Band,
+    Bounds,
     Choice,
     Comparison,
     FitIntervals,
-    LikelihoodInterval,
+    Needed,
     Normality,
     Result,
     ShiftInterval,
@@ -37,6 +38,8 @@ class Sample(Frozen):
     """One value a record; infinite where it is censored."""
     limits: Floats
     """Up to where a censored record was run; NaN elsewhere."""
+    events: tuple[str, ...] = ()
+    """The earthquake of each record; empty where they are not known."""
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         return np.array(self.values, dtype=dtype, copy=True)
@@ -50,14 +53,15 @@ class Sample(Frozen):
         return stats.CensoredData.right_censored(known, censored)
 
 
-def given_sample(sample: Any) -> tuple[Floats, list[float | None]]:
-    """Values, and the limits of those that are censored at a known one."""
+def given_sample(sample: Any) -> _rocking.Sample:
+    """Values, the limits of those that are censored at a known one, and the
+    earthquakes where they are known."""
     if isinstance(sample, Sample):
         limits = [None if x != x else x for x in sample.limits.tolist()]
-        return sample.values, limits
+        return sample.values, limits, sample.events
     parts = ("_uncensored", "_left", "_right", "_interval")
     if not all(hasattr(sample, part) for part in parts):
-        return floats(sample, "sample"), []
+        return floats(sample, "sample"), [], ()
     if len(sample._left) > 0 or len(sample._interval) > 0:
         raise ValueError(
             "CensoredData with left- or interval-censored values: expected "
@@ -65,7 +69,7 @@ def given_sample(sample: Any) -> tuple[Floats, list[float | None]]:
         )
     limits = [None] * len(sample._uncensored) + sample._right.tolist()
     infinite = np.full(len(sample._right), np.inf)
-    return np.concatenate([sample._uncensored, infinite]), limits
+    return np.concatenate([sample._uncensored, infinite]), limits, ()
 
 
 def seed(rng: int) -> int:
@@ -152,6 +156,9 @@ class Fragility(Result):
         return ax
 
 
+F = TypeVar("F", bound="FragilityFit")
+
+
 class _Fit(Result):
     """What has a fitted fragility."""
 
@@ -196,8 +203,20 @@ class FragilityFit(_Fit):
     unshifted: Fragility | None
     """The fit by the same method without a shift."""
     transformed: Transformed
+    needed: Needed | None
+    """How many records a precision needs."""
     bootstrap: FitIntervals | None
     band: Band | None
+
+    @property
+    def _behind(self) -> _rocking.Behind:
+        """The sample, and how it was fitted."""
+        found: _rocking.Behind = self.__dict__.get("_asked")
+        return found
+
+    def _remember(self: F, sample: _rocking.Sample, fit: _rocking.Fit) -> F:
+        self.__dict__["_asked"] = sample, fit
+        return self
 
 
 @dataclass(frozen=True)
@@ -215,8 +234,10 @@ class CountsFragility(_Fit):
     """Records run, over all stripes."""
     fitted: Fragility
     level: float
-    median: LikelihoodInterval
-    dispersion: LikelihoodInterval
+    intervals: str
+    """What they rest on."""
+    median: Bounds
+    dispersion: Bounds
     log_likelihood: float | None
     chi_squared: float
     degrees_of_freedom: int
@@ -272,7 +293,8 @@ def fit_fragility(
     c : float
         Constant of Eq. 7.
     n_resamples : int
-        Bootstrap samples for intervals; 0 for none.
+        Bootstrap samples for intervals; 0 for none. Earthquakes are drawn
+        with all their records, where the sample knows them.
     rng : int
         Repetition of the bootstrap.
     band : array_like
@@ -283,7 +305,8 @@ def fit_fragility(
     (2.0, 0.565952)
     """
     asked = options(shift, method, quantile_type, c, n_resamples, rng, band)
-    return FragilityFit._of(_rocking.fit(given_sample(sample), asked))
+    given = given_sample(sample)
+    return FragilityFit._of(_rocking.fit(given, asked))._remember(given, asked)
 
 
 def fit_stripes(
@@ -291,6 +314,9 @@ def fit_stripes(
 ) -> CountsFragility:
     """Fits a lognormal fragility to counts of stripes, (intensity, records
     that exceeded, records run), by maximum likelihood.
+
+    The intervals take the stripes as independent. `Ida.fit_stripes` has those
+    of stripes of the same records.
 
     >>> fit = fit_stripes([(1.0, 1, 10), (2.0, 5, 10), (4.0, 9, 10)])
     >>> round(fit.fitted.median, 6)

@@ -3,7 +3,9 @@
 use pyo3::prelude::*;
 use rocking::fragility::hazard::{Hazard, HazardOptions};
 use rocking::intensity::IntensityMeasure;
-use rocking::procedures::risk as procedure;
+use rocking::procedures::{
+    Draws, Exposed as One, FitOptions, Sampled, Shift, risk as procedure,
+};
 use rocking::statistics::Lognormal;
 use rocking_exchange::{
     BlockFragility, Format, Id, LimitState, unit_intensity, unstated_origin,
@@ -11,7 +13,8 @@ use rocking_exchange::{
 use rocking_surrogate::Surrogate;
 
 use crate::given::{block_of, choose, positive_gravity, refuse};
-use crate::procedures::answer;
+use crate::procedures::{Fit, GivenSample, answer, clusters_of, sample_of};
+use crate::work;
 
 /// The shift, log_mean and dispersion of a lognormal.
 type Law = (f64, f64, f64);
@@ -48,15 +51,23 @@ pub struct Wanted {
 }
 
 impl Wanted {
-    /// The fragilities in the block's own measure.
-    fn fragility(self, gravity: f64) -> PyResult<BlockFragility> {
+    /// The number of units of the block's own measure in one of the
+    /// samples'.
+    fn factor(&self, gravity: f64) -> PyResult<f64> {
         let gravity_m_s2 = positive_gravity(gravity)?;
         let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
         let block = block_of(self.block)?;
         let model = self.model.parse().map_err(refuse)?;
-        let factor = im.dimensionless().map_or(1.0, |own| {
+        Ok(im.dimensionless().map_or(1.0, |own| {
             unit_intensity(own, &block, model, gravity_m_s2)
-        });
+        }))
+    }
+
+    /// The fragilities in the block's own measure.
+    fn fragility(self, gravity: f64) -> PyResult<BlockFragility> {
+        let factor = self.factor(gravity)?;
+        let im: IntensityMeasure = self.im.parse().map_err(refuse)?;
+        let block = block_of(self.block)?;
         let (mut limit_states, mut origins) = (Vec::new(), Vec::new());
         for (name, law, source) in self.limit_states {
             let name: Id = name.parse().map_err(refuse)?;
@@ -125,25 +136,56 @@ pub enum Exposed {
     Block(Wanted),
 }
 
+/// The sample behind a fragility, and how it was fitted.
+type Behind<'py> = Option<(GivenSample<'py>, Fit)>;
+
+/// What the draws of a sample make of its fragility; none above a shift that
+/// is not known.
+fn sampled(
+    py: Python<'_>,
+    behind: Behind<'_>,
+    draws: Option<Draws>,
+) -> PyResult<Option<Sampled>> {
+    let Some((sample, fit)) = behind else { return Ok(None) };
+    let options = fit.options()?;
+    if !matches!(options.shift, Shift::Given(_)) {
+        return Ok(None);
+    }
+    let clusters = clusters_of(&sample);
+    let sample = sample_of(&sample)?;
+    let band = Vec::new();
+    let options = FitOptions { clusters, draws, band, ..options };
+    let found = work::on_all(py, || options.sampled(&sample))?;
+    found.map_err(refuse)
+}
+
 /// Annual frequencies of named fragilities under a hazard curve.
 #[pyfunction]
 pub fn risk(
     py: Python<'_>,
     written: Written,
-    exposed: Vec<(String, Exposed)>,
+    exposed: Vec<(String, Exposed, Vec<Behind<'_>>)>,
     gravity: f64,
     years: f64,
+    replicates: usize,
+    seed: u64,
 ) -> PyResult<String> {
     let hazard = read(&written)?;
+    let draws = (replicates > 0).then_some(Draws { replicates, seed });
     let mut all = Vec::new();
-    for (name, one) in exposed {
+    for (fragility, one, behind) in exposed {
+        let mut behind = behind.into_iter();
+        let mut drawn = || sampled(py, behind.next().flatten(), draws);
+        let name = fragility.clone();
         let block = match one {
             Exposed::Law(law) => {
-                all.push((name, lognormal(law)?));
+                let (fitted, sampled) = (lognormal(law)?, drawn()?);
+                all.push(One { fragility, fitted, sampled });
                 continue;
             }
             Exposed::Block(block) => block,
         };
+        let factor = block.factor(gravity)?;
         let own = block.fragility(gravity)?;
         if hazard.im.as_ref() != Some(&own.im) {
             let found = hazard.im.as_ref().map(ToString::to_string);
@@ -156,16 +198,17 @@ pub fn risk(
         }
         let one = own.limit_states.len() == 1;
         for state in own.limit_states {
-            let law = state.fragility.scaled(hazard.units_per_im_unit);
-            let name = match one {
+            let unit = hazard.units_per_im_unit;
+            let fitted = state.fragility.scaled(unit).map_err(refuse)?;
+            let fragility = match one {
                 true => name.clone(),
                 false => format!("{name} {}", state.name),
             };
-            all.push((name, law.map_err(refuse)?));
+            let scaled = |all: Sampled| all.scaled(factor)?.scaled(unit);
+            let sampled = drawn()?.map(scaled).transpose().map_err(refuse)?;
+            all.push(One { fragility, fitted, sampled });
         }
     }
-    let all: Vec<(&str, Lognormal)> =
-        all.iter().map(|(name, law)| (name.as_str(), *law)).collect();
     answer(py, || procedure(&hazard, &all, years))
 }
 

@@ -19,10 +19,11 @@ use rocking::integrator::uplift_threshold;
 use rocking::intensity::{
     AtUplift, Intensity, IntensityError, IntensityMeasure, Measures, Settings,
 };
+use rocking::procedures::counts::Outcome;
 use rocking::procedures::ranking::{Candidate, Covariate};
 use rocking::procedures::{
-    Draws, ProcedureError, capacities, fit_levels, pivot_forces, rank,
-    stripes, summarise_ida,
+    Draws, FitOptions, ProcedureError, capacities, fit_levels, fit_outcomes,
+    pivot_forces, rank, stripes, summarise_ida,
 };
 use rocking::record::Accelerogram;
 use rocking::stop;
@@ -62,6 +63,7 @@ pub fn ida<'py>(
     py: Python<'py>,
     block: (f64, f64),
     records: Vec<Given<'py>>,
+    events: Vec<String>,
     physics: Physics,
     scan: Scan,
     gravity: f64,
@@ -93,8 +95,14 @@ pub fn ida<'py>(
     .map_err(refuse)?;
     let curves = found.into_iter().flatten().collect::<Vec<_>>();
     let about = ("none", concat!("rocking ", env!("CARGO_PKG_VERSION")));
-    let none = |_: &str| String::new();
-    let table = tables::IdaTable::of(&curves, &analysis, gravity, about, none);
+    let named = records.iter().map(Accelerogram::name).zip(&events);
+    let events: BTreeMap<&str, &String> = named.collect();
+    let known = |record: &str| {
+        let event = events.get(record).map_or("", |event| event.as_str());
+        (String::new(), event.to_owned())
+    };
+    let table =
+        tables::IdaTable::of(&curves, &analysis, gravity, about, known);
     Ok(IdaTable { table, run: Some((analysis, curves)) })
 }
 
@@ -264,6 +272,7 @@ impl IdaTable {
         out.set_item("outcome", texts(|row| row.outcome))?;
         out.set_item("margin", numbers(|row| row.margin))?;
         out.set_item("remarks", texts(|row| &row.remarks))?;
+        out.set_item("event", texts(|row| &row.event))?;
         Ok(out)
     }
 
@@ -281,6 +290,11 @@ impl IdaTable {
         out.set_item("processing", &setting.processing)?;
         out.set_item("software", &setting.software)?;
         Ok(out)
+    }
+
+    /// The earthquakes of the records; none where they are not known.
+    fn events(&self) -> Vec<&str> {
+        self.table.events().unwrap_or_default()
     }
 
     /// The curves in a few numbers.
@@ -370,7 +384,8 @@ impl IdaTable {
             .chain(distance.map(Covariate::ln_distance))
             .collect();
         let draws = Draws { replicates, seed };
-        answer(py, || rank(&found, &all, &covariates, draws))
+        let clusters = self.table.clusters();
+        answer(py, || rank(&found, &all, &covariates, &clusters, draws))
     }
 }
 
@@ -494,7 +509,25 @@ impl IdaCurves {
     ) -> PyResult<String> {
         let rule: InversionRule = rule.parse().map_err(refuse)?;
         let (curves, options) = (self.linear()?, options.options()?);
+        let clusters = Some(self.0.clusters.clone());
+        let options = FitOptions { clusters, ..options };
         answer(py, || fit_levels(&curves, &levels, rule, &options))
+    }
+
+    /// A fit of which records exceed a level at given intensities.
+    fn fit_stripes(
+        &self,
+        py: Python<'_>,
+        ims: Vec<f64>,
+        edp: f64,
+        shift: f64,
+        replicates: usize,
+        seed: u64,
+    ) -> PyResult<String> {
+        let outcomes = Outcome::of(&self.linear()?, &ims, edp);
+        let draws = Draws { replicates, seed };
+        let clusters = &self.0.clusters;
+        answer(py, || fit_outcomes(&outcomes, clusters, shift, draws))
     }
 
     /// Responses at given intensities.

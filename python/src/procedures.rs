@@ -11,7 +11,7 @@ use rocking::procedures::{
 };
 use rocking::statistics::lognormal::{FitMethod, Stripe};
 use rocking::statistics::{
-    CensoredSample, ExtendedSample, Lognormal, QuantileType,
+    CensoredSample, Clusters, ExtendedSample, Lognormal, QuantileType,
 };
 use rocking::stop;
 use serde::Serialize;
@@ -29,11 +29,20 @@ pub fn answer<T: Serialize + Send, E: Display + Send>(
 }
 
 /// A sample as Python gives it: values, infinite where censored, and the
-/// limits of those that are censored at a known one.
-pub type GivenSample<'py> = (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>);
+/// limits of those that are censored at a known one, and the earthquakes, none
+/// where they are not known.
+pub type GivenSample<'py> =
+    (PyReadonlyArray1<'py, f64>, Vec<Option<f64>>, Vec<String>);
 
-fn sample_of((values, limits): &GivenSample<'_>) -> PyResult<CensoredSample> {
+pub fn sample_of(
+    (values, limits, _): &GivenSample<'_>,
+) -> PyResult<CensoredSample> {
     CensoredSample::try_new(values.as_slice()?, limits).map_err(refuse)
+}
+
+/// The values of a sample by earthquake, where they are known.
+pub fn clusters_of((_, _, events): &GivenSample<'_>) -> Option<Clusters> {
+    (!events.is_empty()).then(|| Clusters::from_labels(events))
 }
 
 /// The options of a fit.
@@ -66,6 +75,7 @@ impl Fit {
             quantile_type: t,
             c: self.c,
             draws: (replicates > 0).then_some(Draws { replicates, seed }),
+            clusters: None,
             band: self.band,
         })
     }
@@ -78,7 +88,9 @@ pub fn fit(
     sample: GivenSample<'_>,
     options: Fit,
 ) -> PyResult<String> {
+    let clusters = clusters_of(&sample);
     let (sample, options) = (sample_of(&sample)?, options.options()?);
+    let options = FitOptions { clusters, ..options };
     answer(py, || fit_sample(&sample, &options))
 }
 

@@ -26,6 +26,7 @@ class House:
     table: Path
     sample: Path
     folder: Path
+    command: Command
 
     def file(self, name: str, lines: Sequence[str]) -> Path:
         path = self.folder / name
@@ -109,6 +110,20 @@ def fit_of_counts(house: House) -> Pair:
     table = house.file("counts.csv", lines)
     words = ["fragility", "counts", "--counts", table, "--shift", 0.5]
     return Pair(rk.fit_stripes(counts, shift=0.5), words)
+
+
+@pair("fit_outcomes")
+def fit_of_stripes_of_the_same_records(house: House) -> Pair:
+    table = house.folder / "outcomes.csv"
+    words = ["stripes", "--ida", house.table, "--levels", "1.5,2,3,4"]
+    words += ["--at", 0.5, "--counts", table]
+    house.command(*words)
+    words = ["fragility", "counts", "--counts", table]
+    words += ["--bootstrap", 50, "--seed", 2]
+    found = house.ida.fit_stripes(
+        [1.5, 2.0, 3.0, 4.0], edp=0.5, n_resamples=50, rng=2
+    )
+    return Pair(found, words)
 
 
 @pair("choose")
@@ -237,6 +252,26 @@ def forces_at_the_pivot(house: House) -> Pair:
     return Pair(found, words, ("pivot",))
 
 
+@pair("fit_sample")
+def fit_by_earthquake(house: House) -> Pair:
+    values = [1.3, 1.6, 1.7, 2.0, 2.1, 2.5, 2.6, 3.1, 3.4, 4.2]
+    events = ["a", "b", "a", "c", "d", "c", "e", "d", "f", "a"]
+    lines = [f"{x!r} # {i} # {e}" for i, (x, e) in enumerate(zip(values, events))]
+    sample = house.file("events.txt", lines)
+    words = ["fragility", "fit", "--sample", sample, "--bootstrap", 60]
+    words += ["--band", 2]
+    given = np.array(values)
+    none = np.full(len(values), np.nan)
+    found = rk.fit_fragility(
+        rk.Sample(given, none, tuple(events)), n_resamples=60, band=[2.0]
+    )
+    assert found.bootstrap is not None
+    drawn = "10 records of 6 earthquakes; unit: earthquake"
+    assert found.bootstrap.drawn == drawn
+    assert found.needed is not None and found.needed.design_effect > 1.0
+    return Pair(found, words, extra=("sample_of", "unit"))
+
+
 @pair("risk")
 def risk_of_a_fragility(house: House) -> Pair:
     lines = ["pga_g,probability_of_exceedance"]
@@ -291,7 +326,7 @@ def house(
     ida.to_csv(table)
     command("capacities", "--ida", table, "--at", 0.5, "--out", sample)
     index = suites / "ordinary.csv"
-    return House(ida, suite, index, table, sample, folder)
+    return House(ida, suite, index, table, sample, folder, command)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{Draws, ProcedureError};
+use crate::capacity::ResponseCurve;
 use crate::statistics::bootstrap::{Bootstrap, Estimate};
 use crate::statistics::lognormal::{Stripe, fit_counts, fit_counts_alone};
 use crate::statistics::resampling::multiplicities;
@@ -173,6 +174,24 @@ pub fn fit_outcomes(
 }
 
 impl Outcome {
+    /// Whether each record that was run so far responds at `edp` (peak
+    /// |theta|/alpha) or above, at each intensity.
+    #[must_use]
+    pub fn of(
+        curves: &[ResponseCurve],
+        intensities: &[f64],
+        edp: f64,
+    ) -> Vec<Self> {
+        let at = |&im: &f64| {
+            let one = move |(record, curve): (usize, &ResponseCurve)| {
+                let exceeded = curve.edp_at(im)? >= edp;
+                Some(Self { im, record, exceeded })
+            };
+            curves.iter().enumerate().filter_map(one)
+        };
+        intensities.iter().flat_map(at).collect()
+    }
+
     /// The counts of outcomes, each as often as `of` says of its record;
     /// stripes in the order in which they come.
     #[must_use]

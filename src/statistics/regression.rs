@@ -142,6 +142,7 @@ fn checked(x: &[f64], y: &[f64]) -> Result<(), RegressionError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::Clusters;
 
     const ORACLE: &str = include_str!("../../fixtures/oracles/regression.csv");
 
@@ -186,5 +187,8 @@ mod tests {
         assert_eq!(refused(&two, &nan), second);
         let lengths = RegressionError::Lengths { x: 2, y: 3 };
         assert_eq!(refused(&two[..2], &two), lengths);
+        let clusters = Clusters::from_labels(["a", "b", "b"]);
+        let few = RegressionError::TooFewClusters(2);
+        assert_eq!(mixed(&two, &two, &clusters), Err(few));
     }
 }

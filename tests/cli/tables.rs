@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use rocking_common::table::columns::{
-    BAND, BLOCKS, COUNTS, Column, FORCES, FRAGILITIES, HISTORY, IDA, Layout,
+    BAND, BLOCKS, Column, FORCES, FRAGILITIES, HISTORY, IDA, Layout, OUTCOMES,
     SCHEMA, SWEEP_CAPACITIES, SWEEP_FRAGILITIES, SWEEP_ROWS, TABLES,
 };
 
@@ -124,7 +124,7 @@ fn tables_of_commands_have_the_columns_of_the_registry() {
         ("h.csv", &HISTORY),
         ("ida.csv", &IDA),
         ("forces.csv", &FORCES),
-        ("n.csv", &COUNTS),
+        ("n.csv", &OUTCOMES),
         ("band.csv", &BAND),
         ("e.csv", &FRAGILITIES),
         ("f.csv", &SWEEP_FRAGILITIES),

@@ -21,8 +21,9 @@ const DOORS: [&str; 3] =
     ["python/src", "validation/src/cli", "validation/study/src/questions"];
 
 /// What a door may name of `rocking::statistics`: data, and names of choices.
-const PLAIN: [&str; 8] = [
+const PLAIN: [&str; 9] = [
     "CensoredSample",
+    "Clusters",
     "ExtendedSample",
     "FitMethod",
     "Lognormal",

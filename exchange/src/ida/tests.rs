@@ -6,13 +6,13 @@ use super::IdaTable;
 use crate::columns::IDA;
 
 const ROWS: [&str; 4] = [
-    "A,0.2,3,0.2,0.1,1,0.5,0,no-uplift,inf,,0.92,nonlinear,alpha,\
+    "A,0.2,3,0.2,0.1,1,0.5,0,no-uplift,inf,,X,0.92,nonlinear,alpha,\
      record-scaling,9.80665,none,x,1",
-    "A,0.2,3,0.3,0.2,1.5,0.75,0.4,rocked,0.6,,0.92,nonlinear,alpha,\
+    "A,0.2,3,0.3,0.2,1.5,0.75,0.4,rocked,0.6,,X,0.92,nonlinear,alpha,\
      record-scaling,9.80665,none,x,1",
-    "A,0.2,3,0.4,0.3,2,1,inf,overturned,0.1,,0.92,nonlinear,alpha,\
+    "A,0.2,3,0.4,0.3,2,1,inf,overturned,0.1,,X,0.92,nonlinear,alpha,\
      record-scaling,9.80665,none,x,1",
-    "B,0.2,3,0.2,0.1,1,0.6,0,no-uplift,inf,,0.92,nonlinear,alpha,\
+    "B,0.2,3,0.2,0.1,1,0.6,0,no-uplift,inf,,X,0.92,nonlinear,alpha,\
      record-scaling,9.80665,none,x,1",
 ];
 
@@ -31,7 +31,9 @@ fn a_table_is_written_as_it_was_read() {
     });
     assert_eq!(table.csv().lines().skip(1).collect::<Vec<_>>(), ROWS);
     assert_eq!(table.records().collect::<Vec<_>>(), ["A", "B"]);
+    assert_eq!(table.events(), Some(vec!["X", "X"]));
     let found = table.curves(Intensity::Pgv).unwrap();
+    assert_eq!((found.clusters.records(), found.clusters.count()), (2, 1));
     assert_eq!(found.im_r, 0.5);
     assert_eq!(found.curves[0].1.overturning_im(), Some(1.0));
 }
@@ -47,6 +49,7 @@ fn a_table_that_is_none_is_refused_with_its_line() {
         (changed("0.4,rocked", "inf,rocked"), "inf where overturned"),
         (changed("rocked", "fell"), "found `fell` in column outcome"),
         (changed(",0.6,,", ",x,,"), "found `x` in column margin"),
+        (changed(",X,", ",,"), "the earthquake of every record, or of none"),
         (changed("x,1", "x,2"), "found `2` in column schema"),
     ];
     for (row, expected) in cases {

@@ -69,6 +69,10 @@ fn an_index_that_is_none_is_refused() {
         ("file,x,x\n", "i.csv:1: \"x\": expected each column once"),
         ("file,dt_s\n", "i.csv: no readable record in it"),
         ("file,dt_s\n,0.01\n", "i.csv:2: \"\": expected the name of a file"),
+        (
+            "file,dt_s,event\na,0.01,X\nb,0.01,\n",
+            "i.csv:3: \"\": expected the earthquake of each record",
+        ),
         ("file,dt_s\n\"a,0.01\n", "i.csv:2: \"\\\"a,0.01\": expected cells"),
         ("file,dt_s\na\"b,0.01\n", "i.csv:2: \"a\\\"b,0.01\": expected cells"),
         (
@@ -87,7 +91,7 @@ fn study_components_come_from_the_index() {
     let index = "file,dt_s,pair,study_component,event,mw\r\n\
         a-1.txt,0.01,p,0,\"Nowhere, \"\"old\"\"\",7.1\r\n\
         a-2.txt,0.01,p,1,X,7.1\r\n\
-        b.txt,0.01,,1,,6\r\n\r\n";
+        b.txt,0.01,,1,Y,6\r\n\r\n";
     let found = suite(index).unwrap();
     assert_eq!(found.name(), "i");
     assert_eq!(found.study_rule(), StudyRule::Index);

@@ -111,6 +111,8 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rejected-share", statistics::rejection),
     ("coverage", statistics::coverage),
     ("coverage-of-inference", statistics::inference),
+    ("rates-by-earthquake", statistics::rates),
+    ("earthquakes-of-other-packages", statistics::other_packages),
     ("bias", statistics::bias),
     ("intensity", intensity::measures),
     ("velocity-pulse", velocity_pulse::pulses),

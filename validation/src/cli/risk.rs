@@ -54,7 +54,8 @@ pub struct Args {
         requires = "dispersion",
         conflicts_with_all = [
             "sample", "ida", "counts", "surrogate", "im", "blocks",
-            "BlockArgs", "id", "limit_state", "gravity", "method"
+            "BlockArgs", "id", "limit_state", "gravity", "method",
+            "bootstrap", "seed"
         ]
     )]
     median: Option<f64>,

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
 use rocking::capacity::ResponseCurve;
+use rocking::procedures::counts::Outcome;
 use rocking::procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
@@ -90,17 +91,16 @@ fn outcomes(
     edp: f64,
 ) -> String {
     let mut out = Table::of(&OUTCOMES);
-    let events = table.events();
-    for im in levels {
-        for (place, record) in table.records().enumerate() {
-            let Some(found) = curves[place].edp_at(*im) else { continue };
-            let event = events.as_ref().map_or("", |events| events[place]);
-            let cells = [record.to_owned(), event.to_owned()];
-            let exceeded = u8::from(found >= edp).to_string();
-            out.row(
-                [im.to_string()].into_iter().chain(cells).chain([exceeded]),
-            );
-        }
+    let (records, events) =
+        (table.records().collect::<Vec<_>>(), table.events());
+    for found in Outcome::of(curves, levels, edp) {
+        let event = events.as_ref().map_or("", |all| all[found.record]);
+        out.row([
+            found.im.to_string(),
+            records[found.record].to_owned(),
+            event.to_owned(),
+            u8::from(found.exceeded).to_string(),
+        ]);
     }
     out.finish()
 }

@@ -9,6 +9,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Analysis, Grid, HIGHEST_IM, REFINEMENT};
 use rocking::integrator::{Model, Overturning, uplift_threshold};
 use rocking::record::{Accelerogram, ReadOptions, Suite};
+use rocking::statistics::Clusters;
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::Id;
 use serde::{Deserialize, Serialize};
@@ -51,6 +52,9 @@ pub struct Plan {
     pub blocks: Vec<Given>,
     /// Study components: name and SHA-256 of the packed file.
     pub records: Vec<(String, String)>,
+    /// Their earthquakes; empty where the suite does not say them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    events: Vec<String>,
     /// The tiles, in the order of the blocks, with what they cost.
     pub tiles: Vec<Tile>,
 }
@@ -188,6 +192,11 @@ impl Plan {
                 (row.motion.name().to_owned(), sha256_hex(text))
             })
             .collect();
+        let events: Option<Vec<String>> = wanted
+            .suite
+            .study_components()
+            .map(|member| member.event.clone())
+            .collect();
         let plan = Self {
             schema: SCHEMA,
             software: software.into(),
@@ -197,6 +206,7 @@ impl Plan {
             rows: wanted.rows,
             blocks: wanted.blocks.to_vec(),
             records,
+            events: events.unwrap_or_default(),
             tiles: cost::tiles(&costs, 60.0 * wanted.tile_minutes),
         };
         let analyses = plan.tiles.iter().map(|tile| tile.analyses as f64);
@@ -232,6 +242,15 @@ impl Plan {
         Planned::read(folder)
     }
 
+    /// The records by earthquake, where the suite says it.
+    #[must_use]
+    pub fn clusters(&self) -> Clusters {
+        match self.events.as_slice() {
+            [] => Clusters::singletons(self.records.len()),
+            events => Clusters::from_labels(events),
+        }
+    }
+
     /// Seconds of one core that all of it takes, estimated.
     #[must_use]
     pub fn core_s(&self) -> f64 {
@@ -252,6 +271,7 @@ impl Plan {
             "replicates": self.replicates,
             "blocks": self.blocks.len(),
             "records": self.records.len(),
+            "drawn": self.clusters().to_string(),
         })
         .to_string()
     }

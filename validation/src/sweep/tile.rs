@@ -8,7 +8,7 @@ use rocking::excitation::NormalisedRecord;
 use rocking::ida::{Batch, IdaCurve, Overturned, curves};
 use rocking::intensity::Intensity;
 use rocking::statistics::ExtendedSample;
-use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::bootstrap::Bootstrap;
 use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::content::Content;
@@ -236,7 +236,8 @@ fn fill(
 }
 
 /// Values reached, shift, and the median and dispersion of the shifted
-/// lognormal by maximum likelihood with their 95 % percentile intervals;
+/// lognormal by maximum likelihood with their 95 % percentile intervals,
+/// of earthquakes drawn where the plan has them;
 /// empty where some record never reaches the demand.
 fn fragility(
     plan: &Plan,
@@ -259,7 +260,8 @@ fn fragility(
     let found = of(sample, shift);
     // Streams are named by the block, not by the tile.
     let stream = format!("sweep/{}", name.join("/"));
-    let draws = Bootstrap::new(&stream, 0, sample.len(), plan.replicates);
+    let clusters = plan.clusters();
+    let draws = Bootstrap::of(&stream, 0, &clusters, plan.replicates);
     let replicates: Vec<Option<[f64; 2]>> = draws.map(|places| {
         let values: Vec<f64> = places.iter().map(|i| sample[*i]).collect();
         of(&values, least(&mut places.iter().map(|i| onsets[*i])))
@@ -268,7 +270,7 @@ fn fragility(
         let values: Vec<f64> =
             replicates.iter().flatten().map(|r| r[k]).collect();
         let point = found.map_or(f64::NAN, |found| found[k]);
-        let ends = estimate(point, &values, 0.95);
+        let ends = clusters.estimate(point, &values, 0.95);
         ends.map_or([f64::NAN; 2], |e| [e.low, e.high])
     };
     let found = found.unwrap_or([f64::NAN; 2]);

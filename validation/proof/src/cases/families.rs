@@ -16,6 +16,7 @@ pub const FAMILIES: &[(&str, &str)] = families![
     "calibration",
     "certificate",
     "double-double",
+    "earthquakes",
     "ends-and-touches",
     "estimators",
     "fates",

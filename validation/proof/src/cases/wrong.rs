@@ -137,6 +137,8 @@ named! {
         PointwiseIntervals = "pointwise-intervals",
         /// Percentiles of the share of the replicates' points.
         ShareOfPoints = "share-of-points",
+        /// Records of one earthquake taken as independent.
+        RecordsAsUnit = "records-as-unit",
         /// Replicates with replacement for a test that ties break.
         TiedReplicates = "tied-replicates",
         /// Oscillators 1 % too slow.

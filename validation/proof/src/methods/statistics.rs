@@ -4,6 +4,7 @@
 mod calibration;
 mod cells;
 mod choice;
+mod earthquakes;
 mod equations;
 mod fits;
 mod inference;
@@ -17,6 +18,7 @@ mod two_samples;
 
 pub(super) use calibration::{bias, coverage, rejection};
 pub(super) use choice::choice;
+pub(super) use earthquakes::{other_packages, rates};
 pub(super) use equations::transforms;
 pub(super) use fits::{fits, paired, quantiles, tests};
 pub(super) use inference::coverage as inference;

@@ -9,9 +9,9 @@ use rocking::capacity::InversionRule;
 use rocking::integrator::Model;
 use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::procedures::{
-    FitOptions, Sampled, Shift, capacities, fit_sample,
+    FitOptions, Sampled, Shift, capacities, fit_sample, fit_stripes,
 };
-use rocking::statistics::lognormal::{FitMethod, fit_counts_alone};
+use rocking::statistics::lognormal::FitMethod;
 use rocking::statistics::{CensoredSample, Clusters, Lognormal};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
@@ -327,8 +327,8 @@ impl Level {
             (Values::Counts(counted), Shift::Given(shift), _)
                 if options.method == FitMethod::MaximumLikelihood =>
             {
-                let fitted = fit_counts_alone(&counted.stripes(), shift);
-                Ok((fitted.at(place)?, None))
+                let found = fit_stripes(&counted.stripes(), shift);
+                Ok((found.at(place)?.fitted, None))
             }
             (Values::Counts(_), ..) => refused(
                 "counts: expected --shift with a number and --method mle",

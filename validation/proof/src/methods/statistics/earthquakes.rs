@@ -1,0 +1,262 @@
+//! Records of shared earthquakes: what intervals and tests do when the truth
+//! is known, and numbers of other packages.
+//!
+//! ln capacity of record r of earthquake g is sqrt(c) u_g + sqrt(1 - c) e_r
+//! times the dispersion, with standard normal u and e and the intraclass
+//! correlation c.
+
+use libm::exp;
+use rayon::prelude::*;
+use rocking::fragility::hazard::{Hazard, HazardOptions};
+use rocking::procedures::counts::Outcome;
+use rocking::procedures::{
+    Draws, Exposed, FitOptions, fit_outcomes, fit_sample, risk,
+};
+use rocking::statistics::regression::mixed;
+use rocking::statistics::{CensoredSample, Clusters, Lognormal};
+use rocking::streams::{Streams, standard_normal};
+use serde::Deserialize;
+
+use super::cells::{Csv, csv, refused};
+use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+
+const VALUES: Csv = csv!("oracles/earthquakes.csv");
+
+/// Dispersion of the simulated capacities; their median is 1.
+const DISPERSION: f64 = 0.5;
+
+/// Replicates of an interval.
+const REPLICATES: usize = 400;
+
+/// Records by earthquake of the recorded suites.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum Shape {
+    Ordinary,
+    Pulse,
+}
+
+impl Shape {
+    fn clusters(self) -> Clusters {
+        let sizes: &[usize] = match self {
+            Self::Ordinary => &[
+                12, 12, 11, 9, 6, 5, 5, 4, 4, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1,
+                1, 1,
+            ],
+            Self::Pulse => &[6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1],
+        };
+        let labels = sizes
+            .iter()
+            .enumerate()
+            .flat_map(|(g, size)| std::iter::repeat_n(g.to_string(), *size));
+        Clusters::from_labels(labels)
+    }
+}
+
+/// What is judged.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Measure {
+    /// BCa interval of the median.
+    Median,
+    /// BCa interval of the dispersion.
+    Dispersion,
+    /// Bootstrap band of the probability at the intensity 0.7.
+    Probability,
+    /// Interval of the annual frequency under the hazard 1e-4 x^-2.
+    AnnualFrequency,
+    /// Interval of the median of counts, of stripes of the same records.
+    Counts,
+    /// The test of a slope on an attribute of the earthquake that has none.
+    Slope,
+}
+
+/// Share of simulated suites whose interval holds the truth, or whose slope
+/// on an attribute without meaning is rejected at 5 %.
+pub(crate) fn rates(context: &Context) -> Result<Answer, MethodError> {
+    input! { context;
+        measure: Measure, suite: Shape, intraclass: f64, trials: u64,
+    }
+    let shape = suite.clusters();
+    let records = || Clusters::singletons(shape.records());
+    let taken = match context.wrong {
+        Some(WrongModel::RecordsAsUnit) => records(),
+        _ => shape.clone(),
+    };
+    let streams = Streams::new(&format!("cases/{}", context.case.id), 0);
+    let trial = |index: u64| -> Result<bool, MethodError> {
+        let mut stream = streams.stream(index);
+        let mut normals = |n: usize| -> Vec<f64> {
+            (0..n).map(|_| standard_normal(&mut stream)).collect()
+        };
+        let shared = normals(shape.count());
+        let attribute = normals(shape.count());
+        let own = normals(shape.records());
+        let logs: Vec<f64> = own
+            .iter()
+            .enumerate()
+            .map(|(record, own)| {
+                let shared = shared[shape.of(record)];
+                let between = intraclass.sqrt() * shared;
+                DISPERSION * (between + (1.0 - intraclass).sqrt() * own)
+            })
+            .collect();
+        if matches!(measure, Measure::Slope) {
+            let x: Vec<f64> =
+                (0..logs.len()).map(|r| attribute[shape.of(r)]).collect();
+            let found = mixed(&x, &logs, &taken).map_err(refused)?;
+            return Ok(found.p_value < 0.05);
+        }
+        let values: Vec<f64> = logs.iter().map(|y| exp(*y)).collect();
+        holds(measure, &values, &taken, index)
+    };
+    let found = (0..trials)
+        .into_par_iter()
+        .panic_fuse()
+        .map(trial)
+        .collect::<Result<Vec<bool>, _>>()?;
+    let rate =
+        found.iter().filter(|x| **x).count() as f64 / found.len() as f64;
+    let nominal = if matches!(measure, Measure::Slope) { 0.05 } else { 0.95 };
+    let mut answer = Answer::default();
+    answer.put("rate", [rate], [nominal]);
+    Ok(answer)
+}
+
+/// Whether the interval of a measure holds its truth.
+fn holds(
+    measure: Measure,
+    values: &[f64],
+    clusters: &Clusters,
+    seed: u64,
+) -> Result<bool, MethodError> {
+    const AT: f64 = 0.7;
+    let draws = Draws { replicates: REPLICATES, seed };
+    let inside = |low: Option<f64>, x: f64, high: Option<f64>| {
+        low.is_some_and(|low| low <= x) && high.is_some_and(|high| x <= high)
+    };
+    let truth = Lognormal::try_new(0.0, 0.0, DISPERSION).map_err(refused)?;
+    if matches!(measure, Measure::Counts) {
+        let stripe = |&im: &f64| {
+            let of = move |(record, x): (usize, &f64)| Outcome {
+                im,
+                record,
+                exceeded: *x <= im,
+            };
+            values.iter().enumerate().map(of)
+        };
+        let levels = [0.5, 0.75, 1.0, 1.35, 2.0];
+        let draws = Draws { replicates: REPLICATES / 2, seed };
+        let outcomes: Vec<Outcome> = levels.iter().flat_map(stripe).collect();
+        let found = fit_outcomes(&outcomes, clusters, 0.0, draws);
+        let median = found.map_err(refused)?.median;
+        return Ok(inside(median.low, 1.0, median.high));
+    }
+    let sample = CensoredSample::try_new(values, &[]).map_err(refused)?;
+    let options = FitOptions {
+        draws: Some(draws),
+        clusters: Some(clusters.clone()),
+        band: vec![AT],
+        ..FitOptions::default()
+    };
+    if matches!(measure, Measure::AnnualFrequency) {
+        let text = "intensity,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
+        let hazard = Hazard::parse("h", text, &HazardOptions::default());
+        let exposed = |fitted, sampled| Exposed {
+            fragility: "block".into(),
+            fitted,
+            sampled,
+        };
+        let fit = fit_sample(&sample, &options).map_err(refused)?;
+        let sampled = options.sampled(&sample).map_err(refused)?;
+        let all = [exposed(fit.fitted, sampled)];
+        let found = risk(&hazard.map_err(refused)?, &all, 50.0);
+        let found = found.map_err(refused)?;
+        let own = found.fragilities[0].sampling.as_ref();
+        // Cornell's closed form.
+        let lambda = 1e-4 * exp(2.0 * DISPERSION * DISPERSION);
+        let low = own.map(|own| own.annual_frequency_low);
+        return Ok(inside(
+            low,
+            lambda,
+            own.map(|own| own.annual_frequency_high),
+        ));
+    }
+    let fit = fit_sample(&sample, &options).map_err(refused)?;
+    if matches!(measure, Measure::Probability) {
+        let point = fit.band.as_ref().and_then(|band| band.points.first());
+        let (low, high) =
+            (point.and_then(|p| p.low), point.and_then(|p| p.high));
+        return Ok(inside(low, truth.cdf(AT), high));
+    }
+    let none = || MethodError::Oracle("no bootstrap".into());
+    let all = fit.bootstrap.ok_or_else(none)?;
+    let (own, truth) = match measure {
+        Measure::Dispersion => (all.dispersion, DISPERSION),
+        _ => (all.median, 1.0),
+    };
+    let found = own.bca.or(own.percentile);
+    let low = found.as_ref().map(|e| e.low);
+    Ok(inside(low, truth, found.map(|e| e.high)))
+}
+
+fn list(text: &str) -> Result<Vec<f64>, MethodError> {
+    let number = |cell: &str| cell.parse::<f64>().map_err(refused);
+    text.split(' ').map(number).collect()
+}
+
+/// Slopes with a random intercept, and what widens an interval of few
+/// earthquakes.
+pub(crate) fn other_packages(
+    context: &Context,
+) -> Result<Answer, MethodError> {
+    let clusters = |text: &'static str| -> Clusters {
+        let labels = text.split(' ');
+        match context.wrong {
+            Some(WrongModel::RecordsAsUnit) => {
+                Clusters::singletons(labels.count())
+            }
+            _ => Clusters::from_labels(labels),
+        }
+    };
+    let mut answer = Answer::default();
+    for row in VALUES.rows("line")? {
+        let (x, y) = (list(row.text(2))?, list(row.text(3))?);
+        let found = mixed(&x, &y, &clusters(row.text(4))).map_err(refused)?;
+        let quantities = [
+            ("intercept", found.intercept),
+            ("slope", found.slope),
+            ("standard-error", found.standard_error),
+            ("within", found.residual_deviation),
+            ("between", found.event_deviation.unwrap_or(0.0)),
+            ("degrees-of-freedom", found.degrees_of_freedom),
+            ("p-value", found.p_value),
+        ];
+        row.put(&mut answer, 5, &quantities)?;
+    }
+    for row in VALUES.rows("share")? {
+        let logs = list(row.text(2))?;
+        let clusters = clusters(row.text(3));
+        let share = clusters.intraclass(&logs).unwrap_or(0.0);
+        let values: Vec<f64> = logs.iter().map(|y| exp(*y)).collect();
+        let sample = CensoredSample::try_new(&values, &[]).map_err(refused)?;
+        let clusters = Some(clusters);
+        let options = FitOptions { clusters, ..FitOptions::default() };
+        let fit = fit_sample(&sample, &options).map_err(refused)?;
+        let none = || MethodError::Oracle("no design effect".into());
+        let needed = fit.needed.ok_or_else(none)?;
+        let quantities = [
+            ("share", share),
+            ("records", needed.for_median),
+            ("records", needed.for_dispersion),
+        ];
+        row.put(&mut answer, 4, &quantities)?;
+    }
+    for row in VALUES.rows("interval")? {
+        let own = clusters(row.text(2));
+        let nu = own.degrees_of_freedom();
+        let width = own.half_width(0.95);
+        row.put(&mut answer, 3, &[("freedom", nu), ("half-width", width)])?;
+    }
+    Ok(answer)
+}

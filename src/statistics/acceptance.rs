@@ -75,8 +75,7 @@ impl AcceptedShare {
     /// value; a level with a value that is not finite, or whose values do not
     /// vary, is not applicable.
     ///
-    /// The same D as [`Assessment`] has, to 1e-9, many times as fast: for
-    /// simulations.
+    /// D is that of [`distances`].
     ///
     /// ```
     /// use rocking::statistics::acceptance::AcceptedShare;
@@ -89,26 +88,14 @@ impl AcceptedShare {
     /// If the levels have different sizes.
     #[must_use]
     pub fn of_values(levels: &[Vec<f64>], critical_value: f64) -> Self {
-        let finite = |level: &&Vec<f64>| level.iter().all(|x| x.is_finite());
-        let usable: Vec<&Vec<f64>> = levels.iter().filter(finite).collect();
-        let (mut tested, mut accepted) = (0, 0);
-        if let Some(first) = usable.first() {
-            let mut scratch = Scratch::new(first.len());
-            for group in usable.chunks(LANES) {
-                for lane in 0..LANES {
-                    // Lanes beyond the last level repeat it.
-                    let level = group[lane.min(group.len() - 1)];
-                    scratch.values.copy_from_slice(level);
-                    scratch.put(lane);
-                }
-                let found = scratch.statistics();
-                for d in found[..group.len()].iter().filter(|d| !d.is_nan()) {
-                    tested += 1;
-                    accepted += usize::from(*d <= critical_value);
-                }
-            }
+        let found = distances(levels);
+        let tested: Vec<&f64> = found.iter().filter(|d| !d.is_nan()).collect();
+        let accepted = tested.iter().filter(|d| ***d <= critical_value);
+        Self {
+            tested: tested.len(),
+            accepted: accepted.count(),
+            not_applicable: levels.len() - tested.len(),
         }
-        Self { tested, accepted, not_applicable: levels.len() - tested }
     }
 
     /// Accepted over tested; none if no level was tested.
@@ -116,6 +103,43 @@ impl AcceptedShare {
     pub fn share(&self) -> Option<f64> {
         (self.tested > 0).then(|| self.accepted as f64 / self.tested as f64)
     }
+}
+
+/// Lilliefors' D of the values of each level, all of one size; NaN for a
+/// level with a value that is not finite, or whose values do not vary.
+///
+/// Take logarithms first for a lognormal. The same D as
+/// [`Statistic`](super::lilliefors::Statistic) has, to 1e-9, many times as
+/// fast: for simulations.
+///
+/// ```
+/// use rocking::statistics::acceptance::distances;
+/// let level: Vec<f64> = (0..20).map(f64::from).collect();
+/// let found = distances(&[level, vec![f64::INFINITY; 20]]);
+/// assert!(found[0] < 0.1 && found[1].is_nan());
+/// ```
+///
+/// # Panics
+/// If the levels have different sizes.
+#[must_use]
+pub fn distances(levels: &[Vec<f64>]) -> Vec<f64> {
+    let finite = |k: &usize| levels[*k].iter().all(|x| x.is_finite());
+    let usable: Vec<usize> = (0..levels.len()).filter(finite).collect();
+    let mut out = vec![f64::NAN; levels.len()];
+    let Some(first) = usable.first() else { return out };
+    let mut scratch = Scratch::new(levels[*first].len());
+    for group in usable.chunks(LANES) {
+        for lane in 0..LANES {
+            // Lanes beyond the last level repeat it.
+            let level = group[lane.min(group.len() - 1)];
+            scratch.values.copy_from_slice(&levels[level]);
+            scratch.put(lane);
+        }
+        for (level, d) in group.iter().zip(scratch.statistics()) {
+            out[*level] = d;
+        }
+    }
+    out
 }
 
 /// The null distribution of an accepted share: normal at every level, with

@@ -198,8 +198,12 @@ const REPORT: Edges = &[
 const STUDY: Edges = &[
     ("analyses", &["certainty", "runs"]),
     ("certainty", &[]),
-    ("claims", &["inference", "measures", "results", "shares"]),
+    ("claims", &["distances", "inference", "measures", "results"]),
     ("contents", &["analyses"]),
+    (
+        "distances",
+        &["distributions", "estimates", "inference", "normality", "results"],
+    ),
     ("distributions", &["analyses", "normality", "runs"]),
     ("estimates", &["analyses", "results", "runs", "sensitivities"]),
     (
@@ -237,6 +241,7 @@ const STUDY: Edges = &[
         "measures",
         &[
             "analyses",
+            "distances",
             "distributions",
             "estimates",
             "fits",
@@ -244,7 +249,6 @@ const STUDY: Edges = &[
             "results",
             "runs",
             "sensitivities",
-            "shares",
             "stripes",
         ],
     ),
@@ -268,7 +272,6 @@ const STUDY: Edges = &[
     ("results", &["analyses", "distributions", "inference", "sensitivities"]),
     ("runs", &["certainty"]),
     ("sensitivities", &["analyses", "runs"]),
-    ("shares", &["distributions", "inference", "normality", "results"]),
     ("stripes", &["analyses"]),
     ("ties", &["distributions", "normality"]),
     (

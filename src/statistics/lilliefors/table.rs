@@ -161,6 +161,40 @@ impl Table {
         Ok(PValue { value, low: low.max(0.0), high: high.min(1.0) })
     }
 
+    /// Mean of D of normal samples of n values, in probability: the integral
+    /// of the critical value over the levels from 0 to 1.
+    ///
+    /// D of a sample less this mean is about 0 for a normal sample, and what
+    /// is left is the distance of its distribution from the normal one.
+    /// Between the tabulated levels it is integrated over normal scores from
+    /// -6 to 6 by trapezoids; beyond the levels 0.99 and 0.0001 the score
+    /// goes on linearly. n is 4 to 1000; the error is below 3e-5, from
+    /// n = 10 on.
+    ///
+    /// ```
+    /// use rocking::statistics::lilliefors::Table;
+    /// let mean = Table::embedded().mean(86)?;
+    /// assert!((mean - 0.06673).abs() < 1e-4);
+    /// # Ok::<(), rocking::statistics::lilliefors::LillieforsError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`LillieforsError`] outside n = 4 to 1000.
+    pub fn mean(&self, n: usize) -> Result<f64, LillieforsError> {
+        const STEPS: u32 = 240;
+        const END: f64 = 6.0;
+        let column = self.column(n)?;
+        let scores = column.scores();
+        let step = 2.0 * END / f64::from(STEPS);
+        // Both densities at the ends are 6e-9: no half weights are needed.
+        let sum = (0..=STEPS).fold(0.0, |sum, k| {
+            let z = f64::mul_add(step, f64::from(k), -END);
+            let d = monotone_cubic(&scores, &column.values, z);
+            f64::mul_add(normal::pdf(z), d, sum)
+        });
+        Ok(step * sum)
+    }
+
     /// The column of a size, interpolated if it is not there.
     fn column(&self, n: usize) -> Result<Column, LillieforsError> {
         let i = self.columns.partition_point(|column| column.n < n);

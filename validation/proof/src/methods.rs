@@ -91,6 +91,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("sample-moments", statistics::moments),
     ("lilliefors-null", statistics::null),
     ("lilliefors-largest", statistics::largest),
+    ("lilliefors-mean", statistics::mean),
     ("lilliefors-table", statistics::table),
     ("lilliefors-published", statistics::published),
     ("lilliefors-asymptotics", statistics::asymptotics),

@@ -54,6 +54,7 @@ pub fn themes(here: &Findings, recorded: Option<&Findings>) -> Vec<Shown> {
         Theme::Lognormality,
         Theme::Fragilities,
         Theme::Choices,
+        Theme::Beyond,
     ];
     let shown = |theme| Shown {
         theme,

@@ -7,12 +7,10 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::inference::{
-    Draws, Judged, MORE, Replicated, Rule, judge, share,
-};
-use crate::measures::{Measure, Source};
+use crate::distances::{self, Distances};
+use crate::inference::{Draws, Judged, MORE, Rule, judge, share};
+use crate::measures::{Criterion, Measure, Source};
 use crate::results::Results;
-use crate::shares::{self, Shares};
 use rocking_common::findings::{
     Claim, ClaimResult, Detail, Kind, Quantifier, Region, Tested, Theme,
 };
@@ -59,8 +57,7 @@ pub struct Declared {
     #[serde(default)]
     pub reason: String,
     /// The paper's own criterion.
-    #[serde(default)]
-    pub criterion: String,
+    pub criterion: Option<OwnCriterion>,
     /// Suites that it is tested on.
     #[serde(default)]
     pub suites: Vec<Tested>,
@@ -72,6 +69,16 @@ pub struct Declared {
     /// What else a reader must know.
     #[serde(default)]
     pub note: String,
+}
+
+/// What the paper itself judges by.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OwnCriterion {
+    /// The criterion in words.
+    pub words: String,
+    /// Where the share of what meets it has to lie.
+    pub share: Region,
 }
 
 /// Arms of the grid that a claim is tested on.
@@ -160,9 +167,10 @@ pub fn limit_of(measure: Measure) -> f64 {
 /// # Errors
 /// Where a measure cannot be computed.
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
-    let shares = shares::all(results, draws);
+    let distances = distances::all(results, draws);
     let more = OnceCell::new();
-    let drawn = Drawn { results, draws, more: &more, shares: &shares };
+    let drawn =
+        Drawn { results, draws, more: &more, distances: &distances };
     declared().iter().map(|claim| measured(claim, &drawn)).collect()
 }
 
@@ -172,7 +180,7 @@ struct Drawn<'a> {
     results: &'a Results,
     draws: &'a Draws,
     more: &'a OnceCell<Draws>,
-    shares: &'a [Shares],
+    distances: &'a [Distances],
 }
 
 fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
@@ -197,7 +205,7 @@ fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
                 let source = Source {
                     results,
                     draws: drawn.draws,
-                    shares: drawn.shares,
+                    distances: drawn.distances,
                     tested: *suite,
                     arm: *arm,
                 };
@@ -224,7 +232,10 @@ fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
         quantifier: claim.quantifier,
         region: claim.region,
         reason: claim.reason.clone(),
-        criterion: claim.criterion.clone(),
+        criterion: claim
+            .criterion
+            .as_ref()
+            .map_or_else(String::new, |own| own.words.clone()),
         case: claim.case.clone(),
         note: claim.note.clone(),
         results: found,
@@ -254,12 +265,13 @@ impl Asked<'_> {
             &prepared.cells,
             &prepared.measured,
         );
-        if let Some(criterion) = &prepared.criterion
-            && !self.claim.criterion.is_empty()
+        let result = &mut judged.result;
+        if let (Some(own), Some(criterion)) =
+            (&self.claim.criterion, &prepared.criterion)
         {
-            let result = &mut judged.result;
-            by_criterion(source.draws, self.claim, criterion, result);
+            by_criterion(source.draws, own, criterion, result);
         }
+        result.details.extend(prepared.details);
         Ok(Some(judged))
     }
 
@@ -270,38 +282,30 @@ impl Asked<'_> {
         more: &OnceCell<Draws>,
     ) -> anyhow::Result<Option<Judged>> {
         let draws = more.get_or_init(|| source.results.draws(MORE));
-        let source = Source { draws, shares: &[], ..*source };
+        let source = Source { draws, distances: &[], ..*source };
         let found = self.judged(&source)?;
         if found.is_some() {
             return Ok(found);
         }
-        // Accepted shares, which many claims share otherwise.
+        // Distances, which many claims share otherwise.
         let suite = source.kind();
-        let own = Shares::new(source.results, draws, suite, source.arm);
-        let shares = own.as_slice();
-        self.judged(&Source { shares, ..source })
+        let own = Distances::new(source.results, draws, suite, source.arm);
+        let distances = own.as_slice();
+        self.judged(&Source { distances, ..source })
     }
 }
 
-/// The verdict by the paper's own criterion: the share of notches that cover
-/// 1, which an exception must not.
+/// The verdict by the paper's own criterion.
 fn by_criterion(
     draws: &Draws,
-    claim: &Declared,
-    notches: &Replicated,
+    own: &OwnCriterion,
+    found: &Criterion,
     result: &mut ClaimResult,
 ) {
-    let region = match claim.quantifier {
-        Some(Quantifier::Most) => Region::Above(0.5),
-        Some(Quantifier::One) => Region::Below(0.5),
-        _ => Region::Within(0.9, 1.0),
-    };
-    let (interval, verdict) = share(draws, result.suite, notches, region);
+    let (measured, verdict) =
+        share(draws, result.suite, &found.measured, own.share);
     result.by_criterion = Some(verdict);
-    result.details.push(Detail {
-        name: "share of the cells whose notch covers 1".into(),
-        measured: interval,
-    });
+    result.details.push(Detail { name: found.name.clone(), measured });
 }
 
 #[cfg(test)]

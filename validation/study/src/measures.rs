@@ -6,8 +6,8 @@
 //! record is drawn.
 
 mod capacities;
+mod distances;
 mod fragilities;
-mod shares;
 mod single;
 mod source;
 mod stripes;
@@ -15,7 +15,7 @@ mod stripes;
 use serde::Deserialize;
 
 pub(crate) use fragilities::{At, Thresholds, by_demand, to_ssfl};
-pub use source::{Prepared, Source};
+pub use source::{Criterion, Prepared, Source};
 pub use stripes::without_closed_form;
 
 use rocking_common::findings::Unit;
@@ -67,14 +67,16 @@ macro_rules! measures {
 }
 
 measures! {
-    /// First overturning by the other criterion over that by the study's.
+    /// First overturning by the other criterion over the study's, paired.
     FirstOverturningByCriterion: One, ANY, capacities::criterion;
-    /// Median overturning with another restitution over the study's.
+    /// Overturning with another restitution over the study's, paired.
     RestitutionEffect: One, ANY, capacities::restitution;
-    /// Quantiles of capacities of the other component over the study's.
+    /// What restitution does to overturning over what the size does.
+    RestitutionBesideSize: Share, NOT_NEGATIVE, capacities::restitution_beside_size;
+    /// Capacities of the other component over the study's, paired.
     ComponentEffect: One, ANY, capacities::component;
-    /// Change of accepted shares by the geometric mean's intensity.
-    GeometricMeanShares: Points, SIGNED, shares::geometric_mean;
+    /// Change of the excess of D by the geometric mean's intensity.
+    GeometricMeanDistance: Probability, SIGNED, distances::geometric_mean;
     /// Share of records that uplift the stockiest block unscaled.
     UpliftUnscaled: Share, FROM_0_TO_1, capacities::uplift;
     /// Probability of overturning without minus with resurrections.
@@ -89,18 +91,28 @@ measures! {
     InversionBias: One, ANY, capacities::inversion;
     /// Paired ratio stocky over slender with Housner's restitution.
     HousnerSpread: One, NOT_NEGATIVE, capacities::housner;
-    /// Distance of histories, ordinary minus pulse-type.
-    HistoryDifference: Distance, ANY, single::histories;
+    /// Share of histories further than 5 % from the reference's.
+    HistoriesApart: Share, FROM_0_TO_1, single::histories_apart;
+    /// Median distance of histories.
+    HistoryDistance: Distance, NOT_NEGATIVE, single::history_distance;
+    /// That of ordinary over that of pulse-type motions.
+    HistoryContrast: One, NOT_NEGATIVE, single::histories;
     /// Difference of peaks.
     PeakDifference: One, NOT_NEGATIVE, single::peaks;
+    /// Share of stripes at which blocks of one p have different fates.
+    MixedFates: Share, FROM_0_TO_1, single::fates;
     /// Difference of single IDA curves.
     CurveDifference: One, NOT_NEGATIVE, single::curves;
+    /// That of ordinary over that of pulse-type motions.
+    CurveContrast: One, NOT_NEGATIVE, single::curve_contrast;
     /// Median paired ratios on stripes, p = 1, all but the exception.
-    StripeRatiosLarge: One, ANY, |s| stripes::ratios(s, &[0], Some(false));
+    StripeRatiosLarge: One, ANY, |s| stripes::ratios(s, &[0]);
     /// The paper's exception: alpha = 0.25 on the lowest stripe.
-    StripeRatioException: One, ANY, |s| stripes::ratios(s, &[0], Some(true));
+    StripeRatioException: One, ANY, stripes::only_exception;
+    /// Deviation of the smaller over that of the larger demands there.
+    SmallAmplitudes: One, NOT_NEGATIVE, stripes::small_amplitudes;
     /// Median paired ratios on stripes, p = 3 and 4.
-    StripeRatiosSmall: One, ANY, |s| stripes::ratios(s, &[1, 2], None);
+    StripeRatiosSmall: One, ANY, |s| stripes::ratios(s, &[1, 2]);
     /// All of them, the closed form divided out.
     StripeRatiosCorrected: One, ANY, stripes::corrected;
     /// Share of ratios far from 1.
@@ -115,34 +127,54 @@ measures! {
     AdjustmentRatiosSlender: One, ANY, |s| stripes::adjusted(s, Some(true));
     /// The same where it is above.
     AdjustmentRatiosStocky: One, ANY, |s| stripes::adjusted(s, Some(false));
+    /// All of them, the closed form divided out record by record.
+    AdjustmentRatiosCorrected: One, ANY, stripes::adjusted_corrected;
     /// 16, 50 and 84 % quantiles, adjusted over scaled.
     AdjustmentQuantiles: One, ANY, capacities::adjusted_quantiles;
     /// 84 over 16 % quantile of the onset in PGV.
     OnsetSpreadPgv: One, ANY, capacities::onset;
-    /// Mean accepted share, original PGA.
-    ShareOriginalPga: Share, FROM_0_TO_1, shares::original_pga;
-    /// The same of p = 1 minus p = 3 and 4.
-    ShareLargeMinusSmall: Points, SIGNED, shares::large_minus_small;
-    /// Mean gain of the accepted share by shifting, PGA.
-    ShareGainPga: Points, SIGNED, |s| shares::gain(s, Intensity::Pga);
-    /// Share of blocks above 70 %, original PGV.
-    BlocksAbove70Pgv: Share, FROM_0_TO_1, shares::above_70;
-    /// Mean gain of the accepted share by shifting, PGV.
-    ShareGainPgv: Points, SIGNED, |s| shares::gain(s, Intensity::Pgv);
-    /// Share of blocks above 90 %, shifted PGV.
-    BlocksAbove90Pgv: Share, FROM_0_TO_1, shares::above_90;
-    /// Accepted shares of alpha = 0.05, p = 3, original and shifted.
-    ShareSlender: Share, FROM_0_TO_1, shares::slender;
-    /// Accepted share of alpha = 0.20 minus 0.05, p = 3, shifted.
-    ShareLessSlenderGain: Points, SIGNED, shares::less_slender;
-    /// Gain of alpha = 0.05 without its three earliest overturnings.
-    ShareEarliestRemoved: Points, SIGNED, shares::earliest_removed;
+    /// Excess of D, original PGA.
+    DistanceOriginalPga: Probability, SIGNED, |s| distances::original(s, Intensity::Pga);
+    /// The same of p = 3 and 4 minus p = 1.
+    DistanceSmallMinusLarge: Probability, SIGNED, distances::small_minus_large;
+    /// What shifting takes off it, PGA.
+    DistanceGainPga: Probability, SIGNED, |s| distances::gain(s, Intensity::Pga);
+    /// Excess of D, shifted PGA.
+    DistanceShiftedPga: Probability, SIGNED, |s| distances::shifted(s, Intensity::Pga);
+    /// Excess of D of alpha = 0.05, p = 3, original and shifted PGA.
+    DistanceSlender: Probability, SIGNED, distances::slender;
+    /// What leaving out its three earliest overturnings takes off it.
+    DistanceEarliestRemoved: Probability, SIGNED, distances::earliest_removed;
+    /// Excess of alpha = 0.05 minus that of 0.20, p = 3, shifted PGA.
+    DistanceSlenderMinusStocky: Probability, SIGNED, distances::less_slender;
+    /// Excess of D of original samples, PGA minus PGV.
+    DistancePgvGain: Probability, SIGNED, distances::pgv_gain;
+    /// Excess of D, original PGV.
+    DistanceOriginalPgv: Probability, SIGNED, |s| distances::original(s, Intensity::Pgv);
+    /// What shifting takes off it, PGV.
+    DistanceGainPgv: Probability, SIGNED, |s| distances::gain(s, Intensity::Pgv);
+    /// Excess of D, shifted PGV.
+    DistanceShiftedPgv: Probability, SIGNED, |s| distances::shifted(s, Intensity::Pgv);
     /// Gain in distance to the sample by shifting, PGA.
     ShiftGainPga: Probability, SIGNED, |s| fragilities::shift_gain(s, Intensity::Pga);
     /// The same, PGV.
     ShiftGainPgv: Probability, SIGNED, |s| fragilities::shift_gain(s, Intensity::Pgv);
+    /// Probability by the trimmed USFL at uplift, PGA.
+    AtUplift: Probability, FROM_0_TO_1, fragilities::at_uplift;
     /// Distance of trimmed USFL7 to SSFL, PGA.
-    TrimmedToSsfl: Probability, FROM_0_TO_1, fragilities::trimmed;
+    TrimmedToSsfl: Probability, FROM_0_TO_1, |s| fragilities::trimmed(s, Intensity::Pga);
+    /// The same, PGV.
+    TrimmedToSsflPgv: Probability, FROM_0_TO_1, |s| fragilities::trimmed(s, Intensity::Pgv);
+    /// Annual frequency by trimmed USFL7 over the sample's.
+    TransformedRate: One, NOT_NEGATIVE, fragilities::transformed_rate;
+    /// Share of the annual frequency from capacities above the 84 % quantile.
+    TailRate: Share, FROM_0_TO_1, fragilities::tail_rate;
+    /// Annual frequency by the SSFL over the sample's.
+    ShiftedRate: One, NOT_NEGATIVE, fragilities::shifted_rate;
+    /// What trimming takes off the distance of USFL7 to SSFL, PGA.
+    TrimmingGain: Probability, SIGNED, fragilities::trimming_gain;
+    /// What c = 0.5 to 1 instead of 0.25 takes off it, trimmed, PGA.
+    HighConstantGain: Probability, SIGNED, fragilities::high_constant_gain;
     /// Distance of untrimmed USFL7 to SSFL, PGA.
     UntrimmedToSsfl: Probability, FROM_0_TO_1, |s| fragilities::untrimmed(s, Intensity::Pga);
     /// The same, PGV.

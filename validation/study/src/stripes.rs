@@ -2,7 +2,7 @@
 
 use rocking::statistics::paired::Pairs;
 
-use crate::analyses::{StripeDemands, SuiteResults};
+use crate::analyses::{Facts, StripeDemands, SuiteResults};
 use rocking_common::paper::{
     Arm, REFERENCE, SLENDERNESSES_RAD, STRIPES, position,
 };
@@ -32,6 +32,12 @@ pub(crate) fn pairs(
         .zip(compared.iter().zip(reference))
         .map(|(im, (a, b))| Ok((*im, Pairs::try_new(a, b)?)))
         .collect()
+}
+
+/// The slenderness on which a record as it is has an intensity PGA/(g tan
+/// alpha).
+pub(crate) fn adjusted_slenderness(record: &Facts, im: f64) -> f64 {
+    libm::atan(record.pga_g / im)
 }
 
 /// Ratios of Figure 9 on a stripe, apart by the adjusted slenderness: up to

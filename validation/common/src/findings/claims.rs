@@ -74,16 +74,19 @@ pub enum Theme {
     Lognormality,
     /// Do Eqs. 5 to 7 give the fragility?
     Fragilities,
+    /// What the study adds to the paper.
+    Beyond,
 }
 
 impl Theme {
     /// All of them, in order.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Choices,
         Self::SingleRecords,
         Self::Statistics,
         Self::Lognormality,
         Self::Fragilities,
+        Self::Beyond,
     ];
 
     /// The question that the theme answers.
@@ -108,6 +111,10 @@ impl Theme {
             Self::Fragilities => {
                 "Do Eqs. 5 to 7 give the fragility of the block with p = 3, \
                  alpha = 0.20 (Figures 15 to 18)?"
+            }
+            Self::Beyond => {
+                "Beyond the paper: has the rest of the slenderness a closed \
+                 form?"
             }
         }
     }

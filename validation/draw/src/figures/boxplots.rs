@@ -37,9 +37,6 @@ pub struct BoxPanel {
     /// Slenderness of the compared block; the colour of the boxes goes by
     /// it.
     pub alpha_rad: f64,
-    /// The ratio that the small-rotation limit of Eq. 1 gives, where the
-    /// panel has one: a thin line.
-    pub closed_form: Option<f64>,
     /// Stripes in rising level.
     pub stripes: Vec<Stripe>,
 }
@@ -53,6 +50,9 @@ pub struct Stripe {
     pub usable: usize,
     /// Number of records.
     pub records: usize,
+    /// The ratio that the small-rotation limit of Eq. 1 gives, where there is
+    /// one: a thin line.
+    pub closed_form: Option<f64>,
     /// The box; none where too few ratios are usable.
     pub summary: Option<Boxplot>,
 }
@@ -95,6 +95,9 @@ impl Boxplots {
                 };
                 row("usable", stripe.usable.to_string());
                 row("records", stripe.records.to_string());
+                if let Some(ratio) = stripe.closed_form {
+                    row("closed_form", number(ratio));
+                }
                 let Some(b) = &stripe.summary else { continue };
                 for (quantity, value) in [
                     ("whisker_low", b.whisker_low),
@@ -159,7 +162,8 @@ fn scene(figure: &Boxplots) -> Scene {
         let words = "exact 95 % interval of the median";
         legend.push(Entry::new(Sample::Line(INTERVAL), words));
     }
-    if figure.panels.iter().any(|panel| panel.closed_form.is_some()) {
+    let mut stripes = figure.panels.iter().flat_map(|panel| &panel.stripes);
+    if stripes.any(|stripe| stripe.closed_form.is_some()) {
         legend.push(Entry::new(Sample::Line(ONE), "ratio 1"));
         let words = "closed form (sin *α*/*α*)/(sin 0.1/0.1)";
         legend.push(Entry::new(Sample::Line(CLOSED_FORM), words));
@@ -184,9 +188,12 @@ fn scene(figure: &Boxplots) -> Scene {
         let ink = Ink::Series(inks.series(shown.alpha_rad));
         draw_stripes(&mut panel, shown, ink, (low, high));
         // Over the boxes: it is what their medians are compared with.
-        if let Some(ratio) = shown.closed_form {
-            panel.vertical(ratio, CLOSED_FORM);
-        }
+        let stripes = shown.stripes.iter().enumerate();
+        let expected = stripes.filter_map(|(k, stripe)| {
+            let (ratio, y) = (stripe.closed_form?, (k + 1) as f64);
+            Some([(ratio, y - 0.5), (ratio, y + 0.5)])
+        });
+        panel.line(expected.flatten(), CLOSED_FORM);
         let title = format!(
             "{}, {}",
             common::frequency(shown.p_rad_s),

@@ -22,7 +22,7 @@ pub(super) use fits::{fits, paired, quantiles, tests};
 pub(super) use inference::coverage as inference;
 pub(super) use inversion::inversion;
 pub(super) use lilliefors::{
-    asymptotics, draws, largest, null, published, table,
+    asymptotics, draws, largest, mean, null, published, table,
 };
 pub(super) use nist::moments;
 pub(super) use proportion::intervals as proportions;

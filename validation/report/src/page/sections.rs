@@ -269,6 +269,7 @@ fn anchor(theme: Theme) -> &'static str {
         Theme::Statistics => "theme-statistics",
         Theme::Lognormality => "theme-lognormality",
         Theme::Fragilities => "theme-fragilities",
+        Theme::Beyond => "theme-beyond",
     }
 }
 
@@ -342,10 +343,14 @@ fn findings(theme: Theme, columns: &[Column]) -> Markup {
     }
 }
 
+/// Where the paper says it; its words unfold.
 fn quotation(claim: &Claim) -> Markup {
     html! {
-        "\u{201c}" (claim.quote) "\u{201d} "
-        span.source { "(" (claim.section) ")" }
+        details {
+            summary { (claim.section) }
+            "\u{201c}" (claim.quote) "\u{201d} "
+            span.source { "(" (claim.section) ")" }
+        }
     }
 }
 

@@ -3,11 +3,12 @@
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::analyses::{StripeDemands, SuiteResults};
+use crate::estimates::median;
 use crate::inference::LEAST_DECIDING;
-use crate::stripes::{of_arm, pairs};
+use crate::stripes::{adjusted_slenderness, of_arm, pairs};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, LEAST_USABLE, REFERENCE, SLENDERNESSES_RAD,
-    closed_form,
+    STRIPES, closed_form, position,
 };
 use rocking_common::words::{percent, range};
 use rocking_draw::figures::Figure;
@@ -30,8 +31,12 @@ pub(super) fn slendernesses(
                 panels.push(BoxPanel {
                     p_rad_s: FREQUENCIES_RAD_S[*frequency],
                     alpha_rad,
-                    closed_form: Some(closed_form(alpha_rad)),
-                    stripes: boxes(stripes, *frequency, Some(slenderness))?,
+                    stripes: boxes(
+                        suite,
+                        stripes,
+                        *frequency,
+                        Some(slenderness),
+                    )?,
                 });
             }
         }
@@ -71,8 +76,7 @@ pub(super) fn adjusted(
             Ok(BoxPanel {
                 p_rad_s,
                 alpha_rad: SLENDERNESSES_RAD[REFERENCE],
-                closed_form: None,
-                stripes: boxes(stripes, frequency, None)?,
+                stripes: boxes(suite, stripes, frequency, None)?,
             })
         })
         .collect::<anyhow::Result<Vec<_>>>()?;
@@ -106,12 +110,13 @@ pub(crate) fn adjusted_boxes(
     FREQUENCIES_RAD_S
         .into_iter()
         .enumerate()
-        .map(|(frequency, p)| Ok((p, boxes(stripes, frequency, None)?)))
+        .map(|(frequency, p)| Ok((p, boxes(suite, stripes, frequency, None)?)))
         .collect()
 }
 
 /// Boxes of the stripes with at least ten usable ratios.
 fn boxes(
+    suite: &SuiteResults,
     stripes: &StripeDemands,
     frequency: usize,
     slenderness: Option<usize>,
@@ -119,15 +124,38 @@ fn boxes(
     pairs(stripes, frequency, slenderness)?
         .into_iter()
         .take_while(|(_, paired)| paired.ratios.len() >= LEAST_USABLE)
-        .map(|(level, paired)| {
+        .enumerate()
+        .map(|(stripe, (level, paired))| {
             Ok(Stripe {
                 level,
                 usable: paired.ratios.len(),
                 records: paired.n,
+                closed_form: Some(match slenderness {
+                    Some(s) => closed_form(SLENDERNESSES_RAD[s]),
+                    None => adjusted_form(suite, stripes, frequency, stripe),
+                }),
                 summary: Some(notched(&paired.ratios)?),
             })
         })
         .collect()
+}
+
+/// Median of the closed form over the records of a usable ratio of Figure 9:
+/// each has the slenderness at which it has the stripe's intensity.
+fn adjusted_form(
+    suite: &SuiteResults,
+    stripes: &StripeDemands,
+    frequency: usize,
+    stripe: usize,
+) -> f64 {
+    let scaled = &stripes.demands[position(frequency, REFERENCE)][stripe];
+    let adjusted = &stripes.adjusted[frequency][stripe];
+    let stands = adjusted.iter().zip(scaled).zip(&suite.records);
+    let expected: Vec<f64> = stands
+        .filter(|((a, b), _)| a.is_finite() && b.is_finite())
+        .map(|(_, r)| closed_form(adjusted_slenderness(r, STRIPES[stripe])))
+        .collect();
+    median(&expected).value
 }
 
 fn notched(ratios: &[f64]) -> anyhow::Result<Boxplot> {
@@ -142,23 +170,14 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
     let (low, high) = range(medians);
     let (least, _) = range(stripes().map(Stripe::usable_share));
     // Of the boxes with enough ratios to tell.
-    let off = panels.iter().flat_map(|panel| {
-        let of = panel.closed_form.unwrap_or(1.0);
-        let many = |s: &&Stripe| s.usable >= LEAST_DECIDING;
-        let median = move |s: &Stripe| {
-            let b = s.summary.as_ref();
-            b.map_or(f64::NAN, |b| (b.median / of - 1.0).abs())
-        };
-        panel.stripes.iter().filter(many).map(median)
-    });
-    let (_, off) = range(off);
-    let about = if panels.iter().any(|p| p.closed_form.is_some()) {
-        "the closed form"
-    } else {
-        "1"
-    };
+    let many = stripes().filter(|s| s.usable >= LEAST_DECIDING);
+    let (_, off) = range(many.map(|s| {
+        let of = s.closed_form.unwrap_or(1.0);
+        let b = s.summary.as_ref();
+        b.map_or(f64::NAN, |b| (b.median / of - 1.0).abs())
+    }));
     format!(
-        "Medians of {LEAST_DECIDING} ratios or more lie within {} of {about}. \
+        "Medians of {LEAST_DECIDING} ratios or more lie within {} of the closed form. \
          All {} medians lie between {low:.3} and {high:.3}. The share of \
          usable ratios falls to {}; boxes of fewer than 20 have no notch.",
         percent(off, 2),

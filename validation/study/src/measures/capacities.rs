@@ -4,9 +4,12 @@
 use libm::tan;
 use rocking::capacity::{InversionRule, ResponseCurve};
 
-use super::source::{Found, Prepared, Source, block, ratios};
+use super::source::{
+    Found, Prepared, Source, block, geometric_means, ratios, weighted_mean,
+};
 use crate::analyses::no_arm;
 use crate::distributions::factors;
+use crate::estimates::mean;
 use crate::inference::{Cell, Draw, Replicated};
 use crate::runs::capacities;
 use crate::sensitivities::{Choice, Varied};
@@ -60,26 +63,20 @@ fn quantile_ratios(source: &Source<'_>, pairs: &[Pair]) -> Prepared {
         out
     };
     let measured = source.draws.smooth(source.tested, &of);
-    Prepared { cells, measured, criterion: None }
+    Prepared::new(cells, measured)
 }
 
 /// Medians of paired ratios, cell by cell.
 fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
-    let kind = source.kind();
-    let ranked: Vec<(String, Ranked)> = cells
+    let (cells, ranked) = cells
         .into_iter()
-        .map(|(at, values)| (at, Ranked::new(&values)))
-        .collect();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        ranked.iter().map(|(_, r)| r.median(counts)).collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    let cells = ranked
-        .into_iter()
-        .map(|(at, r)| Cell { at, records: r.records() })
-        .collect();
-    Prepared { cells, measured, criterion: None }
+        .map(|(at, values)| {
+            let ranked = Ranked::new(&values);
+            (Cell { at, records: ranked.records() }, ranked)
+        })
+        .unzip();
+    let measured = source.draws.medians(source.kind(), ranked);
+    Prepared::new(cells, measured)
 }
 
 /// Other choices that were run, and the study's own curves of that block.
@@ -109,11 +106,43 @@ fn capacity(
     curve.map_or(Ok(f64::NAN), of)
 }
 
+/// First overturning of a curve; infinite where it never overturns.
+fn first(curve: &ResponseCurve) -> f64 {
+    curve.overturning_im().unwrap_or(f64::INFINITY)
+}
+
+/// Paired ratios of other choices over the study's, by cell.
+fn varied_ratios(
+    source: &Source<'_>,
+    choices: &[Choice],
+    demands: &[f64],
+) -> anyhow::Result<Vec<(String, Vec<f64>)>> {
+    let mut cells = Vec::new();
+    for (varied, base) in varied(source, choices)? {
+        for demand in demands {
+            let own: Vec<f64> = varied
+                .curves
+                .iter()
+                .map(|c| capacity(c.as_ref(), *demand))
+                .collect::<Result<_, _>>()?;
+            let reference: Vec<f64> = base
+                .iter()
+                .map(|c| capacity(Some(c), *demand))
+                .collect::<Result<_, _>>()?;
+            let at = block(varied.frequency, varied.slenderness);
+            let at = match (choices, demands) {
+                ([_], [_]) => at,
+                ([_], _) => format!("{at}, demand {demand}"),
+                _ => format!("{}, {at}", varied.choice.name()),
+            };
+            cells.push((at, ratios(&own, &reference, 1.0)));
+        }
+    }
+    Ok(cells)
+}
+
 pub(super) fn criterion(source: &Source<'_>) -> Found {
-    let first = |curve: &ResponseCurve| {
-        curve.overturning_im().unwrap_or(f64::INFINITY)
-    };
-    let mut pairs = Vec::new();
+    let mut cells = Vec::new();
     for (varied, base) in varied(source, &[Choice::OtherCriterion])? {
         let own: Vec<f64> = varied
             .curves
@@ -121,72 +150,70 @@ pub(super) fn criterion(source: &Source<'_>) -> Found {
             .map(|c| c.as_ref().map_or(f64::NAN, first))
             .collect();
         let reference: Vec<f64> = base.iter().map(first).collect();
-        pairs.push(Pair {
-            at: block(varied.frequency, varied.slenderness),
-            own: Ranked::new(&own),
-            reference: Ranked::new(&reference),
-        });
+        let at = block(varied.frequency, varied.slenderness);
+        cells.push((at, ratios(&own, &reference, 1.0)));
     }
-    Ok(Some(quantile_ratios(source, &pairs)))
+    Ok(Some(geometric_means(source, cells)))
 }
 
 pub(super) fn restitution(source: &Source<'_>) -> Found {
-    let kind = source.kind();
     let choices = [Choice::Eta085, Choice::Eta097];
-    let mut cells = Vec::new();
-    let mut pairs = Vec::new();
-    for (varied, base) in varied(source, &choices)? {
-        let own: Vec<f64> = varied
-            .curves
-            .iter()
-            .map(|c| capacity(c.as_ref(), 1.0))
-            .collect::<Result<_, _>>()?;
-        let reference: Vec<f64> = base
-            .iter()
-            .map(|c| capacity(Some(c), 1.0))
-            .collect::<Result<_, _>>()?;
-        let at = block(varied.frequency, varied.slenderness);
-        cells.push(Cell {
-            at: format!("{}, {at}", varied.choice.name()),
-            records: own.len(),
-        });
-        pairs.push((Ranked::new(&own), Ranked::new(&reference)));
-    }
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        pairs
-            .iter()
-            .map(|(a, b)| a.median(counts) / b.median(counts))
-            .collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    Ok(Some(Prepared { cells, measured, criterion: None }))
+    let cells = varied_ratios(source, &choices, &[1.0])?;
+    Ok(Some(geometric_means(source, cells)))
 }
 
 pub(super) fn component(source: &Source<'_>) -> Found {
-    let mut pairs = Vec::new();
-    for (varied, base) in varied(source, &[Choice::OtherComponent])? {
-        for demand in THRESHOLDS {
-            let own: Vec<f64> = varied
-                .curves
-                .iter()
-                .map(|c| capacity(c.as_ref(), demand))
-                .collect::<Result<_, _>>()?;
-            // Only pairs that have both components.
-            let reference: Vec<f64> = base
-                .iter()
-                .zip(&own)
-                .map(|(c, own)| capacity((!own.is_nan()).then_some(c), demand))
-                .collect::<Result<_, _>>()?;
-            let at = block(varied.frequency, varied.slenderness);
-            pairs.push(Pair {
-                at: format!("{at}, demand {demand}"),
-                own: Ranked::new(&own),
-                reference: Ranked::new(&reference),
-            });
+    let choices = [Choice::OtherComponent];
+    let cells = varied_ratios(source, &choices, &THRESHOLDS)?;
+    Ok(Some(geometric_means(source, cells)))
+}
+
+/// What restitution does to overturning beside what the size does: the mean
+/// |ln| of the paired ratio between eta = 0.85 and 0.97 over that between
+/// p = 1 and 4, by slenderness.
+pub(super) fn restitution_beside_size(source: &Source<'_>) -> Found {
+    let results = source.results;
+    let curves = results.ordinary.curves(results.plan.common());
+    let curves = curves.ok_or_else(no_arm)?;
+    let at_overturning =
+        |curves: &[ResponseCurve]| -> anyhow::Result<Vec<f64>> {
+            curves.iter().map(|c| capacity(Some(c), 1.0)).collect()
+        };
+    let low = varied(source, &[Choice::Eta085])?;
+    let high = varied(source, &[Choice::Eta097])?;
+    let logs = |a: &[f64], b: &[f64]| -> Vec<f64> {
+        ratios(a, b, 1.0).into_iter().map(libm::log).collect()
+    };
+    let (mut cells, mut pairs) = (Vec::new(), Vec::new());
+    for ((low, _), (high, _)) in low.iter().zip(&high) {
+        // With --full there are three p, which share this comparison.
+        if low.frequency != 1 {
+            continue;
         }
+        let of = |varied: &Varied| -> anyhow::Result<Vec<f64>> {
+            varied.curves.iter().map(|c| capacity(c.as_ref(), 1.0)).collect()
+        };
+        let own = logs(&of(low)?, &of(high)?);
+        let by_size = |frequency| {
+            at_overturning(&curves[position(frequency, low.slenderness)])
+        };
+        let size = logs(&by_size(0)?, &by_size(2)?);
+        cells.push(Cell {
+            at: format!("alpha = {:.2}", SLENDERNESSES_RAD[low.slenderness]),
+            records: own.iter().filter(|x| x.is_finite()).count(),
+        });
+        pairs.push((own, size));
     }
-    Ok(Some(quantile_ratios(source, &pairs)))
+    let kind = source.kind();
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        let ratio = |(own, size): &(Vec<f64>, Vec<f64>)| {
+            (weighted_mean(own, counts) / weighted_mean(size, counts)).abs()
+        };
+        pairs.iter().map(ratio).collect()
+    };
+    let measured = source.draws.smooth(source.tested, &of);
+    Ok(Some(Prepared::new(cells, measured)))
 }
 
 /// Samples of a suite at a demand, by block.
@@ -306,35 +333,30 @@ pub(super) fn adjusted_quantiles(source: &Source<'_>) -> Found {
     Ok(Some(quantile_ratios(source, &pairs)))
 }
 
+/// Mean capacity by the median point over that by the monotone inversion,
+/// mean over blocks and demands.
 pub(super) fn inversion(source: &Source<'_>) -> Found {
     let kind = source.kind();
     let suite = source.results.suite(kind);
     let Some(curves) = suite.curves(source.arm) else { return Ok(None) };
-    let mut cells = Vec::new();
     // By cell, by record: median-point and monotone capacity.
     let mut values: Vec<Vec<(f64, f64)>> = Vec::new();
-    for frequency in 0..FREQUENCIES_RAD_S.len() {
-        for slenderness in 0..SLENDERNESSES_RAD.len() {
-            let own = &curves[position(frequency, slenderness)];
-            let by = |rule| -> anyhow::Result<Vec<Vec<f64>>> {
-                own.iter().map(|c| capacities(c, &DEMANDS, rule)).collect()
-            };
-            let median = by(InversionRule::Median)?;
-            let monotone = by(InversionRule::Monotone)?;
-            for (k, demand) in DEMANDS.iter().enumerate() {
-                let name = block(frequency, slenderness);
-                cells.push(Cell {
-                    at: format!("{name}, demand {demand}"),
-                    records: own.len(),
-                });
-                let pairs = median.iter().zip(&monotone);
-                values.push(pairs.map(|(a, b)| (a[k], b[k])).collect());
-            }
+    for own in curves {
+        let by = |rule| -> anyhow::Result<Vec<Vec<f64>>> {
+            own.iter().map(|c| capacities(c, &DEMANDS, rule)).collect()
+        };
+        let median = by(InversionRule::Median)?;
+        let monotone = by(InversionRule::Monotone)?;
+        for k in 0..DEMANDS.len() {
+            let pairs = median.iter().zip(&monotone);
+            values.push(pairs.map(|(a, b)| (a[k], b[k])).collect());
         }
     }
-    let of = |draw: Draw<'_>| -> Vec<f64> {
+    let records = suite.records.len();
+    let at = format!("mean over {} blocks and demands", values.len());
+    Ok(Some(source.value(&at, records, move |draw| {
         let counts = draw.of(kind);
-        let ratio = |pairs: &Vec<(f64, f64)>| {
+        mean(values.iter().map(|pairs| {
             let (mut a, mut b) = (0.0, 0.0);
             for ((x, y), count) in pairs.iter().zip(counts) {
                 if x.is_finite() && y.is_finite() {
@@ -343,11 +365,8 @@ pub(super) fn inversion(source: &Source<'_>) -> Found {
                 }
             }
             a / b
-        };
-        values.iter().map(ratio).collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    Ok(Some(Prepared { cells, measured, criterion: None }))
+        }))
+    })))
 }
 
 /// Capacities with Housner's restitution, stocky over slender, by way of the
@@ -383,11 +402,8 @@ pub(super) fn uplift(source: &Source<'_>) -> Found {
     let moved = records.iter().filter(|r| r.pga_g > tan(stockiest));
     let share = Proportion::try_new(moved.count(), records.len())?;
     let cell = Cell { at: "alpha = 0.25".into(), records: records.len() };
-    Ok(Some(Prepared {
-        cells: vec![cell],
-        measured: Replicated::counted(vec![share]),
-        criterion: None,
-    }))
+    let measured = Replicated::counted(vec![share]);
+    Ok(Some(Prepared::new(vec![cell], measured)))
 }
 
 /// Spread of the intensities at uplift in PGV, p = 1; in PGA it is 1 by

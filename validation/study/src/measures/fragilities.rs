@@ -2,8 +2,9 @@
 //! fragilities, p = 3, alpha = 0.20.
 
 use libm::log;
+use rocking::fragility::risk::HazardCurve;
 use rocking::statistics::resampling::Subsampling;
-use rocking::statistics::{ExtendedSample, Lognormal, normal};
+use rocking::statistics::{ExtendedSample, Lognormal, QuantileType, normal};
 
 use super::source::{Found, Prepared, Source};
 use crate::distributions::{BlockSamples, factors};
@@ -105,11 +106,8 @@ fn each(
     };
     let records = source.results.suite(source.kind()).records.len();
     let cell = |edp: f64| Cell { at: format!("demand {edp:.2}"), records };
-    Ok(Some(Prepared {
-        cells: THRESHOLDS.map(cell).into(),
-        measured: by_demand(source, &thresholds, f),
-        criterion: None,
-    }))
+    let measured = by_demand(source, &thresholds, f);
+    Ok(Some(Prepared::new(THRESHOLDS.map(cell).into(), measured)))
 }
 
 /// A number of one threshold, PGA, as a measure.
@@ -143,14 +141,12 @@ fn mean_over(
     };
     let kind = source.kind();
     let of = |draw: Draw<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
-    Ok(Some(Prepared {
-        cells: vec![Cell {
-            at: format!("mean over {over}demands 0.15, 0.35 and 1.00"),
-            records: source.results.suite(kind).records.len(),
-        }],
-        measured: source.draws.subsampled(source.tested, &of),
-        criterion: None,
-    }))
+    let cell = Cell {
+        at: format!("mean over {over}demands 0.15, 0.35 and 1.00"),
+        records: source.results.suite(kind).records.len(),
+    };
+    let measured = source.draws.subsampled(source.tested, &of);
+    Ok(Some(Prepared::new(vec![cell], measured)))
 }
 
 /// What shifting gains in distance to the sample.
@@ -163,9 +159,107 @@ pub(super) fn shift_gain(source: &Source<'_>, intensity: Intensity) -> Found {
     })
 }
 
-pub(super) fn trimmed(source: &Source<'_>) -> Found {
-    let of = |at: &At| to_ssfl(at.fits.trimmed, at, 1.0);
-    each(source, Intensity::Pga, &of)
+pub(super) fn trimmed(source: &Source<'_>, intensity: Intensity) -> Found {
+    each(source, intensity, &|at| to_ssfl(at.fits.trimmed, at, 1.0))
+}
+
+/// Probability that the unshifted fit of the trimmed sample gives to the
+/// demand at uplift, where it is 0.
+pub(super) fn at_uplift(source: &Source<'_>) -> Found {
+    each(source, Intensity::Pga, &|at| {
+        at.fits.trimmed.map_or(f64::NAN, |fit| fit.cdf(at.shift))
+    })
+}
+
+/// Mean over the thresholds, PGA, over draws with replacement.
+fn mean_of(source: &Source<'_>, f: impl Fn(&At) -> f64 + Sync) -> Found {
+    let Some(thresholds) = Thresholds::new(source, Intensity::Pga) else {
+        return Ok(None);
+    };
+    let kind = source.kind();
+    let records = source.results.suite(kind).records.len();
+    let at = "mean over demands 0.15, 0.35 and 1.00";
+    Ok(Some(
+        source.value(at, records, |draw| {
+            mean(thresholds.each(draw.of(kind), &f))
+        }),
+    ))
+}
+
+/// What trimming takes off the distance of USFL7 to the SSFL.
+pub(super) fn trimming_gain(source: &Source<'_>) -> Found {
+    mean_of(source, |at| {
+        to_ssfl(at.fits.usfl, at, 1.0) - to_ssfl(at.fits.trimmed, at, 1.0)
+    })
+}
+
+/// What c = 0.5 to 1 instead of 0.25 takes off the distance of the trimmed
+/// USFL7 to the SSFL.
+pub(super) fn high_constant_gain(source: &Source<'_>) -> Found {
+    mean_of(source, |at| {
+        let of = |c| to_ssfl(at.fits.trimmed, at, c);
+        of(0.25) - mean([0.5, 0.75, 1.0].map(of))
+    })
+}
+
+/// Slopes k of the hazard H = x^-k: from the flat hazard of a strong
+/// earthquake zone to a steep one.
+const SLOPES: [f64; 5] = [1.5, 2.0, 2.5, 3.0, 4.0];
+
+/// Overturning in PGA under each slope of the hazard.
+fn by_slope(source: &Source<'_>, f: impl Fn(f64, &At) -> f64 + Sync) -> Found {
+    let Some(thresholds) = Thresholds::new(source, Intensity::Pga) else {
+        return Ok(None);
+    };
+    let kind = source.kind();
+    let records = source.results.suite(kind).records.len();
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let at = thresholds.at(draw.of(kind), THRESHOLDS.len() - 1);
+        let of = |k| at.as_ref().map_or(f64::NAN, |at| f(k, at));
+        SLOPES.map(of).into()
+    };
+    let cell = |k| Cell { at: format!("hazard of slope {k}"), records };
+    let measured = source.draws.smooth(source.tested, &of);
+    Ok(Some(Prepared::new(SLOPES.map(cell).into(), measured)))
+}
+
+/// Annual frequency by a sample's own fragility under H = x^-k, from the
+/// capacities above a limit: the mean of x^-k. A capacity that was never
+/// reached adds nothing.
+fn sample_rate(at: &At, k: f64, above: f64) -> f64 {
+    let capacities = at.sample.sorted();
+    let rates = capacities.iter().filter(|x| **x > above);
+    let sum = rates.fold(0.0, |sum, x| sum + libm::exp(-k * log(*x)));
+    sum / capacities.len() as f64
+}
+
+/// Share of the annual frequency of overturning that comes from the
+/// capacities above the 84 % quantile.
+pub(super) fn tail_rate(source: &Source<'_>) -> Found {
+    by_slope(source, |k, at| {
+        let quantile = QuantileType::default().of_extended(&at.sample, 0.84);
+        let quantile = quantile.unwrap_or(f64::NAN);
+        sample_rate(at, k, quantile) / sample_rate(at, k, 0.0)
+    })
+}
+
+/// Annual frequency of overturning by a fit over that of the sample.
+fn rate_of(fit: Option<Lognormal>, k: f64, at: &At) -> f64 {
+    // One segment, so wide that nothing lies outside.
+    let end = |x: f64| (x, libm::exp(-k * log(x)));
+    let hazard = HazardCurve::try_new(&[end(1e-3), end(1e3)]);
+    let (Some(fit), Ok(hazard)) = (fit, hazard) else { return f64::NAN };
+    hazard.annual_frequency(&fit).truncation_lower / sample_rate(at, k, 0.0)
+}
+
+pub(super) fn shifted_rate(source: &Source<'_>) -> Found {
+    by_slope(source, |k, at| rate_of(at.fits.ssfl, k, at))
+}
+
+pub(super) fn transformed_rate(source: &Source<'_>) -> Found {
+    by_slope(source, |k, at| {
+        rate_of(usfl7(at.fits.trimmed, at.shift, 1.0), k, at)
+    })
 }
 
 pub(super) fn untrimmed(source: &Source<'_>, intensity: Intensity) -> Found {

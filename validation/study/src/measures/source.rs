@@ -2,11 +2,11 @@
 
 use rocking::statistics::resampling::Ranked;
 
+use crate::distances::Distances;
 use crate::estimates::mean;
 use crate::inference::{Cell, Draw, Draws, Replicated};
 use crate::results::Results;
-use crate::shares::Shares;
-use rocking_common::findings::Tested;
+use rocking_common::findings::{Detail, Tested};
 use rocking_common::paper::{
     Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, SuiteKind,
 };
@@ -21,23 +21,39 @@ pub struct Source<'a> {
     pub results: &'a Results,
     /// The draws that all claims share.
     pub draws: &'a Draws,
-    /// Accepted shares of all draws, by suite and arm.
-    pub shares: &'a [Shares],
+    /// Distances from a lognormal of all draws, by suite and arm.
+    pub distances: &'a [Distances],
     /// The suite, or both.
     pub tested: Tested,
     /// The arm.
     pub arm: Arm,
 }
 
-/// The cells of a measure and their replicates; the share of cells that meet
-/// the paper's own criterion, where there is one.
+/// The cells of a measure and their replicates.
 pub struct Prepared {
     /// Where the cells are.
     pub cells: Vec<Cell>,
     /// Their values.
     pub measured: Replicated,
-    /// Of each replicate, the share of cells whose notch covers 1.
-    pub criterion: Option<Replicated>,
+    /// What the paper judges by, where it says so.
+    pub criterion: Option<Criterion>,
+    /// What else is shown.
+    pub details: Vec<Detail>,
+}
+
+/// The share that meets the paper's own criterion.
+pub struct Criterion {
+    /// What it is a share of.
+    pub name: String,
+    /// The share.
+    pub measured: Replicated,
+}
+
+impl Prepared {
+    /// Cells and nothing beside them.
+    pub(super) fn new(cells: Vec<Cell>, measured: Replicated) -> Self {
+        Self { cells, measured, criterion: None, details: Vec::new() }
+    }
 }
 
 impl Source<'_> {
@@ -55,11 +71,27 @@ impl Source<'_> {
         records: usize,
         f: impl Fn(Draw<'_>) -> f64 + Sync,
     ) -> Prepared {
-        Prepared {
-            cells: vec![Cell { at: at.into(), records }],
-            measured: self.draws.smooth(self.tested, &|d| vec![f(d)]),
-            criterion: None,
-        }
+        let cell = Cell { at: at.into(), records };
+        let measured = self.draws.smooth(self.tested, &|d| vec![f(d)]);
+        Prepared::new(vec![cell], measured)
+    }
+
+    /// A share of what the records count together: `found` of `all`, by
+    /// record.
+    pub(super) fn share(
+        &self,
+        at: &str,
+        found: Vec<u32>,
+        all: Vec<u32>,
+    ) -> Prepared {
+        let kind = self.kind();
+        let sum = |of: &[u32], counts: &[u32]| {
+            f64::from(of.iter().zip(counts).map(|(x, n)| x * n).sum::<u32>())
+        };
+        self.value(at, all.len(), move |draw| {
+            let counts = draw.of(kind);
+            sum(&found, counts) / sum(&all, counts)
+        })
     }
 }
 
@@ -74,6 +106,45 @@ pub(super) fn block(frequency: usize, slenderness: usize) -> String {
 /// Mean over cells of the medians of a draw.
 pub(super) fn mean_of_medians(ranked: &[Ranked], counts: &[u32]) -> f64 {
     mean(ranked.iter().map(|r| r.median(counts)))
+}
+
+/// Geometric means of paired ratios, cell by cell: the records of a pair
+/// answer twice, so that the mean of ln of the ratio has little scatter. A
+/// ratio that is not finite does not count.
+pub(super) fn geometric_means(
+    source: &Source<'_>,
+    cells: Vec<(String, Vec<f64>)>,
+) -> Prepared {
+    let kind = source.kind();
+    let (at, logs): (Vec<String>, Vec<Vec<f64>>) = cells
+        .into_iter()
+        .map(|(at, x)| (at, x.into_iter().map(libm::log).collect()))
+        .unzip();
+    let of = |draw: Draw<'_>| -> Vec<f64> {
+        let counts = draw.of(kind);
+        logs.iter().map(|x| libm::exp(weighted_mean(x, counts))).collect()
+    };
+    let measured = source.draws.smooth(source.tested, &of);
+    let records =
+        logs.iter().map(|x| x.iter().filter(|x| x.is_finite()).count());
+    let cells = at
+        .into_iter()
+        .zip(records)
+        .map(|(at, records)| Cell { at, records })
+        .collect();
+    Prepared::new(cells, measured)
+}
+
+/// Mean of the finite ones among the values of records, each drawn so often.
+pub(super) fn weighted_mean(values: &[f64], counts: &[u32]) -> f64 {
+    let (mut sum, mut drawn) = (0.0, 0.0);
+    for (x, count) in values.iter().zip(counts) {
+        if x.is_finite() {
+            sum = f64::mul_add(f64::from(*count), *x, sum);
+            drawn += f64::from(*count);
+        }
+    }
+    sum / drawn
 }
 
 /// Paired ratios a/b, by record; NaN where one is infinite or missing.

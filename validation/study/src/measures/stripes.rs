@@ -1,13 +1,13 @@
 //! Section 4, Figures 6, 7 and 9, and resurrections: measures on stripes of
 //! equal intensity.
 
-use libm::{atan, log, tan};
+use libm::{log, tan};
 
-use super::source::{self, Found, Prepared, Source, block};
-use crate::analyses::StripeDemands;
+use super::source::{self, Criterion, Found, Prepared, Source, block};
+use crate::analyses::{StripeDemands, SuiteResults};
 use crate::inference::{Cell, Draw, LEAST_DECIDING, Replicated};
 use crate::results::Results;
-use crate::stripes::of_arm;
+use crate::stripes::{adjusted_slenderness, of_arm};
 use rocking::statistics::Proportion;
 use rocking::statistics::resampling::Ranked;
 use rocking_common::findings::Tested;
@@ -93,33 +93,40 @@ fn adjusted_ratios(
 
 /// Medians of cells over all draws, with the share of notches that cover 1.
 fn medians(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
-    let kind = source.kind();
     let cells = ratios
         .iter()
         .map(|r| Cell { at: r.at.clone(), records: r.ranked.records() })
         .collect();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        ratios.iter().map(|r| r.ranked.median(counts)).collect()
-    };
+    let ranked = ratios.iter().map(|r| r.ranked.clone()).collect();
+    let measured = source.draws.medians(source.kind(), ranked);
+    let name = "share of the cells whose notch covers 1";
+    let as_said = notches(source, ratios, name, |_| true);
+    Prepared { criterion: Some(as_said), ..Prepared::new(cells, measured) }
+}
+
+/// The share of the deciding cells whose notch covers 1 where it has to, and
+/// leaves 1 out where not.
+fn notches(
+    source: &Source<'_>,
+    ratios: &[Ratios],
+    name: &str,
+    covers: impl Fn(&Ratios) -> bool + Sync,
+) -> Criterion {
+    let kind = source.kind();
     let enough = |r: &&Ratios| r.ranked.records() >= LEAST_DECIDING;
-    let covering = |draw: Draw<'_>| {
+    let of = |draw: Draw<'_>| {
         let counts = draw.of(kind);
-        let deciding = ratios.iter().filter(enough);
-        let covers =
-            deciding.clone().filter(|r| r.notch_covers_1(counts)).count();
-        vec![covers as f64 / deciding.count() as f64]
+        let deciding = || ratios.iter().filter(enough);
+        let as_said =
+            deciding().filter(|r| r.notch_covers_1(counts) == covers(r));
+        vec![as_said.count() as f64 / deciding().count() as f64]
     };
-    Prepared {
-        cells,
-        measured: source.draws.smooth(source.tested, &of),
-        criterion: Some(source.draws.subsampled(source.tested, &covering)),
-    }
+    let measured = source.draws.subsampled(source.tested, &of);
+    Criterion { name: name.into(), measured }
 }
 
 /// Cells of Figures 6, 7 and 9 by name, with the median ratio once what the
-/// small-rotation limit of Eq. 1 makes of it is divided out: of Figure 9
-/// record by record, since each has an adjusted slenderness of its own.
+/// small-rotation limit of Eq. 1 makes of it is divided out.
 #[must_use]
 pub fn without_closed_form(
     results: &Results,
@@ -133,23 +140,33 @@ pub fn without_closed_form(
     };
     let suite = results.suite(kind);
     let Some(stripes) = of_arm(suite, arm) else { return Vec::new() };
+    let mut cells = all_ratios(stripes, &[0, 1, 2], true);
+    cells.extend(adjusted_without_closed_form(suite, stripes));
+    let every = vec![1; suite.records.len()];
+    let median = |r: Ratios| (r.at, r.ranked.median(&every));
+    cells.into_iter().map(median).collect()
+}
+
+/// Cells of Figure 9, the closed form divided out record by record: each has
+/// an adjusted slenderness of its own.
+fn adjusted_without_closed_form(
+    suite: &SuiteResults,
+    stripes: &StripeDemands,
+) -> Vec<Ratios> {
     let mut cells = Vec::new();
     for (frequency, p) in FREQUENCIES_RAD_S.iter().enumerate() {
-        cells.extend(all_ratios(stripes, &[frequency], true));
         let scaled = &stripes.demands[position(frequency, REFERENCE)];
         let adjusted = &stripes.adjusted[frequency];
         for (im, (a, b)) in STRIPES.iter().zip(adjusted.iter().zip(scaled)) {
             let records = a.iter().zip(&suite.records);
             let left: Vec<f64> = records
-                .map(|(x, record)| x / closed_form(atan(record.pga_g / im)))
+                .map(|(x, r)| x / closed_form(adjusted_slenderness(r, *im)))
                 .collect();
             let at = format!("p = {p}, intensity {im}");
             cells.push(Ratios::new(at, &left, b, 1.0));
         }
     }
-    let every = vec![1; suite.records.len()];
-    let median = |r: Ratios| (r.at, r.ranked.median(&every));
-    cells.into_iter().map(median).collect()
+    cells
 }
 
 /// The stripes of the source's suite and arm; none where they were not run.
@@ -178,25 +195,77 @@ fn all_ratios(
     out
 }
 
-/// Medians of Figures 6 and 7: all cells, or the paper's exception alone, or
-/// all others.
-pub(super) fn ratios(
-    source: &Source<'_>,
-    frequencies: &[usize],
-    exception: Option<bool>,
-) -> Found {
+/// The paper's exception: alpha = 0.25 on the lowest stripe, p = 1.
+fn exception() -> String {
+    let stocky = SLENDERNESSES_RAD.len() - 1;
+    format!("{}, intensity {}", block(0, stocky), STRIPES[0])
+}
+
+/// Medians of Figures 6 and 7, without the paper's exception.
+pub(super) fn ratios(source: &Source<'_>, frequencies: &[usize]) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
+    let exception = exception();
+    let mut cells = all_ratios(stripes, frequencies, false);
+    cells.retain(|r| r.at != exception);
+    Ok(Some(medians(source, &cells)))
+}
+
+/// The median of the paper's exception. By the paper's criterion it is the
+/// only one: its notch leaves 1 out, and every other of p = 1 covers 1.
+pub(super) fn only_exception(source: &Source<'_>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
+    let exception = exception();
+    let all = all_ratios(stripes, &[0], false);
+    let name = "share of the cells that come out as this sentence says";
+    let as_said = notches(source, &all, name, |r| r.at != exception);
+    let own: Vec<Ratios> =
+        all.into_iter().filter(|r| r.at == exception).collect();
+    let found = medians(source, &own);
+    Ok(Some(Prepared { criterion: Some(as_said), ..found }))
+}
+
+/// How much more the records of smaller demands deviate than the others,
+/// where the paper sees its exception: the median distance of the ratio from
+/// 1 of the half with smaller demands over that of the other half.
+pub(super) fn small_amplitudes(source: &Source<'_>) -> Found {
     let Some(stripes) = stripes_of(source) else { return Ok(None) };
     let stocky = SLENDERNESSES_RAD.len() - 1;
-    let at = format!("{}, intensity {}", block(0, stocky), STRIPES[0]);
-    let mut cells = all_ratios(stripes, frequencies, false);
-    cells.retain(|r| exception.is_none_or(|wanted| wanted == (r.at == at)));
-    Ok(Some(medians(source, &cells)))
+    let demands =
+        |s| stripes.demands[position(0, s)].first().map_or(&[][..], |d| d);
+    let (own, reference) = (demands(stocky), demands(REFERENCE));
+    let middle = Ranked::new(reference).median(&vec![1; reference.len()]);
+    let half = |small: bool| {
+        let ratios = source::ratios(own, reference, 1.0);
+        let away = ratios.iter().zip(reference).map(|(ratio, demand)| {
+            if (*demand < middle) == small {
+                (ratio - 1.0).abs()
+            } else {
+                f64::NAN
+            }
+        });
+        Ranked::new(&away.collect::<Vec<f64>>())
+    };
+    let (small, large) = (half(true), half(false));
+    let kind = source.kind();
+    let records = small.records() + large.records();
+    Ok(Some(source.value(&exception(), records, move |draw| {
+        let counts = draw.of(kind);
+        small.median(counts) / large.median(counts)
+    })))
 }
 
 /// Medians of Figures 6 and 7, the closed form divided out.
 pub(super) fn corrected(source: &Source<'_>) -> Found {
     let Some(stripes) = stripes_of(source) else { return Ok(None) };
     Ok(Some(medians(source, &all_ratios(stripes, &[0, 1, 2], true))))
+}
+
+/// Medians of Figure 9, the closed form divided out record by record.
+pub(super) fn adjusted_corrected(source: &Source<'_>) -> Found {
+    let Some(stripes) = stripes_of(source) else { return Ok(None) };
+    let suite = source.results.suite(source.kind());
+    let cells = adjusted_without_closed_form(suite, stripes);
+    Ok(Some(medians(source, &cells)))
 }
 
 /// Medians of Figure 9: all records, or those of one side of the paper's
@@ -229,10 +298,7 @@ pub(super) fn outliers(source: &Source<'_>) -> Found {
         far[record] += u32::from((x - 1.0).abs() > 0.10);
     }
     let at = "ratios further than 10 % from 1";
-    Ok(Some(source.value(at, n, |draw| {
-        let counts = draw.of(kind);
-        counted(&far, counts) / counted(&all, counts)
-    })))
+    Ok(Some(source.share(at, far, all)))
 }
 
 /// By block and stripe, the share of the records that overturned at or below
@@ -254,7 +320,7 @@ pub(super) fn probabilities(source: &Source<'_>) -> Found {
         }
     }
     let measured = Replicated::counted(counts);
-    Ok(Some(Prepared { cells, measured, criterion: None }))
+    Ok(Some(Prepared::new(cells, measured)))
 }
 
 /// By block, the intensity at which half of the records lie overturned, with
@@ -310,7 +376,7 @@ pub(super) fn median_again(source: &Source<'_>) -> Found {
         blocks.iter().map(ratio).collect()
     };
     let measured = source.draws.smooth(source.tested, &of);
-    Ok(Some(Prepared { cells, measured, criterion: None }))
+    Ok(Some(Prepared::new(cells, measured)))
 }
 
 /// Share of the overturned that stand again, of the blocks that are `first`

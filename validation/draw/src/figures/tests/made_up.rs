@@ -165,7 +165,6 @@ pub fn boxplots(panels: usize) -> Boxplots {
     let panel = |i: usize| BoxPanel {
         p_rad_s: if panels == 4 { 1.0 } else { FREQUENCIES[1 + i / 4] },
         alpha_rad: [0.05, 0.15, 0.20, 0.25][i % 4],
-        closed_form: None,
         stripes: levels
             .iter()
             .enumerate()
@@ -176,7 +175,14 @@ pub fn boxplots(panels: usize) -> Boxplots {
                     |r| libm::exp(spread * normal(r + 100 * k + 900 * i));
                 let sample: Vec<f64> = (0..usable).map(ratio).collect();
                 let summary = (usable >= 10).then(|| notched(&sample));
-                Stripe { level: *level, usable, records: 86, summary }
+                let closed_form = (panels == 4).then_some(0.99);
+                Stripe {
+                    level: *level,
+                    usable,
+                    records: 86,
+                    closed_form,
+                    summary,
+                }
             })
             .collect(),
     };

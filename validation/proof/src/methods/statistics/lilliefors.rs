@@ -11,6 +11,7 @@ use super::cells::{Csv, csv, refused};
 use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
 const EXACT: Csv = csv!("oracles/lilliefors_exact.csv");
+const MEANS: Csv = csv!("oracles/lilliefors_mean.csv");
 
 /// Simulated critical values against the exact ones, in units of both
 /// errors together; and the range of D.
@@ -90,6 +91,32 @@ pub(crate) fn largest(context: &Context) -> Result<Answer, MethodError> {
         answer.put("attained", [attained], [expected]);
     }
     answer.see("largest", formula);
+    Ok(answer)
+}
+
+/// The mean of D from the table against that of an independent simulation,
+/// in its standard errors and the table's own error.
+pub(crate) fn mean(context: &Context) -> Result<Answer, MethodError> {
+    input! { context;
+        n: Vec<usize>,
+        /// Error of the table's mean.
+        error: f64,
+    }
+    let mut answer = Answer::default();
+    for n in n {
+        let ours = if context.is(WrongModel::PlainKolmogorov) {
+            // The mean of the fully specified distribution, for large n.
+            (0.5 * std::f64::consts::PI / n as f64).sqrt()
+                * std::f64::consts::LN_2
+        } else {
+            Table::embedded().mean(n).map_err(refused)?
+        };
+        for row in MEANS.rows(&n.to_string())? {
+            let [known, own] = row.numbers(1)?;
+            let gap = (ours - known) / (own + error);
+            answer.put("standardised-gap", [gap], [0.0]);
+        }
+    }
     Ok(answer)
 }
 

@@ -73,7 +73,8 @@ impl Pair {
         match (self, intensity) {
             (Self::Shifted, Intensity::Pga) => Measure::ShiftGainPga,
             (Self::Shifted, Intensity::Pgv) => Measure::ShiftGainPgv,
-            (Self::Trimmed, _) => Measure::TrimmedToSsfl,
+            (Self::Trimmed, Intensity::Pga) => Measure::TrimmedToSsfl,
+            (Self::Trimmed, Intensity::Pgv) => Measure::TrimmedToSsflPgv,
             (Self::Untrimmed, Intensity::Pga) => Measure::UntrimmedToSsfl,
             (Self::Untrimmed, Intensity::Pgv) => Measure::UntrimmedToSsflPgv,
         }
@@ -91,7 +92,7 @@ pub(in super::super) fn thresholds(
     let source = Source {
         results,
         draws,
-        shares: &[],
+        distances: &[],
         tested: Tested::from(results.ordinary.kind),
         arm,
     };

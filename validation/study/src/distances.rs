@@ -1,15 +1,16 @@
-//! Shares of demand levels at which Lilliefors' test accepts a lognormal, over
-//! all draws of the records.
+//! Lilliefors' distance from a lognormal, and the share of demand levels at
+//! which his test accepts one, over all draws of the records.
 //!
-//! Levels of a block share records, and so do blocks. Shares are therefore
-//! inferred from subsamples of the records; a draw with replacement would tie
-//! values, and ties break the test.
+//! Levels of a block share records, and so do blocks. Both numbers are
+//! therefore inferred from subsamples of the records; a draw with replacement
+//! would tie values, and ties break the test.
 
 use libm::log;
-use rocking::statistics::acceptance::AcceptedShare;
-use rocking::statistics::lilliefors::Table;
+use rocking::statistics::acceptance::distances;
+use rocking::statistics::lilliefors::{Assessment, Table};
 
 use crate::distributions::{BlockSamples, factors, scaled};
+use crate::estimates::mean;
 use crate::inference::{Draw, Draws, Replicated};
 use crate::normality::{BAND_STRIDE, LEVEL, accepted_share, along, every};
 use crate::results::Results;
@@ -53,17 +54,51 @@ impl Tests {
     }
 }
 
-/// Place of the share without the earliest records.
+/// Place of the excess without the earliest records.
 pub(crate) const WITHOUT_EARLIEST: usize = Tests::ALL.len() * COUNT;
 
-/// Accepted shares of all blocks of a suite in an arm, over all draws.
-pub struct Shares {
+/// First place of the accepted shares: `Tests` by block.
+const SHARES: usize = WITHOUT_EARLIEST + 1;
+
+/// What Lilliefors' test says of all blocks of a suite in an arm, over all
+/// draws.
+pub struct Distances {
     pub(crate) suite: SuiteKind,
     pub(crate) arm: Arm,
-    /// `Tests` by block, then the share without the earliest records.
-    pub(crate) shares: Replicated,
+    /// The excess of D, `Tests` by block, then that without the earliest
+    /// records; then the accepted shares, `Tests` by block.
+    pub(crate) found: Replicated,
     /// Levels at which every record is finite, of all, by block.
     pub(crate) levels: Vec<(usize, usize)>,
+}
+
+/// D over levels: the mean of D less its mean for a lognormal of as many
+/// records, and the share of the levels at which D is not critical. NaN where
+/// there is no level.
+#[derive(Clone, Copy)]
+struct OverLevels {
+    excess: f64,
+    accepted: f64,
+}
+
+impl OverLevels {
+    /// Of the distances of levels of n records each; NaN is no distance.
+    fn new(found: &[f64], null: f64, critical: f64) -> Self {
+        let usable = || found.iter().copied().filter(|d| !d.is_nan());
+        let accepted = |d: f64| f64::from(u8::from(d <= critical));
+        Self {
+            excess: mean(usable()) - null,
+            accepted: mean(usable().map(accepted)),
+        }
+    }
+}
+
+/// Mean of D for a lognormal of n records, and its critical value; NaN
+/// outside the table.
+fn null(n: usize) -> (f64, f64) {
+    let table = Table::embedded();
+    let critical = table.critical_value(n, LEVEL).map_or(f64::NAN, |c| c.0);
+    (table.mean(n).unwrap_or(f64::NAN), critical)
 }
 
 /// One block in one measure: the levels that enter a simulation, and the
@@ -75,8 +110,13 @@ struct Tested15 {
 }
 
 impl Tested15 {
-    /// Accepted share of a draw.
-    fn share(&self, counts: &[u32], left_out: &[usize]) -> f64 {
+    /// D of a draw over the levels, with the null of as many records.
+    fn over_levels(
+        &self,
+        counts: &[u32],
+        left_out: &[usize],
+        (null, critical): (f64, f64),
+    ) -> OverLevels {
         let drawn: Vec<usize> = (0..counts.len())
             .filter(|r| counts[*r] > 0 && !left_out.contains(r))
             .collect();
@@ -94,11 +134,7 @@ impl Tested15 {
                 drawn.iter().map(|r| log(level[*r] - shift)).collect()
             })
             .collect();
-        let table = Table::embedded();
-        table.critical_value(drawn.len(), LEVEL).map_or(f64::NAN, |(c, _)| {
-            let found = AcceptedShare::of_values(&logs, c);
-            found.share().unwrap_or(f64::NAN)
-        })
+        OverLevels::new(&distances(&logs), null, critical)
     }
 
     /// Positions of the records that overturn first.
@@ -112,8 +148,8 @@ impl Tested15 {
     }
 }
 
-impl Shares {
-    /// The shares of a suite in an arm; none if it was not run.
+impl Distances {
+    /// The distances of a suite in an arm; none if it was not run.
     #[must_use]
     pub fn new(
         results: &Results,
@@ -129,7 +165,7 @@ impl Shares {
             facts.records.iter().map(|r| r.mean_over_study).collect();
         let mut all: Vec<Option<Tested15>> = Vec::new();
         // Of all levels, which are the values of the claims.
-        let mut whole: Vec<f64> = Vec::new();
+        let mut whole: Vec<OverLevels> = Vec::new();
         for tests in Tests::ALL {
             for at in 0..COUNT {
                 let p = FREQUENCIES_RAD_S[at / SLENDERNESSES_RAD.len()];
@@ -165,20 +201,25 @@ impl Shares {
         let slender = place(Tests::ShiftedPga, SLENDER);
         let of = |draw: Draw<'_>| -> Vec<f64> {
             let counts = draw.of(suite);
-            let mut out: Vec<f64> = all
+            let drawn = counts.iter().filter(|count| **count > 0).count();
+            let nulls = null(drawn);
+            let each: Vec<OverLevels> = all
                 .iter()
-                .map(|one| {
-                    one.as_ref().map_or(f64::NAN, |one| one.share(counts, &[]))
+                .map(|one| match one {
+                    Some(one) => one.over_levels(counts, &[], nulls),
+                    None => OverLevels::new(&[], f64::NAN, f64::NAN),
                 })
                 .collect();
-            out.push(all[slender].as_ref().map_or(f64::NAN, |one| {
-                one.share(counts, &one.earliest(counts))
-            }));
-            out
+            let earliest = all[slender].as_ref().map_or(f64::NAN, |one| {
+                let earliest = one.earliest(counts);
+                let nulls = null(drawn.saturating_sub(earliest.len()));
+                one.over_levels(counts, &earliest, nulls).excess
+            });
+            row(&each, earliest)
         };
-        let shares = draws.subsampled(suite.into(), &of);
+        let found = draws.subsampled(suite.into(), &of);
         // Without the earliest records, the levels of a simulation do.
-        whole.push(shares.point(WITHOUT_EARLIEST));
+        let whole = row(&whole, found.point(WITHOUT_EARLIEST));
         let levels = pga
             .blocks
             .iter()
@@ -188,21 +229,39 @@ impl Shares {
                 (b.samples.iter().filter(finite).count(), b.samples.len())
             })
             .collect();
-        Some(Self { suite, arm, shares: shares.moved_to(&whole), levels })
+        Some(Self { suite, arm, found: found.moved_to(&whole), levels })
     }
 }
 
-/// The accepted share of all levels and all records.
-fn value(tests: Tests, block: &BlockSamples, factors: Option<&[f64]>) -> f64 {
+/// The numbers of a draw in the order of [`Distances::found`].
+fn row(each: &[OverLevels], without_earliest: f64) -> Vec<f64> {
+    let excess = each.iter().map(|one| one.excess).chain([without_earliest]);
+    excess.chain(each.iter().map(|one| one.accepted)).collect()
+}
+
+/// D of all levels and all records.
+fn value(
+    tests: Tests,
+    block: &BlockSamples,
+    factors: Option<&[f64]>,
+) -> OverLevels {
+    let of = |assessments: &[Assessment]| {
+        let d = |test: &Assessment| test.statistic.map_or(f64::NAN, |s| s.d);
+        let found: Vec<f64> = assessments.iter().map(d).collect();
+        let n = block.samples.first().map_or(0, Vec::len);
+        let accepted = accepted_share(assessments);
+        OverLevels { accepted, ..OverLevels::new(&found, null(n).0, f64::NAN) }
+    };
     match tests {
-        Tests::OriginalPga | Tests::OriginalPgv => block.shares().0,
-        Tests::ShiftedPga | Tests::ShiftedPgv => block.shares().1,
-        Tests::ShiftedGeometricMean => factors.map_or(f64::NAN, |factors| {
+        Tests::OriginalPga | Tests::OriginalPgv => of(&block.original),
+        Tests::ShiftedPga | Tests::ShiftedPgv => of(&block.shifted),
+        Tests::ShiftedGeometricMean => {
+            let factors = factors.unwrap_or_default();
             let least = crate::distributions::least(factors);
             let samples: Vec<Vec<f64>> =
                 block.samples.iter().map(|s| scaled(s, factors)).collect();
-            along(&samples, least).map_or(f64::NAN, |t| accepted_share(&t))
-        }),
+            of(&along(&samples, least).unwrap_or_default())
+        }
     }
 }
 
@@ -213,18 +272,25 @@ pub(crate) fn place(
     tests as usize * COUNT + position(frequency, slenderness)
 }
 
-pub(crate) fn blocks(row: &[f64], tests: Tests) -> &[f64] {
+/// The excess of D by block.
+pub(crate) fn excesses(row: &[f64], tests: Tests) -> &[f64] {
     let first = tests as usize * COUNT;
     &row[first..first + COUNT]
 }
 
-/// Suites whose shares are needed.
+/// The accepted share by block.
+pub(crate) fn accepted(row: &[f64], tests: Tests) -> &[f64] {
+    let first = SHARES + tests as usize * COUNT;
+    &row[first..first + COUNT]
+}
+
+/// Suites and arms whose distances are needed.
 #[must_use]
-pub fn all(results: &Results, draws: &Draws) -> Vec<Shares> {
+pub fn all(results: &Results, draws: &Draws) -> Vec<Distances> {
     let mut out = Vec::new();
     for suite in SuiteKind::BOTH {
         for arm in results.plan.drawn() {
-            out.extend(Shares::new(results, draws, suite, arm));
+            out.extend(Distances::new(results, draws, suite, arm));
         }
     }
     out

@@ -22,16 +22,16 @@ pub mod summary;
 
 pub use choice::{Choice, choose};
 pub use comparison::{Comparison, compare};
-pub use counts::{CountsFragility, fit_stripes};
+pub use counts::{CountsFragility, fit_outcomes, fit_stripes};
 pub use fit::{
-    Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Shift,
+    Draws, FitOptions, FragilityFit, LevelFit, ProcedureError, Sampled, Shift,
     fit_levels, fit_sample,
 };
 pub use ida_summary::{IdaSummary, summarise_ida};
 pub use normality::{Normality, NormalityOptions, test_normality};
 pub use pivot::{PivotForces, pivot_forces};
 pub use ranking::{Ranking, rank};
-pub use risk::{Risk, RiskError, risk};
+pub use risk::{Exposed, Risk, RiskError, risk};
 pub use stripes::{StripeResponses, stripes};
 pub use summary::{Summary, summarise};
 

@@ -24,6 +24,7 @@ pub mod regression;
 pub mod resampling;
 pub mod rivals;
 pub mod sample;
+mod search;
 pub mod two_sample;
 
 pub use boxplot::Boxplot;

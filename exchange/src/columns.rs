@@ -61,6 +61,7 @@ tables!(
     IDA = "ida",
     FORCES = "forces",
     HISTORY = "history",
+    OUTCOMES = "outcomes",
     COUNTS = "counts",
     BAND = "band",
     HAZARD = "hazard",

@@ -9,13 +9,17 @@ use rocking::ida::{Adjust, Analysis, IdaCurve, IdaPoint};
 use rocking::integrator::{Model, Outcome, Overturning};
 use rocking::intensity::Intensity;
 use rocking::record::result_name;
+use rocking::statistics::Clusters;
 
 use crate::columns::IDA;
 use crate::read::{Cells, FileError, rows};
 use crate::table::Table;
 
 /// Place of the first column of a [`Setting`].
-const SETTING: usize = 11;
+const SETTING: usize = 12;
+
+/// Place of the earthquake.
+const EVENT: usize = 11;
 
 /// Names of what became of an analysis.
 const OUTCOMES: [&str; 5] =
@@ -69,6 +73,8 @@ pub struct Row {
     pub margin: f64,
     /// What reading the record found suspicious.
     pub remarks: String,
+    /// Earthquake of the record; empty where it is not known.
+    pub event: String,
 }
 
 /// The table of one analysis of a suite.
@@ -85,6 +91,8 @@ pub struct IdaTable {
 pub struct Curves {
     /// Records and their curves, in the order of the table.
     pub curves: Vec<(String, ResponseCurve)>,
+    /// The records by earthquake, where the table says it.
+    pub clusters: Clusters,
     /// IM_R: 1 for PGA, the lowest onset for another measure.
     pub im_r: f64,
     /// Rows past their record's first overturning, not used.
@@ -130,14 +138,15 @@ impl Curves {
 
 impl IdaTable {
     /// The table of these curves of an analysis; `about` is what was done to
-    /// the records, and the program, `remarks` what is remarked on a record.
+    /// the records, and the program; `known` gives what is remarked on a
+    /// record, and its earthquake, empty where it is not known.
     #[must_use]
     pub fn of(
         curves: &[IdaCurve],
         analysis: &Analysis,
         gravity_m_s2: f64,
         (processing, software): (&str, &str),
-        remarks: impl Fn(&str) -> String,
+        known: impl Fn(&str) -> (String, String),
     ) -> Self {
         let p_rad_s = analysis.block.frequency_rad_s();
         let setting = Setting {
@@ -152,7 +161,7 @@ impl IdaTable {
         };
         let mut rows = Vec::new();
         for curve in curves {
-            let remarks = remarks(&curve.record);
+            let (remarks, event) = known(&curve.record);
             let factor = curve.velocity_factor(p_rad_s);
             let mut row = |point: &IdaPoint, outcome| {
                 rows.push(Row {
@@ -168,6 +177,7 @@ impl IdaTable {
                     outcome,
                     margin: point.fate_margin,
                     remarks: remarks.clone(),
+                    event: event.clone(),
                 });
             };
             row(&curve.onset, OUTCOMES[0]);
@@ -209,8 +219,11 @@ impl IdaTable {
             let own = std::iter::once(row.record.clone());
             let own = own.chain(numbers.map(|x| x.to_string()));
             let margin = row.margin.to_string();
-            let last = [row.outcome.to_owned(), margin, row.remarks.clone()];
-            table.row(own.chain(last).chain(setting.clone()));
+            let outcome = row.outcome.to_owned();
+            let last = [outcome, margin, row.remarks.clone()];
+            let event = std::iter::once(row.event.clone());
+            let own = own.chain(last).chain(event);
+            table.row(own.chain(setting.clone()));
         }
         table.finish()
     }
@@ -240,6 +253,11 @@ impl IdaTable {
                     row.record
                 )));
             }
+            let first = found.first().map_or(&row, |first| first);
+            if first.event.is_empty() != row.event.is_empty() {
+                let expected = "the earthquake of every record, or of none";
+                return Err(cells.refuse(EVENT, expected));
+            }
             found.push(row);
         }
         let (_, setting) = first.ok_or_else(|| {
@@ -252,6 +270,22 @@ impl IdaTable {
     pub fn records(&self) -> impl Iterator<Item = &str> {
         let records = self.rows.chunk_by(|a, b| a.record == b.record);
         records.map(|rows| rows[0].record.as_str())
+    }
+
+    /// The earthquakes of the records, in the order of the table; none where
+    /// the table does not say them.
+    #[must_use]
+    pub fn events(&self) -> Option<Vec<&str>> {
+        let records = self.rows.chunk_by(|a, b| a.record == b.record);
+        let events = records.map(|rows| rows[0].event.as_str());
+        events.map(|event| Some(event).filter(|e| !e.is_empty())).collect()
+    }
+
+    /// The records by earthquake, where the table says it.
+    #[must_use]
+    pub fn clusters(&self) -> Clusters {
+        let records = || Clusters::singletons(self.records().count());
+        self.events().map_or_else(records, Clusters::from_labels)
     }
 
     /// Slenderness angle in rad of the block; none where it is adjusted.
@@ -299,7 +333,9 @@ impl IdaTable {
             Intensity::Pga => 1.0,
             Intensity::Pgv => onsets.fold(f64::INFINITY, f64::min),
         };
-        Ok(Curves { curves, im_r, after_overturning, squared: false })
+        let clusters = self.clusters();
+        let squared = false;
+        Ok(Curves { curves, clusters, im_r, after_overturning, squared })
     }
 }
 
@@ -342,7 +378,7 @@ impl Setting {
         first: &csv::StringRecord,
     ) -> Result<(), FileError> {
         let alpha = (self.by == Adjust::RecordScaling).then_some(1);
-        let mut shared = alpha.into_iter().chain([2]).chain(SETTING..18);
+        let mut shared = alpha.into_iter().chain([2]).chain(SETTING..19);
         match shared.find(|&column| cells.fields[column] != first[column]) {
             None => Ok(()),
             Some(column) => Err(cells.error(format_args!(
@@ -361,6 +397,9 @@ impl Row {
         let fields = &cells.fields;
         let name = result_name(&fields[0]);
         let name = name.map_err(|_| cells.refuse(0, "a name of a record"))?;
+        let event = result_name(&fields[EVENT]);
+        let event =
+            event.map_err(|_| cells.refuse(EVENT, "a name, or nothing"))?;
         let not_negative = |column| {
             let expected = "a number, not negative, or inf";
             cells.parsed(column, |x: &f64| *x >= 0.0, expected)
@@ -389,6 +428,7 @@ impl Row {
             outcome,
             margin: cells.parsed(9, |_| true, "a number")?,
             remarks: fields[10].to_owned(),
+            event: event.to_owned(),
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Sample files: one value a line, `>3.2` for one censored at 3.2, `inf` for
 //! one censored at a limit that is not told, `#` comments.
-//! The comment behind a value is the name of its record.
+//! The comment behind a value is the name of its record, and a second one the
+//! earthquake: `1.8 # RSN6-180 # Imperial Valley-02`.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Write as _};
@@ -10,7 +11,9 @@ use rocking::block::Block;
 use rocking::capacity::{Capacity, CapacityError, InversionRule};
 use rocking::integrator::Model;
 use rocking::intensity::{Intensity, IntensityMeasure};
-use rocking::statistics::{CensoredSample, ExtendedSample, SampleError};
+use rocking::statistics::{
+    CensoredSample, Clusters, ExtendedSample, SampleError,
+};
 
 use crate::ida::{Curves, IdaTable};
 use crate::read::FileError;
@@ -107,6 +110,8 @@ pub struct SampleFile {
     lines: Vec<u64>,
     /// Names behind the values.
     names: Vec<Option<String>>,
+    /// Earthquakes behind the names.
+    events: Vec<Option<String>>,
     /// What the values are, where the file says it.
     of: Option<String>,
     setting: SampleSetting,
@@ -124,6 +129,7 @@ impl SampleFile {
             limits: Vec::new(),
             lines: Vec::new(),
             names: Vec::new(),
+            events: Vec::new(),
             of: None,
             setting: SampleSetting::default(),
         };
@@ -136,7 +142,9 @@ impl SampleFile {
             }
             let (content, comment) =
                 text.split_once('#').unwrap_or((text, ""));
-            let (content, name) = (content.trim(), comment.trim());
+            let (name, event) =
+                comment.split_once('#').unwrap_or((comment, ""));
+            let [content, name, event] = [content, name, event].map(str::trim);
             if content.is_empty() {
                 continue;
             }
@@ -151,7 +159,18 @@ impl SampleFile {
             file.values.push(value);
             file.limits.push(limit);
             file.lines.push(line);
-            file.names.push((!name.is_empty()).then(|| name.to_owned()));
+            let known =
+                |text: &str| (!text.is_empty()).then(|| text.to_owned());
+            if let Some(first) = file.events.first()
+                && first.is_none() != event.is_empty()
+            {
+                let expected = "VALUE # RECORD # EARTHQUAKE on every line \
+                                with a value, or on none";
+                let message = format!("found `{text}`: expected {expected}");
+                return Err(FileError::new(path, line, message));
+            }
+            file.names.push(known(name));
+            file.events.push(known(event));
         }
         Ok(file)
     }
@@ -185,14 +204,19 @@ impl SampleFile {
             setting.processing,
             setting.software,
         );
-        for (record, curve) in &suite.curves {
+        let events = table.events();
+        for (place, (record, curve)) in suite.curves.iter().enumerate() {
             let (before, im) = match curve.capacity(level, rule)? {
                 Capacity::Reached(im) => ("", im),
                 Capacity::Censored { above } => (">", above),
             };
             let im = suite.measured(im);
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "{before}{im} # {record}");
+            let _ = write!(text, "{before}{im} # {record}");
+            if let Some(events) = &events {
+                let _ = write!(text, " # {}", events[place]);
+            }
+            text.push('\n');
         }
         Ok(text)
     }
@@ -315,6 +339,15 @@ impl SampleFile {
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
+    }
+
+    /// The values by earthquake, where the file says it.
+    #[must_use]
+    pub fn clusters(&self) -> Clusters {
+        let events: Option<Vec<&String>> =
+            self.events.iter().map(Option::as_ref).collect();
+        let records = || Clusters::singletons(self.values.len());
+        events.map_or_else(records, Clusters::from_labels)
     }
 
     /// The values as a sample with censored values.

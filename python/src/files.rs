@@ -98,6 +98,8 @@ pub fn read_suite<'py>(
         members.filter(|m| both || m.study_component).map(|member| {
             let mut attributes = member.attributes.clone();
             attributes.insert("file".to_owned(), member.file.clone());
+            let event = member.event.clone();
+            attributes.extend(event.map(|own| ("event".to_owned(), own)));
             attributes.insert("format".to_owned(), member.format.to_string());
             attributes.insert("units".to_owned(), member.unit.to_string());
             let named = [("site", &member.site), ("pair", &member.pair)];

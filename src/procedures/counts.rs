@@ -1,11 +1,18 @@
 //! Fragilities fitted to counts of stripes.
 
-use super::ProcedureError;
-use crate::statistics::Lognormal;
-use crate::statistics::lognormal::{Stripe, fit_counts};
+use std::fmt;
 
-/// A lognormal fragility fitted to counts, with its likelihood intervals.
-#[derive(Clone, Copy, Debug, PartialEq)]
+use super::{Draws, ProcedureError};
+use crate::statistics::bootstrap::{Bootstrap, Estimate};
+use crate::statistics::lognormal::{Stripe, fit_counts, fit_counts_alone};
+use crate::statistics::resampling::multiplicities;
+use crate::statistics::{Clusters, Lognormal};
+
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
+
+/// A lognormal fragility fitted to counts, with intervals.
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CountsFragility {
@@ -13,12 +20,15 @@ pub struct CountsFragility {
     pub n: usize,
     /// The fitted distribution, in the unit of the stripes.
     pub fitted: Lognormal,
-    /// Level of the intervals; they take the stripes as independent.
+    /// Level of the intervals.
     pub level: f64,
-    /// Median with its likelihood interval.
-    pub median: LikelihoodInterval,
-    /// Dispersion with its likelihood interval.
-    pub dispersion: LikelihoodInterval,
+    /// What the intervals rest on.
+    #[cfg_attr(feature = "serde", serde(serialize_with = "super::name"))]
+    pub intervals: Basis,
+    /// Median with its interval.
+    pub median: Bounds,
+    /// Dispersion with its interval.
+    pub dispersion: Bounds,
     /// Log-likelihood of the binomial counts.
     pub log_likelihood: Option<f64>,
     /// Pearson's chi-squared.
@@ -27,12 +37,37 @@ pub struct CountsFragility {
     pub degrees_of_freedom: usize,
 }
 
-/// A value with the ends of its likelihood interval; an end is none where the
-/// likelihood does not fall so far.
+/// What the intervals of a fit to counts rest on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Basis {
+    /// The likelihood of independent stripes: counts alone do not tell
+    /// whether stripes share records.
+    IndependentStripes,
+    /// A bootstrap: each draw holds its records in all stripes.
+    Drawn(Draws, Clusters),
+}
+
+impl fmt::Display for Basis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::IndependentStripes => {
+                f.write_str("likelihood, stripes as independent")
+            }
+            Self::Drawn(draws, clusters) => write!(
+                f,
+                "bootstrap, {} draws of seed {}, {clusters}",
+                draws.replicates, draws.seed
+            ),
+        }
+    }
+}
+
+/// A value with the ends of its interval; an end is none where the likelihood
+/// does not fall so far, or a draw in twenty has no fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct LikelihoodInterval {
+pub struct Bounds {
     /// The value of the highest likelihood.
     pub point: f64,
     /// Lower end.
@@ -41,8 +76,21 @@ pub struct LikelihoodInterval {
     pub high: Option<f64>,
 }
 
+/// What became of a record at an intensity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outcome {
+    /// The intensity.
+    pub im: f64,
+    /// Place of the record.
+    pub record: usize,
+    /// Whether it exceeded the level.
+    pub exceeded: bool,
+}
+
 /// Fits a lognormal fragility above `shift` to counts of exceedances, by
-/// maximum likelihood; see [`fit_counts`].
+/// maximum likelihood; see [`fit_counts`]. The intervals take the stripes as
+/// independent; of stripes that share records they are too narrow, and
+/// [`fit_outcomes`] has the right ones.
 ///
 /// # Errors
 /// [`ProcedureError::Fit`] for counts that make no fit.
@@ -52,16 +100,99 @@ pub fn fit_stripes(
 ) -> Result<CountsFragility, ProcedureError> {
     let found = fit_counts(stripes, shift)?;
     let fitted = found.fit.distribution;
-    let interval =
-        |point, (low, high)| LikelihoodInterval { point, low, high };
+    let bounds = |point, (low, high)| Bounds { point, low, high };
     Ok(CountsFragility {
         n: found.fit.n,
         fitted,
-        level: 0.95,
-        median: interval(fitted.median(), found.median),
-        dispersion: interval(fitted.dispersion(), found.dispersion),
+        level: LEVEL,
+        intervals: Basis::IndependentStripes,
+        median: bounds(fitted.median(), found.median),
+        dispersion: bounds(fitted.dispersion(), found.dispersion),
         log_likelihood: found.fit.log_likelihood,
         chi_squared: found.chi_squared,
         degrees_of_freedom: found.degrees_of_freedom,
     })
+}
+
+/// Fits a lognormal fragility above `shift` to stripes of the same records,
+/// as [`fit_stripes`] does. The intervals are those of a bootstrap that draws
+/// the earthquakes of the records, and keeps each record in all its stripes.
+///
+/// ```
+/// use rocking::procedures::{Draws, fit_outcomes};
+/// use rocking::procedures::counts::Outcome;
+/// use rocking::statistics::Clusters;
+/// let capacities = [1.2, 1.7, 2.2, 2.4, 3.1, 3.6];
+/// let stripe = |im: f64| {
+///     let of = |(record, capacity): (usize, &f64)| {
+///         Outcome { im, record, exceeded: *capacity <= im }
+///     };
+///     capacities.iter().enumerate().map(of).collect::<Vec<_>>()
+/// };
+/// let outcomes = [stripe(1.5), stripe(2.3), stripe(3.3)].concat();
+/// let draws = Draws { replicates: 100, seed: 0 };
+/// let records = Clusters::singletons(6);
+/// let found = fit_outcomes(&outcomes, &records, 0.0, draws)?;
+/// assert!((found.median.point - 2.2).abs() < 0.2);
+/// # Ok::<(), rocking::procedures::ProcedureError>(())
+/// ```
+///
+/// # Errors
+/// [`ProcedureError::Fit`] for outcomes that make no fit.
+pub fn fit_outcomes(
+    outcomes: &[Outcome],
+    clusters: &Clusters,
+    shift: f64,
+    draws: Draws,
+) -> Result<CountsFragility, ProcedureError> {
+    draws.check()?;
+    let found = fit_stripes(&Outcome::stripes(outcomes, |_| 1), shift)?;
+    let Draws { replicates, seed } = draws;
+    let all = Bootstrap::of("counts", seed, clusters, replicates);
+    let drawn: Vec<[f64; 2]> = all.map(|places| {
+        let counts = multiplicities(places, clusters.records());
+        let stripes = Outcome::stripes(outcomes, |record| counts[record]);
+        let fit = fit_counts_alone(&stripes, shift);
+        fit.map_or([f64::NAN; 2], |law| [law.median(), law.dispersion()])
+    });
+    let bounds = |k: usize, point| {
+        let column: Vec<f64> = drawn.iter().map(|row| row[k]).collect();
+        let found = clusters.estimate(point, &column, LEVEL);
+        let enough = |e: &Estimate| 20 * e.used >= 19 * e.replicates;
+        let found = found.filter(enough);
+        let (low, high) =
+            (found.as_ref().map(|e| e.low), found.map(|e| e.high));
+        Bounds { point, low, high }
+    };
+    Ok(CountsFragility {
+        intervals: Basis::Drawn(draws, clusters.clone()),
+        median: bounds(0, found.median.point),
+        dispersion: bounds(1, found.dispersion.point),
+        ..found
+    })
+}
+
+impl Outcome {
+    /// The counts of outcomes, each as often as `of` says of its record;
+    /// stripes in the order in which they come.
+    #[must_use]
+    pub fn stripes(
+        outcomes: &[Self],
+        of: impl Fn(usize) -> u32,
+    ) -> Vec<Stripe> {
+        let mut stripes: Vec<Stripe> = Vec::new();
+        for outcome in outcomes {
+            let place = stripes.iter().position(|s| s.im == outcome.im);
+            let place = place.unwrap_or_else(|| {
+                stripes.push(Stripe { im: outcome.im, exceeded: 0, n: 0 });
+                stripes.len() - 1
+            });
+            stripes[place].n += of(outcome.record);
+            if outcome.exceeded {
+                stripes[place].exceeded += of(outcome.record);
+            }
+        }
+        stripes.retain(|stripe| stripe.n > 0);
+        stripes
+    }
 }

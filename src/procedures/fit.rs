@@ -1,6 +1,7 @@
 //! Fragilities fitted to samples of capacities.
 
 mod intervals;
+mod precision;
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,17 +9,18 @@ use std::str::FromStr;
 use thiserror::Error;
 
 pub use intervals::{Band, BandPoint, FitIntervals, Intervals};
+pub use precision::Needed;
 
 use crate::capacity::{CapacityError, InversionRule, ResponseCurve};
 use crate::fragility::{FragilityError, c_max, eq5, eq6, eq7};
 use crate::procedures::capacities;
 use crate::statistics::lilliefors::LillieforsError;
 use crate::statistics::lognormal::{
-    FitError, FitMethod, LognormalFit, profile_shift,
+    FitError, FitMethod, LognormalError, LognormalFit, profile_shift,
 };
 use crate::statistics::regression::RegressionError;
 use crate::statistics::{
-    CensoredSample, Lognormal, QuantileType, SampleError,
+    CensoredSample, Clusters, Lognormal, QuantileType, SampleError,
 };
 
 /// The shift IM_R of a fit.
@@ -109,6 +111,9 @@ pub struct FitOptions {
     pub c: f64,
     /// Bootstrap for intervals; none for no interval.
     pub draws: Option<Draws>,
+    /// Earthquakes of the sample's values, which are then drawn; none draws
+    /// records.
+    pub clusters: Option<Clusters>,
     /// Intensities at which the probability gets a band, in the unit of the
     /// sample; needs `draws`.
     pub band: Vec<f64>,
@@ -124,6 +129,7 @@ impl Default for FitOptions {
             quantile_type: QuantileType::default(),
             c: 1.0,
             draws: None,
+            clusters: None,
             band: Vec::new(),
         }
     }
@@ -256,6 +262,9 @@ pub struct FragilityFit {
     pub unshifted: Option<Lognormal>,
     /// What Eqs. 5 to 7 make of the unshifted statistics.
     pub transformed: Transformed,
+    /// How many records a precision needs; none where censored values of
+    /// shared earthquakes leave the design effect open.
+    pub needed: Option<Needed>,
     /// Bootstrap intervals, where draws were asked for.
     pub bootstrap: Option<FitIntervals>,
     /// Probabilities with their band, where asked for.
@@ -319,6 +328,31 @@ impl Transformed {
     }
 }
 
+/// The distributions fitted to the draws of a sample.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sampled {
+    /// The draws of the bootstrap.
+    pub draws: Draws,
+    /// What was drawn.
+    pub clusters: Clusters,
+    /// One a draw; none where it makes no fit.
+    pub fitted: Vec<Option<Lognormal>>,
+}
+
+impl Sampled {
+    /// All of them in a unit of which one of theirs has `factor`.
+    ///
+    /// # Errors
+    /// [`LognormalError`] for a factor that is no positive number.
+    pub fn scaled(mut self, factor: f64) -> Result<Self, LognormalError> {
+        for fitted in self.fitted.iter_mut().flatten() {
+            *fitted = fitted.scaled(factor)?;
+        }
+        Ok(self)
+    }
+}
+
 /// One fit of one sample: what every replicate of a bootstrap repeats.
 struct Fitted {
     fit: LognormalFit,
@@ -337,6 +371,15 @@ impl FitOptions {
             let limited = sample.limited();
             return Err(ProcedureError::SmallestLimited(limited));
         }
+        if let Some(clusters) = &self.clusters
+            && clusters.records() != sample.len()
+        {
+            return Err(ProcedureError::Length {
+                name: "earthquakes".to_owned(),
+                found: clusters.records(),
+                expected: sample.len(),
+            });
+        }
         match (self.draws, self.shift) {
             (None, _) if !self.band.is_empty() => {
                 Err(ProcedureError::BandWithoutDraws)
@@ -346,6 +389,29 @@ impl FitOptions {
             (Some(_), Shift::Free) => Err(ProcedureError::FreeDrawn),
             (Some(draws), _) => draws.check(),
         }
+    }
+
+    /// The distributions fitted to the draws of a sample; none where the
+    /// options ask for no draws.
+    ///
+    /// # Errors
+    /// As of [`fit_sample`].
+    pub fn sampled(
+        &self,
+        sample: &CensoredSample,
+    ) -> Result<Option<Sampled>, ProcedureError> {
+        self.check(sample)?;
+        let Some(draws) = self.draws else { return Ok(None) };
+        let clusters = self.clusters(sample);
+        let drawn = intervals::replicates(sample, self, &clusters);
+        let fitted = drawn.into_iter().map(|(_, fitted)| fitted).collect();
+        Ok(Some(Sampled { draws, clusters, fitted }))
+    }
+
+    /// The records of a sample, by earthquake where these are known.
+    fn clusters(&self, sample: &CensoredSample) -> Clusters {
+        let records = || Clusters::singletons(sample.len());
+        self.clusters.clone().unwrap_or_else(records)
     }
 
     fn once(&self, sample: &CensoredSample) -> Result<Fitted, FitError> {
@@ -414,13 +480,17 @@ pub fn fit_sample(
         _ => None,
     };
     let at = |p| sample.quantile(options.quantile_type, p);
-    let replicates = intervals::replicates(sample, options);
+    let clusters = options.clusters(sample);
+    let replicates = intervals::replicates(sample, options, &clusters);
     let bootstrap = options.draws.map(|draws| {
-        FitIntervals::of(sample, options, draws, &found, &replicates)
+        let own = (draws, &clusters);
+        FitIntervals::of(sample, options, own, &found, &replicates)
     });
     let band = options.draws.filter(|_| !options.band.is_empty());
-    let band = band
-        .map(|draws| Band::of(sample, options, draws, &fitted, &replicates));
+    let band = band.map(|draws| {
+        let own = (draws, &clusters);
+        Band::of(sample, options, own, &fitted, &replicates)
+    });
     // The empirical distribution is that of values with one limit.
     let ks_distance =
         (sample.limited() == 0).then(|| fitted.kolmogorov_distance(&whole));
@@ -442,6 +512,7 @@ pub fn fit_sample(
         im84: at(0.84),
         unshifted: found.unshifted,
         transformed: found.transformed,
+        needed: Needed::of(sample, &fitted, &clusters),
         bootstrap,
         band,
     })

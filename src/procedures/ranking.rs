@@ -3,9 +3,10 @@
 use libm::log;
 
 use super::{Draws, ProcedureError};
-use crate::statistics::bootstrap::{Bootstrap, Estimate, estimate};
+use crate::statistics::Clusters;
+use crate::statistics::bootstrap::{Bootstrap, Estimate};
 use crate::statistics::lognormal::fit_intervals;
-use crate::statistics::regression::{Line, line};
+use crate::statistics::regression::{Line, mixed};
 
 /// Level of the intervals.
 const LEVEL: f64 = 0.95;
@@ -58,9 +59,11 @@ pub struct Ranking {
     pub censored: usize,
     /// Level of the intervals.
     pub level: f64,
-    /// Draws of the bootstrap of records, the same for all measures.
+    /// Draws of the bootstrap, the same for all measures.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub draws: Draws,
+    /// What was drawn.
+    pub drawn: Clusters,
     /// Why there is no slope, where a covariate was given and there is none.
     pub remark: Option<String>,
     /// The measures.
@@ -92,7 +95,8 @@ pub struct Ranked {
 pub struct Slope {
     /// The covariate.
     pub on: String,
-    /// The least-squares line.
+    /// The line: with a random intercept for each earthquake, by least
+    /// squares where no earthquake has two records.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub line: Line,
 }
@@ -105,10 +109,13 @@ pub struct Slope {
 /// value at that scale. Efficiency is the dispersion of a lognormal fitted by
 /// maximum likelihood, censored records by their limits (Luco and Cornell,
 /// Earthquake Spectra 23 (2007) 357); sufficiency the slope of ln(capacity)
-/// on a covariate, where no record is censored.
+/// on a covariate, where no record is censored, with a random intercept for
+/// each earthquake ([`mixed`]). `clusters` are the earthquakes of the
+/// records: these are drawn.
 ///
 /// ```
 /// use rocking::procedures::{Draws, ranking::{Candidate, rank}};
+/// use rocking::statistics::Clusters;
 /// let capacities = [(1.0, 1.0), (2.0, 2.0), (4.0, f64::INFINITY)];
 /// let pga = Candidate {
 ///     im: "pga".into(),
@@ -116,7 +123,8 @@ pub struct Slope {
 ///     squared: false,
 /// };
 /// let draws = Draws { replicates: 100, seed: 0 };
-/// let found = rank(&capacities, &[pga], &[], draws)?;
+/// let records = Clusters::singletons(3);
+/// let found = rank(&capacities, &[pga], &[], &records, draws)?;
 /// assert_eq!((found.n, found.censored), (3, 1));
 /// # Ok::<(), rocking::procedures::ProcedureError>(())
 /// ```
@@ -128,6 +136,7 @@ pub fn rank(
     capacities: &[(f64, f64)],
     candidates: &[Candidate],
     covariates: &[Covariate],
+    clusters: &Clusters,
     draws: Draws,
 ) -> Result<Ranking, ProcedureError> {
     draws.check()?;
@@ -136,6 +145,8 @@ pub fn rank(
         .iter()
         .map(|c| (&c.im, c.at_uplift.len()))
         .chain(covariates.iter().map(|c| (&c.name, c.values.len())));
+    let earthquakes = "earthquakes".to_owned();
+    let named = named.chain([(&earthquakes, clusters.records())]);
     for (name, found) in named {
         if found != n {
             let name = name.clone();
@@ -157,7 +168,8 @@ pub fn rank(
         fit.map_or(f64::NAN, |fit| fit.distribution.dispersion())
     };
     let Draws { replicates, seed } = draws;
-    let drawn = Bootstrap::new("rank", seed, n, replicates).map(|places| {
+    let drawn = Bootstrap::of("rank", seed, clusters, replicates);
+    let drawn = drawn.map(|places| {
         let pick = |capacities: &Vec<(f64, f64)>| {
             let own: Vec<_> = places.iter().map(|&i| capacities[i]).collect();
             dispersion(&own)
@@ -178,14 +190,14 @@ pub fn rank(
         let slope = |covariate: &Covariate| {
             let y: Vec<f64> = all[i].iter().map(|c| log(c.0)).collect();
             let on = covariate.name.clone();
-            Ok(Slope { on, line: line(&covariate.values, &y)? })
+            Ok(Slope { on, line: mixed(&covariate.values, &y, clusters)? })
         };
         let used = covariates.iter().filter(|_| censored == 0);
         Ok(Ranked {
             im,
             median: fit.distribution.median(),
-            dispersion: estimate(point, &column, LEVEL),
-            ratio_to_first: estimate(point / first, &ratios, LEVEL),
+            dispersion: clusters.estimate(point, &column, LEVEL),
+            ratio_to_first: clusters.estimate(point / first, &ratios, LEVEL),
             slopes: used.map(slope).collect::<Result<_, ProcedureError>>()?,
         })
     };
@@ -198,6 +210,7 @@ pub fn rank(
         censored,
         level: LEVEL,
         draws,
+        drawn: clusters.clone(),
         remark,
         measures: measures.collect::<Result<_, ProcedureError>>()?,
     })

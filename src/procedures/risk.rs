@@ -6,7 +6,12 @@ use thiserror::Error;
 
 use crate::fragility::hazard::{Hazard, HazardRemark};
 use crate::intensity::IntensityMeasure;
-use crate::statistics::Lognormal;
+use crate::procedures::{Draws, fit::Sampled};
+use crate::statistics::{Clusters, Lognormal};
+use crate::stop;
+
+/// Level of the intervals.
+const LEVEL: f64 = 0.95;
 
 /// Annual frequencies and probabilities of damage under one hazard curve.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +48,55 @@ pub struct HazardPoint {
     pub annual_frequency: f64,
 }
 
+/// A fragility in the unit of the hazard curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Exposed {
+    /// Its name.
+    pub fragility: String,
+    /// The fragility.
+    pub fitted: Lognormal,
+    /// What the draws of its sample make of it; none for no interval.
+    pub sampled: Option<Sampled>,
+}
+
+impl Exposed {
+    /// A fragility that counts as known.
+    #[must_use]
+    pub fn known(name: &str, fitted: Lognormal) -> Self {
+        Self { fragility: name.to_owned(), fitted, sampled: None }
+    }
+}
+
+/// What few records leave open of a frequency; the hazard curve counts as
+/// known.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SamplingInterval {
+    /// The draws of the bootstrap.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub draws: Draws,
+    /// What was drawn.
+    pub drawn: Clusters,
+    /// Level of the intervals.
+    pub level: f64,
+    /// Lower end of the annual frequency in 1/year, of the lower bound of
+    /// truncation.
+    pub annual_frequency_low: f64,
+    /// Upper end, of the upper bound of truncation.
+    pub annual_frequency_high: f64,
+    /// Lower end of the probability of damage in T years.
+    pub probability_low: f64,
+    /// Upper end.
+    pub probability_high: f64,
+}
+
 /// Annual frequency and probability of damage of one fragility.
 ///
 /// Lower and upper are bounds of the hazard curve's truncation at its last
 /// point (see
 /// [`AnnualFrequency`](crate::fragility::risk::AnnualFrequency)). They are no
-/// confidence interval: records and hazard count as known.
+/// confidence interval: that is `sampling`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -70,6 +118,9 @@ pub struct FragilityRisk {
     /// The fragility at the first point. Where it is not 0, weaker motions
     /// add to the frequency; how much, the curve does not tell.
     pub probability_at_first_point: f64,
+    /// The interval that the choice of the records leaves; none for a
+    /// fragility that counts as known.
+    pub sampling: Option<SamplingInterval>,
 }
 
 /// Why a risk was refused.
@@ -89,14 +140,17 @@ pub enum RiskError {
 /// usual curve of 20 points). Damage is a Poisson process of that frequency:
 /// the probability of damage in T years is 1 - exp(-lambda T).
 ///
+/// The 95 % interval is that of lambda over the draws of the fragility's
+/// sample, earthquakes where they are known ([`Clusters::estimate`]).
+///
 /// ```
 /// use rocking::fragility::hazard::{Hazard, HazardOptions};
-/// use rocking::procedures::risk;
+/// use rocking::procedures::{Exposed, risk};
 /// use rocking::statistics::Lognormal;
 /// let text = "pga_g,annual_frequency\n1e-6,1e8\n1e6,1e-16\n";
 /// let hazard = Hazard::parse("h.csv", text, &HazardOptions::default())?;
 /// let fragility = Lognormal::try_new(0.0, 0.0, 0.5)?;
-/// let found = risk(&hazard, &[("block", fragility)], 50.0)?;
+/// let found = risk(&hazard, &[Exposed::known("block", fragility)], 50.0)?;
 /// // Cornell's closed form for H = 1e-4 x^-2, median 1, dispersion 0.5.
 /// let cornell = 1e-4 * 0.5f64.exp();
 /// let row = &found.fragilities[0];
@@ -111,7 +165,7 @@ pub enum RiskError {
 /// [`RiskError`] for a time that is no positive number.
 pub fn risk(
     hazard: &Hazard,
-    fragilities: &[(&str, Lognormal)],
+    fragilities: &[Exposed],
     years: f64,
 ) -> Result<Risk, RiskError> {
     if !(years > 0.0 && years.is_finite()) {
@@ -123,18 +177,21 @@ pub fn risk(
         annual_frequency,
     };
     let within = |frequency: f64| -expm1(-frequency * years);
-    let row = |(name, fitted): &(&str, Lognormal)| {
-        let found = hazard.curve.annual_frequency(fitted);
+    let row = |one: &Exposed| {
+        let found = hazard.curve.annual_frequency(&one.fitted);
         let (lower, upper) = (found.truncation_lower, found.truncation_upper);
         FragilityRisk {
-            fragility: (*name).to_owned(),
-            fitted: *fitted,
+            fragility: one.fragility.clone(),
+            fitted: one.fitted,
             annual_frequency_truncation_lower: lower,
             annual_frequency_truncation_upper: upper,
             annual_frequency_covered: found.covered,
             probability_truncation_lower: within(lower),
             probability_truncation_upper: within(upper),
             probability_at_first_point: found.first_probability,
+            sampling: one.sampled.as_ref().and_then(|sampled| {
+                interval(hazard, (lower, upper), sampled, within)
+            }),
         }
     };
     Ok(Risk {
@@ -146,5 +203,34 @@ pub fn risk(
         remarks: hazard.remarks.clone(),
         years,
         fragilities: fragilities.iter().map(row).collect(),
+    })
+}
+
+/// The interval of an annual frequency between its bounds of truncation.
+fn interval(
+    hazard: &Hazard,
+    (lower, upper): (f64, f64),
+    sampled: &Sampled,
+    within: impl Fn(f64) -> f64,
+) -> Option<SamplingInterval> {
+    let all = sampled.fitted.iter().map(|fitted| {
+        stop::point();
+        fitted.map_or((f64::NAN, f64::NAN), |fitted| {
+            let found = hazard.curve.annual_frequency(&fitted);
+            (found.truncation_lower, found.truncation_upper)
+        })
+    });
+    let (lows, highs): (Vec<f64>, Vec<f64>) = all.unzip();
+    let drawn = &sampled.clusters;
+    let low = drawn.estimate(lower, &lows, LEVEL)?.low;
+    let high = drawn.estimate(upper, &highs, LEVEL)?.high;
+    Some(SamplingInterval {
+        draws: sampled.draws,
+        drawn: drawn.clone(),
+        level: LEVEL,
+        annual_frequency_low: low,
+        annual_frequency_high: high,
+        probability_low: within(low),
+        probability_high: within(high),
     })
 }

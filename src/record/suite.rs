@@ -65,7 +65,10 @@ pub struct SuiteMember {
     pub pair: Option<String>,
     /// Whether the study uses this component of the pair.
     pub study_component: bool,
-    /// Other columns of the index, by name (event, magnitude, ...).
+    /// Earthquake of the record, by the index; records of one earthquake
+    /// are no independent draws.
+    pub event: Option<String>,
+    /// Other columns of the index, by name (magnitude, distance, ...).
     pub attributes: BTreeMap<String, String>,
 }
 
@@ -97,8 +100,10 @@ impl Suite {
     /// separated by commas or semicolons. Optional columns: `name` (of the
     /// record; the file's stem otherwise), `format`, `units`, `dt_s`, `npts`,
     /// `pga_g`, `pgv_m_s`, `sha256` (checked), `pair`, `study_component` (1
-    /// or 0); others are kept as attributes. PEER's `_SearchResults.csv` is
-    /// an index too, and that of the folder it lies in. In another folder,
+    /// or 0), `event` (the earthquake, of every record or of none); others
+    /// are kept as attributes. PEER's `_SearchResults.csv` is an index too,
+    /// with its `Earthquake Name` as event, and that of the folder it lies
+    /// in. In another folder,
     /// files of no known format, histories of velocity or displacement,
     /// vertical components, records of a sensor in a borehole (KiK-net),
     /// folders and links to nothing are set aside ([`Suite::set_aside`]), and
@@ -138,7 +143,7 @@ impl Suite {
     /// assert_eq!(suite.members().len(), 2);
     /// let study: Vec<_> = suite.study_components().collect();
     /// assert_eq!(study[0].file, "a-000.txt");
-    /// assert_eq!(study[0].attributes["event"], "Nowhere, 1900");
+    /// assert_eq!(study[0].event.as_deref(), Some("Nowhere, 1900"));
     /// # Ok::<(), rocking::record::SuiteError>(())
     /// ```
     pub fn from_index(

@@ -7,6 +7,7 @@ use libm::sqrt;
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use super::normal;
+use super::sample::mean;
 use crate::names::named;
 
 /// What a resampling draws.
@@ -142,6 +143,40 @@ impl Clusters {
         n * n / (own + (sum * sum - squares) / (n * n))
     }
 
+    /// Share of the variance of values that lies between clusters, at least
+    /// 0: (B - W)/(B + (n_0 - 1) W) with the mean squares B between and W
+    /// within clusters, n_0 = (n - sum n_g^2/n)/(G - 1) (analysis of
+    /// variance, one way). None of values that are not all finite, of a
+    /// single cluster, and where no cluster has two records.
+    ///
+    /// ```
+    /// use rocking::statistics::clusters::Clusters;
+    /// let clusters = Clusters::from_labels(["a", "a", "b", "b"]);
+    /// // B = 16, W = 1, n_0 = 2.
+    /// let share = clusters.intraclass(&[0.0, 2.0f64.sqrt(), 4.0, 5.5]);
+    /// assert!(share.is_some_and(|share| share > 0.8 && share < 1.0));
+    /// ```
+    #[must_use]
+    pub fn intraclass(&self, values: &[f64]) -> Option<f64> {
+        let centre = mean(values);
+        let (mut between, mut within) = (0.0, 0.0);
+        for members in &self.members {
+            let own: Vec<f64> = members.iter().map(|&i| values[i]).collect();
+            let own_mean = mean(&own);
+            let gap = own_mean - centre;
+            between += own.len() as f64 * gap * gap;
+            for value in own {
+                within += (value - own_mean) * (value - own_mean);
+            }
+        }
+        let (n, count) = (self.records() as f64, self.count() as f64);
+        let (between, within) =
+            (between / (count - 1.0), within / (n - count));
+        let size = n * (1.0 - 1.0 / self.effective()) / (count - 1.0);
+        let share = (between - within) / (between + (size - 1.0) * within);
+        share.is_finite().then_some(share.max(0.0))
+    }
+
     /// Half the width of an interval at `level`, over the standard deviation
     /// of an ordinary bootstrap of clusters. With z the normal quantile, t
     /// that of Student's t with [`Self::degrees_of_freedom`] and G_e of
@@ -196,6 +231,17 @@ impl std::fmt::Display for Clusters {
                 self.count()
             ),
         }
+    }
+}
+
+/// In words, as a result says them.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Clusters {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        to.collect_str(self)
     }
 }
 

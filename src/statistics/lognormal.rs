@@ -9,7 +9,7 @@ mod profile;
 use libm::{exp, expm1, log, sqrt};
 use thiserror::Error;
 
-pub use counts::{CountsFit, Stripe, fit_counts};
+pub use counts::{CountsFit, Stripe, fit_counts, fit_counts_alone};
 pub use fit::{
     FitError, FitMethod, LognormalFit, fit, fit_intervals, shifted_finite,
 };

@@ -1,7 +1,12 @@
-//! A straight line through pairs by ordinary least squares.
+//! A straight line through pairs: by least squares, or with a random
+//! intercept for each cluster of pairs.
+
+mod mixed;
 
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use thiserror::Error;
+
+pub use mixed::mixed;
 
 use super::sample::mean;
 
@@ -12,6 +17,9 @@ pub enum RegressionError {
     /// A slope and its error need three pairs.
     #[error("{0} pairs: expected at least 3")]
     TooFew(usize),
+    /// A variance between clusters needs three.
+    #[error("{0} earthquakes: expected at least 3")]
+    TooFewClusters(usize),
     /// A pair has two values.
     #[error("{x} values of x and {y} of y: expected as many")]
     Lengths {
@@ -31,28 +39,34 @@ pub enum RegressionError {
     Constant,
 }
 
-/// The line y = intercept + slope x with the least sum of squares.
+/// A line y = intercept + slope x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Line {
     /// Value at x = 0, in units of y.
     pub intercept: f64,
-    /// Slope b = sum (x - mean x)(y - mean y)/sum (x - mean x)^2.
+    /// Slope.
     pub slope: f64,
-    /// Its standard error, s/sqrt(sum (x - mean x)^2).
+    /// Its standard error.
     pub standard_error: f64,
-    /// Residual standard deviation s, divisor n - 2.
+    /// Residual standard deviation s, within clusters where there are some.
     pub residual_deviation: f64,
-    /// P-value (two-sided) of a slope 0: Student's t with n - 2 degrees of
-    /// freedom at slope/standard error.
+    /// Standard deviation tau between clusters; none of a line by least
+    /// squares.
+    pub event_deviation: Option<f64>,
+    /// Degrees of freedom of the slope's standard error.
+    pub degrees_of_freedom: f64,
+    /// P-value (two-sided) of a slope 0: Student's t at slope/standard error.
     pub p_value: f64,
     /// Number of pairs.
     pub n: usize,
 }
 
 /// The least-squares line through pairs (Draper and Smith, Applied
-/// Regression Analysis, 1998, chapter 1; R: `lm(y ~ x)`).
+/// Regression Analysis, 1998, chapter 1; R: `lm(y ~ x)`): slope b = sum (x -
+/// mean x)(y - mean y)/sum (x - mean x)^2, its standard error
+/// s/sqrt(sum (x - mean x)^2), n - 2 degrees of freedom.
 ///
 /// ```
 /// use rocking::statistics::regression::line;
@@ -66,19 +80,8 @@ pub struct Line {
 /// [`RegressionError`] for fewer than three pairs, a value that is not
 /// finite, or x that does not vary.
 pub fn line(x: &[f64], y: &[f64]) -> Result<Line, RegressionError> {
+    checked(x, y)?;
     let n = x.len();
-    if y.len() != n {
-        return Err(RegressionError::Lengths { x: n, y: y.len() });
-    }
-    if n < 3 {
-        return Err(RegressionError::TooFew(n));
-    }
-    let mut pairs = x.iter().zip(y);
-    if let Some(place) =
-        pairs.position(|(x, y)| !(x.is_finite() && y.is_finite()))
-    {
-        return Err(RegressionError::NotFinite { number: place + 1 });
-    }
     let (centre_x, centre_y) = (mean(x), mean(y));
     let sums = |f: &dyn Fn(f64, f64) -> f64| {
         let terms = x.iter().zip(y).map(|(x, y)| (x - centre_x, y - centre_y));
@@ -86,7 +89,7 @@ pub fn line(x: &[f64], y: &[f64]) -> Result<Line, RegressionError> {
         mean(&terms) * n as f64
     };
     let squares = sums(&|x, _| x * x);
-    if x.iter().all(|value| *value == x[0]) || !(squares > 0.0) {
+    if !(squares > 0.0) {
         return Err(RegressionError::Constant);
     }
     let slope = sums(&|x, y| x * y) / squares;
@@ -108,9 +111,32 @@ pub fn line(x: &[f64], y: &[f64]) -> Result<Line, RegressionError> {
         slope,
         standard_error,
         residual_deviation,
+        event_deviation: None,
+        degrees_of_freedom: freedom,
         p_value,
         n,
     })
+}
+
+/// Refuses pairs that make no line.
+fn checked(x: &[f64], y: &[f64]) -> Result<(), RegressionError> {
+    let n = x.len();
+    if y.len() != n {
+        return Err(RegressionError::Lengths { x: n, y: y.len() });
+    }
+    if n < 3 {
+        return Err(RegressionError::TooFew(n));
+    }
+    let mut pairs = x.iter().zip(y);
+    if let Some(place) =
+        pairs.position(|(x, y)| !(x.is_finite() && y.is_finite()))
+    {
+        return Err(RegressionError::NotFinite { number: place + 1 });
+    }
+    if x.iter().all(|value| *value == x[0]) {
+        return Err(RegressionError::Constant);
+    }
+    Ok(())
 }
 
 #[cfg(test)]

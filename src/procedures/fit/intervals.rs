@@ -3,11 +3,9 @@
 
 use super::{Draws, FitOptions, Fitted};
 use crate::fragility::FragilityError;
-use crate::statistics::bootstrap::{
-    Bootstrap, Estimate, accelerated, estimate,
-};
+use crate::statistics::bootstrap::{Bootstrap, Estimate};
 use crate::statistics::lognormal::FitMethod;
-use crate::statistics::{CensoredSample, Lognormal};
+use crate::statistics::{CensoredSample, Clusters, Lognormal};
 use crate::stop;
 
 /// Level of all intervals.
@@ -24,8 +22,8 @@ pub struct Intervals {
     pub bca: Option<Estimate>,
 }
 
-/// Bootstrap intervals of the numbers of a fit, records drawn with
-/// replacement.
+/// Bootstrap intervals of the numbers of a fit; earthquakes are drawn with
+/// all their records, or records where no earthquake is known.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -33,6 +31,8 @@ pub struct FitIntervals {
     /// The draws.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub draws: Draws,
+    /// What was drawn.
+    pub drawn: Clusters,
     /// Level of the intervals.
     pub level: f64,
     /// Logarithmic mean above the shift.
@@ -86,10 +86,11 @@ fn refitted(
 pub(super) fn replicates(
     sample: &CensoredSample,
     options: &FitOptions,
+    clusters: &Clusters,
 ) -> Vec<Replicate> {
     let Some(draws) = options.draws else { return Vec::new() };
-    let n = sample.len();
-    let all = Bootstrap::new("fragility", draws.seed, n, draws.replicates);
+    let (seed, replicates) = (draws.seed, draws.replicates);
+    let all = Bootstrap::of("fragility", seed, clusters, replicates);
     all.map(|places| refitted(sample, options, places))
 }
 
@@ -97,15 +98,16 @@ impl FitIntervals {
     pub(super) fn of(
         sample: &CensoredSample,
         options: &FitOptions,
-        draws: Draws,
+        (draws, clusters): (Draws, &Clusters),
         found: &Fitted,
         replicates: &[Replicate],
     ) -> Self {
-        let n = sample.len();
-        let without: Vec<Replicate> = (0..n)
+        let without: Vec<Replicate> = (0..clusters.count())
             .map(|k| {
                 stop::point();
-                let others: Vec<_> = (0..n).filter(|i| *i != k).collect();
+                let all = 0..clusters.records();
+                let others: Vec<_> =
+                    all.filter(|i| clusters.of(*i) != k).collect();
                 refitted(sample, options, &others)
             })
             .collect();
@@ -116,12 +118,13 @@ impl FitIntervals {
             };
             let (drawn, left_out) = (column(replicates), column(&without));
             Intervals {
-                percentile: estimate(points[i], &drawn, LEVEL),
-                bca: accelerated(points[i], &drawn, &left_out, LEVEL),
+                percentile: clusters.estimate(points[i], &drawn, LEVEL),
+                bca: clusters.accelerated(points[i], &drawn, &left_out, LEVEL),
             }
         };
         Self {
             draws,
+            drawn: clusters.clone(),
             level: LEVEL,
             log_mean: of(0),
             dispersion: of(1),
@@ -141,6 +144,8 @@ pub struct Band {
     /// The draws of the bootstrap.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub draws: Draws,
+    /// What was drawn.
+    pub drawn: Clusters,
     /// Level of the bands.
     pub level: f64,
     /// One point an intensity.
@@ -160,8 +165,8 @@ pub struct BandPoint {
     pub low: Option<f64>,
     /// Upper end by the bootstrap.
     pub high: Option<f64>,
-    /// Lower end by the delta method: of complete samples, fitted by maximum
-    /// likelihood or moments above a known shift.
+    /// Lower end by the delta method: of complete samples of independent
+    /// records, fitted by maximum likelihood or moments above a known shift.
     pub delta_low: Option<f64>,
     /// Upper end by the delta method.
     pub delta_high: Option<f64>,
@@ -171,7 +176,7 @@ impl Band {
     pub(super) fn of(
         sample: &CensoredSample,
         options: &FitOptions,
-        draws: Draws,
+        (draws, clusters): (Draws, &Clusters),
         fitted: &Lognormal,
         replicates: &[Replicate],
     ) -> Self {
@@ -186,8 +191,9 @@ impl Band {
             };
             let column: Vec<f64> = replicates.iter().map(at).collect();
             let probability = fitted.cdf(intensity);
-            let found = estimate(probability, &column, LEVEL);
-            let delta = (complete && known).then(|| {
+            let found = clusters.estimate(probability, &column, LEVEL);
+            let records = clusters.is_singletons();
+            let delta = (complete && known && records).then(|| {
                 fitted.interval_of_cdf(sample.len(), intensity, LEVEL)
             });
             BandPoint {
@@ -200,6 +206,7 @@ impl Band {
             }
         };
         let points = options.band.iter().map(point).collect();
-        Self { draws, level: LEVEL, points }
+        let drawn = clusters.clone();
+        Self { draws, drawn, level: LEVEL, points }
     }
 }

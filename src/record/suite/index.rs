@@ -34,7 +34,7 @@ const LONGEST_NAME: usize = 64;
 const MOST_ROWS: usize = 50_000;
 
 /// Columns that mean something; others are attributes.
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "file",
     "name",
     "format",
@@ -46,12 +46,14 @@ const COLUMNS: [&str; 11] = [
     "sha256",
     "pair",
     "study_component",
+    "event",
 ];
 
 /// Column of PEER's search results that names the first component.
 const PEER_FIRST: &str = "Horizontal-1 Acc. Filename";
 const PEER_SECOND: &str = "Horizontal-2 Acc. Filename";
 const PEER_NUMBER: &str = "Record Sequence Number";
+const PEER_EVENT: &str = "Earthquake Name";
 
 /// Whether the first line has a column `file`, or any line is the head of
 /// PEER's list of records.
@@ -276,6 +278,18 @@ impl Row {
         Some(self.cells[place].as_str()).filter(|cell| !cell.is_empty())
     }
 
+    /// The earthquake, which the index states for all records or for none.
+    fn event(&self) -> Result<Option<String>, SuiteError> {
+        let stated = |name: &str| self.columns.iter().any(|c| c == name);
+        match ["event", PEER_EVENT].into_iter().find(|name| stated(name)) {
+            None => Ok(None),
+            Some(name) => match self.cell(name) {
+                Some(event) => Ok(Some(event.to_owned())),
+                None => Err(self.refuse("", "the earthquake of each record")),
+            },
+        }
+    }
+
     fn refuse(&self, found: &str, expected: &str) -> SuiteError {
         SuiteError::Index {
             path: self.path.to_string(),
@@ -356,6 +370,7 @@ impl Row {
                 None => self.cell("pair").map(str::to_owned),
             },
             study_component,
+            event: self.event()?,
             attributes,
         })
     }

@@ -246,6 +246,7 @@ fn horizontal(
         remarks,
         pair: None,
         study_component: false,
+        event: None,
         attributes: BTreeMap::new(),
     })
 }

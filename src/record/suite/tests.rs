@@ -97,9 +97,9 @@ fn study_components_come_from_the_index() {
     assert_eq!(other, ["a-1.txt"]);
     let [(first, second)] = found.both()[..] else { panic!() };
     assert_eq!((&*first.file, &*second.file), ("a-2.txt", "a-1.txt"));
-    assert_eq!(second.attributes["event"], "Nowhere, \"old\"");
+    assert_eq!(second.event.as_deref(), Some("Nowhere, \"old\""));
     assert_eq!(second.attributes["mw"], "7.1");
-    assert_eq!(second.attributes.len(), 2);
+    assert_eq!(second.attributes.len(), 1);
     for (flags, study) in [("0,0", 0), ("1,1", 2)] {
         let (one, two) = flags.split_once(',').unwrap();
         let index = format!(
@@ -167,7 +167,7 @@ fn an_index_may_have_semicolons_capitals_and_names() {
     let names: Vec<_> =
         found.members().iter().map(|m| m.accelerogram.name()).collect();
     assert_eq!(names, ["one", "two"]);
-    assert_eq!(found.members()[0].attributes["Event"], "X, Y");
+    assert_eq!(found.members()[0].event.as_deref(), Some("X, Y"));
     // In UTF-16 too, as spreadsheets save it.
     let wide: Vec<u8> =
         index.encode_utf16().flat_map(u16::to_le_bytes).collect();

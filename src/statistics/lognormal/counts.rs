@@ -2,7 +2,7 @@
 
 use libm::{exp, log};
 
-use super::censored::Observation::Interval;
+use super::censored::Observation::{self, Interval};
 use super::censored::{maximise, profile_limits};
 use super::{FitError, Lognormal, LognormalError, LognormalFit};
 
@@ -69,6 +69,49 @@ pub fn fit_counts(
     stripes: &[Stripe],
     shift: f64,
 ) -> Result<CountsFit, FitError> {
+    let (known, coefficients, found) = maximum(stripes, shift)?;
+    let (log_mean, dispersion, value) = found;
+    let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
+    let [mean, deviation] = profile_limits(&known, found);
+    let median = |mu: f64| shift + exp(mu);
+    let chi_squared = stripes.iter().fold(0.0, |sum, stripe| {
+        let (p, n) = (distribution.cdf(stripe.im), f64::from(stripe.n));
+        let q = distribution.survival(stripe.im);
+        let excess = f64::from(stripe.exceeded) - n * p;
+        sum + excess * excess / (n * p * q)
+    });
+    Ok(CountsFit {
+        fit: LognormalFit {
+            distribution,
+            n: known.len(),
+            n_kept: known.len(),
+            log_likelihood: Some(value + coefficients),
+        },
+        median: (mean.0.map(median), mean.1.map(median)),
+        dispersion: deviation,
+        chi_squared,
+        degrees_of_freedom: stripes.len().saturating_sub(2),
+    })
+}
+
+/// The distribution of [`fit_counts`] alone, without intervals.
+///
+/// # Errors
+/// As of [`fit_counts`].
+pub fn fit_counts_alone(
+    stripes: &[Stripe],
+    shift: f64,
+) -> Result<Lognormal, FitError> {
+    let (_, _, (log_mean, dispersion, _)) = maximum(stripes, shift)?;
+    Ok(Lognormal::try_new(shift, log_mean, dispersion)?)
+}
+
+/// The observations of stripes, the logarithm of their binomial
+/// coefficients, and the maximum of their likelihood.
+fn maximum(
+    stripes: &[Stripe],
+    shift: f64,
+) -> Result<(Vec<Observation>, f64, (f64, f64, f64)), FitError> {
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
     }
@@ -103,28 +146,7 @@ pub fn fit_counts(
     let highest = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (centre, spread) = (0.5 * (lowest + highest), highest - lowest);
     let found = maximise(&known, centre, spread)?;
-    let (log_mean, dispersion, value) = found;
-    let distribution = Lognormal::try_new(shift, log_mean, dispersion)?;
-    let [mean, deviation] = profile_limits(&known, found);
-    let median = |mu: f64| shift + exp(mu);
-    let chi_squared = stripes.iter().fold(0.0, |sum, stripe| {
-        let (p, n) = (distribution.cdf(stripe.im), f64::from(stripe.n));
-        let q = distribution.survival(stripe.im);
-        let excess = f64::from(stripe.exceeded) - n * p;
-        sum + excess * excess / (n * p * q)
-    });
-    Ok(CountsFit {
-        fit: LognormalFit {
-            distribution,
-            n: known.len(),
-            n_kept: known.len(),
-            log_likelihood: Some(value + coefficients),
-        },
-        median: (mean.0.map(median), mean.1.map(median)),
-        dispersion: deviation,
-        chi_squared,
-        degrees_of_freedom: stripes.len().saturating_sub(2),
-    })
+    Ok((known, coefficients, found))
 }
 
 /// ln of the number of ways to choose k of n: a sum of logarithms.

@@ -2,6 +2,7 @@
 
 mod forces;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -153,8 +154,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let processing = processing.as_deref();
     let is_standard = out.is_standard();
     let about = (processing.unwrap_or("none"), SOFTWARE);
-    let codes = |record: &str| remarks.codes(record);
-    let rows = IdaTable::of(&table, &analysis, gravity_m_s2, about, codes);
+    let events: BTreeMap<&str, &str> = chosen
+        .iter()
+        .map(|m| (m.accelerogram.name(), m.event.as_deref().unwrap_or("")))
+        .collect();
+    let known = |record: &str| {
+        let event = events.get(record).copied().unwrap_or_default();
+        (remarks.codes(record), event.to_owned())
+    };
+    let rows = IdaTable::of(&table, &analysis, gravity_m_s2, about, known);
     out.write(rows.csv())?;
     if let (Some(out), Some(pivot)) = (forces_out, &pivot) {
         out.write(forces::csv(pivot, &table))?;

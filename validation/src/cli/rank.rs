@@ -26,9 +26,10 @@ use rocking_draw::figures::of_result::ranking_svg;
 /// smaller, the fewer records are needed; Arias intensity, which grows with
 /// the square of the acceleration, enters by its root. Sufficiency is the slope of the
 /// logarithm of the capacity on magnitude, and on the logarithm of distance
-/// (least squares): a small p-value says that the measure leaves out what
-/// magnitude or distance tells. Intervals are of the bootstrap of records,
-/// one draw for all measures.
+/// (least squares; where the IDA says the earthquakes, with a random
+/// intercept for each): a small p-value says that the measure leaves out what
+/// magnitude or distance tells. Intervals are of the bootstrap, which draws
+/// earthquakes where they are known; one draw for all measures.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples:\n  \
     rocking rank --ida ida.csv --suite SUITE --at 1\n  \
@@ -100,13 +101,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::of(inputs);
     let plot = outputs.open_some(args.plot.as_ref())?;
     let (table, curves) = input::ida(&args.ida, Intensity::Pga)?;
+    let clusters = curves.clusters.clone();
     let capacities = intervals(&curves.into_curves(), args.at, args.point)?;
     let draws = args.bootstrap.draws();
     let (ranking, set_aside) = args.threads.run(|| {
         let ground = args.ground.ground(&table, &measures)?;
         let candidates = ground.candidates(&measures)?;
         let covariates = args.covariates(&ground)?;
-        let ranking = rank(&capacities, &candidates, &covariates, draws)?;
+        let ranking =
+            rank(&capacities, &candidates, &covariates, &clusters, draws)?;
         Ok::<_, Failure>((ranking, ground.into_set_aside()))
     })??;
     if let Some(out) = plot {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
+use rocking::capacity::ResponseCurve;
 use rocking::procedures::{StripeResponses, stripes};
 use serde::Serialize;
 
@@ -12,7 +13,8 @@ use super::shared::JsonArg;
 use super::{Failure, input};
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
-use rocking_common::table::{Table, columns::COUNTS};
+use rocking_common::table::{Table, columns::OUTCOMES};
+use rocking_exchange::ida::IdaTable;
 
 /// Responses at given intensities, of all records of an IDA table.
 ///
@@ -42,8 +44,8 @@ pub struct Args {
     /// EDP level whose exceedances --counts counts; `inf` is overturning.
     #[arg(long, value_name = "E", requires = "counts")]
     at: Option<f64>,
-    /// Write how many records exceed --at at each intensity, for `rocking
-    /// fragility --counts`; `-` is standard output, and nothing else is
+    /// Write which records exceed --at at each intensity, for `rocking
+    /// fragility counts`; `-` is standard output, and nothing else is
     /// printed then.
     #[arg(long, value_name = "OUT.csv", requires = "at")]
     counts: Option<PathBuf>,
@@ -67,19 +69,38 @@ struct Shown {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let mut outputs = Outputs::of(vec![args.ida.clone()]);
     let counts = outputs.open_some(args.counts.as_ref())?;
-    let curves = input::ida(&args.ida, args.im)?.1.into_curves();
+    let (table, curves) = input::ida(&args.ida, args.im)?;
+    let curves = curves.into_curves();
     let stripes = stripes(&curves, &args.levels.0, args.at)?;
-    if let Some(out) = counts {
+    if let (Some(out), Some(edp)) = (counts, args.at) {
         let is_standard = out.is_standard();
-        let mut table = Table::of(&COUNTS);
-        for s in stripes.iter().filter_map(StripeResponses::counts) {
-            let cells = [s.exceeded.to_string(), s.n.to_string()];
-            table.row([s.im.to_string()].into_iter().chain(cells));
-        }
-        out.write(table.finish())?;
+        out.write(outcomes(&table, &curves, &args.levels.0, edp))?;
         if is_standard {
             return Ok(());
         }
     }
     args.json.show(&Shown { n: curves.len(), edp: args.at, stripes })
+}
+
+/// The table of what became of each record that was run so far.
+fn outcomes(
+    table: &IdaTable,
+    curves: &[ResponseCurve],
+    levels: &[f64],
+    edp: f64,
+) -> String {
+    let mut out = Table::of(&OUTCOMES);
+    let events = table.events();
+    for im in levels {
+        for (place, record) in table.records().enumerate() {
+            let Some(found) = curves[place].edp_at(*im) else { continue };
+            let event = events.as_ref().map_or("", |events| events[place]);
+            let cells = [record.to_owned(), event.to_owned()];
+            let exceeded = u8::from(found >= edp).to_string();
+            out.row(
+                [im.to_string()].into_iter().chain(cells).chain([exceeded]),
+            );
+        }
+    }
+    out.finish()
 }

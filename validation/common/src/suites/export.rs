@@ -39,6 +39,7 @@ pub fn members<'a>(suite: &'a Suite, done: Option<&str>) -> Vec<Row<'a>> {
                 .attributes
                 .iter()
                 .map(|(name, cell)| (name.as_str(), cell.clone()))
+                .chain(member.event.clone().map(|event| ("event", event)))
                 .chain(done.clone())
                 .collect(),
         })

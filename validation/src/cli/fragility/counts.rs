@@ -1,31 +1,45 @@
 //! `rocking fragility counts`: fits of how many records exceeded a level at
 //! each intensity.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
-use rocking::procedures::fit_stripes;
+use indexmap::IndexMap;
+use rocking::procedures::counts::Outcome;
+use rocking::procedures::{
+    CountsFragility, Draws, ProcedureError, fit_outcomes, fit_stripes,
+};
+use rocking::statistics::Clusters;
 use rocking::statistics::lognormal::Stripe;
 
-use crate::cli::shared::JsonArg;
+use crate::cli::shared::{BootstrapArgs, JsonArg, ThreadsArg};
 use crate::cli::{At as _, Failure, input};
 use rocking_exchange::FileError;
-use rocking_exchange::columns::COUNTS;
+use rocking_exchange::columns::{COUNTS, OUTCOMES};
 use rocking_exchange::read::{Cells, rows};
 
 /// Fits a lognormal fragility to counts: how many of n records exceeded a
 /// level, or overturned, at each intensity.
 ///
-/// Maximum likelihood of binomial counts, with likelihood intervals (95 %)
-/// that take the stripes as independent.
+/// Maximum likelihood of binomial counts, with 95 % intervals. Counts alone
+/// do not say whether stripes share records: their intervals are those of the
+/// likelihood, which take the stripes as independent. Of the table that
+/// `rocking stripes --counts` writes, the intervals are those of a bootstrap,
+/// which draws records, or earthquakes where the table says them.
 #[derive(ClapArgs)]
 pub(super) struct Args {
-    /// Table of counts, columns intensity,exceeded,n; `-` is standard input.
+    /// Table of counts, columns intensity,exceeded,n, or of outcomes,
+    /// columns intensity,record,event,exceeded; `-` is standard input.
     #[arg(long, value_name = "FILE.csv")]
     counts: PathBuf,
     /// Shift IM_R, not negative.
     #[arg(long, value_name = "X", default_value_t = 0.0)]
     shift: f64,
+    #[command(flatten)]
+    bootstrap: BootstrapArgs,
+    #[command(flatten)]
+    threads: ThreadsArg,
     #[command(flatten)]
     json: JsonArg,
 }
@@ -36,16 +50,55 @@ pub(super) struct Args {
 /// [`Failure`] for a table that is refused.
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let path = &args.counts;
-    let found = fit_stripes(&read(path)?, args.shift);
+    let counted = read(path)?;
+    let draws = args.bootstrap.draws();
+    let found = args.threads.run(|| counted.fit(args.shift, draws))?;
     args.json.show(&found.at(path.display())?)
 }
 
-/// Reads a table of counts.
-pub(super) fn read(path: &Path) -> Result<Vec<Stripe>, Failure> {
+/// What a table says of stripes.
+#[derive(Debug)]
+pub(super) enum Counted {
+    /// Counts alone.
+    Stripes(Vec<Stripe>),
+    /// What became of each record.
+    Records(Vec<Outcome>, Clusters),
+}
+
+impl Counted {
+    /// The fit; draws are for outcomes of records.
+    pub(super) fn fit(
+        &self,
+        shift: f64,
+        draws: Draws,
+    ) -> Result<CountsFragility, ProcedureError> {
+        match self {
+            Self::Stripes(stripes) => fit_stripes(stripes, shift),
+            Self::Records(outcomes, clusters) => {
+                fit_outcomes(outcomes, clusters, shift, draws)
+            }
+        }
+    }
+
+    /// The counts.
+    pub(super) fn stripes(&self) -> Cow<'_, [Stripe]> {
+        match self {
+            Self::Stripes(stripes) => Cow::Borrowed(stripes),
+            Self::Records(all, _) => Outcome::stripes(all, |_| 1).into(),
+        }
+    }
+}
+
+/// Reads a table of counts, or of outcomes.
+pub(super) fn read(path: &Path) -> Result<Counted, Failure> {
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
         .from_reader(input::open(path)?);
+    let head = reader.headers().map_err(|e| FileError::new(path, None, e))?;
+    if head.iter().any(|column| column == "record") {
+        return outcomes(path, &mut reader);
+    }
     let stripe = |cells: Result<Cells<'_>, FileError>| {
         let cells = cells?;
         let fits = |count: &u32| *count <= MOST_RECORDS;
@@ -56,7 +109,45 @@ pub(super) fn read(path: &Path) -> Result<Vec<Stripe>, Failure> {
             n: count(2)?,
         })
     };
-    rows(&COUNTS, &mut reader, path)?.map(stripe).collect()
+    let stripes = rows(&COUNTS, &mut reader, path)?.map(stripe);
+    Ok(Counted::Stripes(stripes.collect::<Result<_, FileError>>()?))
+}
+
+/// Reads a table of outcomes.
+fn outcomes<R: std::io::Read>(
+    path: &Path,
+    reader: &mut csv::Reader<R>,
+) -> Result<Counted, Failure> {
+    let mut events: IndexMap<String, String> = IndexMap::new();
+    let mut all = Vec::new();
+    for cells in rows(&OUTCOMES, reader, path)? {
+        let cells = cells?;
+        let (record, event) = (&cells.fields[1], &cells.fields[2]);
+        let first = events.first().map_or(event, |(_, first)| first.as_str());
+        if first.is_empty() != event.is_empty() {
+            let expected = "the earthquake of every record, or of none";
+            return Err(cells.refuse(2, expected).into());
+        }
+        let entry = events.entry(record.to_owned());
+        let place = entry.index();
+        let own = entry.or_insert_with(|| event.to_owned());
+        if own.as_str() != event {
+            let expected = format!("{own}, as before");
+            return Err(cells.refuse(2, expected).into());
+        }
+        let one = |count: &u32| *count <= 1;
+        all.push(Outcome {
+            im: cells.parsed(0, |im: &f64| im.is_finite(), "an intensity")?,
+            record: place,
+            exceeded: cells.parsed(3, one, "1 or 0")? == 1,
+        });
+    }
+    let known = events.values().all(|event| !event.is_empty());
+    let clusters = match known {
+        true => Clusters::from_labels(events.values()),
+        false => Clusters::singletons(events.len()),
+    };
+    Ok(Counted::Records(all, clusters))
 }
 
 /// Records of a stripe, at most.

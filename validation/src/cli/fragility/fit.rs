@@ -32,7 +32,8 @@ use rocking_exchange::sample::SampleFile;
     .args(["sample", "ida"]))]
 pub(super) struct Args {
     /// Sample file: one value a line, `>3.2` for one censored at 3.2, `inf`
-    /// for one censored at an unknown limit; `-` is standard input.
+    /// for one censored at an unknown limit; `VALUE # RECORD # EARTHQUAKE`
+    /// where the earthquake is known; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     sample: Option<PathBuf>,
     #[command(flatten)]
@@ -49,7 +50,8 @@ pub(super) struct Args {
     /// Constant c of Eq. 7.
     #[arg(long, default_value_t = 1.0)]
     c: f64,
-    /// Bootstrap samples for intervals.
+    /// Bootstrap samples for intervals; earthquakes are drawn with all their
+    /// records, where the sample or the IDA says them.
     #[arg(long, value_name = "N")]
     bootstrap: Option<usize>,
     /// Repetition of the bootstrap.
@@ -156,7 +158,9 @@ fn of_sample(
     let file = input::sample(path)?;
     let unit = unit(&file, args.im.as_ref())?;
     let sample = file.censored()?;
-    let found = args.threads.run(|| fit_sample(&sample, options))?;
+    let clusters = Some(file.clusters());
+    let options = FitOptions { clusters, ..options.clone() };
+    let found = args.threads.run(|| fit_sample(&sample, &options))?;
     let fit = found.at(path.display())?;
     if let (Some(table), Some(band)) = (table, &fit.band) {
         let is_standard = table.is_standard();
@@ -175,9 +179,13 @@ fn of_levels(
     options: &FitOptions,
 ) -> Result<(), Failure> {
     let measure = source::in_table(args.im.as_ref())?;
-    let curves = input::ida(path, measure)?.1.into_curves();
+    let curves = input::ida(path, measure)?.1;
+    let clusters = Some(curves.clusters.clone());
+    let options = FitOptions { clusters, ..options.clone() };
+    let curves = curves.into_curves();
     let (at, rule) = args.ida.levels();
-    let found = args.threads.run(|| fit_levels(&curves, at, rule, options))?;
+    let found =
+        args.threads.run(|| fit_levels(&curves, at, rule, &options))?;
     let levels = found.at(path.display())?;
     let unit = measure.words().to_owned();
     args.json.show(&OfLevels { unit, point: rule.to_string(), levels })

@@ -9,17 +9,17 @@ use rocking::capacity::InversionRule;
 use rocking::integrator::Model;
 use rocking::intensity::{Intensity, IntensityMeasure};
 use rocking::procedures::{
-    FitOptions, Shift, capacities, fit_sample, fit_stripes,
+    FitOptions, Sampled, Shift, capacities, fit_sample,
 };
-use rocking::statistics::lognormal::{FitMethod, Stripe};
-use rocking::statistics::{CensoredSample, Lognormal};
+use rocking::statistics::lognormal::{FitMethod, fit_counts_alone};
+use rocking::statistics::{CensoredSample, Clusters, Lognormal};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{
     BlockFragility, Id, LimitState, unit_intensity, unstated_origin,
 };
 use rocking_surrogate::{RESTITUTION, Surrogate, origin};
 
-use super::counts;
+use super::counts::{self, Counted};
 use crate::cli::blocks::{self, Row};
 use crate::cli::capacities::Levels;
 use crate::cli::names;
@@ -117,10 +117,13 @@ impl IdaArgs {
 
 /// What is fitted, or the surface that was.
 enum Values {
-    Sample(CensoredSample),
-    Counts(Vec<Stripe>),
+    Sample(CensoredSample, Clusters),
+    Counts(Counted),
     Surface(rocking_surrogate::Model),
 }
+
+/// A fragility, and what the draws of its sample make of it.
+pub type Law = (Lognormal, Option<Sampled>);
 
 /// Where one limit state comes from.
 struct Level {
@@ -206,7 +209,7 @@ impl SourceArgs {
             (None, Ok(im)) => unstated_origin(n, im),
             (of, _) => format!("{n} capacities, {}", of.unwrap_or_default()),
         } + &setting.to_string();
-        let values = Values::Sample(file.censored()?);
+        let values = Values::Sample(file.censored()?, file.clusters());
         Ok(Level { place, im, setting, values, origin })
     }
 
@@ -221,6 +224,7 @@ impl SourceArgs {
             eta: Some(table.setting.eta),
             model: Some(table.setting.model),
         };
+        let clusters = curves.clusters.clone();
         let curves = curves.into_curves();
         let (at, rule) = self.ida.levels();
         let words: Vec<String> = at.iter().map(f64::to_string).collect();
@@ -234,7 +238,7 @@ impl SourceArgs {
         let level = |&edp: &f64| {
             let values = capacities::sample(&curves, edp, rule);
             Ok(Level {
-                values: Values::Sample(values.at(&place)?),
+                values: Values::Sample(values.at(&place)?, clusters.clone()),
                 place: place.clone(),
                 im: Ok(im.clone()),
                 setting,
@@ -245,15 +249,17 @@ impl SourceArgs {
     }
 
     fn counts(&self, path: &Path) -> Result<Level, Failure> {
-        let stripes = counts::read(path)?;
+        let counted = counts::read(path)?;
         let im = self.im.clone().unwrap_or(IntensityMeasure::Pga);
-        let origin =
-            format!("counts of exceedance at {} intensities", stripes.len());
+        let origin = format!(
+            "counts of exceedance at {} intensities",
+            counted.stripes().len()
+        );
         Ok(Level {
             place: path.display().to_string(),
             im: Ok(im),
             setting: SampleSetting::default(),
-            values: Values::Counts(stripes),
+            values: Values::Counts(counted),
             origin,
         })
     }
@@ -300,33 +306,39 @@ impl Level {
         self.im.as_ref().map_err(Failure::input)
     }
 
-    /// The fit in the unit of the values.
+    /// The fit in the unit of the values, and what draws make of it.
     fn fit(
         &self,
         options: &FitOptions,
         block: Option<&Block>,
-    ) -> Result<Lognormal, Failure> {
+    ) -> Result<Law, Failure> {
         let place = &self.place;
         let refused = |expected: &str| {
             Err(Failure::input(format!("{place}: {expected}")))
         };
+        let once = FitOptions { draws: None, ..options.clone() };
         match (&self.values, options.shift, block) {
-            (Values::Sample(sample), ..) => {
-                Ok(fit_sample(sample, options).at(place)?.fitted)
+            (Values::Sample(sample, clusters), ..) => {
+                let fitted = fit_sample(sample, &once).at(place)?.fitted;
+                let clusters = Some(clusters.clone());
+                let own = FitOptions { clusters, ..options.clone() };
+                Ok((fitted, own.sampled(sample).at(place)?))
             }
-            (Values::Counts(stripes), Shift::Given(shift), _)
+            (Values::Counts(counted), Shift::Given(shift), _)
                 if options.method == FitMethod::MaximumLikelihood =>
             {
-                Ok(fit_stripes(stripes, shift).at(place)?.fitted)
+                let fitted = fit_counts_alone(&counted.stripes(), shift);
+                Ok((fitted.at(place)?, None))
             }
             (Values::Counts(_), ..) => refused(
                 "counts: expected --shift with a number and --method mle",
             ),
             (Values::Surface(model), _, Some(block))
-                if *options == FitOptions::default() =>
+                if once == FitOptions::default() =>
             {
                 let alpha_rad = block.slenderness_rad();
-                model.at(alpha_rad, block.frequency_rad_s()).at(place)
+                let p_rad_s = block.frequency_rad_s();
+                Ok((model.at(alpha_rad, p_rad_s).at(place)?, None))
             }
             (Values::Surface(_), ..) => {
                 refused("expected a block and no flag of a fit")
@@ -375,7 +387,7 @@ impl Source {
         &self,
         im: Option<&IntensityMeasure>,
         options: &FitOptions,
-    ) -> Result<Vec<(Option<String>, Lognormal)>, Failure> {
+    ) -> Result<Vec<(Option<String>, Law)>, Failure> {
         if im.is_none()
             && let Some(row) = self.rows.first()
         {
@@ -401,21 +413,27 @@ impl Source {
                 )));
             }
         }
-        let blocks: Vec<(Option<Id>, Vec<LimitState>)> = if is_own {
+        type States = (Vec<LimitState>, Vec<Option<Sampled>>);
+        let blocks: Vec<(Option<Id>, States)> = if is_own {
             let laws = self.levels.iter();
             let laws = laws.map(|level| level.fit(options, None));
-            vec![(None, self.named(laws.collect::<Result<_, _>>()?)?)]
+            let laws = laws.collect::<Result<Vec<Law>, _>>()?;
+            let (laws, sampled) = laws.into_iter().unzip();
+            vec![(None, (self.named(laws)?, sampled))]
         } else {
-            let all = self.fragilities(options)?.into_iter();
-            all.map(|one| (Some(one.id), one.limit_states)).collect()
+            let all = self.all(options)?.into_iter();
+            all.map(|(one, sampled)| {
+                (Some(one.id), (one.limit_states, sampled))
+            })
+            .collect()
         };
-        let count: usize = blocks.iter().map(|(_, states)| states.len()).sum();
-        let named = |(id, states): (Option<Id>, Vec<LimitState>)| {
-            states.into_iter().map(move |state| {
+        let count: usize = blocks.iter().map(|(_, (all, _))| all.len()).sum();
+        let named = |(id, (states, sampled)): (Option<Id>, States)| {
+            states.into_iter().zip(sampled).map(move |(state, sampled)| {
                 let id =
                     id.as_ref().map_or(String::new(), |id| format!("{id}, "));
                 let name = (count > 1).then(|| format!("{id}{}", state.name));
-                (name, state.fragility)
+                (name, (state.fragility, sampled))
             })
         };
         Ok(blocks.into_iter().flat_map(named).collect())
@@ -430,6 +448,14 @@ impl Source {
         &self,
         options: &FitOptions,
     ) -> Result<Vec<BlockFragility>, Failure> {
+        let all = self.all(options)?.into_iter();
+        Ok(all.map(|(fragility, _)| fragility).collect())
+    }
+
+    fn all(
+        &self,
+        options: &FitOptions,
+    ) -> Result<Vec<(BlockFragility, Vec<Option<Sampled>>)>, Failure> {
         if self.rows.is_empty() {
             return Err(Failure::input(
                 "expected --blocks, or --alpha and --p, or --width-m and \
@@ -443,7 +469,7 @@ impl Source {
         &self,
         row: &Row,
         options: &FitOptions,
-    ) -> Result<BlockFragility, Failure> {
+    ) -> Result<(BlockFragility, Vec<Option<Sampled>>), Failure> {
         let own = row.samples.iter().filter_map(|path| self.samples.get(path));
         let own: Vec<&Level> = match row.samples.is_empty() {
             true => self.levels.iter().collect(),
@@ -455,7 +481,8 @@ impl Source {
                  column `sample`",
             ));
         };
-        let (mut laws, mut origins) = (Vec::new(), Vec::new());
+        let (mut laws, mut draws) = (Vec::new(), Vec::new());
+        let mut origins = Vec::new();
         for level in &own {
             let (im, expected) = (level.im()?, first.im()?);
             if im != expected {
@@ -467,18 +494,21 @@ impl Source {
                 )));
             }
             let unit = level.unit(row, self.gravity_m_s2)?;
-            laws.push(level.fit(options, Some(&row.block))?.scaled(unit)?);
+            let (law, sampled) = level.fit(options, Some(&row.block))?;
+            laws.push(law.scaled(unit)?);
+            draws.push(sampled.map(|all| all.scaled(unit)).transpose()?);
             origins.push(level.origin.as_str());
         }
         origins.dedup();
-        Ok(BlockFragility {
+        let fragility = BlockFragility {
             id: row.id.clone(),
             block: row.block,
             eta: row.eta.or(first.setting.eta),
             im: first.im()?.clone(),
             limit_states: self.named(laws)?,
             origin: origins.join("; "),
-        })
+        };
+        Ok((fragility, draws))
     }
 
     /// The limit states of these fragilities.

@@ -42,7 +42,7 @@ impl Bootstrap {
     #[must_use]
     pub fn multiplicities(&self, index: u64) -> Vec<u32> {
         let places = self.draw(index);
-        multiplicities(&places, places.len())
+        multiplicities(&places, self.clusters.records())
     }
 }
 
@@ -56,7 +56,7 @@ impl Clusters {
     /// use rocking::statistics::clusters::Clusters;
     /// let clusters = Clusters::from_labels(["a", "b", "a"]);
     /// let counts = clusters.multiplicities("doc", 0, 1);
-    /// assert_eq!(counts[0], counts[2]);
+    /// assert_eq!((counts.len(), counts[0]), (3, counts[2]));
     /// assert_eq!(
     ///     Clusters::singletons(5).multiplicities("doc", 0, 3),
     ///     Bootstrap::new("doc", 0, 5, 10).multiplicities(3)

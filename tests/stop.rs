@@ -19,7 +19,6 @@ use rocking::statistics::choice::{Model, candidate, goodness};
 use rocking::statistics::lilliefors::{NullDistribution, ShiftedNull};
 use rocking::statistics::normality::Battery;
 use rocking::statistics::paired::hodges_lehmann;
-use rocking::statistics::resampling::simultaneous;
 use rocking::statistics::{CensoredSample, ExtendedSample};
 use rocking::stop::{Stop, StopError};
 
@@ -83,10 +82,6 @@ const WORK: [Work; 18] = [
     }),
     ("a bootstrap", |size| {
         text(Bootstrap::new("stop", 0, 9, size as usize).map(<[_]>::to_vec))
-    }),
-    ("intervals that hold at once", |_| {
-        let draws = vec![vec![0.5, 1.5], vec![1.0, 2.5], vec![1.5, 2.0]];
-        text(simultaneous(&[1.0, 2.0], &draws, 0.9))
     }),
     ("a centre of ratios", |_| text(hodges_lehmann(&sample()))),
 ];

@@ -49,7 +49,7 @@ pub struct Estimate {
 #[derive(Clone, Debug)]
 pub struct Bootstrap {
     streams: Streams,
-    clusters: Clusters,
+    pub(super) clusters: Clusters,
     replicates: usize,
 }
 

@@ -1,19 +1,14 @@
-//! Inference from resampled records: intervals of many measures at once,
-//! and of measures that ties spoil.
+//! Inference from resampled records, and of measures that ties spoil.
 //!
 //! A replicate is a *multiplicity* for each record: how often the replicate
 //! holds that record. A measure is a function of the multiplicities, so that
 //! blocks, stripes and intensity measures that share records stay paired.
 //! [`Bootstrap`] draws with replacement;
 //! [`Subsampling`] draws without, for tests of distribution, which ties
-//! break. [`simultaneous`] gives one band for all cells of a comparison.
-
-use rayon::prelude::*;
+//! break.
 
 use super::bootstrap::{Bootstrap, Estimate, estimate};
 use super::clusters::Clusters;
-use super::{QuantileType, Sample};
-use crate::stop;
 use crate::streams::{Streams, below};
 
 /// How often a draw of `places` holds each of `n` records.
@@ -42,7 +37,7 @@ impl Bootstrap {
     #[must_use]
     pub fn multiplicities(&self, index: u64) -> Vec<u32> {
         let places = self.draw(index);
-        multiplicities(&places, places.len())
+        multiplicities(&places, self.clusters.records())
     }
 }
 
@@ -56,7 +51,7 @@ impl Clusters {
     /// use rocking::statistics::clusters::Clusters;
     /// let clusters = Clusters::from_labels(["a", "b", "a"]);
     /// let counts = clusters.multiplicities("doc", 0, 1);
-    /// assert_eq!(counts[0], counts[2]);
+    /// assert_eq!((counts.len(), counts[0]), (3, counts[2]));
     /// assert_eq!(
     ///     Clusters::singletons(5).multiplicities("doc", 0, 3),
     ///     Bootstrap::new("doc", 0, 5, 10).multiplicities(3)
@@ -182,123 +177,6 @@ impl Subsampling {
     }
 }
 
-/// Intervals of many measures that hold all true values at once with
-/// probability `level`: `points[k]` -+ c s_k.
-///
-/// `replicates[b][k]` is measure k of replicate b, s_k the standard deviation
-/// over the replicates, and c the quantile of type 7 at `level` of
-/// `max_k |replicates[b][k] - points[k]|/s_k` (Romano and Wolf, Econometrica
-/// 73 (2005) 1237, single step). A replicate in which a measure is not finite
-/// leaves that measure out.
-///
-/// A measure has no interval where its point is not finite, where it is not
-/// finite in one of ten replicates, and where no replicate moves it: that
-/// shows no certainty, since what none of n records did has still a
-/// probability of up to about 3/n. [`Proportion`](super::Proportion) has the
-/// interval of such a count.
-///
-/// ```
-/// use rocking::statistics::bootstrap::Bootstrap;
-/// use rocking::statistics::resampling::simultaneous;
-/// let x = [1.0, 2.0, 4.0, 7.0, 16.0];
-/// let means = |places: &[usize]| {
-///     let sum: f64 = places.iter().map(|&i| x[i]).sum();
-///     vec![sum / 5.0, 2.0 * sum / 5.0]
-/// };
-/// let replicates = Bootstrap::new("doc", 0, 5, 500).map(means);
-/// let band = simultaneous(&[6.0, 12.0], &replicates, 0.95);
-/// let (low, high) = band[0].expect("an interval");
-/// assert!(low < 6.0 && 6.0 < high);
-/// ```
-#[must_use]
-pub fn simultaneous(
-    points: &[f64],
-    replicates: &[Vec<f64>],
-    level: f64,
-) -> Vec<Option<(f64, f64)>> {
-    let spreads: Vec<Option<f64>> = (0..points.len())
-        .into_par_iter()
-        .panic_fuse()
-        .map(|k| {
-            stop::point();
-            spread(points[k], replicates, k)
-        })
-        .collect();
-    let farthest: Vec<f64> = replicates
-        .par_iter()
-        .panic_fuse()
-        .map(|replicate| {
-            stop::point();
-            let mut most = 0.0;
-            for ((x, point), spread) in
-                replicate.iter().zip(points).zip(&spreads)
-            {
-                let Some(spread) = spread else { continue };
-                let distance = (x - point).abs() / spread;
-                if distance.is_finite() && distance > most {
-                    most = distance;
-                }
-            }
-            most
-        })
-        .collect();
-    let critical = quantile_7(&farthest, level);
-    let around = |(point, spread): (&f64, &Option<f64>)| {
-        let half = critical? * (*spread)?;
-        Some((point - half, point + half))
-    };
-    points.iter().zip(&spreads).map(around).collect()
-}
-
-/// Standard deviation of measure `k` over the replicates in which it is
-/// finite; none where too many are not, and where it is 0.
-fn spread(point: f64, replicates: &[Vec<f64>], k: usize) -> Option<f64> {
-    let values: Vec<f64> =
-        replicates.iter().map(|r| r[k]).filter(|x| x.is_finite()).collect();
-    let enough = 10 * values.len() > 9 * replicates.len();
-    if !(point.is_finite() && enough && values.len() > 1) {
-        return None;
-    }
-    let sample = Sample::try_new(&values).ok()?;
-    let variance = sample.sum_of_squares() / (values.len() as f64 - 1.0);
-    (variance > 0.0).then_some(variance.sqrt())
-}
-
-fn quantile_7(values: &[f64], p: f64) -> Option<f64> {
-    let sample = Sample::try_new(values).ok()?;
-    QuantileType::try_new(7).ok()?.of(&sample, p).ok()
-}
-
-/// The share of cells that lie in a region, with the interval that follows
-/// from a band of simultaneous intervals: from the share of those whose whole
-/// interval is `inside` to that of those whose interval is not wholly
-/// `outside`.
-///
-/// Where the band holds all true values at once, the true share lies in this
-/// interval; its level is the band's at least. A cell without an interval is
-/// neither inside nor outside.
-///
-/// ```
-/// use rocking::statistics::resampling::share_inside;
-/// let band = [Some((0.9, 1.1)), Some((1.3, 1.6)), Some((1.1, 1.4)), None];
-/// let inside = |low, high| low > 0.8 && high < 1.2;
-/// let outside = |low, high| low > 1.2 || high < 0.8;
-/// assert_eq!(share_inside(&band, inside, outside), (0.25, 0.75));
-/// ```
-#[must_use]
-pub fn share_inside(
-    band: &[Option<(f64, f64)>],
-    inside: impl Fn(f64, f64) -> bool,
-    outside: impl Fn(f64, f64) -> bool,
-) -> (f64, f64) {
-    let total = band.len() as f64;
-    let count = |of: &dyn Fn(f64, f64) -> bool| {
-        let known = band.iter().flatten();
-        known.filter(|(low, high)| of(*low, *high)).count() as f64
-    };
-    (count(&inside) / total, 1.0 - count(&outside) / total)
-}
-
 /// A sample in ascending order, each value with its record: quantiles of a
 /// replicate without sorting again. Infinite values are capacities that were
 /// never reached.
@@ -396,47 +274,7 @@ impl Ranked {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::statistics::{ExtendedSample, normal};
-
-    #[test]
-    fn a_band_of_independent_measures_has_sidak_s_width() {
-        // 20 independent means of 400 values each: the maximum of 20 normal
-        // scores, (1 + 0.95^(1/20))/2 quantile (Sidak, JASA 62 (1967) 626).
-        let (n, cells) = (400, 20);
-        let values: Vec<f64> = (0..n * cells)
-            .map(|i| libm::sin(12.9898 * i as f64) * 43_758.547 % 1.0)
-            .collect();
-        let mean = |counts: &[u32], k: usize| {
-            let own = &values[k * n..(k + 1) * n];
-            let sum = own
-                .iter()
-                .zip(counts)
-                .fold(0.0, |sum, (x, c)| f64::mul_add(*x, f64::from(*c), sum));
-            sum / n as f64
-        };
-        let draws: Vec<Bootstrap> = (0..cells)
-            .map(|k| Bootstrap::new(&format!("sidak/{k}"), 0, n, 4000))
-            .collect();
-        let replicates: Vec<Vec<f64>> = (0..4000)
-            .map(|b| {
-                (0..cells)
-                    .map(|k| mean(&draws[k].multiplicities(b), k))
-                    .collect()
-            })
-            .collect();
-        let points: Vec<f64> =
-            (0..cells).map(|k| mean(&vec![1; n], k)).collect();
-        let band = simultaneous(&points, &replicates, 0.95);
-        let expected =
-            normal::quantile(0.5 + 0.5 * libm::pow(0.95, 1.0 / cells as f64));
-        for (k, ends) in band.iter().enumerate() {
-            let (low, high) = ends.unwrap();
-            let deviation = spread(points[k], &replicates, k).unwrap();
-            let half = 0.5 * (high - low) / deviation;
-            // 4000 replicates tell the 95 % point of the maximum to 0.04.
-            assert!((half - expected).abs() < 0.1, "{half} {expected}");
-        }
-    }
+    use crate::statistics::{ExtendedSample, QuantileType, Sample};
 
     #[test]
     fn an_interval_holds_what_each_record_does() {
@@ -445,17 +283,6 @@ mod tests {
         let plain = draws.interval(1.0, &values, &[], 0.95).unwrap();
         let wide = draws.interval(1.0, &values, &[-3.0, 1.0], 0.95).unwrap();
         assert_eq!((wide.low, wide.high), (-3.0, plain.high));
-    }
-
-    #[test]
-    fn a_measure_that_no_replicate_moves_has_no_interval() {
-        // Both replicates give the first measure its point.
-        let replicates = vec![vec![1.0, 0.0], vec![1.0, 2.0]];
-        let band = simultaneous(&[1.0, 1.0], &replicates, 0.95);
-        assert!(band[0].is_none() && band[1].is_some(), "{band:?}");
-        let replicates = vec![vec![f64::NAN, 0.0], vec![1.0, 2.0]];
-        let band = simultaneous(&[1.0, 1.0], &replicates, 0.95);
-        assert_eq!(band[0], None);
     }
 
     #[test]

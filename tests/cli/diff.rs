@@ -29,7 +29,8 @@ const FINDINGS: &str = r#"{
           "value": 1.0, "low": 0.98, "high": 1.02, "unit": "1",
           "by_criterion": null, "by_equivalence": "confirmed",
           "at": "p = 3", "interval": "percentile", "cells": null,
-          "deciding_cell": null, "details": [], "records_needed": null
+          "deciding_cell": null, "details": [],
+          "p": 0.01, "monte_carlo_error": 0.001
         }
       ]
     },
@@ -46,7 +47,8 @@ const FINDINGS: &str = r#"{
           "value": 0.1536, "low": null, "high": null, "unit": "1",
           "by_criterion": null, "by_equivalence": null,
           "at": "", "interval": null, "cells": null,
-          "deciding_cell": null, "details": [], "records_needed": null
+          "deciding_cell": null, "details": [],
+          "p": 0.01, "monte_carlo_error": 0.001
         }
       ]
     }

@@ -185,15 +185,14 @@ impl StudySuite {
     }
 }
 
-/// The earthquakes of a suite's study components, by the index's column
-/// `event`; each record by itself where one has none.
+/// The earthquakes of a suite's study components; each record by itself
+/// where the index names none.
 fn clusters(suite: &Suite) -> Clusters {
     let events: Option<Vec<&str>> = suite
         .study_components()
-        .map(|study| study.attributes.get("event").map(String::as_str))
+        .map(|study| study.event.as_deref())
         .collect();
-    let named = events.filter(|all| all.iter().all(|e| !e.is_empty()));
-    named.map_or_else(
+    events.map_or_else(
         || Clusters::singletons(suite.study_components().count()),
         Clusters::from_labels,
     )

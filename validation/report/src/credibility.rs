@@ -322,9 +322,9 @@ fn assessment(
             "2",
             "Error estimates, and first overturnings reevaluated where \
              double precision may not tell them, for the numerics; for the \
-             records, one joint resampling gives every finding an \
-             interval, simultaneous over cells; coverage on simulated \
-             suites is a family of declared cases.",
+             records, one joint resampling of earthquakes gives every \
+             finding an interval; coverage on simulated suites is a \
+             family of declared cases.",
             "The uncertainty of the coefficient of restitution is not \
              propagated, only varied.",
         ],

@@ -198,7 +198,9 @@ fn in_threads(args: &Args) -> Result<(), Failure> {
     if args.json {
         print(&study.findings.text())
     } else {
-        for StudySuite { kind, remarks, set_aside, .. } in &suites {
+        for suite in &suites {
+            let StudySuite { kind, remarks, set_aside, clusters, .. } = suite;
+            note(&format!("{kind} suite: {clusters}"));
             if let Some(words) = remarks.words() {
                 note(&format!("{kind} suite: remarks on {words}"));
             }

@@ -169,7 +169,8 @@ pub fn limit_of(measure: Measure) -> f64 {
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
     let distances = distances::all(results, draws);
     let more = OnceCell::new();
-    let drawn = Drawn { results, draws, more: &more, distances: &distances };
+    let drawn =
+        Drawn { results, draws, more: &more, distances: &distances };
     declared().iter().map(|claim| measured(claim, &drawn)).collect()
 }
 

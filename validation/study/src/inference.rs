@@ -142,7 +142,7 @@ fn one(
     };
     result.value = *value;
     result.at.clone_from(&cell.at);
-    let of = |level| known.cell(0, cell.records, level);
+    let of = |level| known.drawn(0, level);
     if let Some(ends) = of(LEVEL) {
         (result.low, result.high) = ends.both();
         result.monte_carlo_error = ends.deciding_error(rule.region);

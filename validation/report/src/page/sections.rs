@@ -203,6 +203,9 @@ fn counts(column: &Column) -> Markup {
             @for (k, suite) in suites.iter().enumerate() {
                 @if k > 0 { " + " }
                 (suite.records) " " (suite.kind)
+                @if let Some(earthquakes) = suite.earthquakes {
+                    " of " (earthquakes) " earthquakes"
+                }
             }
             ": "
             @for (k, verdict) in Verdict::ALL.into_iter().enumerate() {

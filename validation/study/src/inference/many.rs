@@ -218,7 +218,14 @@ fn share(
     };
     let ends = |level: f64| {
         let half_width = known.clusters.half_width(level);
-        Some(of_share(value, &confidence, half_width))
+        let found = confidence.interval_of_share(value, half_width);
+        Some(Ends {
+            low: found.low,
+            high: found.high,
+            errors: (found.low_error, found.high_error),
+            range: (0.0, 1.0),
+            way: Interval::ShareOfCells,
+        })
     };
     let Some(own) = ends(LEVEL) else { return };
     let region = match rule.quantifier {
@@ -233,28 +240,6 @@ fn share(
     let p = |verdict| p_value(ends, region, verdict);
     let both = (p(Verdict::Confirmed), p(Verdict::NotConfirmed));
     result.p = if both.0 < both.1 { both.0 } else { both.1 };
-}
-
-/// The interval of a share of cells. Scatter moves cells across the region's
-/// ends, which biases the share of a replicate twice as much as the share
-/// itself: the ends are those of the percentiles and of the percentiles
-/// reflected at the value, whichever lies further out.
-fn of_share(value: f64, known: &Confidence, half_width: f64) -> Ends {
-    let plain = known.interval(half_width);
-    let reflected = (2.0 * value - plain.high, 2.0 * value - plain.low);
-    let (low, low_error) = if reflected.0 < plain.low {
-        (reflected.0, plain.high_error)
-    } else {
-        (plain.low, plain.low_error)
-    };
-    let (high, high_error) = if reflected.1 > plain.high {
-        (reflected.1, plain.low_error)
-    } else {
-        (plain.high, plain.high_error)
-    };
-    let errors = (low_error, high_error);
-    let way = Interval::ShareOfCells;
-    Ends { low, high, errors, range: (0.0, 1.0), way }
 }
 
 /// The middle and the 90 % value over the cells of the distance from the

@@ -1,8 +1,14 @@
 use rocking::statistics::resampling::Ranked;
 
 use super::*;
-use rocking::statistics::Proportion;
+use rocking::statistics::{Clusters, Proportion};
+use rocking_common::findings::Interval;
 use rocking_common::paper::SuiteKind;
+
+/// Draws of suites without earthquakes.
+fn drawn(sizes: [usize; 2]) -> Draws {
+    Draws::new(sizes.map(Clusters::singletons), 1)
+}
 
 fn rule(quantifier: Quantifier, region: Region) -> Rule {
     let range = (f64::NEG_INFINITY, f64::INFINITY);
@@ -29,7 +35,7 @@ fn cells(shifts: &[f64]) -> (Vec<Cell>, Vec<Ranked>) {
 }
 
 fn judged(quantifier: Quantifier, shifts: &[f64]) -> ClaimResult {
-    let draws = Draws::new([80, 40]);
+    let draws = drawn([80, 40]);
     let (cells, ranked) = cells(shifts);
     let medians = |draw: Draw<'_>| -> Vec<f64> {
         let counts = draw.of(SuiteKind::Ordinary);
@@ -37,7 +43,7 @@ fn judged(quantifier: Quantifier, shifts: &[f64]) -> ClaimResult {
     };
     let measured = draws.smooth(Tested::Ordinary, &medians);
     let rule = rule(quantifier, Region::Within(0.8, 1.2));
-    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
 }
 
 #[test]
@@ -72,9 +78,8 @@ fn the_cell_that_is_shown_is_the_one_that_decides() {
     let found = judged(Quantifier::All, &[0.0, 0.2, -0.1]);
     assert_eq!(found.at, "cell 1");
     assert!(found.low < 1.2 && found.high > 1.2);
-    assert!(found.records_needed.is_none_or(|n| n > 80));
-    // A cell with few records is shown and decides nothing.
-    let draws = Draws::new([80, 40]);
+    // A cell of few records that is no median decides nothing.
+    let draws = drawn([80, 40]);
     let (mut cells, ranked) = cells(&[0.0, 0.9]);
     cells[1].records = LEAST_DECIDING - 1;
     let medians = |draw: Draw<'_>| -> Vec<f64> {
@@ -84,14 +89,15 @@ fn the_cell_that_is_shown_is_the_one_that_decides() {
     let measured = draws.smooth(Tested::Ordinary, &medians);
     let rule = rule(Quantifier::All, Region::Within(0.8, 1.2));
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured);
+        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+            .result;
     assert_eq!(found.by_equivalence, Some(Verdict::Confirmed));
     assert_eq!(found.cells.map(|c| c.too_few), Some(1));
 }
 
 #[test]
 fn suites_are_drawn_independently_and_records_jointly() {
-    let draws = Draws::new([30, 30]);
+    let draws = drawn([30, 30]);
     let both = |draw: Draw<'_>| {
         let of = |suite| f64::from(draw.of(suite)[0]);
         vec![of(SuiteKind::Ordinary), of(SuiteKind::PulseType)]
@@ -112,7 +118,7 @@ fn suites_are_drawn_independently_and_records_jointly() {
 #[test]
 fn one_record_that_carries_a_share_keeps_it_open() {
     // The measure is 1 with record 0 and 0 without it.
-    let draws = Draws::new([50, 40]);
+    let draws = drawn([50, 40]);
     let carried =
         |draw: Draw<'_>| vec![f64::from(draw.of(SuiteKind::Ordinary)[0])];
     let measured = draws.subsampled(Tested::Ordinary, &carried);
@@ -122,14 +128,15 @@ fn one_record_that_carries_a_share_keeps_it_open() {
         ..rule(Quantifier::One, Region::Above(0.5))
     };
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured);
+        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+            .result;
     assert_eq!((found.value, found.low), (1.0, 0.0));
     assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
 }
 
 /// Counts of records, judged in every cell at once.
 fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
-    let draws = Draws::new([86, 44]);
+    let draws = drawn([86, 44]);
     let cell = |(k, (_, records)): (usize, &(usize, usize))| Cell {
         at: format!("cell {k}"),
         records: *records,
@@ -139,7 +146,7 @@ fn counted(counts: &[(usize, usize)], quantifier: Quantifier) -> ClaimResult {
     let measured = Replicated::counted(all.collect());
     let rule =
         Rule { range: (0.0, 1.0), ..rule(quantifier, Region::Below(0.05)) };
-    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
 }
 
 #[test]
@@ -149,14 +156,16 @@ fn none_of_a_few_records_is_not_shown_to_be_below_a_limit() {
     assert_eq!(found.interval, Some(Interval::Exact));
     assert!(found.low == 0.0 && (found.high - 0.0804).abs() < 1e-4);
     assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
-    assert_eq!(found.records_needed, None);
-    // 0 of 86 is below 5 % alone, and not with 240 others at once.
+    // One of many cells, each with a one-sided limit of 5 %: 0.066.
+    let many = counted(&[(0, 44); 180], Quantifier::All);
+    assert!((many.high - 0.0658).abs() < 1e-4, "{many:?}");
+    assert_eq!(many.by_equivalence, Some(Verdict::Inconclusive));
+    assert_eq!(many.cells.map(|c| (c.inside, c.outside)), Some((0, 0)));
+    // 0 of 86 is below 5 %, alone and in every one of many cells.
     let alone = counted(&[(0, 86)], Quantifier::One);
     assert_eq!(alone.by_equivalence, Some(Verdict::Confirmed));
     let many = counted(&[(0, 86); 240], Quantifier::All);
-    assert_eq!(many.interval, Some(Interval::ExactSimultaneous));
-    assert_eq!(many.by_equivalence, Some(Verdict::Inconclusive));
-    assert_eq!(many.cells.map(|c| (c.inside, c.outside)), Some((0, 0)));
+    assert_eq!(many.by_equivalence, Some(Verdict::Confirmed));
 }
 
 #[test]
@@ -166,15 +175,152 @@ fn a_count_far_above_a_limit_is_seen_among_many_cells() {
         counts.push((above, 86));
         let found = counted(&counts, Quantifier::All);
         assert_eq!(found.by_equivalence, Some(Verdict::NotConfirmed));
+        assert_eq!(found.interval, Some(Interval::ExactSimultaneous));
         assert_eq!(found.at, "cell 239");
         assert!(found.low > 0.05, "{}", found.low);
     }
+    // 19 of 86, one of 240: scipy.stats.beta.ppf(0.05/240, 19, 68).
+    let mut counts = vec![(0, 86); 239];
+    counts.push((19, 86));
+    let found = counted(&counts, Quantifier::All);
+    assert!((found.low - 0.0904).abs() < 1e-4, "{}", found.low);
+    assert_eq!(found.cells.map(|c| (c.inside, c.outside)), Some((239, 1)));
+    // 7 of 44, one of 180, may lie below 5 %.
+    let mut counts = vec![(0, 86); 179];
+    counts.push((7, 44));
+    let found = counted(&counts, Quantifier::All);
+    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+}
+
+/// Medians of a few values each, judged as cells of a suite of 86.
+fn few(samples: &[Vec<f64>], region: Region) -> ClaimResult {
+    let draws = drawn([86, 44]);
+    let mut all = Vec::new();
+    let mut cells = Vec::new();
+    for (k, sample) in samples.iter().enumerate() {
+        let mut values = sample.clone();
+        values.resize(86, f64::NAN);
+        all.push(Ranked::new(&values));
+        cells.push(Cell { at: format!("cell {k}"), records: sample.len() });
+    }
+    let measured = draws.medians(SuiteKind::Ordinary, all);
+    let rule = rule(Quantifier::All, region);
+    judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured).result
+}
+
+#[test]
+fn few_records_have_the_exact_interval_of_their_median() {
+    let values = |n: usize| (0..n).map(|i| 1.0 + 1e-3 * i as f64).collect();
+    let region = Region::Within(0.95, 1.05);
+    // 90 %: the second of eleven to the last but one would be 98.8 %, the
+    // third 93.5 %.
+    let found = few(&[values(11)], region);
+    assert_eq!(found.by_equivalence, Some(Verdict::Confirmed));
+    assert_eq!(found.interval, Some(Interval::Exact));
+    assert_eq!((found.low, found.high), (1.002, 1.008));
+    assert_eq!(found.at, "cell 0, of the 11 survivors");
+    // Of four the range holds the median in 87.5 %: no interval.
+    let found = few(&[values(4)], region);
+    assert_eq!(found.by_equivalence, None);
+    assert_eq!(found.cells.map(|c| (c.deciding, c.too_few)), Some((0, 1)));
+}
+
+#[test]
+fn a_share_of_cells_is_judged_by_its_own_interval() {
+    // 80 cells with their median at 1, 10 far away: 89 %.
+    let near = |k: usize| if k < 80 { 0.002 * (k % 7) as f64 } else { 0.9 };
+    let shifts: Vec<f64> = (0..90).map(near).collect();
+    let found = judged(Quantifier::AlmostAll, &shifts);
+    assert_eq!(found.interval, Some(Interval::ShareOfCells));
+    assert!((found.value - 80.0 / 90.0).abs() < 1e-12);
+    assert_eq!((found.low, found.high), (found.value, found.value));
+    assert_eq!(found.by_equivalence, Some(Verdict::NotConfirmed));
+    assert_eq!(found.cells.map(|c| (c.inside, c.outside)), Some((80, 10)));
+    // Ten on the edge: the share may be 100 %.
+    let near = |k: usize| if k < 80 { 0.002 * (k % 7) as f64 } else { 0.2 };
+    let shifts: Vec<f64> = (0..90).map(near).collect();
+    let found = judged(Quantifier::AlmostAll, &shifts);
+    assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
+    assert!(found.low < 0.95 && found.high > 0.95, "{found:?}");
+}
+
+#[test]
+fn a_replicate_without_a_value_lies_outside() {
+    // Two records carry cell 0: a replicate that draws none of them leaves
+    // it without a value.
+    let draws = drawn([40, 40]);
+    let of = |draw: Draw<'_>| {
+        let counts = draw.of(SuiteKind::Ordinary);
+        let carried: u32 = counts[..2].iter().sum();
+        let value = if carried > 0 { 1.0 } else { f64::NAN };
+        vec![value, 1.0 + 1e-3 * f64::from(counts[39])]
+    };
+    let measured = draws.smooth(Tested::Ordinary, &of);
+    let cell = |k| Cell { at: format!("cell {k}"), records: 40 };
+    let rule = rule(Quantifier::AlmostAll, Region::Within(0.9, 1.1));
+    let cells = [cell(0), cell(1)];
+    let found =
+        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+            .result;
+    // (38/40)^40 = 13 % of the replicates: one of two cells is inside.
+    assert_eq!((found.value, found.low, found.high), (1.0, 0.5, 1.0));
+    assert_eq!(found.cells.map(|c| c.inside), Some(1));
+}
+
+#[test]
+fn records_of_an_earthquake_are_drawn_together() {
+    let labels = (0..40).map(|record| (record / 10).to_string());
+    let clusters = Clusters::from_labels(labels);
+    let draws = Draws::new([clusters, Clusters::singletons(40)], 1);
+    let first = |draw: Draw<'_>| {
+        let counts = draw.of(SuiteKind::Ordinary);
+        assert_eq!(counts[..9], counts[1..10]);
+        vec![f64::from(counts[0])]
+    };
+    let found = draws.smooth(Tested::Ordinary, &first);
+    assert_eq!(found.replicates.len(), REPLICATES);
+    // Each earthquake is left out once.
+    assert_eq!(Replicated::column(&found.without_one, 0), [0., 1., 1., 1.]);
+    let subsampled = draws.subsampled(Tested::Ordinary, &first);
+    assert_eq!(subsampled.replicates.len(), SUBSAMPLES);
+}
+
+#[test]
+fn a_verdict_that_other_draws_may_change_is_none() {
+    // A mean of 80 values whose interval ends next to the limit.
+    let draws = drawn([80, 40]);
+    let values: Vec<f64> =
+        (0..80).map(|i| libm::sin(f64::from(i) * 1.37)).collect();
+    let mean = |draw: Draw<'_>| {
+        let counts = draw.of(SuiteKind::Ordinary);
+        let pairs = values.iter().zip(counts);
+        vec![pairs.fold(0.0, |sum, (x, n)| sum + x * f64::from(*n)) / 80.0]
+    };
+    let measured = draws.smooth(Tested::Ordinary, &mean);
+    let cells = [Cell { at: "mean".into(), records: 80 }];
+    let judged = |limit| {
+        let rule = rule(Quantifier::One, Region::Below(limit));
+        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+    };
+    let Judged { result, settled } = judged(1.0);
+    assert!(settled);
+    let (high, error) = (result.high, result.monte_carlo_error);
+    assert!(error > 0.0 && error < 0.2 * (high - result.value));
+    for (away, settles) in [(5.0, true), (3.0, false), (-3.0, false)] {
+        let Judged { result, settled } = judged(high + away * error);
+        assert_eq!(settled, settles, "{away}");
+        let decided = result.by_equivalence == Some(Verdict::Confirmed);
+        assert_eq!(decided, settles, "{away}");
+    }
+    // Of two one-sided tests at 2.5 %, the p-value is that at the limit.
+    let at_the_end = judged(high + 1e-9).result.p;
+    assert!((at_the_end - 0.025).abs() < 2e-3, "{at_the_end}");
 }
 
 #[test]
 fn a_cell_that_no_replicate_moves_is_open() {
     // All records have the value 1: the bootstrap knows no error.
-    let draws = Draws::new([80, 40]);
+    let draws = drawn([80, 40]);
     let (cells, ranked) = cells(&[0.0, 0.2]);
     let constant = Ranked::new(&[1.0; 80]);
     let medians = |draw: Draw<'_>| -> Vec<f64> {
@@ -184,7 +330,8 @@ fn a_cell_that_no_replicate_moves_is_open() {
     let measured = draws.smooth(Tested::Ordinary, &medians);
     let rule = rule(Quantifier::All, Region::Within(0.8, 1.2));
     let found =
-        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured);
+        judge(&draws, Tested::Ordinary, None, &rule, &cells, &measured)
+            .result;
     assert_eq!(found.cells.map(|c| c.inside), Some(0));
     assert_eq!(found.by_equivalence, Some(Verdict::Inconclusive));
     // The cell that is shown has an interval.

@@ -68,20 +68,14 @@ fn quantile_ratios(source: &Source<'_>, pairs: &[Pair]) -> Prepared {
 
 /// Medians of paired ratios, cell by cell.
 fn paired(source: &Source<'_>, cells: Vec<(String, Vec<f64>)>) -> Prepared {
-    let kind = source.kind();
-    let ranked: Vec<(String, Ranked)> = cells
+    let (cells, ranked) = cells
         .into_iter()
-        .map(|(at, values)| (at, Ranked::new(&values)))
-        .collect();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        ranked.iter().map(|(_, r)| r.median(counts)).collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    let cells = ranked
-        .into_iter()
-        .map(|(at, r)| Cell { at, records: r.records() })
-        .collect();
+        .map(|(at, values)| {
+            let ranked = Ranked::new(&values);
+            (Cell { at, records: ranked.records() }, ranked)
+        })
+        .unzip();
+    let measured = source.draws.medians(source.kind(), ranked);
     Prepared::new(cells, measured)
 }
 

@@ -3,7 +3,7 @@
 use super::source::{Found, Prepared, Source, mean_of_medians};
 use crate::analyses::{Apart, SuiteResults};
 use crate::estimates::mean;
-use crate::inference::{Cell, Draw, LEAST_DECIDING};
+use crate::inference::{Cell, LEAST_DECIDING};
 use crate::stripes::of_arm;
 use rocking::statistics::resampling::Ranked;
 use rocking_common::paper::{
@@ -100,16 +100,12 @@ pub(super) fn histories_apart(source: &Source<'_>) -> Found {
 pub(super) fn peaks(source: &Source<'_>) -> Found {
     let kind = source.kind();
     let suite = source.results.suite(kind);
-    let ranked = at_levels(suite, |a| (a.peak_ratio - 1.0).abs());
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        ranked.iter().map(|(_, r)| r.median(draw.of(kind))).collect()
-    };
-    let cell = |(at, r): &(String, Ranked)| Cell {
-        at: at.clone(),
-        records: r.records(),
-    };
-    let measured = source.draws.smooth(source.tested, &of);
-    Ok(Some(Prepared::new(ranked.iter().map(cell).collect(), measured)))
+    let (cells, ranked) = at_levels(suite, |a| (a.peak_ratio - 1.0).abs())
+        .into_iter()
+        .map(|(at, r)| (Cell { at, records: r.records() }, r))
+        .unzip();
+    let measured = source.draws.medians(kind, ranked);
+    Ok(Some(Prepared::new(cells, measured)))
 }
 
 /// Mean |ln| of the ratio of intensities at equal demand, by record.

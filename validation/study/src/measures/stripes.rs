@@ -93,16 +93,12 @@ fn adjusted_ratios(
 
 /// Medians of cells over all draws, with the share of notches that cover 1.
 fn medians(source: &Source<'_>, ratios: &[Ratios]) -> Prepared {
-    let kind = source.kind();
     let cells = ratios
         .iter()
         .map(|r| Cell { at: r.at.clone(), records: r.ranked.records() })
         .collect();
-    let of = |draw: Draw<'_>| -> Vec<f64> {
-        let counts = draw.of(kind);
-        ratios.iter().map(|r| r.ranked.median(counts)).collect()
-    };
-    let measured = source.draws.smooth(source.tested, &of);
+    let ranked = ratios.iter().map(|r| r.ranked.clone()).collect();
+    let measured = source.draws.medians(source.kind(), ranked);
     let name = "share of the cells whose notch covers 1";
     let as_said = notches(source, ratios, name, |_| true);
     Prepared { criterion: Some(as_said), ..Prepared::new(cells, measured) }

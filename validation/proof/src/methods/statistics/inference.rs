@@ -1,257 +1,402 @@
 //! Coverage of the study's inference on simulated suites whose truth is
 //! known.
 //!
-//! A suite has records that share everything: cell k of record r is
-//! exp(s (c z_r + sqrt(1 - c^2) e_rk)), with standard normal z and e.
+//! A suite is like a recorded one: 86 records of 22 earthquakes, or 44 of 16.
+//! The normal score of record r in block b at level l is the sum of a part
+//! that its earthquake shares, with [`SHARED`] of the variance, and one of
+//! its own. Each part is correlated by [`BLOCKS_ALIKE`] between two blocks,
+//! and by [`LEVELS_ALIKE`] from level to level of a block.
 
-use libm::{exp, log};
+use libm::{exp, log, sqrt};
 use rayon::prelude::*;
-use rocking::statistics::acceptance::AcceptedShare;
-use rocking::statistics::bootstrap::{Bootstrap, accelerated, estimate};
+use rocking::statistics::acceptance::{AcceptedShare, distances};
+use rocking::statistics::bootstrap::{Bootstrap, estimate};
+use rocking::statistics::boxplot::median_interval;
+use rocking::statistics::confidence::Confidence;
 use rocking::statistics::lilliefors::Table;
-use rocking::statistics::resampling::{
-    Ranked, Subsampling, multiplicities, share_inside, simultaneous,
-};
-use rocking::streams::{Streams, standard_normal};
+use rocking::statistics::resampling::{Ranked, Subsampling};
+use rocking::statistics::{Clusters, ExtendedSample, Proportion, normal};
+use rocking::streams::{Stream, Streams, standard_normal};
 use serde::Deserialize;
 
 use super::cells::refused;
 use crate::methods::method::{Answer, Context, MethodError, WrongModel};
 
-/// Level of the intervals.
+/// Level of the intervals of one value, and of one cell among many.
 const LEVEL: f64 = 0.95;
+const OWN: f64 = 0.9;
 
 /// Replicates of an interval; the study has 2000. With 400 the level of an
 /// interval is uncertain by 0.01, which the bounds leave room for.
 const REPLICATES: usize = 400;
 
-/// Subsamples of an accepted share.
-const SUBSAMPLES: u64 = 200;
+/// Subsamples of an accepted share, and of a distance.
+const SUBSAMPLES: u64 = 100;
 
-/// Correlation of two cells of one record, and spread of a cell.
-const CORRELATION: f64 = 0.5;
+/// Share of the variance that the records of an earthquake share.
+const SHARED: f64 = 0.2;
+
+/// Correlation from level to level, and between blocks.
+const LEVELS_ALIKE: f64 = 0.97;
+const BLOCKS_ALIKE: f64 = 0.9;
+
+/// Blocks and levels of a suite.
+const BLOCKS: usize = 4;
+const LEVELS: usize = 13;
+
+/// Spread of a paired ratio.
 const SPREAD: f64 = 0.15;
 
-/// What an interval is made of.
+/// Records of each earthquake of a recorded suite.
+const ORDINARY: [usize; 22] =
+    [12, 12, 11, 9, 6, 5, 5, 4, 4, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1];
+const PULSE: [usize; 16] = [6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1];
+
+/// Survivors among few records.
+const SURVIVORS: usize = 12;
+
+/// Probability of a counted event.
+const PROBABILITY: f64 = 0.05;
+
+/// What an interval is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Measure {
-    /// Median of paired ratios in one cell: a bootstrap of records.
+    /// Median of paired ratios in one cell, BCa.
     Median,
-    /// Medians of 52 cells at once, the largest among them.
-    Maximum,
-    /// Share of 52 cells within 5 %, of which every second one is.
+    /// The same by percentiles.
+    MedianByPercentiles,
+    /// Share of the cells whose median is within 5 %.
     CellShare,
-    /// Accepted share of 25 levels of one block.
+    /// How often a cell that lies on the end of its region is shown inside.
+    CellOnTheEdge,
+    /// Median of few survivors, by order statistics.
+    FewSurvivors,
+    /// Probability of an event that records have or not.
+    Count,
+    /// Mean distance from a lognormal over levels and blocks.
+    Distance,
+    /// Share of levels at which a lognormal is accepted.
     AcceptedShare,
+}
+
+/// Which recorded suite the simulated ones are like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Like {
+    Ordinary,
+    PulseType,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Input {
     measure: Measure,
-    n: usize,
+    like: Like,
     trials: u64,
 }
 
-/// Share of the simulated suites whose interval holds the truth.
+impl Like {
+    fn clusters(self) -> Clusters {
+        let sizes = match self {
+            Self::Ordinary => &ORDINARY[..],
+            Self::PulseType => &PULSE[..],
+        };
+        let labels = sizes.iter().enumerate().flat_map(|(event, size)| {
+            std::iter::repeat_n(event.to_string(), *size)
+        });
+        Clusters::from_labels(labels)
+    }
+}
+
+/// Share of the simulated suites whose interval holds the truth; of a cell on
+/// the edge, share of those in which it is shown inside.
 pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
     let input: Input = context.input()?;
-    let wrong = context.wrong;
-    let streams = Streams::new(&context.case.id, 0);
+    let clusters = input.like.clusters();
+    let drawn = match context.wrong {
+        Some(WrongModel::RecordsAsUnit) => {
+            Clusters::singletons(clusters.records())
+        }
+        _ => clusters.clone(),
+    };
+    let trials = Trials {
+        streams: Streams::new(&context.case.id, 0),
+        clusters,
+        drawn,
+        wrong: context.wrong,
+    };
+    let all = (0..input.trials).into_par_iter();
     let held: Vec<bool> = match input.measure {
-        Measure::AcceptedShare => shares(&input, &streams, wrong)?,
-        _ => (0..input.trials)
-            .into_par_iter()
-            .map(|trial| {
-                let cells = suite(&input, &streams, trial);
-                holds(&input, &cells, trial, wrong)
-            })
-            .collect(),
+        Measure::Distance | Measure::AcceptedShare => {
+            let found = all
+                .map(|trial| trials.lognormal(trial, input.measure))
+                .collect::<Result<Vec<_>, _>>()?;
+            // The truth is the mean over the simulated suites.
+            let sum = found.iter().fold(0.0, |sum, (x, _)| sum + x);
+            let truth = sum / found.len() as f64;
+            found.into_iter().map(|(_, ends)| hold(ends, truth)).collect()
+        }
+        measure => all.map(|trial| trials.holds(trial, measure)).collect(),
     };
     let count = held.iter().filter(|held| **held).count();
     let rate = count as f64 / held.len() as f64;
     let mut answer = Answer::default();
-    answer.put("rate", [rate], [LEVEL]);
+    let wanted = match input.measure {
+        Measure::CellOnTheEdge => 0.5 * (1.0 - OWN),
+        Measure::FewSurvivors => OWN,
+        _ => LEVEL,
+    };
+    answer.put("rate", [rate], [wanted]);
     Ok(answer)
 }
 
-/// Cells of a measure, and the logarithm of each one's true median.
-fn truths(measure: Measure) -> Vec<f64> {
-    // Inside, but near the limit of 5 %.
-    let apart = |k: usize| if k.is_multiple_of(2) { 0.035 } else { 0.3 };
-    match measure {
-        Measure::Median => vec![0.0],
-        Measure::Maximum => vec![0.0; 52],
-        Measure::CellShare => (0..52).map(apart).collect(),
-        Measure::AcceptedShare => vec![0.0; 25],
-    }
+fn hold(ends: Option<(f64, f64)>, truth: f64) -> bool {
+    ends.is_some_and(|(low, high)| low <= truth && truth <= high)
 }
 
-/// The cells of a simulated suite, each by record.
-fn suite(input: &Input, streams: &Streams, trial: u64) -> Vec<Vec<f64>> {
-    let truths = truths(input.measure);
-    let mut stream = streams.stream(trial);
-    let own = (1.0 - CORRELATION).sqrt();
-    let mut cells = vec![Vec::with_capacity(input.n); truths.len()];
-    for _ in 0..input.n {
-        let common = CORRELATION.sqrt() * standard_normal(&mut stream);
-        for (cell, truth) in cells.iter_mut().zip(&truths) {
-            let e = own * standard_normal(&mut stream);
-            cell.push(exp(f64::mul_add(SPREAD, common + e, *truth)));
+/// A field over blocks and levels, added to `scores` with a weight.
+fn add_field(stream: &mut Stream, weight: f64, scores: &mut [f64]) {
+    let walk = |stream: &mut Stream| -> [f64; LEVELS] {
+        let step = sqrt(1.0 - LEVELS_ALIKE * LEVELS_ALIKE);
+        let mut z = standard_normal(stream);
+        std::array::from_fn(|level| {
+            if level > 0 {
+                let e = standard_normal(stream);
+                z = f64::mul_add(LEVELS_ALIKE, z, step * e);
+            }
+            z
+        })
+    };
+    let common = walk(stream);
+    for block in scores.chunks_mut(LEVELS) {
+        let own = walk(stream);
+        for ((score, a), b) in block.iter_mut().zip(common).zip(own) {
+            *score += weight
+                * (sqrt(BLOCKS_ALIKE) * a + sqrt(1.0 - BLOCKS_ALIKE) * b);
         }
     }
-    cells
 }
 
-fn holds(
-    input: &Input,
-    cells: &[Vec<f64>],
-    trial: u64,
+/// Simulated suites of one case.
+struct Trials {
+    streams: Streams,
+    /// Whose records are dependent.
+    clusters: Clusters,
+    /// What is resampled.
+    drawn: Clusters,
     wrong: Option<WrongModel>,
-) -> bool {
-    let ranked: Vec<Ranked> = cells.iter().map(|c| Ranked::new(c)).collect();
-    let medians = |counts: &[u32]| -> Vec<f64> {
-        ranked.iter().map(|r| r.median(counts)).collect()
-    };
-    let points = medians(&vec![1; input.n]);
-    let name = format!("coverage/{trial}");
-    let draws = Bootstrap::new(&name, 0, input.n, REPLICATES);
-    let replicates: Vec<Vec<f64>> = (0..REPLICATES as u64)
-        .map(|index| medians(&draws.multiplicities(index)))
-        .collect();
-    let truths: Vec<f64> =
-        truths(input.measure).into_iter().map(exp).collect();
-    let column = |k: usize| -> Vec<f64> {
-        replicates.iter().map(|row| row[k]).collect()
-    };
-    let pointwise = |k: usize| {
-        estimate(points[k], &column(k), LEVEL).map(|e| (e.low, e.high))
-    };
-    if input.measure == Measure::Median {
-        let without: Vec<f64> = (0..input.n)
-            .map(|left_out| {
-                let places: Vec<usize> =
-                    (0..input.n).filter(|r| *r != left_out).collect();
-                medians(&multiplicities(&places, input.n))[0]
+}
+
+impl Trials {
+    /// Normal scores by cell, then by record.
+    fn scores(&self, trial: u64) -> Vec<Vec<f64>> {
+        let mut stream = self.streams.stream(trial);
+        let n = self.clusters.records();
+        let mut cells = vec![vec![0.0; n]; BLOCKS * LEVELS];
+        for event in 0..self.clusters.count() {
+            let mut shared = [0.0; BLOCKS * LEVELS];
+            add_field(&mut stream, sqrt(SHARED), &mut shared);
+            for record in self.clusters.members(event) {
+                let mut own = shared;
+                add_field(&mut stream, sqrt(1.0 - SHARED), &mut own);
+                for (cell, score) in cells.iter_mut().zip(own) {
+                    cell[*record] = score;
+                }
+            }
+        }
+        cells
+    }
+
+    /// Replicates of some medians, and the medians without each cluster.
+    fn medians(
+        &self,
+        trial: u64,
+        cells: &[Ranked],
+    ) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+        let of = |counts: &[u32]| -> Vec<f64> {
+            cells.iter().map(|r| r.median(counts)).collect()
+        };
+        let name = format!("coverage/{trial}");
+        let draws = Bootstrap::of(&name, 0, &self.drawn, REPLICATES);
+        let replicates = (0..REPLICATES as u64)
+            .map(|index| of(&draws.multiplicities(index)))
+            .collect();
+        let without = (0..self.drawn.count())
+            .map(|cluster| of(&self.drawn.without(cluster)))
+            .collect();
+        (replicates, without)
+    }
+
+    fn holds(&self, trial: u64, measure: Measure) -> bool {
+        let scores = self.scores(trial);
+        let every = vec![1; self.clusters.records()];
+        let ratio = |shift: f64| move |z: f64| exp(SPREAD * z + shift);
+        match measure {
+            Measure::CellShare => self.share(trial, &scores),
+            Measure::FewSurvivors => {
+                // The strongest are left out, whatever their ratio.
+                let values: Vec<f64> =
+                    scores[0].iter().copied().take(SURVIVORS).collect();
+                let Ok(sample) = ExtendedSample::try_new(&values) else {
+                    return false;
+                };
+                let level = match self.wrong {
+                    Some(WrongModel::OtherInterval) => 0.75,
+                    _ => OWN,
+                };
+                let found = median_interval(&sample, level);
+                hold(found.map(|i| (i.low, i.high)), 0.0)
+            }
+            Measure::Count => {
+                let limit = normal::quantile(PROBABILITY);
+                let count = scores[0].iter().filter(|z| **z < limit).count();
+                let n = self.clusters.records();
+                let found = Proportion::try_new(count, n);
+                let exact = found.and_then(|p| p.interval(LEVEL));
+                let share = count as f64 / n as f64;
+                let error = sqrt(share * (1.0 - share) / n as f64);
+                let ends = match self.wrong {
+                    Some(WrongModel::OtherInterval) => {
+                        Some((share - 1.96 * error, share + 1.96 * error))
+                    }
+                    _ => exact.ok(),
+                };
+                hold(ends, PROBABILITY)
+            }
+            _ => {
+                let edge = if measure == Measure::CellOnTheEdge {
+                    log(1.05)
+                } else {
+                    0.0
+                };
+                let values: Vec<f64> =
+                    scores[0].iter().copied().map(ratio(edge)).collect();
+                let cells = [Ranked::new(&values)];
+                let point = cells[0].median(&every);
+                let (replicates, without) = self.medians(trial, &cells);
+                let column = |rows: &[Vec<f64>]| -> Vec<f64> {
+                    rows.iter().map(|row| row[0]).collect()
+                };
+                let others = match measure {
+                    Measure::MedianByPercentiles => Vec::new(),
+                    _ => column(&without),
+                };
+                let known =
+                    Confidence::new(point, &column(&replicates), &others);
+                let level = match measure {
+                    Measure::CellOnTheEdge => OWN,
+                    _ => LEVEL,
+                };
+                let level = match self.wrong {
+                    // Three times the tail's probability.
+                    Some(WrongModel::OtherInterval) => 3.0 * level - 2.0,
+                    _ => level,
+                };
+                let Some(known) = known else { return false };
+                let ends = known.interval(self.drawn.half_width(level));
+                match measure {
+                    Measure::CellOnTheEdge => {
+                        ends.low >= 0.95 && ends.high <= 1.05
+                    }
+                    _ => hold(Some((ends.low, ends.high)), 1.0),
+                }
+            }
+        }
+    }
+
+    /// Whether the interval of the share of cells within 5 % holds it.
+    fn share(&self, trial: u64, scores: &[Vec<f64>]) -> bool {
+        let count = scores.len();
+        // True medians from a normal law, nine of ten cells within 5 %.
+        let truth = |k: usize| {
+            // Neighbours are not of one size.
+            let place = (k * 17) % count;
+            let p = (place as f64 + 0.5) / count as f64;
+            exp(0.03 * normal::quantile(p))
+        };
+        let within = |x: f64| (0.95..=1.05).contains(&x);
+        let share = |row: &[f64]| {
+            row.iter().filter(|x| within(**x)).count() as f64 / count as f64
+        };
+        let truths: Vec<f64> = (0..count).map(truth).collect();
+        let cells: Vec<Ranked> = scores
+            .iter()
+            .zip(&truths)
+            .map(|(cell, truth)| {
+                let of = |z: &f64| truth * exp(SPREAD * z);
+                Ranked::new(&cell.iter().map(of).collect::<Vec<f64>>())
             })
             .collect();
-        let level = match wrong {
-            // Half of the tail's probability.
-            Some(WrongModel::OtherInterval) => 1.0 - 3.0 * (1.0 - LEVEL),
-            _ => LEVEL,
+        let every = vec![1; self.clusters.records()];
+        let points: Vec<f64> =
+            cells.iter().map(|r| r.median(&every)).collect();
+        let (replicates, _) = self.medians(trial, &cells);
+        let values: Vec<f64> =
+            replicates.iter().map(|row| share(row)).collect();
+        let point = share(&points);
+        let Some(known) = Confidence::new(point, &values, &[]) else {
+            return false;
         };
-        let found = accelerated(points[0], &column(0), &without, level)
-            .or_else(|| estimate(points[0], &column(0), level));
-        return found.is_some_and(|e| e.low <= 1.0 && 1.0 <= e.high);
+        let half_width = self.drawn.half_width(LEVEL);
+        let ends = match self.wrong {
+            Some(WrongModel::ShareOfPoints) => known.interval(half_width),
+            _ => known.interval_of_share(point, half_width),
+        };
+        hold(Some((ends.low, ends.high)), share(&truths))
     }
-    let band = match wrong {
-        Some(WrongModel::PointwiseIntervals) => {
-            (0..points.len()).map(pointwise).collect()
-        }
-        _ => simultaneous(&points, &replicates, LEVEL),
-    };
-    match input.measure {
-        Measure::CellShare => {
-            let inside = |low, high| low >= 0.95 && high <= 1.05;
-            let outside = |low, high| high < 0.95 || low > 1.05;
-            let (low, high) = match wrong {
-                Some(WrongModel::ShareOfPoints) => {
-                    percentiles(&replicates, |x| inside(x, x))
-                }
-                _ => share_inside(&band, inside, outside),
-            };
-            low <= 0.5 && 0.5 <= high
-        }
-        _ => band.iter().zip(&truths).all(|(ends, truth)| {
-            ends.is_some_and(|(low, high)| low <= *truth && *truth <= high)
-        }),
-    }
-}
 
-/// The percentile interval of the share of cells whose point is inside.
-fn percentiles(
-    replicates: &[Vec<f64>],
-    inside: impl Fn(f64) -> bool,
-) -> (f64, f64) {
-    let share = |row: &Vec<f64>| {
-        let count = row.iter().filter(|x| inside(**x)).count();
-        count as f64 / row.len() as f64
-    };
-    let values: Vec<f64> = replicates.iter().map(share).collect();
-    estimate(0.5, &values, LEVEL).map_or((0.0, 0.0), |e| (e.low, e.high))
-}
-
-/// Intervals of the accepted share of a lognormal above 1 that is tested as
-/// it is; the truth is the mean share over the simulated suites.
-fn shares(
-    input: &Input,
-    streams: &Streams,
-    wrong: Option<WrongModel>,
-) -> Result<Vec<bool>, MethodError> {
-    let table = Table::embedded();
-    let critical = |n: usize| table.critical_value(n, 0.05).map_err(refused);
-    let rule_of = |trial: u64| {
-        let name = format!("coverage/{trial}");
-        let size = input.n - input.n.div_ceil(10);
-        (Subsampling::new(&name, 0, input.n, size), size)
-    };
-    let (_, size) = rule_of(0);
-    let (whole, part, less) =
-        (critical(input.n)?.0, critical(size)?.0, critical(input.n - 1)?.0);
-    let found: Vec<(f64, Option<(f64, f64)>)> = (0..input.trials)
-        .into_par_iter()
-        .map(|trial| {
-            // x = 1 + exp(z), unshifted: not a lognormal.
-            let logs: Vec<Vec<f64>> = suite(input, streams, trial)
-                .into_iter()
-                .map(|cell| {
-                    let z = |x: f64| log(x) / SPREAD;
-                    cell.into_iter().map(|x| log(1.0 + exp(z(x)))).collect()
-                })
+    /// The distance, or accepted share, of capacities that are lognormal
+    /// above 1 and tested as they are; and its interval.
+    fn lognormal(
+        &self,
+        trial: u64,
+        measure: Measure,
+    ) -> Result<(f64, Option<(f64, f64)>), MethodError> {
+        let table = Table::embedded();
+        let logs: Vec<Vec<f64>> = self
+            .scores(trial)
+            .into_iter()
+            .map(|cell| cell.into_iter().map(|z| log(1.0 + exp(z))).collect())
+            .collect();
+        let of = |places: &[usize]| -> Result<f64, MethodError> {
+            let drawn: Vec<Vec<f64>> = logs
+                .iter()
+                .map(|level| places.iter().map(|r| level[*r]).collect())
                 .collect();
-            let share = |places: &[usize], critical: f64| {
-                let drawn: Vec<Vec<f64>> = logs
-                    .iter()
-                    .map(|level| places.iter().map(|r| level[*r]).collect())
-                    .collect();
+            if measure == Measure::AcceptedShare {
+                let critical = table.critical_value(places.len(), 0.05);
+                let (critical, _) = critical.map_err(refused)?;
                 let found = AcceptedShare::of_values(&drawn, critical);
-                found.share().unwrap_or(f64::NAN)
-            };
-            let all: Vec<usize> = (0..input.n).collect();
-            let point = share(&all, whole);
-            let (rule, _) = rule_of(trial);
-            let interval = if wrong == Some(WrongModel::TiedReplicates) {
-                let draws = Bootstrap::new("coverage", trial, input.n, 1);
-                let values: Vec<f64> = (0..SUBSAMPLES)
-                    .map(|index| share(&draws.draw(index), whole))
-                    .collect();
-                estimate(point, &values, LEVEL)
-            } else {
-                let values: Vec<f64> = (0..SUBSAMPLES)
-                    .map(|index| {
-                        let counts = rule.multiplicities(index);
-                        let drawn: Vec<usize> =
-                            (0..input.n).filter(|r| counts[*r] > 0).collect();
-                        share(&drawn, part)
-                    })
-                    .collect();
-                let without: Vec<f64> = (0..input.n)
-                    .map(|left_out| {
-                        let others: Vec<usize> =
-                            (0..input.n).filter(|r| *r != left_out).collect();
-                        share(&others, less)
-                    })
-                    .collect();
-                rule.interval(point, &values, &without, LEVEL)
-            };
-            (point, interval.map(|e| (e.low, e.high)))
-        })
-        .collect();
-    let sum = found.iter().fold(0.0, |sum, (point, _)| sum + point);
-    let truth = sum / found.len() as f64;
-    let holds = |(_, ends): &(f64, Option<(f64, f64)>)| {
-        ends.is_some_and(|(low, high)| low <= truth && truth <= high)
-    };
-    Ok(found.iter().map(holds).collect())
+                return Ok(found.share().unwrap_or(f64::NAN));
+            }
+            let d = distances(&drawn);
+            let mean = d.iter().fold(0.0, |sum, d| sum + d) / d.len() as f64;
+            Ok(mean - table.mean(places.len()).map_err(refused)?)
+        };
+        let held = |counts: &[u32]| -> Vec<usize> {
+            (0..counts.len()).filter(|r| counts[*r] > 0).collect()
+        };
+        let n = self.clusters.records();
+        let point = of(&(0..n).collect::<Vec<usize>>())?;
+        let name = format!("coverage/{trial}");
+        if self.wrong == Some(WrongModel::TiedReplicates) {
+            let draws = Bootstrap::of(&name, 0, &self.drawn, 1);
+            let values = (0..SUBSAMPLES)
+                .map(|index| of(&draws.draw(index)))
+                .collect::<Result<Vec<_>, _>>()?;
+            let found = estimate(point, &values, LEVEL);
+            return Ok((point, found.map(|e| (e.low, e.high))));
+        }
+        let size = n - n.div_ceil(10);
+        let rule = Subsampling::of(&name, 0, &self.drawn, size);
+        let values = (0..SUBSAMPLES)
+            .map(|index| of(&held(&rule.multiplicities(index))))
+            .collect::<Result<Vec<_>, _>>()?;
+        let without = (0..self.drawn.count())
+            .map(|cluster| of(&held(&self.drawn.without(cluster))))
+            .collect::<Result<Vec<_>, _>>()?;
+        let found = rule.interval(point, &values, &without, LEVEL);
+        Ok((point, found.map(|e| (e.low, e.high))))
+    }
 }

@@ -302,6 +302,14 @@ mod tests {
     }
 
     #[test]
+    fn the_mean_has_the_sizes_of_the_table() {
+        assert!(TABLE.mean(4).is_ok() && TABLE.mean(1000).is_ok());
+        let too_few = LillieforsError::TooFew { found: 3, least: 4 };
+        assert_eq!(TABLE.mean(3), Err(too_few));
+        assert_eq!(TABLE.mean(1001), Err(LillieforsError::BeyondTable(1001)));
+    }
+
+    #[test]
     fn sizes_left_out_are_met_within_four_times_the_stated_error() {
         for n in [150, 200, 300, 400, 600, 900] {
             let mut table = TABLE.clone();

@@ -58,8 +58,8 @@ const ASKED: [Asked; 4] = [
                    than the unshifted one?",
         parts: &[
             ("distance in PGA", &["shift-gains-pga"]),
-            ("tests in PGA", &["shift-better-pga"]),
-            ("tests in PGV", &["pgv-shifted"]),
+            ("lognormality in PGA", &["shift-better-pga"]),
+            ("lognormality in PGV", &["pgv-shifted"]),
         ],
         name: "Gain in distance to the sample in PGA",
         effect: "shift-gains-pga",
@@ -401,9 +401,10 @@ pub(super) fn by_theme(
         let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
         names.join("; ")
     };
-    let confirmed = |v: &Verdict| *v == Verdict::Confirmed;
-    let count = found.iter().filter(|(_, v)| confirmed(v)).count();
-    let mut words = format!("{count} of {} claims hold", found.len());
+    let sentences = sentences(lead, |claim| claim.theme == theme);
+    let hold = sentences.iter().filter(|v| **v == Verdict::Confirmed);
+    let mut words =
+        format!("{} of {} sentences hold", hold.count(), sentences.len());
     let against = lead
         .claims
         .iter()
@@ -411,8 +412,8 @@ pub(super) fn by_theme(
         .count();
     if against > 0 {
         words += &format!(
-            " by the limits here, {against} of them not by the paper's own \
-             criterion"
+            " by the limits here, {against} claims in them not by the \
+             paper's own criterion"
         );
     }
     let refuted = listed(Verdict::NotConfirmed);
@@ -422,8 +423,8 @@ pub(super) fn by_theme(
     let open = found.iter().filter(|(_, v)| *v == Verdict::Inconclusive);
     match open.count() {
         0 => {}
-        1 => words += ". One is inconclusive",
-        n => words += &format!(". {n} are inconclusive"),
+        1 => words += ". One claim is inconclusive",
+        n => words += &format!(". {n} claims are inconclusive"),
     }
     if recorded.is_none() {
         return words + ".";
@@ -438,6 +439,43 @@ pub(super) fn by_theme(
         n => format!("{n} come out otherwise on the embedded suites"),
     };
     format!("On the recorded suites {words}. {other}.")
+}
+
+/// The verdict on each sentence of the paper: confirmed where every claim in
+/// it is, not confirmed where one is refuted.
+fn sentences(
+    findings: &Findings,
+    of: impl Fn(&Claim) -> bool,
+) -> Vec<Verdict> {
+    let first = first_arm(findings);
+    let mut found: Vec<(&str, Verdict)> = Vec::new();
+    for claim in findings.claims.iter().filter(|c| of(c)) {
+        let Some(verdict) = whole(claim, first) else { continue };
+        match found.iter_mut().find(|(quote, _)| *quote == claim.quote) {
+            Some((_, sentence)) => *sentence = worse(*sentence, verdict),
+            None => found.push((&claim.quote, verdict)),
+        }
+    }
+    found.into_iter().map(|(_, verdict)| verdict).collect()
+}
+
+/// The worse of two verdicts.
+fn worse(a: Verdict, b: Verdict) -> Verdict {
+    match (a, b) {
+        (Verdict::NotConfirmed, _) | (_, Verdict::NotConfirmed) => {
+            Verdict::NotConfirmed
+        }
+        (Verdict::Confirmed, other) => other,
+        (Verdict::Inconclusive, _) => Verdict::Inconclusive,
+    }
+}
+
+/// How many sentences of the paper have which verdict, in the order of
+/// [`Verdict::ALL`]; what goes beyond the paper is none of them.
+pub fn score(findings: &Findings) -> Vec<(Verdict, usize)> {
+    let all = sentences(findings, |claim| claim.theme != Theme::Beyond);
+    let count = |v: Verdict| all.iter().filter(|own| **own == v).count();
+    Verdict::ALL.into_iter().map(|v| (v, count(v))).collect()
 }
 
 /// Whether a claim holds by the limits here and nowhere by the paper's own

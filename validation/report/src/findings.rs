@@ -25,6 +25,7 @@ pub fn columns(here: &Findings, recorded: Option<&Findings>) -> Vec<Column> {
         name,
         findings: findings.clone(),
         first,
+        score: answers::score(findings),
     };
     match recorded {
         Some(recorded) => vec![

@@ -185,7 +185,7 @@ measures! {
     ConstantSpread: Probability, FROM_0_TO_1, fragilities::constant_spread;
     /// Dispersion of the whole over that of the trimmed sample.
     TailInflation: One, ANY, fragilities::tail_inflation;
-    /// Scatter of the 16 and 84 % quantiles over that of the dispersion.
+    /// Scatter of the dispersion by quantiles over that by the deviation.
     QuantileScatter: One, ANY, fragilities::scatter;
 }
 

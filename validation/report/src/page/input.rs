@@ -2,7 +2,7 @@
 
 use maud::Markup;
 use rocking_common::findings::{Findings, Theme};
-use rocking_common::paper::Arm;
+use rocking_common::paper::{Arm, Verdict};
 use rocking_common::table::PlainTable;
 
 use super::figures::ShownFigure;
@@ -111,6 +111,8 @@ pub struct Column {
     pub findings: Findings,
     /// The arm that stands among the findings.
     pub first: Arm,
+    /// How many sentences of the paper have which verdict.
+    pub score: Vec<(Verdict, usize)>,
 }
 
 /// A section of the page.

@@ -207,10 +207,10 @@ fn counts(column: &Column) -> Markup {
                     " of " (earthquakes) " earthquakes"
                 }
             }
-            ": "
-            @for (k, verdict) in Verdict::ALL.into_iter().enumerate() {
+            ". Of the paper's sentences, "
+            @for (k, (verdict, count)) in column.score.iter().enumerate() {
                 @if k > 0 { ", " }
-                (column.findings.count(verdict)) " " (mark(verdict))
+                (count) " " (mark(*verdict))
             }
             "."
         }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::evidence::{self, Proof};
 use rocking_common::findings::Theme;
-use rocking_common::paper::Arm;
+use rocking_common::paper::{Arm, Verdict};
 use rocking_common::table::PlainTable;
 use rocking_draw::colour;
 use rocking_draw::figures::{BlockSketch, Figure, Heading};
@@ -16,8 +16,12 @@ fn sketch(name: &str) -> Figure {
 
 fn made_up() -> ReportInput {
     let recorded = crate::recorded::recorded().unwrap();
-    let column =
-        |name| Column { name, findings: recorded.clone(), first: Arm::C };
+    let column = |name| Column {
+        name,
+        findings: recorded.clone(),
+        first: Arm::C,
+        score: vec![(Verdict::Confirmed, 18)],
+    };
     let data = concat!(env!("CARGO_MANIFEST_DIR"), "/../../reports/data");
     let proof = Proof::read(data.as_ref()).unwrap();
     let shown = |figure: &Figure| {

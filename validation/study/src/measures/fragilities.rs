@@ -4,7 +4,7 @@
 use libm::log;
 use rocking::fragility::risk::HazardCurve;
 use rocking::statistics::resampling::Subsampling;
-use rocking::statistics::{ExtendedSample, Lognormal, QuantileType, normal};
+use rocking::statistics::{ExtendedSample, Lognormal, QuantileType};
 
 use super::source::{Found, Prepared, Source};
 use crate::distributions::{BlockSamples, factors};
@@ -133,7 +133,6 @@ fn at_place(
 fn mean_over(
     source: &Source<'_>,
     intensity: Intensity,
-    over: &str,
     f: impl Fn(&Thresholds, &[u32]) -> Vec<f64> + Sync,
 ) -> Found {
     let Some(thresholds) = Thresholds::new(source, intensity) else {
@@ -142,7 +141,7 @@ fn mean_over(
     let kind = source.kind();
     let of = |draw: Draw<'_>| vec![mean(f(&thresholds, draw.of(kind)))];
     let cell = Cell {
-        at: format!("mean over {over}demands 0.15, 0.35 and 1.00"),
+        at: "mean over demands 0.15, 0.35 and 1.00".into(),
         records: source.results.suite(kind).records.len(),
     };
     let measured = source.draws.subsampled(source.tested, &of);
@@ -151,7 +150,7 @@ fn mean_over(
 
 /// What shifting gains in distance to the sample.
 pub(super) fn shift_gain(source: &Source<'_>, intensity: Intensity) -> Found {
-    mean_over(source, intensity, "", |thresholds, counts| {
+    mean_over(source, intensity, |thresholds, counts| {
         thresholds.each(counts, |at| {
             distance(at.fits.usfl, &at.sample)
                 - distance(at.fits.ssfl, &at.sample)
@@ -287,36 +286,30 @@ pub(super) fn tail_inflation(source: &Source<'_>) -> Found {
     })
 }
 
-/// How much more the 16 and 84 % quantiles of a sample scatter than those of
-/// the lognormal fitted to it: root of the ratio of the variances of their
-/// logarithms over halves of the drawn records, mean over both quantiles and
-/// the demands.
+/// Scatter of the dispersion by the 16 and 84 % quantiles over that by the
+/// standard deviation of the logarithms: root of the ratio of their variances
+/// over halves of the drawn records, mean over the demands.
 pub(super) fn scatter(source: &Source<'_>) -> Found {
-    const HALVES: u64 = 40;
-    let over = "16 and 84 %, ";
-    mean_over(source, Intensity::Pga, over, |thresholds, counts| {
+    const HALVES: u64 = 200;
+    mean_over(source, Intensity::Pga, |thresholds, counts| {
         let halves: Vec<Vec<u32>> =
             (0..HALVES).map(|index| half(counts, index)).collect();
-        let mut ratios = Vec::new();
-        for ranked in &thresholds.ranked {
-            for p in [0.16, 0.84] {
-                let both =
-                    halves.iter().map(|half| quantiles(ranked, half, p));
-                let (sample, fit): (Vec<f64>, Vec<f64>) = both.unzip();
-                ratios.push((variance(&sample) / variance(&fit)).sqrt());
-            }
-        }
-        ratios
+        let ratio = |ranked: &Ranked| {
+            let both = halves.iter().map(|half| dispersions(ranked, half));
+            let (quantiles, fit): (Vec<f64>, Vec<f64>) = both.unzip();
+            (variance(&quantiles) / variance(&fit)).sqrt()
+        };
+        thresholds.ranked.iter().map(ratio).collect()
     })
 }
 
-/// Logarithms of a quantile: the sample's, and the fitted lognormal's.
-fn quantiles(ranked: &Ranked, counts: &[u32], p: f64) -> (f64, f64) {
+/// Dispersion of a sample: half the logarithm of its 84 over its 16 %
+/// quantile, and the standard deviation of its logarithms.
+fn dispersions(ranked: &Ranked, counts: &[u32]) -> (f64, f64) {
     let logs: Vec<f64> =
         ranked.drawn(counts).iter().map(|x| log(*x)).collect();
-    let centre = mean(logs.iter().copied());
-    let fit = normal::quantile(p) * variance(&logs).sqrt() + centre;
-    (log(ranked.quantile(counts, p)), fit)
+    let at = |p| log(ranked.quantile(counts, p));
+    (0.5 * (at(0.84) - at(0.16)), variance(&logs).sqrt())
 }
 
 fn variance(values: &[f64]) -> f64 {

@@ -2,12 +2,13 @@
 //! one rule, and what stands about every theme and every suite.
 
 use crate::evidence::Proof;
-use crate::page::{AnswerRow, ShownFigure};
+use crate::page::AnswerRow;
 use crate::quantity::{cell_text, rule_text, value_text};
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::rounded_text;
+use rocking_draw::figures::Figure;
 use rocking_study::analyses::SuiteResults;
 use rocking_study::results::Results;
 
@@ -178,7 +179,7 @@ pub(super) fn rows(
     recorded: Option<&Findings>,
     timings: &Timings,
     proof: Option<&Proof>,
-    figures: &[(u32, ShownFigure)],
+    figures: &[&Figure],
 ) -> Vec<AnswerRow> {
     let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
     let lead = recorded.unwrap_or(here);
@@ -202,8 +203,9 @@ pub(super) fn rows(
                 }
             };
             let shown = asked.figures.iter().filter_map(|number| {
-                let (_, figure) = figures.iter().find(|f| f.0 == *number)?;
-                Some((figure.name.clone(), format!("Figure {number}")))
+                let is = |f: &&&Figure| f.heading.number == Some(*number);
+                let name = figures.iter().find(is)?.heading.name.clone();
+                Some((name, format!("Figure {number}")))
             });
             AnswerRow {
                 question: asked.question.into(),

@@ -21,8 +21,8 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
     let drawn = results.plan.drawn();
     let mut out = vec![single::sketch()];
     let one = results.plan.common();
-    out.push(single::histories(&results.ordinary, one, 2));
-    out.push(single::histories(&results.pulse, one, 3));
+    out.push(single::motions(&results.ordinary, one, 2));
+    out.push(single::motions(&results.pulse, one, 3));
     out.push(single::curves(&results.ordinary, one, 4)?);
     out.push(single::curves(&results.pulse, one, 5)?);
     for number in [6, 7] {

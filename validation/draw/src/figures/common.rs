@@ -1,13 +1,11 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
 use super::heading::Heading;
-use crate::colour::{Ink, Pen};
-use crate::geometry::kept;
+use crate::colour::Ink;
 use crate::grid::Grid;
 use crate::legend;
 use crate::legend::{Entry, Sample};
 use crate::markup;
-use crate::panel::Marker;
 use crate::scene::Scene;
 use crate::text::Caption;
 use rocking_common::paper::{Arm, Intensity};
@@ -90,19 +88,11 @@ impl Slendernesses {
         self.0.iter().find(same).map_or(0, |(_, series)| *series)
     }
 
-    /// Legend of lines.
-    pub fn lines(&self) -> Vec<Entry> {
-        self.legend(|k| Sample::Line(Pen::of_series(k)))
-    }
-
     /// Legend of boxes.
     pub fn boxes(&self) -> Vec<Entry> {
-        self.legend(|k| Sample::Box(Ink::Series(k)))
-    }
-
-    fn legend(&self, of: fn(usize) -> Sample) -> Vec<Entry> {
+        let sample = |k: &usize| Sample::Box(Ink::Series(*k));
         let all = self.0.iter();
-        all.map(|(a, k)| Entry::new(of(*k), slenderness(*a))).collect()
+        all.map(|(a, k)| Entry::new(sample(k), slenderness(*a))).collect()
     }
 }
 
@@ -124,8 +114,8 @@ pub fn words(text: &str) -> String {
 }
 
 /// The name of a record under a panel's title, cut to the panel's width.
-pub fn record(name: &str, grid: &Grid) -> String {
-    words(&markup::fit(name, 10.0, grid.width + 20.0))
+pub fn record(name: &str, width_px: f64) -> String {
+    words(&markup::fit(name, 10.0, width_px + 20.0))
 }
 
 /// A number for titles: two decimals, no trailing zeros.
@@ -144,37 +134,4 @@ pub fn arm_words(arm: Arm) -> &'static str {
         Arm::B => "arm B: 0.01 *g* steps, bisected",
         Arm::C => "arm C: equal dimensionless steps, bisected",
     }
-}
-
-/// Legend of the mark at an overturning.
-pub fn overturned_entry() -> Entry {
-    Entry::new(Sample::Mark(Marker::Cross, Ink::Text), "overturned")
-}
-
-/// How far the curve left may be from the full one, in px.
-const TOLERANCE_PX: f64 = 0.1;
-
-/// Thins a curve drawn with this many px a unit of x and of y, from its
-/// first point to the last one that is finite; of those after it the first
-/// stays.
-pub fn thin(x: &mut Vec<f64>, y: &mut Vec<f64>, px: (f64, f64)) {
-    let points: Vec<_> = x
-        .iter()
-        .zip(y.iter())
-        .take_while(|(x, y)| x.is_finite() && y.is_finite())
-        .map(|(x, y)| (px.0 * x, px.1 * y))
-        .collect();
-    let mut keep = kept(&points, TOLERANCE_PX);
-    keep.push(true);
-    for values in [x, y] {
-        let mut keep = keep.iter();
-        values.retain(|_| keep.next() == Some(&true));
-    }
-}
-
-/// Largest finite magnitude, or 1.
-pub fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
-    let finite = values.map(|x| x.abs()).filter(|x| x.is_finite());
-    let most = finite.fold(0.0, f64::max);
-    if most > 0.0 { most } else { 1.0 }
 }

@@ -17,7 +17,6 @@ mod heading;
 mod histories;
 pub mod of_result;
 mod sketch;
-mod tests_along;
 
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
 pub use chart::{
@@ -28,7 +27,6 @@ pub use fates::{Fate, FateMap};
 pub use heading::{Figure, Heading, Place};
 pub use histories::{History, HistoryPanel, histories};
 pub use sketch::BlockSketch;
-pub use tests_along::{Histogram, TestedBlock, TestsAlongDemand};
 
 #[cfg(test)]
 mod tests;

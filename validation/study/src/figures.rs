@@ -5,6 +5,7 @@ mod fragilities;
 mod quantiles;
 mod ratios;
 mod single;
+mod tested;
 
 pub(crate) use ratios::adjusted_boxes;
 
@@ -44,7 +45,7 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
     out.push(distributions::inverted(results, one)?);
     out.push(distributions::shares(results, 12)?);
     for arm in &drawn {
-        out.push(distributions::along(results, *arm)?);
+        out.push(tested::along(results, *arm)?);
     }
     out.push(distributions::shares(results, 14)?);
     for number in [15, 16, 17] {

@@ -234,8 +234,27 @@ pub struct Look {
     pub bars: Option<Pen>,
     /// The band between these ends.
     pub band: Option<Fill>,
+    /// Bars from each abscissa to the next one, which the line goes around.
+    pub bins: Option<Fill>,
     /// Mark, half width in px and ink at each point.
     pub marker: Option<(Marker, f64, Ink)>,
+}
+
+impl Look {
+    /// Nothing but a line.
+    pub fn line(pen: Pen) -> Self {
+        Self { pen: Some(pen), ..Self::default() }
+    }
+
+    /// Nothing but a band.
+    pub fn band(fill: Fill) -> Self {
+        Self { band: Some(fill), ..Self::default() }
+    }
+
+    /// Nothing but marks of this half width in px.
+    pub fn marks(marker: Marker, half_px: f64, ink: Ink) -> Self {
+        Self { marker: Some((marker, half_px, ink)), ..Self::default() }
+    }
 }
 
 /// How a chart is laid out and written, where that is not as usual.
@@ -301,7 +320,7 @@ impl Mark {
             bars: (!line).then_some(bar),
             band: line.then_some(Fill::tint(pen.ink, 16)),
             marker: (!line).then_some((marker, 3.0, pen.ink)),
-            sides: None,
+            ..Look::default()
         }
     }
 
@@ -557,6 +576,16 @@ fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
     }
     if let Some(fill) = look.band {
         panel.band(&rows, fill);
+    }
+    if let Some(fill) = look.bins {
+        let ends = series.x.windows(2).zip(&series.y);
+        for (left, right, top) in ends.map(|(x, y)| (x[0], x[1], *y)) {
+            panel.bar((left, 0.0), (right, top), fill);
+            let around =
+                [(left, 0.0), (left, top), (right, top), (right, 0.0)];
+            panel.line(around, look.pen.unwrap_or(Pen::new(fill.ink, 0.0)));
+        }
+        return;
     }
     let (low, high): (Vec<f64>, Vec<f64>) =
         series.interval.iter().copied().unzip();

@@ -4,11 +4,11 @@ use super::heading::Heading;
 use crate::colour::Ink;
 use crate::grid::Grid;
 use crate::legend;
-use crate::legend::{Entry, Sample};
+use crate::legend::Entry;
 use crate::markup;
 use crate::scene::Scene;
 use crate::text::Caption;
-use rocking_common::paper::{Arm, Intensity};
+use rocking_common::paper::{Arm, Intensity, SLENDERNESSES_RAD};
 use rocking_common::words::letter;
 
 /// A scene with the grid's size, the legend drawn and room made for it.
@@ -60,40 +60,10 @@ pub fn intensity(measure: Intensity) -> &'static str {
     }
 }
 
-/// Slendernesses and the series ink of each: the study's five (multiples of
-/// 0.05) have the same ink in every figure, others go by rank.
-pub struct Slendernesses(Vec<(f64, usize)>);
-
-impl Slendernesses {
-    /// Of all values that a figure shows.
-    pub fn new(values: impl IntoIterator<Item = f64>) -> Self {
-        let mut values: Vec<f64> = values.into_iter().collect();
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        let study = |a: f64| {
-            let k = (20.0 * a).round();
-            let known =
-                (20.0 * a - k).abs() < 1e-9 && (1.0..=6.0).contains(&k);
-            known.then_some(k as usize - 1)
-        };
-        let all: Option<Vec<usize>> =
-            values.iter().map(|a| study(*a)).collect();
-        let inks = all.unwrap_or_else(|| (0..values.len()).collect());
-        Self(values.into_iter().zip(inks).collect())
-    }
-
-    /// Series of one of them.
-    pub fn series(&self, alpha_rad: f64) -> usize {
-        let same = |(a, _): &&(f64, usize)| *a == alpha_rad;
-        self.0.iter().find(same).map_or(0, |(_, series)| *series)
-    }
-
-    /// Legend of boxes.
-    pub fn boxes(&self) -> Vec<Entry> {
-        let sample = |k: &usize| Sample::Box(Ink::Series(*k));
-        let all = self.0.iter();
-        all.map(|(a, k)| Entry::new(sample(k), slenderness(*a))).collect()
-    }
+/// The ink of one of the paper's slendernesses, the same in every figure.
+pub fn ink(alpha_rad: f64) -> Ink {
+    let place = SLENDERNESSES_RAD.iter().position(|a| *a == alpha_rad);
+    Ink::Series(place.unwrap_or(0))
 }
 
 /// Smallest and largest finite value; positive ones only where `positive`.

@@ -96,9 +96,9 @@ fn panel(shown: &HistoryPanel) -> ChartPanel {
             number(curve.alpha_rad),
         ]));
         if let Some((t, y)) = end.filter(|_| curve.overturned) {
-            let marker = Some((Marker::Cross, 4.5, Ink::Series(k)));
-            let cross = Mark::Own(Look { marker, ..Look::default() });
-            series.push(Series::note(cross, "", (t, y.clamp(low, high))));
+            let cross = Look::marks(Marker::Cross, 4.5, Ink::Series(k));
+            let at = (vec![t], vec![y.clamp(low, high)]);
+            series.push(Series::of(cross, at.0, at.1).keyed([]));
         }
     }
     let title = format!(

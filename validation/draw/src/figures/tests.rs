@@ -22,7 +22,7 @@ fn writes_them_to_be_looked_at() {
 #[test]
 fn same_bytes_twice_below_the_limit() {
     let (first, second) = (made_up::all(), made_up::all());
-    assert!(first.len() > 6);
+    assert!(first.len() > 5);
     for (a, b) in first.iter().zip(&second) {
         let svg = a.svg();
         assert_eq!(svg, b.svg());
@@ -110,20 +110,6 @@ fn csv_has_a_header_and_rows_of_its_length() {
         assert!(rows.iter().all(|n| *n == width));
         assert!(csv.ends_with('\n') && !csv.contains("NaN"));
     }
-}
-
-#[test]
-fn histogram_counts_every_finite_datum_once() {
-    use super::Histogram;
-    let sample = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, f64::INFINITY];
-    let h = Histogram::freedman_diaconis(&sample, (1.75, 5.25), 3.5, 2.4);
-    // 2 * 3.5 / 8^(1/3) = 3.5; (7 - 0) / 3.5 = 2 bins.
-    assert_eq!(h.edges, [0.0, 3.5, 7.0]);
-    assert_eq!(h.counts, [4, 4]);
-    let same = Histogram::freedman_diaconis(&[2.0; 5], (2.0, 2.0), 2.0, 0.0);
-    assert_eq!((same.edges.len(), same.counts), (2, vec![5]));
-    let none = Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
-    assert!(none.edges.is_empty() && none.counts.is_empty());
 }
 
 #[test]

@@ -6,7 +6,7 @@ use rocking_draw::colour;
 use rocking_draw::figures::Figure;
 
 /// A wider drawing scrolls on a phone instead of shrinking to its width.
-const WIDE_PX: u32 = 640;
+const WIDE_PX: f64 = 640.0;
 
 /// The figure with title, reading and data.
 pub fn figure(shown: &Figure) -> Markup {
@@ -17,7 +17,7 @@ pub fn figure(shown: &Figure) -> Markup {
     let called = if heading.number.is_some() { &number } else { title };
     let label = format!("{called}, drawing");
     let svg = shown.svg();
-    let class = if width_px(&svg) > WIDE_PX {
+    let class = if shown.scene.extent().right > WIDE_PX {
         "scroll drawing wide"
     } else {
         "scroll drawing"
@@ -34,13 +34,6 @@ pub fn figure(shown: &Figure) -> Markup {
             }
         }
     }
-}
-
-/// The width that the SVG says it has, or 0.
-fn width_px(svg: &str) -> u32 {
-    let value = svg.split(" width=\"").nth(1);
-    let digits = value.and_then(|v| v.split('"').next());
-    digits.and_then(|d| d.parse().ok()).unwrap_or(0)
 }
 
 /// The SVG without its own style sheet, which the page has once.

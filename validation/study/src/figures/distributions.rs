@@ -1,18 +1,13 @@
-//! Figures 11 to 14: capacities and their tests.
+//! Figures 11, 12 and 14: capacities, and shares of accepted levels.
 
 use rocking::statistics::lilliefors::Assessment;
-use rocking::statistics::{QuantileType, Sample};
 
 use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
-use crate::normality::{
-    BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
-};
+use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
 use crate::results::Results;
-use crate::ties::critical_on_grid;
 use rocking_common::paper::{
-    Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD,
-    demand_index, demands,
+    Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
 };
 use rocking_common::table::{number as cell, point};
 use rocking_common::words::percent;
@@ -20,11 +15,10 @@ use rocking_draw::axis::{Axis, Tick};
 use rocking_draw::colour::{Dash, Fill, Ink, Pen};
 use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Chart, ChartPanel, Figure, Heading, Histogram, Layout, Look, Mark, Series,
-    TestedBlock, TestsAlongDemand,
+    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
 };
 use rocking_draw::grid::Grid;
-use rocking_draw::legend::{Entry, Sample as Drawn};
+use rocking_draw::legend::{Entry, Sample};
 use rocking_draw::panel::Marker;
 use rocking_draw::text::Horizontal;
 
@@ -48,7 +42,7 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
         let last = block.samples.last().ok_or_else(no_arm)?;
         cut = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
-        let mut shown: Vec<(&str, Vec<f64>)> = records
+        let shown: Vec<(&str, Vec<f64>)> = records
             .map(|(record, facts)| {
                 let own = block.samples.iter().map(|s| s[record]).collect();
                 (facts.name.as_str(), own)
@@ -57,46 +51,41 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
         let (low, high) = capacity_range(&shown, block.shift);
         let of = block.samples.iter().map(|s| three_quantiles(s));
         let of: Vec<[f64; 3]> = of.collect::<anyhow::Result<_>>()?;
-        let ends: Vec<_> = of.iter().map(|q| (q[0], q[2])).collect();
-        shown.push(("median", of.iter().map(|q| q[1]).collect()));
         for (words, ink, less) in
             [("original", ORIGINAL, 0.0), ("shifted", SHIFTED, block.shift)]
         {
             // Capacities that do not lie above the shift stand at the edge.
             let at = |im: f64| if im - less > low { im - less } else { low };
+            // Shifted, they are the same numbers less the shift.
+            let keyed = |one: Series, name: &str| match less == 0.0 {
+                true => one.keyed([
+                    intensity.name().into(),
+                    cell(block.shift),
+                    name.into(),
+                ]),
+                false => one.keyed([]),
+            };
             let mut series = Vec::new();
             for (name, ims) in &shown {
                 let y: Vec<f64> = ims.iter().map(|im| at(*im)).collect();
-                let ends_at = y.iter().take_while(|y| y.is_finite()).count();
-                let look = if *name == "median" {
-                    Look {
-                        pen: Some(Pen::new(ink, 1.8)),
-                        band: Some(Fill::tint(ink, 30)),
-                        ..Look::default()
-                    }
-                } else {
-                    if (1..y.len()).contains(&ends_at) {
-                        let end = (levels[ends_at - 1], y[ends_at - 1]);
-                        series.push(never_overturned(end));
-                    }
-                    Look { pen: Some(RECORD), ..Look::default() }
-                };
-                let mut one = Series::of(look, levels.clone(), y);
-                if look.band.is_some() {
-                    let ends = ends.iter().map(|(a, b)| (at(*a), at(*b)));
-                    one = one.with(ends.collect());
+                let stands = y.iter().take_while(|y| y.is_finite()).count();
+                if (1..y.len()).contains(&stands) {
+                    let mark = Look::marks(Marker::Triangle, 3.2, Ink::Text);
+                    let (x, y) = (levels[stands - 1], y[stands - 1]);
+                    let end = Series::of(mark, vec![x], vec![y]);
+                    series.push(end.keyed([]));
                 }
-                // Shifted, they are the same numbers less the shift.
-                series.push(if less == 0.0 {
-                    one.keyed([
-                        intensity.name().into(),
-                        cell(block.shift),
-                        (*name).into(),
-                    ])
-                } else {
-                    one.keyed([])
-                });
+                let one = Series::of(Look::line(RECORD), levels.clone(), y);
+                series.push(keyed(one, name));
             }
+            let look = Look {
+                pen: Some(Pen::new(ink, 1.8)),
+                ..Look::band(Fill::tint(ink, 30))
+            };
+            let median = of.iter().map(|q| at(q[1])).collect();
+            let ends = of.iter().map(|q| (at(q[0]), at(q[2]))).collect();
+            let one = Series::of(look, levels.clone(), median).with(ends);
+            series.push(keyed(one, "median"));
             if less == 0.0 {
                 let at = (0.0, block.shift);
                 series.push(Series::note(Mark::Across(SHIFT), "", at));
@@ -109,7 +98,7 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
                     intensity.name().to_uppercase(),
                     common::frequency(FREQUENCIES_RAD_S[0]),
                     common::slenderness(SLENDERNESSES_RAD[3]),
-                    shown.len() - 1,
+                    shown.len(),
                 ),
                 Axis::linear(0.0, 1.0, 5).label(common::DEMAND),
                 Axis::logarithmic(low, high).label(format!("{label}{minus}")),
@@ -117,19 +106,19 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
             ));
         }
     }
-    let line = |ink, width| Drawn::Line(Pen::new(ink, width));
-    let band = |ink| Drawn::Band(Fill::tint(ink, 30));
+    let line = |ink, width| Sample::Line(Pen::new(ink, width));
+    let band = |ink| Sample::Band(Fill::tint(ink, 30));
     let mut legend = vec![
         Entry::new(line(RECORD.ink, 0.7), "one record"),
         Entry::new(line(ORIGINAL, 1.8), "median, original"),
         Entry::new(band(ORIGINAL), "16 to 84 %"),
         Entry::new(line(SHIFTED, 1.8), "median, IM − IM_{R}"),
         Entry::new(band(SHIFTED), "16 to 84 %"),
-        Entry::new(Drawn::Line(SHIFT), "IM_{R}"),
+        Entry::new(Sample::Line(SHIFT), "IM_{R}"),
     ];
     let mut ends = String::new();
     if cut > 0 {
-        let mark = Drawn::Mark(Marker::Triangle, Ink::Text);
+        let mark = Sample::Mark(Marker::Triangle, Ink::Text);
         legend.push(Entry::new(mark, "ends: never overturned"));
         ends =
             format!(" {cut} records never overturn: their curves end early.");
@@ -170,12 +159,6 @@ pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
             times(onsets[1], onsets[1].1),
         ),
     ))
-}
-
-/// The mark at the end of a record that never overturns.
-fn never_overturned(at: (f64, f64)) -> Series {
-    let marker = Some((Marker::Triangle, 3.2, Ink::Text));
-    Series::note(Mark::Own(Look { marker, ..Look::default() }), "", at)
 }
 
 /// The capacities of all records, original and shifted; of the shifted ones
@@ -294,10 +277,10 @@ pub(super) fn shares(
     let mut legend: Vec<Entry> = Vec::new();
     for (arm, marker) in drawn.iter().zip(ARMS) {
         let words = common::arm_words(*arm);
-        legend.push(Entry::new(Drawn::Mark(marker, Ink::Text), words));
+        legend.push(Entry::new(Sample::Mark(marker, Ink::Text), words));
     }
     legend.push(Entry::new(
-        Drawn::Line(EXPECTED),
+        Sample::Line(EXPECTED),
         format!("expected of a lognormal: {}", percent(1.0 - LEVEL, 0)),
     ));
     if !banded.is_empty() {
@@ -306,7 +289,7 @@ pub(super) fn shares(
             "95 % band of lognormal suites, arm {}",
             arms.join(" and ")
         );
-        legend.push(Entry::new(Drawn::Band(NULL_BAND), words));
+        legend.push(Entry::new(Sample::Band(NULL_BAND), words));
     }
     let layout = Layout {
         grid: Some(Grid::new(panels.len(), 2).plot(440.0, 230.0)),
@@ -370,10 +353,9 @@ fn mark_of(share: &Share, arms: usize, keys: [String; 8]) -> [Series; 3] {
     let x = (share.block + 1) as f64 + aside;
     let y = share.accepted;
     let ink = Ink::Series(share.block % SLENDERNESSES_RAD.len());
-    let band = Look { band: Some(NULL_BAND), ..Look::default() };
-    let stem = Look { pen: Some(Pen::new(ink, 0.8)), ..Look::default() };
-    let marker = Some((ARMS[share.arm], 3.2, ink));
-    let mark = Look { marker, ..Look::default() };
+    let band = Look::band(NULL_BAND);
+    let stem = Look::line(Pen::new(ink, 0.8));
+    let mark = Look::marks(ARMS[share.arm], 3.2, ink);
     let ends: Vec<(f64, f64)> = share.band.into_iter().collect();
     [
         Series::of(band, vec![x - 0.15, x + 0.15], vec![y; 2])
@@ -413,75 +395,4 @@ fn groups(shares: &[Share], all: usize) -> Vec<Series> {
 /// How many levels could be tested.
 fn tested(levels: &[Assessment]) -> usize {
     levels.iter().filter(|a| over_critical(a).is_finite()).count()
-}
-
-/// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA.
-pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
-    let edp = 0.5;
-    let mut blocks = Vec::new();
-    let mut words = Vec::new();
-    for slenderness in [0, 3] {
-        let block =
-            results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
-        words.push(format!(
-            "{} and {} at alpha = {:.2}",
-            percent(accepted_share(&block.original), 1),
-            percent(accepted_share(&block.shifted), 1),
-            block.alpha_rad
-        ));
-        blocks.push(TestedBlock {
-            p_rad_s: block.p_rad_s,
-            alpha_rad: block.alpha_rad,
-            edp: demands(),
-            original: block.original.iter().map(over_critical).collect(),
-            shifted: block.shifted.iter().map(over_critical).collect(),
-            grid_critical: (arm == Arm::A)
-                .then(|| critical_on_grid(block))
-                .flatten(),
-            original_histogram: histogram(&block.original[demand_index(edp)]),
-            shifted_histogram: histogram(&block.shifted[demand_index(edp)]),
-        });
-    }
-    Ok(TestsAlongDemand {
-        heading: Heading::numbered(
-            13,
-            "Lilliefors' test along the demand, p = 3",
-            "Test statistic over its critical value along the demand, and \
-             histograms of the logarithm of the capacity at demand 0.50, \
-             original and shifted; alpha = 0.05 and 0.20.",
-            Some(arm),
-        ),
-        edp,
-        blocks,
-    }
-    .figure(format!(
-        "Of the original and of the shifted levels the test accepts {}.{}",
-        words.join(", "),
-        if arm == Arm::A {
-            " The diamond is the 5 % critical value of a shifted lognormal \
-             whose overturnings lie on the 0.01 g grid."
-        } else {
-            ""
-        }
-    )))
-}
-
-/// Of the logarithms tested.
-fn histogram(test: &Assessment) -> Histogram {
-    let none = || Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
-    let Some(logs) = &test.tested else { return none() };
-    let n = logs.len() as f64;
-    let deviation = (logs.sum_of_squares() / (n - 1.0)).sqrt();
-    let quartile = |p| quartile(logs, p);
-    let quartiles = (quartile(0.25), quartile(0.75));
-    Histogram::freedman_diaconis(
-        logs.sorted(),
-        quartiles,
-        logs.mean(),
-        deviation,
-    )
-}
-
-fn quartile(sample: &Sample, p: f64) -> f64 {
-    QuantileType::default().of(sample, p).unwrap_or(f64::NAN)
 }

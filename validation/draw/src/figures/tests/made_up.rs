@@ -1,13 +1,13 @@
 //! Made-up numbers of the right shape; they come from closed formulas and
 //! have no meaning.
 
-mod statistics;
+mod chart;
 
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::figures::*;
+pub use chart::chart;
 use rocking_common::paper::Arm;
-pub use statistics::{chart, tests_along};
 
 pub const ALPHAS: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
 pub const FREQUENCIES: [f64; 3] = [1.0, 3.0, 4.0];
@@ -35,7 +35,6 @@ pub fn all() -> Vec<Figure> {
         histories(heading("figure-02", None), &motions(), 3, String::new()),
         boxplots(4).figure(String::new()),
         boxplots(8).figure(String::new()),
-        tests_along().figure(String::new()),
         chart().figure(String::new()),
         fates().figure(String::new()),
     ]

@@ -29,17 +29,6 @@ pub fn all() -> Vec<Figure> {
         }
     }
 
-    let mut tests = made_up::tests_along();
-    tests.heading = heading("spare-13", None);
-    tests.blocks[0].original = vec![f64::NAN; 100];
-    tests.blocks[0].shifted.clear();
-    tests.blocks[0].original_histogram = Histogram::freedman_diaconis(
-        &[],
-        (f64::NAN, f64::NAN),
-        f64::NAN,
-        f64::NAN,
-    );
-
     let mut chart = made_up::chart();
     chart.heading = heading("spare-speed", None);
     for series in &mut chart.panels[1].series {
@@ -51,7 +40,6 @@ pub fn all() -> Vec<Figure> {
     vec![
         histories(heading("spare-02", None), &motions, 3, String::new()),
         boxplots.figure(String::new()),
-        tests.figure(String::new()),
         chart.figure(String::new()),
     ]
 }

@@ -54,9 +54,8 @@ pub(super) fn empirical(at: (Intensity, f64), sample: &[f64]) -> Series {
     x.sort_by(f64::total_cmp);
     let n = x.len() as f64;
     let y = (1..=x.len()).map(|k| k as f64 / n).collect();
-    let marker = Some((Marker::Dot, 1.7, Ink::Muted));
-    let look = Look { marker, ..Look::default() };
-    Series::of(look, x, y).keyed(keys(at, "ECDF", None))
+    let dots = Look::marks(Marker::Dot, 1.7, Ink::Muted);
+    Series::of(dots, x, y).keyed(keys(at, "ECDF", None))
 }
 
 /// A fitted curve at these intensities; a row without a point where the fit
@@ -70,8 +69,7 @@ pub(super) fn fitted(
     let (x, y) = fit.map_or((vec![f64::NAN], vec![f64::NAN]), |fit| {
         (grid.to_vec(), grid.iter().map(|x| fit.cdf(*x)).collect())
     });
-    let look = Look { pen: Some(pen), ..Look::default() };
-    Series::of(look, x, y).keyed(keys(at, name, fit))
+    Series::of(Look::line(pen), x, y).keyed(keys(at, name, fit))
 }
 
 /// What 97 % of the data do not exceed, or the last finite datum below.

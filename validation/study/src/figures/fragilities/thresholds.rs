@@ -257,10 +257,9 @@ fn panel(
             Some((*x, (p + a, p + b)))
         });
         let (x, ends): (Vec<f64>, Vec<(f64, f64)>) = found.unzip();
-        let look = Look { band: Some(fill), ..Look::default() };
         let y = vec![f64::NAN; x.len()];
         let keys = keys(place, name, on.as_ref());
-        Series::of(look, x, y).with(ends).keyed(keys)
+        Series::of(Look::band(fill), x, y).with(ends).keyed(keys)
     };
     let on = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
     let (name, pen) = pair.other();

@@ -1,54 +1,10 @@
-//! Made-up tests, and a chart of every mark.
+//! A chart of every mark.
 
-use super::{heading, noise, normal};
+use super::heading;
 use crate::axis::Axis;
-use crate::colour::{Ink, Pen};
+use crate::colour::{Fill, Ink, Pen};
 use crate::figures::*;
 use crate::text::Horizontal;
-use rocking_common::paper::Arm;
-
-fn sample(n: usize, seed: usize, scale: f64) -> Vec<f64> {
-    let one = |i| libm::exp(scale * normal(i + 1000 * seed));
-    (0..n).map(one).collect()
-}
-
-fn histogram(sample: &[f64]) -> Histogram {
-    let mut logs: Vec<f64> = sample.iter().map(|x| libm::log(*x)).collect();
-    logs.sort_by(f64::total_cmp);
-    let n = logs.len() as f64;
-    let mean = logs.iter().sum::<f64>() / n;
-    let squares: f64 = logs.iter().map(|x| (x - mean) * (x - mean)).sum();
-    let quartiles = (logs[logs.len() / 4], logs[3 * logs.len() / 4]);
-    let deviation = (squares / (n - 1.0)).sqrt();
-    Histogram::freedman_diaconis(&logs, quartiles, mean, deviation)
-}
-
-pub fn tests_along() -> TestsAlongDemand {
-    let block = |alpha: f64, seed: usize| {
-        let edp: Vec<f64> = (1..=100).map(|k| 0.01 * k as f64).collect();
-        let shifted = sample(86, seed, 0.6);
-        let original: Vec<f64> = shifted.iter().map(|x| x + 1.0).collect();
-        TestedBlock {
-            p_rad_s: 3.0,
-            alpha_rad: alpha,
-            original: (0..100)
-                .map(|k| 1.3 + 0.2 * noise(k + 99 * seed))
-                .collect(),
-            shifted: (0..100)
-                .map(|k| 0.7 + 0.4 * noise(k + 77 * seed))
-                .collect(),
-            edp,
-            grid_critical: Some(1.4),
-            original_histogram: histogram(&original),
-            shifted_histogram: histogram(&shifted),
-        }
-    };
-    TestsAlongDemand {
-        heading: heading("figure-13", Some(Arm::A)),
-        edp: 0.5,
-        blocks: vec![block(0.05, 1), block(0.20, 2)],
-    }
-}
 
 /// Every mark over linear, logarithmic and named axes.
 pub fn chart() -> Chart {
@@ -71,7 +27,14 @@ pub fn chart() -> Chart {
     let marks = || marks.into_iter().enumerate().map(series);
     let pen = Pen::new(Ink::Muted, 0.6);
     let note = |mark, words| Series::note(mark, words, (4.0, 3.0));
+    let bins = Look {
+        pen: line,
+        bins: Some(Fill::tint(Ink::Text, 30)),
+        ..Look::default()
+    };
+    let bins = Series::of(bins, vec![1.0, 2.0, 3.0], vec![4.0, 2.0, 0.0]);
     let notes = [
+        bins,
         note(Mark::Across(pen), ""),
         note(Mark::Upright(pen), ""),
         note(Mark::Corner, "above"),

@@ -141,7 +141,7 @@ const PROOF: Edges = &[
 /// The modules of the report.
 const REPORT: Edges = &[
     ("answers", &["evidence", "page", "quantity", "recorded", "timings"]),
-    ("credibility", &["evidence", "recorded"]),
+    ("credibility", &["evidence", "recorded", "words"]),
     ("diff", &[]),
     ("evidence", &["diff"]),
     ("findings", &["answers", "page"]),
@@ -155,14 +155,13 @@ const REPORT: Edges = &[
             "findings",
             "head",
             "ledger",
-            "method",
             "page",
             "recorded",
             "timings",
+            "words",
         ],
     ),
     ("ledger", &["evidence", "recorded"]),
-    ("method", &[]),
     (
         "output",
         &[
@@ -191,6 +190,7 @@ const REPORT: Edges = &[
         ],
     ),
     ("timings", &["speed"]),
+    ("words", &[]),
 ];
 
 /// The modules of the study: results, then fits, stripes and ties, then

@@ -10,10 +10,10 @@ use crate::findings::{self, placed};
 use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
-use crate::method;
 use crate::page::{Chapter, ReportInput};
 use crate::recorded;
 use crate::timings::Timings;
+use crate::words::words;
 use rocking_common::findings::Findings;
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
@@ -39,6 +39,7 @@ pub fn input<'a>(
     signatures: &Signatures,
 ) -> anyhow::Result<ReportInput<'a>> {
     let timings = Timings::kept()?;
+    let words = words()?;
     let recorded = results.embedded().then(recorded::recorded).transpose()?;
     let recorded = recorded.as_ref();
     // Of figures that both arms have, those of the paper's grid stand in the
@@ -109,12 +110,12 @@ pub fn input<'a>(
         findings: findings::themes(found, recorded, &own),
         identities: findings::identities(found),
         method: [
-            method::method(),
+            words.method,
             vec![answers::trust(found, recorded)],
             coverage.iter().map(|c| c.words()).collect(),
         ]
         .concat(),
-        glossary: method::glossary(),
+        glossary: words.glossary,
         proof: format!(
             "{} {} {}",
             proof.map_or(NOT_RUN.into(), Proof::to_string),

@@ -178,6 +178,11 @@ impl Series {
         Self::new(words, mark, vec![at.0], vec![at.1]).keyed([])
     }
 
+    /// The series with an entry in the legend.
+    pub fn labelled(self, label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..self }
+    }
+
     /// The series with these intervals.
     pub fn with(self, interval: Vec<(f64, f64)>) -> Self {
         Self { interval, ..self }

@@ -20,8 +20,6 @@ use rocking_draw::figures::{
     Chart, ChartPanel, Figure, Heading, Layout, Mark, Series,
 };
 use rocking_draw::grid::Grid;
-use rocking_draw::legend::{Entry, Sample};
-use rocking_draw::panel::Marker;
 
 fn sample_at(
     block: &BlockSamples,
@@ -42,9 +40,6 @@ pub(super) fn constants(
     let fits = Fits::new(&sample, block.shift);
     let benchmark = Pen::new(Ink::Text, 1.3);
     let dashes = [Dash::Dotted, Dash::Dashed, Dash::DashDot, Dash::Long];
-    let pens: Vec<Pen> = (0..CONSTANTS.len())
-        .map(|k| Pen::new(Ink::Series(k), 1.3).dash(dashes[k % 4]))
-        .collect();
     // What the benchmark's bulk and most of the data need.
     let bulk = fits.ssfl.map_or(1.0, |f| {
         let spread = 2.0_f64.mul_add(f.dispersion(), f.log_mean());
@@ -64,10 +59,13 @@ pub(super) fn constants(
         let mut series = vec![empirical(at, data), ssfl];
         let mut distances = Vec::new();
         let mut missing = Vec::new();
-        for (c, pen) in CONSTANTS.into_iter().zip(&pens) {
+        for (k, (c, dash)) in CONSTANTS.into_iter().zip(dashes).enumerate() {
+            let pen = Pen::new(Ink::Series(k), 1.3).dash(dash);
             let fit = usfl7(usfl, block.shift, c);
-            let name = format!("USFL7, {title}, c = {c}");
-            series.push(fitted(at, (&name, *pen), fit.as_ref(), &grid));
+            let name = format!("USFL7, *c* = {c}");
+            let mut curve = fitted(at, (&name, pen), fit.as_ref(), &grid);
+            curve.keys[2] += &format!(", {title}");
+            series.push(curve);
             match fit {
                 Some(fit) => {
                     let apart = fit.kolmogorov_distance(&sample);
@@ -87,21 +85,11 @@ pub(super) fn constants(
         let title = format!("{title}, *θ̃* = {:.2}", at.1);
         panels.push(ChartPanel::new(title, x(), exceedance(), series));
     }
-    let dots = Sample::Mark(Marker::Dot, Ink::Muted);
-    let mut legend = vec![
-        Entry::new(dots, "ECDF"),
-        Entry::new(Sample::Line(benchmark), "SSFL"),
-    ];
-    for (c, pen) in CONSTANTS.into_iter().zip(pens) {
-        let words = format!("USFL7, *c* = {c}");
-        legend.push(Entry::new(Sample::Line(pen), words));
-    }
     let layout = Layout {
         grid: Some(Grid::new(panels.len(), 2).plot(440.0, 290.0)),
-        legend,
-        by_row: false,
         keys: &KEYS,
         numbers: &NUMBERS[..2],
+        ..Layout::default()
     };
     let heading = Heading::numbered(
         18,

@@ -7,6 +7,7 @@ use rocking_common::table::{number, point};
 use rocking_draw::axis::Axis;
 use rocking_draw::colour::{Ink, Pen};
 use rocking_draw::figures::{Column, Look, Series};
+use rocking_draw::markup::plain;
 use rocking_draw::panel::Marker;
 
 /// Columns of the CSV: which curve, the parameters of a fitted one, a point
@@ -55,7 +56,8 @@ pub(super) fn empirical(at: (Intensity, f64), sample: &[f64]) -> Series {
     let n = x.len() as f64;
     let y = (1..=x.len()).map(|k| k as f64 / n).collect();
     let dots = Look::marks(Marker::Dot, 1.7, Ink::Muted);
-    Series::of(dots, x, y).keyed(keys(at, "ECDF", None))
+    let words = "empirical fragility (ECDF)";
+    Series::of(dots, x, y).labelled(words).keyed(keys(at, "ECDF", None))
 }
 
 /// A fitted curve at these intensities; a row without a point where the fit
@@ -69,7 +71,8 @@ pub(super) fn fitted(
     let (x, y) = fit.map_or((vec![f64::NAN], vec![f64::NAN]), |fit| {
         (grid.to_vec(), grid.iter().map(|x| fit.cdf(*x)).collect())
     });
-    Series::of(Look::line(pen), x, y).keyed(keys(at, name, fit))
+    let curve = Series::of(Look::line(pen), x, y).labelled(name);
+    curve.keyed(keys(at, &plain(name), fit))
 }
 
 /// What 97 % of the data do not exceed, or the last finite datum below.

@@ -20,8 +20,6 @@ use rocking_draw::figures::{
     Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
 };
 use rocking_draw::grid::Grid;
-use rocking_draw::legend::{Entry, Sample};
-use rocking_draw::panel::Marker;
 
 const LIMIT: Fill = Fill::tint(Ink::Muted, 30);
 const USFL: (&str, Pen) = ("USFL", Pen::new(Ink::Series(0), 1.4));
@@ -171,7 +169,6 @@ pub(in super::super) fn thresholds(
     );
     let columns = THRESHOLDS.len();
     let layout = Layout {
-        legend: legend(pair, limit_of(pair.measure(Intensity::Pga))),
         by_row: true,
         keys: &KEYS,
         numbers: &NUMBERS,
@@ -185,26 +182,6 @@ pub(in super::super) fn thresholds(
 
 fn band(pen: Pen) -> Fill {
     Fill::tint(pen.ink, 26)
-}
-
-fn legend(pair: Pair, limit: f64) -> Vec<Entry> {
-    let (name, pen) = pair.other();
-    let dots = Sample::Mark(Marker::Dot, Ink::Muted);
-    let mut legend = vec![
-        Entry::new(dots, "empirical fragility (ECDF)"),
-        Entry::new(Sample::Line(USFL.1), USFL.0),
-        Entry::new(Sample::Line(pen), name),
-    ];
-    if pair == Pair::Shifted {
-        let of = Sample::Band(band(USFL.1));
-        legend.push(Entry::new(of, "95 % band of USFL"));
-    }
-    legend.push(Entry::new(Sample::Band(band(pen)), pair.band_words()));
-    if pair != Pair::Shifted {
-        let words = format!("limit: SSFL ± {limit}");
-        legend.push(Entry::new(Sample::Band(LIMIT), words));
-    }
-    legend
 }
 
 /// What a panel shows.
@@ -259,14 +236,15 @@ fn panel(
         let (x, ends): (Vec<f64>, Vec<(f64, f64)>) = found.unzip();
         let y = vec![f64::NAN; x.len()];
         let keys = keys(place, name, on.as_ref());
-        Series::of(Look::band(fill), x, y).with(ends).keyed(keys)
+        let band = Series::of(Look::band(fill), x, y).labelled(name);
+        band.with(ends).keyed(keys)
     };
     let on = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
     let (name, pen) = pair.other();
     let mut series = Vec::new();
     if on.is_some() {
         let around = vec![Some((-of.limit, of.limit)); grid.len()];
-        let words = format!("SSFL ± {}", of.limit);
+        let words = format!("limit: SSFL ± {}", of.limit);
         series.push(laid(&words, LIMIT, on, &around));
     }
     if pair == Pair::Shifted {

@@ -96,15 +96,14 @@ const PROOF: Edges = "
 /// The modules of the report.
 const REPORT: Edges = "
     answers evidence page quantity recorded timings
-    credibility evidence recorded
+    credibility evidence recorded words
     diff
     evidence diff
     findings answers page
     head
-    input answers credibility evidence findings head ledger method page recorded \
-        timings
+    input answers credibility evidence findings head ledger page recorded timings \
+        words
     ledger evidence recorded
-    method
     output answers evidence head input page quantity timings
     page evidence quantity recorded
     quantity
@@ -115,6 +114,7 @@ const REPORT: Edges = "
     tests answers credibility evidence findings head input ledger output \
         recorded
     timings speed
+    words
 ";
 
 /// The modules of the study: results, then fits, stripes and ties, then

@@ -2,21 +2,21 @@
 //! text, one palette for light, dark, print and grey.
 //!
 //! A `Scene` is a list of shapes in pixels, built without failing;
-//! `Scene::svg` writes them; plotters' coordinate system places each point.
+//! `Scene::svg` writes them.
 //! Layout uses a table of text widths, never the machine's fonts, so the same
 //! scene gives the same bytes everywhere.
 
-mod axis;
+pub mod axis;
 pub mod colour;
 pub mod figures;
 mod geometry;
-mod grid;
-mod legend;
+pub mod grid;
+pub mod legend;
 pub mod markup;
-mod panel;
+pub mod panel;
 mod scene;
 mod svg;
-mod text;
+pub mod text;
 
 // `named!` derives it.
 use serde as _;

@@ -145,11 +145,6 @@ impl<'s> Panel<'s> {
         self.x.range()
     }
 
-    /// Both ends of the vertical axis.
-    pub fn vertical_range(&self) -> Point {
-        self.y.range()
-    }
-
     /// The scene, for shapes placed in px.
     pub fn scene(&mut self) -> &mut Scene {
         self.scene

@@ -1,14 +1,9 @@
 //! The SVG of a figure, written in twentieths of a pixel.
 //!
-//! plotters' coordinate system takes pixels to these steps. The style sheet
-//! turns inks into colours. Lines that follow one another with the same pen
-//! become one path.
+//! The style sheet turns inks into colours. Lines that follow one another with
+//! the same pen become one path.
 
 use std::fmt::Write as _;
-
-use plotters::coord::CoordTranslate as _;
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::types::RangedCoordf64;
 
 use crate::colour::{Fill, Ink, Pen, STYLE};
 use crate::geometry::Point;
@@ -23,7 +18,6 @@ const FONTS: &str =
 /// An SVG under way.
 pub(super) struct Svg {
     out: String,
-    coordinates: Cartesian2d<RangedCoordf64, RangedCoordf64>,
     /// Attributes of the path being written, empty if none is.
     open: String,
     /// Where its pen is, in steps.
@@ -53,14 +47,7 @@ impl Svg {
             "</desc>\n<style>{STYLE}</style>\n\
              <rect class=\"p\" width=\"{width}\" height=\"{height}\"/>\n"
         );
-        let pixels = |px: u32| 0.0..f64::from(px);
-        let steps = |px: u32| 0..px as i32 * PER_PX;
-        let coordinates = Cartesian2d::new(
-            pixels(width),
-            pixels(height),
-            (steps(width), steps(height)),
-        );
-        Self { out, coordinates, open: String::new(), at: (0, 0) }
+        Self { out, open: String::new(), at: (0, 0) }
     }
 
     /// The whole text.
@@ -72,7 +59,7 @@ impl Svg {
 
     /// A polyline; closed if it ends where it starts.
     pub(super) fn line(&mut self, points: &[Point], pen: Pen) {
-        let points = self.steps(points);
+        let points: Vec<_> = points.iter().map(steps).collect();
         if let [first, rest @ ..] = points.as_slice() {
             self.path(stroke(pen));
             self.move_to(*first);
@@ -90,7 +77,7 @@ impl Svg {
 
     /// A filled polygon.
     pub(super) fn area(&mut self, corners: &[Point], fill: Fill) {
-        let corners = self.steps(corners);
+        let corners: Vec<_> = corners.iter().map(steps).collect();
         if let [first, rest @ ..] = corners.as_slice() {
             let mut attributes = format!("class=\"{}\"", fill.ink.class());
             if fill.percent < 100 {
@@ -109,14 +96,14 @@ impl Svg {
     pub(super) fn dot(&mut self, centre: Point, radius_px: f64, ink: Ink) {
         let (ink, width) = (ink.class(), 2.0 * whole_steps(radius_px));
         self.path(format!("class=\"l r {ink}\" stroke-width=\"{width}\""));
-        self.move_to(self.coordinates.translate(&centre));
+        self.move_to(steps(&centre));
         self.out.push_str("h0");
     }
 
     /// A line of text.
     pub(super) fn text(&mut self, line: &TextLine) {
         self.close();
-        let (x, y) = self.coordinates.translate(&line.at);
+        let (x, y) = steps(&line.at);
         let (x, y) = (px(x), px(y));
         let _ = write!(self.out, "<text class=\"{}\"", line.ink.class());
         let _ = if line.upwards {
@@ -140,10 +127,6 @@ impl Svg {
             self.out.push_str(" xml:space=\"preserve\"");
         }
         let _ = writeln!(self.out, ">{content}</text>");
-    }
-
-    fn steps(&self, points: &[Point]) -> Vec<(i32, i32)> {
-        points.iter().map(|p| self.coordinates.translate(p)).collect()
     }
 
     /// Makes sure that a path with these attributes is open.
@@ -196,6 +179,12 @@ impl Svg {
         }
         self.out.push_str(&number);
     }
+}
+
+/// The step at or left of and above a point; the thousandth takes up rounding.
+fn steps((x, y): &Point) -> (i32, i32) {
+    let step = |px: &f64| f64::from(PER_PX).mul_add(*px, 1e-3).floor() as i32;
+    (step(x), step(y))
 }
 
 /// Steps as px with the fewest characters.

@@ -2,12 +2,13 @@
 //! one rule, and what stands about every theme and every suite.
 
 use crate::evidence::Proof;
-use crate::page::{AnswerRow, ShownFigure};
+use crate::page::AnswerRow;
 use crate::quantity::{cell_text, rule_text, value_text};
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::rounded_text;
+use rocking_draw::figures::Figure;
 use rocking_study::analyses::SuiteResults;
 use rocking_study::results::Results;
 
@@ -131,12 +132,12 @@ pub(super) fn first_arm(findings: &Findings) -> Arm {
     if arms.contains(&Arm::C) { Arm::C } else { Arm::A }
 }
 
-/// An answer from the verdicts of its parts.
+/// An answer from the verdicts of its parts: its word, and what follows it.
 ///
 /// Yes: every result speaks for it. No: none does and some speak against.
 /// Nearly: none speaks against, and more than half for it. Only for: whole
 /// parts speak for it, others do not. Open: the rest.
-fn answered(parts: &[(&str, Count)]) -> String {
+fn answered(parts: &[(&str, Count)]) -> (&'static str, String) {
     let sum = |of: fn(&Count) -> usize| -> usize {
         parts.iter().map(|(_, count)| of(count)).sum()
     };
@@ -156,18 +157,26 @@ fn answered(parts: &[(&str, Count)]) -> String {
     };
     let rest = rest("open for", &open) + &rest("not for", &against);
     if all == 0 {
-        "Open: there are no data.".into()
+        ("Open", ": there are no data.".into())
     } else if yes == all {
-        format!("Yes: all {all} results confirm it.")
+        ("Yes", format!(": all {all} results confirm it."))
     } else if yes == 0 && no > 0 {
-        format!("No: {no} of {all} results refute it, none confirms it.")
+        let words =
+            format!(": {no} of {all} results refute it, none confirms it.");
+        ("No", words)
     } else if whole.is_empty() {
-        format!("Open: {yes} of {all} results for it, {no} against.")
+        ("Open", format!(": {yes} of {all} results for it, {no} against."))
     } else if no == 0 && 2 * yes > all {
-        format!("Nearly: for {whole}{rest}.")
+        ("Nearly", format!(": for {whole}{rest}."))
     } else {
-        format!("Only for {whole}{rest}.")
+        ("Only", format!(" for {whole}{rest}."))
     }
+}
+
+/// That answer as a sentence.
+fn sentence(parts: &[(&str, Count)]) -> String {
+    let (word, rest) = answered(parts);
+    word.to_owned() + &rest
 }
 
 /// The rows of the first table. The first of `recorded` and `here` that
@@ -178,7 +187,7 @@ pub(super) fn rows(
     recorded: Option<&Findings>,
     timings: &Timings,
     proof: Option<&Proof>,
-    figures: &[(u32, ShownFigure)],
+    figures: &[&Figure],
 ) -> Vec<AnswerRow> {
     let sources: Vec<&Findings> = recorded.into_iter().chain([here]).collect();
     let lead = recorded.unwrap_or(here);
@@ -192,9 +201,7 @@ pub(super) fn rows(
             let column = |findings: &&Findings| {
                 let all = asked.parts.iter().flat_map(|(_, ids)| *ids);
                 let all: Vec<&str> = all.copied().collect();
-                let answer = answered(&counts(findings));
-                let word = answer.split([':', ';']).next().unwrap_or("");
-                let word = word.split(" for ").next().unwrap_or(word);
+                let (word, _) = answered(&counts(findings));
                 let counts = Count::of(findings, &all).words();
                 match sources.len() {
                     1 => counts,
@@ -202,12 +209,13 @@ pub(super) fn rows(
                 }
             };
             let shown = asked.figures.iter().filter_map(|number| {
-                let (_, figure) = figures.iter().find(|f| f.0 == *number)?;
-                Some((figure.name.clone(), format!("Figure {number}")))
+                let is = |f: &&&Figure| f.heading.number == Some(*number);
+                let name = figures.iter().find(is)?.heading.name.clone();
+                Some((name, format!("Figure {number}")))
             });
             AnswerRow {
                 question: asked.question.into(),
-                answer: answered(&counts(lead)),
+                answer: sentence(&counts(lead)),
                 effect: effect(lead, asked),
                 columns: sources.iter().map(column).collect(),
                 shown: shown.collect(),
@@ -536,7 +544,7 @@ mod tests {
             (vec![("a", count(0, 0, 4))], "Open: 0 of 4 results"),
             (vec![("a", count(0, 0, 0))], "Open: there are no data."),
         ] {
-            let found = answered(&parts);
+            let found = sentence(&parts);
             assert!(found.starts_with(answer), "{found:?}, {answer:?}");
         }
     }
@@ -561,7 +569,7 @@ mod tests {
                         (*n, if k == 0 { first } else { other })
                     })
                     .collect();
-                let found = answered(&parts);
+                let found = sentence(&parts);
                 assert!(found.split(' ').count() <= 15, "{found}");
             }
         }

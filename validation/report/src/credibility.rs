@@ -4,6 +4,7 @@
 use rocking::block::{BlockError, Restitution};
 
 use crate::evidence::{NOT_RUN, Proof};
+use crate::words::{Words, words};
 use rocking_common::findings::{Claim, Findings, Measured};
 use rocking_common::paper::{BLOCKS, GRAVITY_M_S2, RESTITUTION};
 use rocking_common::table::PlainTable;
@@ -110,20 +111,20 @@ fn ratios(results: &Results, claims: &[Claim]) -> Vec<Compared> {
 /// Comparison errors, then the assessment.
 ///
 /// # Errors
-/// [`BlockError`] for a block out of range.
+/// For a block out of range, and for damaged words.
 pub fn tables(
     results: &Results,
     claims: &[Claim],
     proof: Option<&Proof>,
     recorded: Option<&Findings>,
-) -> Result<Vec<PlainTable>, BlockError> {
+) -> anyhow::Result<Vec<PlainTable>> {
     let suites = [&results.ordinary, &results.pulse];
     let shift = suites
         .iter()
         .map(|s| s.work.certainty.largest_shift)
         .fold(0.0, |a: f64, b| if b > a { b } else { a });
     let compared = [printed()?, ratios(results, claims)].concat();
-    let assessment = assessment(results, proof, recorded);
+    let assessment = assessment(results, proof, recorded)?;
     Ok(vec![comparison(&compared, shift), assessment])
 }
 
@@ -270,97 +271,34 @@ fn assessment(
     results: &Results,
     proof: Option<&Proof>,
     recorded: Option<&Findings>,
-) -> PlainTable {
+) -> anyhow::Result<PlainTable> {
     let (evidence, gap) = synthetic(recorded);
-    let input = if results.embedded() {
-        ["Input pedigree", "1", &evidence, gap]
-    } else {
-        [
-            "Input pedigree",
-            "2",
-            "Suites given by the user; files are checked, hashes under \
-             provenance.",
-            "Where the records come from, and how they were processed, is \
-             the user's to say.",
-        ]
-    };
-    let verification = if proof.is_some() {
-        [
-            "Verification",
-            "3",
-            "Closed forms, trajectories with 36 digits, order of \
-             convergence, error estimates, invariants and wrong models that \
-             must fail: the section on evidence.",
-            "No one outside the project has repeated it. Other machines \
-             than x86-64 Linux were not measured.",
-        ]
-    } else {
-        ["Verification", "0", "Not run here.", NOT_RUN]
-    };
-    let rows = [
-        [
-            "Data pedigree",
-            "2",
-            "Reference values have their origin, generator, licence and \
-             hash in fixtures/MANIFEST.toml; published tables where there \
-             are some.",
-            "Most of the high-precision references were computed for this \
-             project; the paper's own data are not published.",
-        ],
-        verification,
-        [
-            "Validation",
-            "1",
-            "The conceptual model is that of the paper, and the paper's \
-             claims are measured.",
-            "No comparison with shaking-table tests. Sliding, bouncing, \
-             vertical motion and flexible supports are outside the model.",
-        ],
-        input,
-        [
-            "Uncertainty characterization",
-            "2",
-            "Error estimates, and first overturnings reevaluated where \
-             double precision may not tell them, for the numerics; for the \
-             records, one joint resampling of earthquakes gives every \
-             finding an interval; coverage on simulated suites is a \
-             family of declared cases.",
-            "The uncertainty of the coefficient of restitution is not \
-             propagated, only varied.",
-        ],
-        [
-            "Results robustness",
-            "2",
-            "Other restitution, criterion, component, grid, null and \
-             inversion, and one record less: sensitivities and the \
-             questions beyond the paper.",
-            "On all 15 blocks only with --full; one factor at a time, no \
-             interactions.",
-        ],
-        [
-            "Use history",
-            "0",
-            "None.",
-            "Nobody has yet used these results for a decision and reported it.",
-        ],
-        [
-            "Management of model and process",
-            "2",
-            "Versions, a changelog of results, one gate for every change, \
-             results that regenerate to the same bytes.",
-            "No formal process, no independent review.",
-        ],
-    ];
+    let row = |cells: [&str; 4]| cells.map(String::from).into();
+    let Words { mut assessment, verified, given, .. } = words()?;
+    assessment.insert(
+        1,
+        match proof {
+            Some(_) => verified,
+            None => row(["Verification", "0", "Not run here.", NOT_RUN]),
+        },
+    );
+    assessment.insert(
+        3,
+        match results.embedded() {
+            true => row(["Input pedigree", "1", &evidence, gap]),
+            false => given,
+        },
+    );
     let header = ["factor", "level", "evidence", "gaps"];
-    PlainTable::new(
+    Ok(PlainTable::new(
         "credibility-assessment",
         "Credibility, after NASA-STD-7009B",
         "Levels from 0, insufficient evidence, to 4, by the \
                   project's own judgement; no one has certified them. The \
                   least of them bounds what the whole can be trusted for.",
         &header,
-        rows.map(|row| row.map(String::from).into()).into(),
-    )
+        assessment,
+    ))
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use crate::answers;
 use crate::page::{Column, Shown};
 use rocking_common::findings::{Claim, Findings, Kind, Theme};
 use rocking_common::table::PlainTable;
+use rocking_draw::figures::{Figure, Place};
 
 /// Where the numbers of the recorded suites come from: name and words.
 pub fn kept(recorded: &Findings) -> Vec<(String, String)> {
@@ -36,19 +37,13 @@ pub fn columns(here: &Findings, recorded: Option<&Findings>) -> Vec<Column> {
     }
 }
 
-/// The theme in which a figure of the paper stands.
-pub fn theme_of(number: u32) -> Theme {
-    match number {
-        2..=5 => Theme::SingleRecords,
-        6..=10 => Theme::Statistics,
-        11..=14 => Theme::Lognormality,
-        15..=18 => Theme::Fragilities,
-        _ => Theme::Choices,
-    }
-}
-
-/// The themes with what came out about each, without figures.
-pub fn themes(here: &Findings, recorded: Option<&Findings>) -> Vec<Shown> {
+/// The themes with what came out about each, and those of the figures that
+/// belong to it.
+pub fn themes<'a>(
+    here: &Findings,
+    recorded: Option<&Findings>,
+    figures: &[&'a Figure],
+) -> Vec<Shown<'a>> {
     let order = [
         Theme::SingleRecords,
         Theme::Statistics,
@@ -60,10 +55,16 @@ pub fn themes(here: &Findings, recorded: Option<&Findings>) -> Vec<Shown> {
     let shown = |theme| Shown {
         theme,
         paragraph: answers::by_theme(theme, here, recorded),
-        figures: Vec::new(),
-        more: Vec::new(),
+        figures: placed(figures, Place::Opens(theme)),
+        more: placed(figures, Place::Folded(theme)),
     };
     order.map(shown).into()
+}
+
+/// Those of the figures that belong there.
+pub fn placed<'a>(figures: &[&'a Figure], place: Place) -> Vec<&'a Figure> {
+    let there = |f: &&&Figure| f.heading.place == place;
+    figures.iter().filter(there).copied().collect()
 }
 
 /// What is true by definition or arithmetic, and what describes.

@@ -6,14 +6,14 @@ use rocking::integrator::Overturning;
 use crate::answers;
 use crate::credibility;
 use crate::evidence::{self, NOT_RUN, Proof};
-use crate::findings;
+use crate::findings::{self, placed};
 use crate::head;
 use crate::head::Signatures;
 use crate::ledger;
-use crate::method;
-use crate::page::{Chapter, ReportInput, ShownFigure};
+use crate::page::{Chapter, ReportInput};
 use crate::recorded;
 use crate::timings::Timings;
+use crate::words::words;
 use rocking_common::findings::Findings;
 use rocking_common::paper::{Arm, BLOCKS, GRAVITY_M_S2};
 use rocking_common::table::PlainTable;
@@ -24,43 +24,31 @@ use rocking_study::results::Results;
 /// Title of the page.
 pub(super) const TITLE: &str = "The statistics of rocking";
 
-/// Figures beside the answers, by their numbers.
-const FIRST: [u32; 2] = [8, 16];
-
-/// The figure of Eq. 1's departure from similarity.
-const SIMILARITY: u32 = 19;
-
-/// Figures that open a theme, by their numbers; its others are folded.
-const LEADING: [u32; 8] = [2, 4, 6, 7, 11, 12, 15, 17];
-
 /// What the page shows; `proof` are the results of the declared cases, if
 /// they were handed in.
 ///
 /// # Errors
 /// Where a figure cannot be drawn.
-pub fn input(
+pub fn input<'a>(
     results: &Results,
-    figures: &[Figure],
-    charts: &[Figure],
+    figures: &'a [Figure],
+    charts: &'a [Figure],
     found: &Findings,
     questions: &[Answer],
     proof: Option<&Proof>,
     signatures: &Signatures,
-) -> anyhow::Result<ReportInput> {
+) -> anyhow::Result<ReportInput<'a>> {
     let timings = Timings::kept()?;
+    let words = words()?;
     let recorded = results.embedded().then(recorded::recorded).transpose()?;
     let recorded = recorded.as_ref();
     // Of figures that both arms have, those of the paper's grid stand in the
     // annex.
-    let other = |figure: &&Figure| {
-        figure.heading.own_arm() == Some(Arm::A)
-            && results.plan.drawn().len() > 1
-    };
-    let own: Vec<(u32, ShownFigure)> = figures
+    let both = results.plan.drawn().len() > 1;
+    let (other, own): (Vec<&Figure>, Vec<&Figure>) = figures
         .iter()
-        .filter(|f| !other(f))
-        .filter_map(|f| Some((f.heading.number()?, shown(f))))
-        .collect();
+        .partition(|f| both && f.heading.own_arm() == Some(Arm::A));
+    let charts: Vec<&Figure> = charts.iter().collect();
     let rows = answers::rows(
         results.embedded(),
         found,
@@ -69,27 +57,16 @@ pub fn input(
         proof,
         &own,
     );
-    let (first, rest): (Vec<_>, Vec<_>) =
-        own.into_iter().partition(|(number, _)| FIRST.contains(number));
-    let mut themes = findings::themes(found, recorded);
-    for (number, figure) in rest {
-        let theme = findings::theme_of(number);
-        if let Some(one) = themes.iter_mut().find(|t| t.theme == theme) {
-            let leads = LEADING.contains(&number);
-            let list = if leads { &mut one.figures } else { &mut one.more };
-            list.push(figure);
-        }
-    }
     let compared = || questions.iter().filter(|q| q.id == "suites");
     let work = [&results.ordinary, &results.pulse].map(answers::work);
     let suites = Chapter {
         text: compared().map(|q| q.answer.clone()).collect(),
-        figures: drawn(figures, |f| f.heading.place == Place::Suites),
+        figures: placed(&own, Place::Suites),
         ..Chapter::titled("suites", "Suites")
     };
     let by_block = Chapter {
         tables: compared().flat_map(|q| q.tables.clone()).collect(),
-        figures: drawn(figures, |f| f.heading.place == Place::SuitesByBlock),
+        figures: placed(&own, Place::SuitesByBlock),
         ..Chapter::titled(
             "suites-by-block",
             "Suites: motions, and capacities block by block",
@@ -101,7 +78,7 @@ pub fn input(
             .filter(|q| q.id != "suites")
             .flat_map(|q| answered(q, recorded))
             .collect(),
-        figures: drawn(figures, |f| f.heading.place == Place::Beside),
+        figures: placed(&own, Place::Beyond),
         ..Chapter::titled("beyond", "Questions beyond the paper")
     };
     let claims = &found.claims;
@@ -111,9 +88,6 @@ pub fn input(
     );
     // The assessment is short; the comparison has a row for each result.
     let assessment = trust.split_off(trust.len().saturating_sub(1));
-    let mut speed = timings.tables();
-    let settings = speed.extract_if(.., |t| t.name == "speed-settings");
-    let settings: Vec<PlainTable> = settings.collect();
     let coverage = proof.map(Proof::coverage).transpose()?;
     let only = |id, title: &str, tables| Chapter {
         tables,
@@ -131,17 +105,17 @@ pub fn input(
         .concat(),
         signatures: signatures.shown(),
         answers: rows,
-        first: first.into_iter().map(|(_, f)| f).collect(),
+        first: placed(&own, Place::Answers),
         columns: findings::columns(found, recorded),
-        findings: themes,
+        findings: findings::themes(found, recorded, &own),
         identities: findings::identities(found),
         method: [
-            method::method(),
+            words.method,
             vec![answers::trust(found, recorded)],
             coverage.iter().map(|c| c.words()).collect(),
         ]
         .concat(),
-        glossary: method::glossary(),
+        glossary: words.glossary,
         proof: format!(
             "{} {} {}",
             proof.map_or(NOT_RUN.into(), Proof::to_string),
@@ -150,16 +124,10 @@ pub fn input(
         ),
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
-            figures: charts
-                .iter()
-                .filter(|c| c.heading.number() != Some(SIMILARITY))
-                .map(shown)
-                .collect(),
+            figures: placed(&charts, Place::Proof),
             folded: vec![Chapter {
                 tables: evidence::checks(proof)?,
-                figures: drawn(charts, |c| {
-                    c.heading.number() == Some(SIMILARITY)
-                }),
+                figures: placed(&charts, Place::Checks),
                 ..Chapter::titled(
                     "checks",
                     "Pulses, critical values, departure from similarity",
@@ -170,11 +138,8 @@ pub fn input(
         chapters: vec![
             Chapter {
                 text: vec![timings.plain()],
-                tables: settings,
-                figures: vec![ShownFigure {
-                    number: "Speed".into(),
-                    ..shown(&timings.figure())
-                }],
+                tables: vec![timings.settings()],
+                figures: placed(&charts, Place::Speed),
                 ..Chapter::titled("speed", "Speed against error")
             },
             suites,
@@ -214,7 +179,7 @@ pub fn input(
                 coverage.iter().map(|c| c.table()).collect(),
             ),
             Chapter {
-                figures: drawn(figures, |f| other(&f)),
+                figures: other,
                 ..Chapter::titled(
                     "paper-s-grid",
                     "Figures on the paper's grid (arm A)",
@@ -227,7 +192,7 @@ pub fn input(
             only(
                 "speed-tried",
                 "Speed: other tools, and settings tried",
-                speed,
+                timings.tables(),
             ),
             only("requirements", "Requirements", vec![ledger]),
         ]
@@ -254,13 +219,6 @@ fn answered(
         );
     }
     tables
-}
-
-fn drawn(
-    figures: &[Figure],
-    is: impl Fn(&Figure) -> bool,
-) -> Vec<ShownFigure> {
-    figures.iter().filter(|f| is(f)).map(shown).collect()
 }
 
 /// Table 1, with the paper's gravity.
@@ -299,23 +257,6 @@ pub fn table_1() -> Result<PlainTable, BlockError> {
 /// rounds it: `{:.3}` takes 7.3575 down, whose double lies below it.
 fn millimetres(length_m: f64) -> String {
     format!("{:.3}", (1e3 * length_m).round() / 1e3)
-}
-
-fn shown(figure: &Figure) -> ShownFigure {
-    let heading = &figure.heading;
-    let arm = heading
-        .own_arm()
-        .map_or(String::new(), |arm| format!(", arm {}", arm.letter()));
-    ShownFigure {
-        name: heading.name.clone(),
-        number: heading.number().map_or_else(
-            || "Beyond the paper".into(),
-            |number| format!("Figure {number}{arm}"),
-        ),
-        title: heading.title.clone(),
-        reading: figure.reading.clone(),
-        svg: figure.svg(),
-    }
 }
 
 pub(super) fn provenance(results: &Results) -> Vec<(String, String)> {

@@ -191,7 +191,7 @@ pub fn table(
 ) -> anyhow::Result<PlainTable> {
     let measured = |name: &str| claims.iter().any(|c| c.id == name);
     let drawn = |number: u32| {
-        let is = |f: &Figure| f.heading.number() == Some(number);
+        let is = |f: &Figure| f.heading.number == Some(number);
         figures.iter().any(|f| is(f) && !f.csv.is_empty())
     };
     let requirements = requirements()?;

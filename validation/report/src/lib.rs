@@ -8,7 +8,6 @@ pub mod findings;
 pub mod head;
 pub mod input;
 pub mod ledger;
-mod method;
 pub mod output;
 pub mod page;
 pub mod quantity;
@@ -17,6 +16,7 @@ pub mod recorded;
 pub mod speed;
 pub mod stale;
 pub mod timings;
+mod words;
 
 #[cfg(test)]
 mod tests;

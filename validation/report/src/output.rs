@@ -96,9 +96,9 @@ pub fn files(
     signatures: &Signatures,
 ) -> anyhow::Result<Files> {
     let mut files = Files::new();
-    let timed = Timings::kept()?.figure();
-    let charts = evidence::charts()?;
-    for figure in study.figures.iter().chain([&timed]).chain(&charts) {
+    let mut charts = vec![Timings::kept()?.figure()];
+    charts.extend(evidence::charts()?);
+    for figure in study.figures.iter().chain(&charts) {
         let name = &figure.heading.name;
         files.insert(format!("{name}.svg"), figure.svg().into_bytes());
         let csv = figure.csv.clone();

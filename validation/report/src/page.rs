@@ -1,8 +1,8 @@
 //! The report: one HTML file that reads without network and without
 //! scripts, on a phone, on paper, light or dark.
 //!
-//! [`page`] is a pure function: findings and cases arrive as they are, the
-//! rest as words and numbers already formatted, and the figures as SVG.
+//! [`page`] is a pure function: findings, cases and figures arrive as they
+//! are, the rest as words and numbers already formatted.
 
 mod figures;
 mod input;
@@ -15,7 +15,6 @@ use rocking_draw::colour;
 
 use input::Part;
 
-pub use figures::ShownFigure;
 pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
 
 const STYLE: &str = include_str!("page/page.css");
@@ -31,7 +30,7 @@ const STYLE: &str = include_str!("page/page.css");
 /// assert!(html.starts_with("<!DOCTYPE html>"));
 /// assert!(html.contains("<h1>A &amp; B</h1>"));
 /// ```
-pub fn page(input: &ReportInput) -> String {
+pub fn page(input: &ReportInput<'_>) -> String {
     let parts = sections::all(input);
     html! {
         (DOCTYPE)

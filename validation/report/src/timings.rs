@@ -9,7 +9,7 @@ use crate::speed::singles::BASE;
 use crate::speed::throughput::Throughput;
 use rocking_common::words::{range, rounded};
 use rocking_draw::figures::{
-    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Series,
+    Chart, ChartAxis, ChartPanel, Figure, Heading, Mark, Place, Series,
 };
 
 const SINGLES: &str = include_str!("../../../fixtures/speed/singles.csv");
@@ -152,32 +152,29 @@ impl Timings {
                 axis
             }
         };
-        let panel = |title: &str, x: ChartAxis, y: ChartAxis, series| {
-            ChartPanel { title: title.into(), x, y, series }
-        };
         let error = "median error of peak |*θ*|/*α*";
         let share =
             |t: &Total| 100.0 * t.other_impacts as f64 / t.cases as f64;
         let mut panels = vec![
-            panel(
+            ChartPanel::new(
                 "peak, by time",
                 time(),
                 logarithmic(error),
                 series(|t| t.ratio, |t| t.peak_error),
             ),
-            panel(
+            ChartPanel::new(
                 "peak, by work",
                 logarithmic("Taylor polynomials, or derivatives evaluated"),
                 logarithmic(error),
                 series(|t| t.work, |t| t.peak_error),
             ),
-            panel(
+            ChartPanel::new(
                 "first ten impacts, by time",
                 time(),
                 logarithmic("median error of their times (s)"),
                 series(|t| t.ratio, |t| t.impact_error_s),
             ),
-            panel(
+            ChartPanel::new(
                 "all impacts, by time",
                 time(),
                 ChartAxis::linear(
@@ -189,16 +186,19 @@ impl Timings {
         ];
         panels.iter_mut().for_each(widen);
         let drawing = Chart {
-            heading: Heading::new(
-                "speed-and-error",
-                "Speed and error, this project and other tools",
-                format!(
-                    "Error of the peak and of impact times, and share of \
-                     analyses with another number of impacts, against \
-                     processor time and work. {}",
-                    self.measured_on()
-                ),
-            ),
+            heading: Heading {
+                place: Place::Speed,
+                ..Heading::new(
+                    "speed-and-error",
+                    "Speed and error, this project and other tools",
+                    format!(
+                        "Error of the peak and of impact times, and share of \
+                         analyses with another number of impacts, against \
+                         processor time and work. {}",
+                        self.measured_on()
+                    ),
+                )
+            },
             panels,
             columns: 2,
         };

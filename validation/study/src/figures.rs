@@ -5,6 +5,7 @@ mod fragilities;
 mod quantiles;
 mod ratios;
 mod single;
+mod tested;
 
 pub(crate) use ratios::adjusted_boxes;
 
@@ -21,8 +22,8 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
     let drawn = results.plan.drawn();
     let mut out = vec![single::sketch()];
     let one = results.plan.common();
-    out.push(single::histories(&results.ordinary, one, 2));
-    out.push(single::histories(&results.pulse, one, 3));
+    out.push(single::motions(&results.ordinary, one, 2));
+    out.push(single::motions(&results.pulse, one, 3));
     out.push(single::curves(&results.ordinary, one, 4)?);
     out.push(single::curves(&results.pulse, one, 5)?);
     for number in [6, 7] {
@@ -44,7 +45,7 @@ pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Figure>> {
     out.push(distributions::inverted(results, one)?);
     out.push(distributions::shares(results, 12)?);
     for arm in &drawn {
-        out.push(distributions::along(results, *arm)?);
+        out.push(tested::along(results, *arm)?);
     }
     out.push(distributions::shares(results, 14)?);
     for number in [15, 16, 17] {

@@ -1,7 +1,6 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
 
 use super::common;
-use super::common::Slendernesses;
 use super::heading::{Figure, Heading};
 use rocking::statistics::Boxplot;
 
@@ -143,7 +142,6 @@ const WIDEST: (f64, f64) = (0.1, 10.0);
 const STRETCH: f64 = 0.005;
 
 fn scene(figure: &Boxplots) -> Scene {
-    let inks = Slendernesses::new(figure.panels.iter().map(|p| p.alpha_rad));
     let most = figure.panels.iter().map(|p| p.stripes.len()).max();
     let height = 21.0 * most.unwrap_or(0).clamp(6, 16) as f64;
     let grid = Grid::new(figure.panels.len(), figure.columns);
@@ -154,8 +152,13 @@ fn scene(figure: &Boxplots) -> Scene {
     };
     let grid = Grid { right: 44.0, ..grid }.plot(width, height);
     let (low, high) = ratio_range(figure);
-    let mut legend =
-        if figure.panels.len() > 1 { inks.boxes() } else { vec![] };
+    let mut legend: Vec<Entry> = Vec::new();
+    for alpha in figure.panels.iter().map(|p| p.alpha_rad) {
+        let words = common::slenderness(alpha);
+        if figure.panels.len() > 1 && legend.iter().all(|e| e.label != words) {
+            legend.push(Entry::new(Sample::Box(common::ink(alpha)), words));
+        }
+    }
     let cross = Sample::Mark(Marker::Cross, Ink::Text);
     legend.push(Entry::new(cross, "outlier"));
     if summaries(figure).any(|b| b.median_interval.is_some()) {
@@ -185,7 +188,7 @@ fn scene(figure: &Boxplots) -> Scene {
         let mut panel = Panel::new(&mut scene, grid.frame(i), x, y)
             .empty_because("too few usable ratios");
         panel.vertical(1.0, ONE);
-        let ink = Ink::Series(inks.series(shown.alpha_rad));
+        let ink = common::ink(shown.alpha_rad);
         draw_stripes(&mut panel, shown, ink, (low, high));
         // Over the boxes: it is what their medians are compared with.
         let stripes = shown.stripes.iter().enumerate();

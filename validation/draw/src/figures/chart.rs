@@ -1,22 +1,25 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
-use super::common::{self, largest, thin};
+use super::common;
 use super::heading::{Figure, Heading};
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::geometry::{Point, kept};
 use crate::grid::Grid;
 use crate::legend::{Entry, Sample};
 use crate::markup;
 use crate::panel::{Marker, Panel};
 use crate::scene::Scene;
+use crate::text::Horizontal;
 use rocking_common::table::{Table, number};
 use rocking_common::words::letter;
 
-/// Size of a panel for [`Chart::thinned`], in px.
-const WIDTH_PX: f64 = 560.0;
-const HEIGHT_PX: f64 = 320.0;
 /// Columns of a panel within which a line is its ends and extremes.
 const COLUMNS: usize = 1120;
+/// How far a thinned line may be from the full one, in px.
+const TOLERANCE_PX: f64 = 0.1;
+/// Smallest distance between words at the right-hand edge, in px.
+const APART_PX: f64 = 11.5;
 
 /// A figure of one or more panels with a shared legend.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +35,7 @@ pub struct Chart {
 /// One pair of axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChartPanel {
-    /// Title in markup, or nothing.
+    /// Title in markup, or nothing; what follows a line break stands below it.
     pub title: String,
     /// Horizontal axis.
     pub x: ChartAxis,
@@ -56,6 +59,14 @@ pub struct ChartAxis {
     /// The same in another unit, at the opposite edge; of a horizontal axis
     /// alone.
     pub second: Option<Second>,
+    /// The axis as it is drawn, which the rest then does not change.
+    drawn: Option<Axis>,
+}
+
+impl From<Axis> for ChartAxis {
+    fn from(axis: Axis) -> Self {
+        Self { drawn: Some(axis), ..Self::linear("", None) }
+    }
 }
 
 /// Both ends of an axis; none: from the data.
@@ -72,8 +83,8 @@ pub struct Second {
 
 impl ChartAxis {
     fn new(label: impl Into<String>, scale: Scale, range: Ends) -> Self {
-        let label = label.into();
-        Self { label, scale, range, categories: Vec::new(), second: None }
+        let (label, categories) = (label.into(), Vec::new());
+        Self { label, scale, range, categories, second: None, drawn: None }
     }
 
     /// A linear axis with these ends, or with those of the data.
@@ -109,20 +120,26 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// One legend entry's data.
+/// What is drawn in one way: its numbers are the rows of the CSV.
+///
+/// An abscissa of +infinity is an overturned block: its line goes on level
+/// from 1 to the end of the axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     /// Legend in markup; the same label has the same colour in every panel,
     /// an empty one is drawn in grey and has no legend.
     pub label: String,
+    /// The cells that name it in the CSV; none: it has no rows, since it
+    /// shows numbers of other series again.
+    pub keys: Vec<String>,
     /// How it is drawn.
     pub mark: Mark,
     /// Abscissas.
     pub x: Vec<f64>,
     /// Ordinates.
     pub y: Vec<f64>,
-    /// Intervals of the ordinates (error bars, or a band with
-    /// [`Mark::Line`]); empty: none.
+    /// Intervals of the ordinates, or of the abscissas with
+    /// [`Mark::Quantiles`]; empty: none.
     pub interval: Vec<(f64, f64)>,
 }
 
@@ -130,69 +147,232 @@ impl ChartPanel {
     /// A panel.
     pub fn new(
         title: impl Into<String>,
-        x: ChartAxis,
-        y: ChartAxis,
+        x: impl Into<ChartAxis>,
+        y: impl Into<ChartAxis>,
         series: Vec<Series>,
     ) -> Self {
-        Self { title: title.into(), x, y, series }
+        Self { title: title.into(), x: x.into(), y: y.into(), series }
     }
 }
 
 impl Series {
-    /// A series without intervals.
+    /// A series without intervals, which its label names in the CSV.
     pub fn new(
         label: impl Into<String>,
         mark: Mark,
         x: Vec<f64>,
         y: Vec<f64>,
     ) -> Self {
-        Self { label: label.into(), mark, x, y, interval: Vec::new() }
+        let label = label.into();
+        let keys = vec![markup::plain(&label)];
+        Self { label, keys, mark, x, y, interval: Vec::new() }
+    }
+
+    /// A series with this look, without legend.
+    pub fn of(look: Look, x: Vec<f64>, y: Vec<f64>) -> Self {
+        Self::new("", Mark::Own(look), x, y)
+    }
+
+    /// What is no data, at a point: reference lines and words.
+    pub fn note(mark: Mark, words: impl Into<String>, at: Point) -> Self {
+        Self::new(words, mark, vec![at.0], vec![at.1]).keyed([])
+    }
+
+    /// The series with an entry in the legend.
+    pub fn labelled(self, label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..self }
     }
 
     /// The series with these intervals.
     pub fn with(self, interval: Vec<(f64, f64)>) -> Self {
         Self { interval, ..self }
     }
+
+    /// The series with these cells that name it in the CSV.
+    pub fn keyed<const N: usize>(self, keys: [String; N]) -> Self {
+        Self { keys: keys.into(), ..self }
+    }
+
+    /// Its points.
+    fn points(&self) -> impl DoubleEndedIterator<Item = Point> + Clone {
+        self.x.iter().zip(&self.y).map(|(x, y)| (*x, *y))
+    }
 }
 
 /// How a series is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Mark {
-    /// A line.
+    /// A line, over a band where there are intervals.
     Line,
     /// A dashed line, such as a reference slope or a limit.
     Dashed,
-    /// Marks alone.
+    /// Marks alone, on bars where there are intervals.
     Points,
     /// Marks joined by a line.
     LineAndPoints,
     /// Marks joined by a dashed line.
     DashedAndPoints,
+    /// A line, and two thin ones along the ends of the abscissas' intervals.
+    Quantiles,
+    /// As it says.
+    Own(Look),
+    /// A horizontal line through the whole panel.
+    Across(Pen),
+    /// A vertical line through the whole panel.
+    Upright(Pen),
+    /// The label, on a baseline at the point.
+    Words(Horizontal),
+    /// The label in the lower right-hand corner, above later ones.
+    Corner,
+    /// The label right of the panel, above earlier ones.
+    Edge,
 }
 
+/// Pens, fills and marks of a series; those it does not have are none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Look {
+    /// The line.
+    pub pen: Option<Pen>,
+    /// Lines along the ends of the abscissas' intervals.
+    pub sides: Option<Pen>,
+    /// Bars between the ends of the ordinates' intervals.
+    pub bars: Option<Pen>,
+    /// The band between these ends.
+    pub band: Option<Fill>,
+    /// Bars from each abscissa to the next one, which the line goes around.
+    pub bins: Option<Fill>,
+    /// Mark, half width in px and ink at each point.
+    pub marker: Option<(Marker, f64, Ink)>,
+}
+
+impl Look {
+    /// Nothing but a line.
+    pub fn line(pen: Pen) -> Self {
+        Self { pen: Some(pen), ..Self::default() }
+    }
+
+    /// Nothing but a band.
+    pub fn band(fill: Fill) -> Self {
+        Self { band: Some(fill), ..Self::default() }
+    }
+
+    /// Nothing but marks of this half width in px.
+    pub fn marks(marker: Marker, half_px: f64, ink: Ink) -> Self {
+        Self { marker: Some((marker, half_px, ink)), ..Self::default() }
+    }
+}
+
+/// How a chart is laid out and written, where that is not as usual.
+#[derive(Clone, Default)]
+pub struct Layout<'a> {
+    /// Sizes; none: by the number of columns.
+    pub grid: Option<Grid>,
+    /// Entries behind those of the labels.
+    pub legend: Vec<Entry>,
+    /// Whether the panels of a row share their letter.
+    pub by_row: bool,
+    /// Columns of the CSV that name a series; none: `series`.
+    pub keys: &'a [&'a str],
+    /// Columns of its numbers; none: `x,y,y_low,y_high`.
+    pub numbers: &'a [Column],
+}
+
+/// A column of numbers: its name, what it has of a point, and its digits.
+pub type Column = (&'static str, fn(&Datum) -> f64, fn(f64) -> String);
+
+/// A point with the ends of its interval, NaN where it has none.
+pub struct Datum {
+    /// Abscissa.
+    pub x: f64,
+    /// Ordinate.
+    pub y: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+}
+
+const NUMBERS: [Column; 4] = [
+    ("x", |d| d.x, number),
+    ("y", |d| d.y, number),
+    ("y_low", |d| d.low, number),
+    ("y_high", |d| d.high, number),
+];
+
 impl Mark {
-    fn has_points(self) -> bool {
-        !matches!(self, Self::Line | Self::Dashed)
+    fn look(self, rank: Option<usize>) -> Look {
+        let usual = Pen::of_series(rank.unwrap_or(0));
+        let thin = Pen { width_px: 1.1, dash: Dash::Solid, ..usual };
+        let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
+        let pen = match self {
+            Self::Own(look) => return look,
+            Self::Quantiles => {
+                let wide =
+                    |share| Pen { width_px: share * usual.width_px, ..usual };
+                let (pen, sides) = (Some(wide(1.15)), Some(wide(0.55)));
+                return Look { pen, sides, ..Look::default() };
+            }
+            _ if rank.is_none() => grey,
+            Self::Dashed | Self::DashedAndPoints => thin.dash(Dash::Dashed),
+            Self::Points | Self::LineAndPoints => thin,
+            _ => usual,
+        };
+        let line = matches!(self, Self::Line | Self::Dashed);
+        let bar = Pen { width_px: 0.8, dash: Dash::Solid, ..pen };
+        let marker = Marker::of_series(rank.unwrap_or(0));
+        Look {
+            pen: (self != Self::Points).then_some(pen),
+            bars: (!line).then_some(bar),
+            band: line.then_some(Fill::tint(pen.ink, 16)),
+            marker: (!line).then_some((marker, 3.0, pen.ink)),
+            ..Look::default()
+        }
+    }
+
+    /// What stands before the label of a series in the legend.
+    fn sample(self, rank: usize) -> Option<Sample> {
+        let look = self.look(Some(rank));
+        match (self, look.pen, look.marker) {
+            (
+                Self::Across(_)
+                | Self::Upright(_)
+                | Self::Words(_)
+                | Self::Corner
+                | Self::Edge,
+                ..,
+            ) => None,
+            (Self::Quantiles, ..) => Some(Sample::Line(Pen::of_series(rank))),
+            (_, Some(pen), Some((marker, ..))) => {
+                Some(Sample::LineAndMark(pen, marker))
+            }
+            (_, Some(pen), None) => Some(Sample::Line(pen)),
+            (_, None, Some((marker, _, ink))) => {
+                Some(Sample::Mark(marker, ink))
+            }
+            _ => look.band.map(Sample::Band),
+        }
     }
 }
 
 impl Chart {
-    /// The chart with no more points in its lines over linear axes than a
-    /// drawing shows.
-    pub fn thinned(mut self) -> Self {
-        let linear = |p: &&mut ChartPanel| {
-            p.x.scale == Scale::Linear && p.y.scale == Scale::Linear
-        };
-        for panel in self.panels.iter_mut().filter(linear) {
-            let series = || panel.series.iter();
-            let wide = largest(series().flat_map(|s| &s.x));
-            let high = largest(series().flat_map(|s| &s.y));
-            let px = (WIDTH_PX / wide, HEIGHT_PX / high);
-            for series in &mut panel.series {
-                if series.interval.is_empty() {
-                    extremes(&mut series.x, &mut series.y);
-                    thin(&mut series.x, &mut series.y, px);
-                }
+    /// The chart without the points of its lines that lie within a tenth of
+    /// a pixel of what remains, on panels of this size in px. Of the points
+    /// behind the first one that is not finite that one alone stays.
+    pub fn thinned(mut self, (width, height): (f64, f64)) -> Self {
+        for panel in &mut self.panels {
+            let (x, y) = axes(panel);
+            let lines = panel.series.iter_mut().filter(|s| {
+                let look = s.mark.look(Some(0));
+                s.interval.is_empty() && look.marker.is_none()
+            });
+            for line in lines {
+                extremes(line);
+                let px = |(a, b)| (width * x.place(a), height * y.place(b));
+                let finite = |p: &Point| p.0.is_finite() && p.1.is_finite();
+                let points = line.points().map(px).take_while(finite);
+                let mut keep = kept(&points.collect::<Vec<_>>(), TOLERANCE_PX);
+                keep.push(true);
+                retain(line, &keep);
             }
         }
         self
@@ -200,25 +380,49 @@ impl Chart {
 
     /// The figure, with a sentence that says what one sees in it.
     pub fn figure(&self, reading: impl Into<String>) -> Figure {
-        Figure::new(&self.heading, scene(self), self.csv(), reading.into())
+        self.laid_out(&Layout::default(), reading)
     }
 
-    /// `panel,series,x,y,y_low,y_high`.
-    fn csv(&self) -> String {
-        let mut table = Table::headed("panel,series,x,y,y_low,y_high");
+    /// The figure in this layout.
+    pub fn laid_out(
+        &self,
+        layout: &Layout<'_>,
+        reading: impl Into<String>,
+    ) -> Figure {
+        let (scene, csv) = (scene(self, layout), self.csv(layout));
+        Figure::new(&self.heading, scene, csv, reading.into())
+    }
+
+    /// The letter of a panel.
+    fn letter(&self, panel: usize, layout: &Layout<'_>) -> String {
+        let row = panel / self.columns.max(1);
+        letter(if layout.by_row { row } else { panel })
+    }
+
+    /// The numbers of every series that has keys, a row a point.
+    fn csv(&self, layout: &Layout<'_>) -> String {
+        let (mut keys, mut numbers) = (layout.keys, layout.numbers);
+        if keys.is_empty() {
+            keys = &["series"];
+        }
+        if numbers.is_empty() {
+            numbers = &NUMBERS;
+        }
+        let names = numbers.iter().map(|column| column.0);
+        let names = keys.iter().copied().chain(names);
+        let names: Vec<&str> = ["panel"].into_iter().chain(names).collect();
+        let mut table = Table::new(&names);
         for (i, panel) in self.panels.iter().enumerate() {
-            for series in &panel.series {
-                for (k, (x, y)) in series.x.iter().zip(&series.y).enumerate() {
+            let named = panel.series.iter().filter(|s| !s.keys.is_empty());
+            for series in named {
+                for (k, (x, y)) in series.points().enumerate() {
                     let ends = series.interval.get(k).copied();
                     let (low, high) = ends.unwrap_or((f64::NAN, f64::NAN));
-                    table.row([
-                        letter(i),
-                        markup::plain(&series.label),
-                        number(*x),
-                        number(*y),
-                        number(low),
-                        number(high),
-                    ]);
+                    let datum = Datum { x, y, low, high };
+                    let cells = numbers.iter().map(|c| c.2(c.1(&datum)));
+                    let first = [self.letter(i, layout)].into_iter();
+                    let keys = series.keys.iter().cloned();
+                    table.row(first.chain(keys).chain(cells));
                 }
             }
         }
@@ -226,9 +430,18 @@ impl Chart {
     }
 }
 
+/// Leaves of a line the points of which it is said so.
+fn retain(line: &mut Series, keep: &[bool]) {
+    for values in [&mut line.x, &mut line.y] {
+        let mut keep = keep.iter();
+        values.retain(|_| keep.next() == Some(&true));
+    }
+}
+
 /// Leaves, of a long line, the first, lowest, highest and last point of every
 /// stretch of it that a drawing cannot resolve.
-fn extremes(x: &mut Vec<f64>, y: &mut Vec<f64>) {
+fn extremes(line: &mut Series) {
+    let y = &line.y;
     let stretch = y.len() / COLUMNS;
     if stretch < 8 {
         return;
@@ -249,10 +462,7 @@ fn extremes(x: &mut Vec<f64>, y: &mut Vec<f64>) {
             keep[i] = true;
         }
     }
-    for values in [x, y] {
-        let mut keep = keep.iter();
-        values.retain(|_| keep.next() == Some(&true));
-    }
+    retain(line, &keep);
 }
 
 /// Sizes of the plotting areas for a number of columns.
@@ -265,22 +475,30 @@ fn grid(panels: usize, columns: usize) -> Grid {
     }
 }
 
-fn scene(figure: &Chart) -> Scene {
-    let mut labels: Vec<&Series> = Vec::new();
+fn scene(figure: &Chart, layout: &Layout<'_>) -> Scene {
+    let mut labels: Vec<&str> = Vec::new();
+    let mut legend: Vec<Entry> = Vec::new();
     for series in figure.panels.iter().flat_map(|p| &p.series) {
-        let known = labels.iter().any(|s| s.label == series.label);
-        if !series.label.is_empty() && !known {
-            labels.push(series);
+        let label = series.label.as_str();
+        let rank = labels.len();
+        if !label.is_empty()
+            && !labels.contains(&label)
+            && let Some(sample) = series.mark.sample(rank)
+        {
+            labels.push(label);
+            legend.push(Entry::new(sample, label));
         }
     }
-    let legend: Vec<Entry> = labels
-        .iter()
-        .enumerate()
-        .map(|(k, s)| Entry::new(sample(s.mark, k), s.label.as_str()))
-        .collect();
-    let grid = grid(figure.panels.len(), figure.columns);
-    let above = figure.panels.iter().any(|p| p.x.second.is_some());
-    let grid = if above { grid.with_second_axis() } else { grid };
+    legend.extend(layout.legend.iter().cloned());
+    let mut grid = layout
+        .grid
+        .unwrap_or_else(|| grid(figure.panels.len(), figure.columns));
+    if figure.panels.iter().any(|p| p.x.second.is_some()) {
+        grid = grid.with_second_axis();
+    }
+    if figure.panels.iter().any(|p| p.title.contains('\n')) {
+        grid = grid.with_subtitles();
+    }
     let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
     for (i, shown) in figure.panels.iter().enumerate() {
         let (x, y) = axes(shown);
@@ -298,41 +516,19 @@ fn scene(figure: &Chart) -> Scene {
             panel = panel.with_second(second);
         }
         for series in &shown.series {
-            let rank = labels.iter().position(|s| s.label == series.label);
+            let rank = labels.iter().position(|label| *label == series.label);
             draw_series(&mut panel, series, rank);
         }
+        outer_words(&mut panel, &shown.series);
+        let (title, subtitle) =
+            shown.title.split_once('\n').unwrap_or((&shown.title, ""));
         let title = match figure.panels.len() {
-            1 => shown.title.clone(),
-            _ => common::panel_title(i, &shown.title),
+            1 => title.to_owned(),
+            _ => format!("({}) {title}", figure.letter(i, layout)),
         };
-        panel.finish(&title, "");
+        panel.finish(&title, subtitle);
     }
     scene
-}
-
-fn sample(mark: Mark, rank: usize) -> Sample {
-    let pen = pen(mark, Some(rank));
-    let marker = Marker::of_series(rank);
-    match mark {
-        Mark::Line | Mark::Dashed => Sample::Line(pen),
-        Mark::Points => Sample::Mark(marker, pen.ink),
-        Mark::LineAndPoints | Mark::DashedAndPoints => {
-            Sample::LineAndMark(pen, marker)
-        }
-    }
-}
-
-fn pen(mark: Mark, rank: Option<usize>) -> Pen {
-    let Some(rank) = rank else {
-        return Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
-    };
-    match mark {
-        Mark::Dashed | Mark::DashedAndPoints => {
-            Pen::new(Ink::Series(rank), 1.1).dash(Dash::Dashed)
-        }
-        Mark::Line => Pen::of_series(rank),
-        Mark::Points | Mark::LineAndPoints => Pen::new(Ink::Series(rank), 1.1),
-    }
 }
 
 fn axes(shown: &ChartPanel) -> (Axis, Axis) {
@@ -346,6 +542,9 @@ fn axes(shown: &ChartPanel) -> (Axis, Axis) {
 
 /// The axis asked for, fitted to the data where no range is given.
 fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
+    if let Some(drawn) = &asked.drawn {
+        return drawn.clone();
+    }
     if !asked.categories.is_empty() {
         return Axis::named(&asked.categories).label(asked.label.as_str());
     }
@@ -362,24 +561,73 @@ fn axis(asked: &ChartAxis, values: impl Iterator<Item = f64>) -> Axis {
 }
 
 fn draw_series(panel: &mut Panel<'_>, series: &Series, rank: Option<usize>) {
-    let pen = pen(series.mark, rank);
-    let points = || series.x.iter().zip(&series.y).map(|(x, y)| (*x, *y));
+    let at = series.points().next().unwrap_or((f64::NAN, f64::NAN));
+    match series.mark {
+        Mark::Across(pen) => return panel.horizontal(at.1, pen),
+        Mark::Upright(pen) => return panel.vertical(at.0, pen),
+        Mark::Words(align) => {
+            return panel.words_at(at, series.label.as_str(), align);
+        }
+        Mark::Corner | Mark::Edge => return,
+        _ => {}
+    }
+    let look = series.mark.look(rank);
     let ends = series.x.iter().zip(&series.interval);
-    let marked = series.mark.has_points();
-    if marked {
-        for (x, (low, high)) in ends {
-            let bar = Pen { width_px: 0.8, dash: Dash::Solid, ..pen };
+    let rows: Vec<_> = ends.map(|(x, (a, b))| (*x, *a, *b)).collect();
+    if let Some(bar) = look.bars {
+        for (x, low, high) in &rows {
             panel.line([(*x, *low), (*x, *high)], bar);
         }
-    } else {
-        let rows: Vec<_> = ends.map(|(x, (a, b))| (*x, *a, *b)).collect();
-        panel.band(&rows, Fill::tint(pen.ink, 16));
     }
-    if series.mark != Mark::Points {
-        panel.line(points(), pen);
+    if let Some(fill) = look.band {
+        panel.band(&rows, fill);
     }
-    if marked {
-        let marker = Marker::of_series(rank.unwrap_or(0));
-        panel.marks(points(), marker, 3.0, pen.ink);
+    if let Some(fill) = look.bins {
+        let ends = series.x.windows(2).zip(&series.y);
+        for (left, right, top) in ends.map(|(x, y)| (x[0], x[1], *y)) {
+            panel.bar((left, 0.0), (right, top), fill);
+            let around =
+                [(left, 0.0), (left, top), (right, top), (right, 0.0)];
+            panel.line(around, look.pen.unwrap_or(Pen::new(fill.ink, 0.0)));
+        }
+        return;
+    }
+    let (low, high): (Vec<f64>, Vec<f64>) =
+        series.interval.iter().copied().unzip();
+    for (x, pen) in
+        [(&low, look.sides), (&series.x, look.pen), (&high, look.sides)]
+    {
+        if let Some(pen) = pen {
+            let points = path(x, &series.y, panel.horizontal_range().1);
+            panel.line(points, pen);
+        }
+    }
+    if let Some((marker, half_px, ink)) = look.marker {
+        panel.marks(series.points(), marker, half_px, ink);
+    }
+}
+
+/// A line; from the first overturned block on level to the end of the axis.
+fn path(x: &[f64], y: &[f64], end: f64) -> Vec<Point> {
+    let stands = x.iter().take_while(|x| **x != f64::INFINITY).count();
+    let points = x.iter().zip(y).map(|(x, y)| (*x, *y)).take(stands);
+    let level = y.get(stands).filter(|_| stands < x.len());
+    let level = level.into_iter().flat_map(|y| [(1.0, *y), (end, *y)]);
+    points.chain(level).collect()
+}
+
+/// Words in the corner and at the right-hand edge, kept apart.
+fn outer_words(panel: &mut Panel<'_>, all: &[Series]) {
+    let of = |mark| all.iter().filter(move |s| s.mark == mark);
+    let corner: Vec<&Series> = of(Mark::Corner).collect();
+    for (k, note) in corner.iter().rev().enumerate() {
+        let at = (0.985, 0.96 - 0.06 * k as f64);
+        panel.note(note.label.as_str(), at, Horizontal::Right);
+    }
+    let mut last = f64::INFINITY;
+    for words in of(Mark::Edge) {
+        let y = panel.to_px((0.0, words.y[0])).1.min(last - APART_PX);
+        panel.right_of_px(y, words.label.as_str());
+        last = y;
     }
 }

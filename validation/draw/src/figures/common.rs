@@ -1,16 +1,14 @@
 //! What the figures share: names, inks by slenderness, scenes.
 
 use super::heading::Heading;
-use crate::colour::{Ink, Pen};
-use crate::geometry::kept;
+use crate::colour::Ink;
 use crate::grid::Grid;
 use crate::legend;
-use crate::legend::{Entry, Sample};
+use crate::legend::Entry;
 use crate::markup;
-use crate::panel::Marker;
 use crate::scene::Scene;
 use crate::text::Caption;
-use rocking_common::paper::{Arm, Intensity};
+use rocking_common::paper::{Arm, Intensity, SLENDERNESSES_RAD};
 use rocking_common::words::letter;
 
 /// A scene with the grid's size, the legend drawn and room made for it.
@@ -62,48 +60,10 @@ pub fn intensity(measure: Intensity) -> &'static str {
     }
 }
 
-/// Slendernesses and the series ink of each: the study's five (multiples of
-/// 0.05) have the same ink in every figure, others go by rank.
-pub struct Slendernesses(Vec<(f64, usize)>);
-
-impl Slendernesses {
-    /// Of all values that a figure shows.
-    pub fn new(values: impl IntoIterator<Item = f64>) -> Self {
-        let mut values: Vec<f64> = values.into_iter().collect();
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        let study = |a: f64| {
-            let k = (20.0 * a).round();
-            let known =
-                (20.0 * a - k).abs() < 1e-9 && (1.0..=6.0).contains(&k);
-            known.then_some(k as usize - 1)
-        };
-        let all: Option<Vec<usize>> =
-            values.iter().map(|a| study(*a)).collect();
-        let inks = all.unwrap_or_else(|| (0..values.len()).collect());
-        Self(values.into_iter().zip(inks).collect())
-    }
-
-    /// Series of one of them.
-    pub fn series(&self, alpha_rad: f64) -> usize {
-        let same = |(a, _): &&(f64, usize)| *a == alpha_rad;
-        self.0.iter().find(same).map_or(0, |(_, series)| *series)
-    }
-
-    /// Legend of lines.
-    pub fn lines(&self) -> Vec<Entry> {
-        self.legend(|k| Sample::Line(Pen::of_series(k)))
-    }
-
-    /// Legend of boxes.
-    pub fn boxes(&self) -> Vec<Entry> {
-        self.legend(|k| Sample::Box(Ink::Series(k)))
-    }
-
-    fn legend(&self, of: fn(usize) -> Sample) -> Vec<Entry> {
-        let all = self.0.iter();
-        all.map(|(a, k)| Entry::new(of(*k), slenderness(*a))).collect()
-    }
+/// The ink of one of the paper's slendernesses, the same in every figure.
+pub fn ink(alpha_rad: f64) -> Ink {
+    let place = SLENDERNESSES_RAD.iter().position(|a| *a == alpha_rad);
+    Ink::Series(place.unwrap_or(0))
 }
 
 /// Smallest and largest finite value; positive ones only where `positive`.
@@ -124,8 +84,8 @@ pub fn words(text: &str) -> String {
 }
 
 /// The name of a record under a panel's title, cut to the panel's width.
-pub fn record(name: &str, grid: &Grid) -> String {
-    words(&markup::fit(name, 10.0, grid.width + 20.0))
+pub fn record(name: &str, width_px: f64) -> String {
+    words(&markup::fit(name, 10.0, width_px + 20.0))
 }
 
 /// A number for titles: two decimals, no trailing zeros.
@@ -144,37 +104,4 @@ pub fn arm_words(arm: Arm) -> &'static str {
         Arm::B => "arm B: 0.01 *g* steps, bisected",
         Arm::C => "arm C: equal dimensionless steps, bisected",
     }
-}
-
-/// Legend of the mark at an overturning.
-pub fn overturned_entry() -> Entry {
-    Entry::new(Sample::Mark(Marker::Cross, Ink::Text), "overturned")
-}
-
-/// How far the curve left may be from the full one, in px.
-const TOLERANCE_PX: f64 = 0.1;
-
-/// Thins a curve drawn with this many px a unit of x and of y, from its
-/// first point to the last one that is finite; of those after it the first
-/// stays.
-pub fn thin(x: &mut Vec<f64>, y: &mut Vec<f64>, px: (f64, f64)) {
-    let points: Vec<_> = x
-        .iter()
-        .zip(y.iter())
-        .take_while(|(x, y)| x.is_finite() && y.is_finite())
-        .map(|(x, y)| (px.0 * x, px.1 * y))
-        .collect();
-    let mut keep = kept(&points, TOLERANCE_PX);
-    keep.push(true);
-    for values in [x, y] {
-        let mut keep = keep.iter();
-        values.retain(|_| keep.next() == Some(&true));
-    }
-}
-
-/// Largest finite magnitude, or 1.
-pub fn largest<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
-    let finite = values.map(|x| x.abs()).filter(|x| x.is_finite());
-    let most = finite.fold(0.0, f64::max);
-    if most > 0.0 { most } else { 1.0 }
 }

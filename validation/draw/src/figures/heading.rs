@@ -1,6 +1,7 @@
 //! A figure, and the words that go with it.
 
 use crate::scene::Scene;
+use rocking_common::findings::Theme;
 use rocking_common::paper::Arm;
 
 /// The words that go with a figure.
@@ -16,6 +17,8 @@ pub struct Heading {
     pub description: String,
     /// Arm of the grid that the numbers come from, where there is one.
     pub arm: Option<Arm>,
+    /// Its number, where it has one.
+    pub number: Option<u32>,
     /// Where it belongs.
     pub place: Place,
 }
@@ -23,31 +26,68 @@ pub struct Heading {
 /// Where a figure belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// By its number: one of the paper's, or behind them one of the proof's.
-    Numbered {
-        /// The number.
-        number: u32,
-        /// Whether it is drawn once for each arm.
-        by_arm: bool,
-    },
-    /// The comparison of suites.
+    /// To the answers.
+    Answers,
+    /// To a theme, which it opens.
+    Opens(Theme),
+    /// To a theme, folded.
+    Folded(Theme),
+    /// To the proof of the integrator.
+    Proof,
+    /// To the folded checks of the proof.
+    Checks,
+    /// To the speed of the program.
+    Speed,
+    /// To the comparison of suites.
     Suites,
-    /// That comparison block by block.
+    /// To that comparison block by block.
     SuitesByBlock,
-    /// Beside these.
-    Beside,
+    /// To the questions beyond the paper.
+    Beyond,
 }
 
+/// The figures with numbers, those of the paper first: where each belongs,
+/// and whether it is drawn once for each arm.
+const NUMBERED: [(Place, bool); 21] = {
+    use Place::{Answers, Checks, Folded, Opens, Proof};
+    use Theme::{
+        Choices, Fragilities, Lognormality, SingleRecords, Statistics,
+    };
+    [
+        (Folded(Choices), false),
+        (Opens(SingleRecords), false),
+        (Folded(SingleRecords), false),
+        (Opens(SingleRecords), false),
+        (Folded(SingleRecords), false),
+        (Opens(Statistics), true),
+        (Opens(Statistics), true),
+        (Answers, false),
+        (Folded(Statistics), true),
+        (Folded(Statistics), true),
+        (Opens(Lognormality), false),
+        (Opens(Lognormality), false),
+        (Folded(Lognormality), true),
+        (Folded(Lognormality), false),
+        (Opens(Fragilities), false),
+        (Answers, false),
+        (Opens(Fragilities), false),
+        (Folded(Fragilities), false),
+        (Checks, false),
+        (Proof, false),
+        (Proof, false),
+    ]
+};
+
 impl Heading {
-    /// The words of a figure.
+    /// The words of a figure without a number.
     pub fn new(
         name: impl Into<String>,
         title: impl Into<String>,
         description: impl Into<String>,
     ) -> Self {
         let (name, title) = (name.into(), title.into());
-        let (description, place) = (description.into(), Place::Beside);
-        Self { name, title, description, arm: None, place }
+        let (description, place) = (description.into(), Place::Beyond);
+        Self { name, title, description, arm: None, number: None, place }
     }
 
     /// The same words of an arm.
@@ -55,39 +95,43 @@ impl Heading {
         Self { arm: Some(arm), ..self }
     }
 
-    /// The words of a figure with a number, and its name: `figure-06`, or
-    /// `figure-06-c` where it is drawn once for each arm.
+    /// The words of a figure with a number from 1 to 21, and its name:
+    /// `figure-06`, or `figure-06-c` where it is drawn once for each arm.
     pub fn numbered(
         number: u32,
-        by_arm: bool,
         title: impl Into<String>,
         description: impl Into<String>,
         arm: Option<Arm>,
     ) -> Self {
+        let (place, by_arm) = NUMBERED[number as usize - 1];
         let of_arm = |arm: Arm| format!("-{}", arm.letter().to_lowercase());
         let suffix = arm.filter(|_| by_arm).map_or(String::new(), of_arm);
         let name = format!("figure-{number:02}{suffix}");
-        let place = Place::Numbered { number, by_arm };
-        Self { place, arm, ..Self::new(name, title, description) }
-    }
-
-    /// Its number, where it has one.
-    pub fn number(&self) -> Option<u32> {
-        match self.place {
-            Place::Numbered { number, .. } => Some(number),
-            _ => None,
-        }
+        let words = Self::new(name, title, description);
+        Self { place, arm, number: Some(number), ..words }
     }
 
     /// The arm, where it is drawn once for each.
     pub fn own_arm(&self) -> Option<Arm> {
-        let by_arm =
-            matches!(self.place, Place::Numbered { by_arm: true, .. });
-        self.arm.filter(|_| by_arm)
+        let by_arm = |n: u32| NUMBERED[n as usize - 1].1;
+        self.arm.filter(|_| self.number.is_some_and(by_arm))
+    }
+
+    /// What stands before its title: `Figure 6, arm C`.
+    pub fn label(&self) -> String {
+        match (self.number, self.own_arm(), self.place) {
+            (Some(n), Some(arm), _) => {
+                format!("Figure {n}, arm {}", arm.letter())
+            }
+            (Some(n), None, _) => format!("Figure {n}"),
+            (None, _, Place::Speed) => "Speed".into(),
+            (None, ..) => "Beyond the paper".into(),
+        }
     }
 }
 
 /// A figure: its words, its shapes and its numbers.
+#[derive(Debug)]
 pub struct Figure {
     /// The words that go with it.
     pub heading: Heading,

@@ -1,33 +1,24 @@
 //! Figures 2 and 3: response histories.
 
-use super::common::{self, Slendernesses, largest, thin};
+use super::chart::{Chart, ChartPanel, Column, Layout, Look, Mark, Series};
+use super::common;
 use super::heading::{Figure, Heading};
 use crate::axis::Axis;
 use crate::colour::{Ink, Pen};
 use crate::grid::Grid;
-use crate::panel::{Marker, Panel};
-use crate::scene::Scene;
+use crate::legend::{Entry, Sample};
+use crate::panel::Marker;
 use rocking_common::paper::Intensity;
-use rocking_common::table::{Table, number, point};
-use rocking_common::words::letter;
+use rocking_common::table::{number, point};
 
-/// Size of a panel for [`Histories::thinned`].
-const WIDTH_PX: f64 = 288.0;
-const HALF_PX: f64 = 111.0;
+const WIDTH_PX: f64 = 272.0;
 
 /// Least half range of the rotation axis, in |theta|/alpha.
 const FLOOR: f64 = 1e-4;
 
-/// Response histories at equal dimensionless intensity.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Histories {
-    /// The words.
-    pub heading: Heading,
-    /// Panels row by row: a row a frequency parameter, a column a record.
-    pub panels: Vec<HistoryPanel>,
-    /// Panels in a row.
-    pub columns: usize,
-}
+const KEYS: [&str; 5] = ["p_rad_s", "record", "im", "intensity", "alpha_rad"];
+const NUMBERS: [Column; 2] =
+    [("time_s", |d| d.x, point), ("theta_over_alpha", |d| d.y, point)];
 
 /// One record at one frequency parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,99 +46,70 @@ pub struct History {
     pub overturned: bool,
 }
 
-impl Histories {
-    /// The same with only the points that a drawing keeps: none that is
-    /// left out lies farther than a tenth of a pixel from the line.
-    pub fn thinned(mut self) -> Self {
-        for panel in &mut self.panels {
-            let curves = || panel.curves.iter();
-            let until_s = largest(curves().flat_map(|c| &c.time_s));
-            let peak = largest(curves().flat_map(|c| &c.ratio));
-            let px = (WIDTH_PX / until_s, HALF_PX / peak);
-            for curve in &mut panel.curves {
-                thin(&mut curve.time_s, &mut curve.ratio, px);
-            }
-        }
-        self
+/// Response histories at equal dimensionless intensity, panels row by row,
+/// with a sentence that says what one sees.
+pub fn histories(
+    heading: Heading,
+    shown: &[HistoryPanel],
+    columns: usize,
+    reading: String,
+) -> Figure {
+    let mut legend = Vec::new();
+    if shown.iter().flat_map(|p| &p.curves).any(|c| c.overturned) {
+        let mark = Sample::Mark(Marker::Cross, Ink::Text);
+        legend.push(Entry::new(mark, "overturned"));
     }
-
-    /// The figure, with a sentence that says what one sees in it.
-    pub fn figure(&self, reading: String) -> Figure {
-        Figure::new(&self.heading, scene(self), self.csv(), reading)
-    }
-
-    /// `panel,p_rad_s,record,im,intensity,alpha_rad,time_s,theta_over_alpha`.
-    fn csv(&self) -> String {
-        let mut table = Table::headed(
-            "panel,p_rad_s,record,im,intensity,alpha_rad,time_s,theta_over_alpha",
-        );
-        for (i, panel) in self.panels.iter().enumerate() {
-            for curve in &panel.curves {
-                for (t, y) in curve.time_s.iter().zip(&curve.ratio) {
-                    table.row([
-                        letter(i),
-                        number(panel.p_rad_s),
-                        panel.record.clone(),
-                        Intensity::Pga.name().into(),
-                        number(panel.im),
-                        number(curve.alpha_rad),
-                        point(*t),
-                        point(*y),
-                    ]);
-                }
-            }
-        }
-        table.finish()
-    }
+    // Room for ticks of small rotations.
+    let grid = Grid::new(shown.len(), columns);
+    let grid = Grid { left: 72.0, width: WIDTH_PX, ..grid };
+    let panels = shown.iter().map(panel).collect();
+    let chart = Chart { heading, panels, columns };
+    let layout = Layout {
+        grid: Some(grid),
+        legend,
+        keys: &KEYS,
+        numbers: &NUMBERS,
+        ..Layout::default()
+    };
+    chart.thinned((WIDTH_PX, grid.height)).laid_out(&layout, reading)
 }
 
-fn scene(figure: &Histories) -> Scene {
-    let curves = || figure.panels.iter().flat_map(|p| &p.curves);
-    let inks = Slendernesses::new(curves().map(|c| c.alpha_rad));
-    // Room for ticks of small rotations.
-    let grid = Grid::new(figure.panels.len(), figure.columns);
-    let grid = Grid { left: 72.0, width: 272.0, ..grid }.with_subtitles();
-    let mut legend = inks.lines();
-    if curves().any(|c| c.overturned) {
-        legend.push(common::overturned_entry());
-    }
-    let (mut scene, grid) = common::scene(&figure.heading, grid, &legend);
-    for (i, shown) in figure.panels.iter().enumerate() {
-        let (low, high) = ratios(shown);
-        let (start, end) = times(shown);
-        let x = Axis::linear(start, end, 5).label("*t* (s)");
-        let y = if shown.curves.iter().any(|c| c.overturned) {
-            Axis::linear(low.min(-0.5), high.max(0.5), 5)
-        } else {
-            Axis::around(low, high, 5)
-        };
-        let y = y.label("*θ* / *α*");
-        let mut panel = Panel::new(&mut scene, grid.frame(i), x, y);
-        panel.horizontal(0.0, Pen::new(Ink::Muted, 0.6));
-        for curve in &shown.curves {
-            let series = inks.series(curve.alpha_rad);
-            let points = curve.time_s.iter().zip(&curve.ratio);
-            let points = points.map(|(t, y)| (*t, *y));
-            panel.line(points.clone(), Pen::of_series(series));
-            if curve.overturned
-                && let Some((t, y)) = points.clone().next_back()
-            {
-                let at = [(t, y.clamp(low, high))];
-                panel.marks(at, Marker::Cross, 4.5, Ink::Series(series));
-            }
+fn panel(shown: &HistoryPanel) -> ChartPanel {
+    let (low, high) = ratios(shown);
+    let (start, end) = times(shown);
+    let y = if shown.curves.iter().any(|c| c.overturned) {
+        Axis::linear(low.min(-0.5), high.max(0.5), 5)
+    } else {
+        Axis::around(low, high, 5)
+    };
+    let zero = Pen::new(Ink::Muted, 0.6);
+    let mut series = vec![Series::note(Mark::Across(zero), "", (0.0, 0.0))];
+    for (k, curve) in shown.curves.iter().enumerate() {
+        let (t, y) = (curve.time_s.clone(), curve.ratio.clone());
+        let end = t.last().copied().zip(y.last().copied());
+        let label = common::slenderness(curve.alpha_rad);
+        series.push(Series::new(label, Mark::Line, t, y).keyed([
+            number(shown.p_rad_s),
+            shown.record.clone(),
+            Intensity::Pga.name().into(),
+            number(shown.im),
+            number(curve.alpha_rad),
+        ]));
+        if let Some((t, y)) = end.filter(|_| curve.overturned) {
+            let cross = Look::marks(Marker::Cross, 4.5, Ink::Series(k));
+            let at = (vec![t], vec![y.clamp(low, high)]);
+            series.push(Series::of(cross, at.0, at.1).keyed([]));
         }
-        let title = format!(
-            "{}, {} = {:.2}",
-            common::frequency(shown.p_rad_s),
-            common::intensity(Intensity::Pga),
-            shown.im
-        );
-        panel.finish(
-            &common::panel_title(i, &title),
-            &common::record(&shown.record, &grid),
-        );
     }
-    scene
+    let title = format!(
+        "{}, {} = {:.2}\n{}",
+        common::frequency(shown.p_rad_s),
+        common::intensity(Intensity::Pga),
+        shown.im,
+        common::record(&shown.record, WIDTH_PX)
+    );
+    let x = Axis::linear(start, end, 5).label("*t* (s)");
+    ChartPanel::new(title, x, y.label("*θ* / *α*"), series)
 }
 
 /// Ends of the time axis: the motion, with a little rest before and after.

@@ -6,8 +6,8 @@ use rocking::procedures::Ranking;
 use rocking::record::Accelerogram;
 
 use super::{
-    Chart, ChartAxis, ChartPanel, Heading, Histories, History, HistoryPanel,
-    Mark, Series,
+    Chart, ChartAxis, ChartPanel, Heading, History, HistoryPanel, Mark,
+    Series, histories,
 };
 use crate::markup;
 
@@ -41,8 +41,7 @@ pub fn response_svg(
         "Response history",
         "Rotation over slenderness against time.",
     );
-    let figure = Histories { heading, panels: vec![panel], columns: 1 };
-    figure.thinned().figure(String::new()).svg()
+    histories(heading, &[panel], 1, String::new()).svg()
 }
 
 /// Acceleration, velocity, displacement and response spectrum (at
@@ -73,11 +72,13 @@ pub fn record_svg(
         ("Displacement", "*d* (m)", displacement, pgd, "m"),
     ]
     .into_iter()
-    .map(|(name, symbol, y, peak, unit)| ChartPanel {
-        title: format!("{name}, peak {peak:.3} {unit}"),
-        x: ChartAxis::linear("*t* (s)", shown_s),
-        y: ChartAxis::linear(symbol, None::<(f64, f64)>),
-        series: vec![series(time_s.clone(), y)],
+    .map(|(name, symbol, y, peak, unit)| {
+        ChartPanel::new(
+            format!("{name}, peak {peak:.3} {unit}"),
+            ChartAxis::linear("*t* (s)", shown_s),
+            ChartAxis::linear(symbol, None::<(f64, f64)>),
+            vec![series(time_s.clone(), y)],
+        )
     })
     .collect();
     panels.push(ChartPanel::new(
@@ -101,7 +102,7 @@ pub fn record_svg(
         ),
     );
     let chart = Chart { heading, panels, columns: 2 };
-    chart.thinned().figure(String::new()).svg()
+    chart.thinned((440.0, 280.0)).figure(String::new()).svg()
 }
 
 /// Ends of the time axis: from 0.1 to 99.5 % of the Arias intensity, and a

@@ -64,7 +64,6 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
     Ok(Chart {
         heading: Heading::numbered(
             19,
-            false,
             "Departure of Eq. 1 from similarity as the \
                         slenderness grows",
             "Relative change of the first impact speed \

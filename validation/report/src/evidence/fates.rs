@@ -90,7 +90,6 @@ pub(super) fn map() -> anyhow::Result<Figure> {
     Ok(FateMap {
         heading: Heading::numbered(
             21,
-            false,
             "Map of fates under one-sine pulses",
             "Cells of a plane of pulse frequency over p and amplitude over \
              the uplift threshold, both logarithmic, coloured by the fate of \

@@ -118,13 +118,10 @@ fn bands(omega: f64, top: f64) -> Result<Vec<(usize, f64, f64)>, EngineError> {
 }
 
 fn band(label: &str, rows: &[(f64, f64, f64)]) -> Series {
-    Series {
-        label: label.into(),
-        mark: Mark::Line,
-        x: rows.iter().map(|r| r.0).collect(),
-        y: rows.iter().map(|r| r.1).collect(),
-        interval: rows.iter().map(|r| (r.1, r.2)).collect(),
-    }
+    let x = rows.iter().map(|r| r.0).collect();
+    let y = rows.iter().map(|r| r.1).collect();
+    let ends = rows.iter().map(|r| (r.1, r.2)).collect();
+    Series::new(label, Mark::Line, x, y).with(ends)
 }
 
 /// An edge of Eq. 1: grey and without legend, explained in the reading.
@@ -188,7 +185,6 @@ pub(super) fn chart() -> anyhow::Result<Figure> {
     Ok(Chart {
         heading: Heading::numbered(
             20,
-            false,
             "Overturning spectrum of one-sine pulses",
             "Amplitude over the uplift threshold against \
                               frequency over p at which a block overturns, \

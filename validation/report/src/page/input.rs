@@ -1,17 +1,17 @@
-//! What the page shows, as words and numbers already formatted.
+//! What the page shows.
 
 use maud::Markup;
 use rocking_common::findings::{Findings, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::table::PlainTable;
+use rocking_draw::figures::Figure;
 
-use super::figures::ShownFigure;
 use crate::evidence::families::Family;
 
 /// Everything the page shows, in its order. Text is plain unless a field
 /// says otherwise; what is empty is left out.
 #[derive(Debug, Clone, Default)]
-pub struct ReportInput {
+pub struct ReportInput<'a> {
     /// Title of the page.
     pub title: String,
     /// One sentence under the title.
@@ -23,12 +23,12 @@ pub struct ReportInput {
     /// The questions that a reader asks first, each with its answer.
     pub answers: Vec<AnswerRow>,
     /// Drawings beside them.
-    pub first: Vec<ShownFigure>,
+    pub first: Vec<&'a Figure>,
     /// Suites of the columns of the answers and findings: those of the run
     /// at hand stand last.
     pub columns: Vec<Column>,
     /// The findings by theme.
-    pub findings: Vec<Shown>,
+    pub findings: Vec<Shown<'a>>,
     /// Statements that are true by definition, or that are descriptions.
     pub identities: PlainTable,
     /// How the results come about, a paragraph each.
@@ -41,11 +41,11 @@ pub struct ReportInput {
     /// Declared cases, family by family.
     pub families: Vec<Family>,
     /// Tables and figures of the proof.
-    pub evidence: Chapter,
+    pub evidence: Chapter<'a>,
     /// Further chapters in order: speed, suites, limits, provenance.
-    pub chapters: Vec<Chapter>,
+    pub chapters: Vec<Chapter<'a>>,
     /// Chapters that are folded on a screen and whole on paper.
-    pub annexes: Vec<Chapter>,
+    pub annexes: Vec<Chapter<'a>>,
 }
 
 /// One question and its answer.
@@ -65,7 +65,7 @@ pub struct AnswerRow {
 
 /// Text, tables and figures under a heading.
 #[derive(Debug, Clone, Default)]
-pub struct Chapter {
+pub struct Chapter<'a> {
     /// Unique name, also the anchor.
     pub id: &'static str,
     /// The heading.
@@ -77,12 +77,12 @@ pub struct Chapter {
     /// Tables.
     pub tables: Vec<PlainTable>,
     /// Figures.
-    pub figures: Vec<ShownFigure>,
+    pub figures: Vec<&'a Figure>,
     /// Parts that are folded on a screen.
-    pub folded: Vec<Chapter>,
+    pub folded: Vec<Chapter<'a>>,
 }
 
-impl Chapter {
+impl Chapter<'_> {
     /// A chapter with nothing in it yet.
     pub fn titled(id: &'static str, title: &str) -> Self {
         Self { id, title: title.into(), ..Self::default() }
@@ -91,15 +91,15 @@ impl Chapter {
 
 /// Findings about one question.
 #[derive(Debug, Clone)]
-pub struct Shown {
+pub struct Shown<'a> {
     /// What it is about.
     pub theme: Theme,
     /// What came out, a paragraph.
     pub paragraph: String,
     /// Its figures.
-    pub figures: Vec<ShownFigure>,
+    pub figures: Vec<&'a Figure>,
     /// Further figures, folded on a screen.
-    pub more: Vec<ShownFigure>,
+    pub more: Vec<&'a Figure>,
 }
 
 /// Suites whose findings stand in one column.

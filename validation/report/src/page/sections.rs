@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::figures::{self, ShownFigure};
+use super::figures;
 use super::input::{AnswerRow, Chapter, Column, Part, ReportInput, Shown};
 use super::table::{self, scrolled};
 use crate::evidence::families::{Family, rejects, source, tolerance, worst};
@@ -10,10 +10,11 @@ use crate::quantity::{remarks, rule_text, value_text};
 use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
 use rocking_common::paper::Verdict;
 use rocking_common::words::capital;
+use rocking_draw::figures::Figure;
 use rocking_proof::verdict::snapshot::CaseResult;
 
 /// What the page is about, and who signs for it.
-pub fn head(input: &ReportInput) -> Markup {
+pub fn head(input: &ReportInput<'_>) -> Markup {
     html! {
         @if !input.head.is_empty() { (list(&input.head)) }
         @if !input.signatures.is_empty() {
@@ -34,7 +35,7 @@ pub fn head(input: &ReportInput) -> Markup {
 }
 
 /// Those that have something to show.
-pub fn all(input: &ReportInput) -> Vec<Part> {
+pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
     let i = input;
     let mut parts = Vec::new();
     let mut add =
@@ -126,7 +127,7 @@ fn list(pairs: &[(String, String)]) -> Markup {
     }
 }
 
-fn chapter(one: &Chapter) -> Markup {
+fn chapter(one: &Chapter<'_>) -> Markup {
     html! {
         @for words in &one.text { p { (words) } }
         @if !one.list.is_empty() { (list(&one.list)) }
@@ -138,7 +139,7 @@ fn chapter(one: &Chapter) -> Markup {
     }
 }
 
-fn drawings(shown: &[ShownFigure]) -> Markup {
+fn drawings(shown: &[&Figure]) -> Markup {
     html! {
         @if !shown.is_empty() {
             div.figures { @for f in shown { (figures::figure(f)) } }
@@ -247,7 +248,7 @@ fn looks(verdict: Verdict) -> (&'static str, &'static str) {
     }
 }
 
-fn theme(shown: &Shown, columns: &[Column]) -> Markup {
+fn theme(shown: &Shown<'_>, columns: &[Column]) -> Markup {
     let question = shown.theme.question();
     html! {
         div id=(anchor(shown.theme)) {
@@ -293,8 +294,9 @@ fn came_out<'a>(
     own.into_iter().flat_map(|own| own.results.iter().map(move |r| (own, r)))
 }
 
-fn called(figures: &[ShownFigure]) -> String {
-    let names: Vec<&str> = figures.iter().map(|f| f.number.as_str()).collect();
+fn called(figures: &[&Figure]) -> String {
+    let names: Vec<String> =
+        figures.iter().map(|f| f.heading.label()).collect();
     names.join(", ")
 }
 
@@ -421,7 +423,7 @@ fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
     }
 }
 
-fn every_result(input: &ReportInput) -> Markup {
+fn every_result(input: &ReportInput<'_>) -> Markup {
     let columns = &input.columns;
     let mut head = vec!["Claim and measure"];
     head.extend(columns.iter().map(|column| column.name));

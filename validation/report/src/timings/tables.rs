@@ -17,15 +17,9 @@ const USES: [(&str, &str); 6] = [
 ];
 
 impl Timings {
-    /// Tools and settings; which of ours when; many analyses; what was tried
-    /// and not kept.
+    /// Tools and settings; many analyses; what was tried and not kept.
     pub fn tables(&self) -> Vec<PlainTable> {
-        vec![
-            self.tools(),
-            self.settings(),
-            self.throughput(),
-            self.window_step(),
-        ]
+        vec![self.tools(), self.throughput(), self.window_step()]
     }
 
     fn window_step(&self) -> PlainTable {
@@ -94,7 +88,8 @@ impl Timings {
         )
     }
 
-    fn settings(&self) -> PlainTable {
+    /// Which of our settings when.
+    pub fn settings(&self) -> PlainTable {
         let shipped = self.of_many(PAPER).map(Throughput::rate_per_s);
         let many = |setting: &str| {
             if setting == BASE[2] {

@@ -1,87 +1,198 @@
-//! Figures 11 to 14: capacities and their tests.
+//! Figures 11, 12 and 14: capacities, and shares of accepted levels.
 
 use rocking::statistics::lilliefors::Assessment;
-use rocking::statistics::{QuantileType, Sample};
 
 use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
-use crate::normality::{
-    BAND_REPLICATES, LEVEL, accepted_share, ends, over_critical,
-};
+use crate::normality::{BAND_REPLICATES, LEVEL, ends, over_critical};
 use crate::results::Results;
-use crate::ties::critical_on_grid;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demand_index,
-    demands,
+    Arm, BLOCKS, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, demands,
 };
+use rocking_common::table::{number as cell, point};
 use rocking_common::words::percent;
-use rocking_draw::figures::Figure;
+use rocking_draw::axis::{Axis, Tick};
+use rocking_draw::colour::{Dash, Fill, Ink, Pen};
+use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    AcceptedShares, BlockShare, Capacities, CapacityCurve, CapacityPanel,
-    Heading, Histogram, SharePanel, TestedBlock, TestsAlongDemand,
+    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
 };
+use rocking_draw::grid::Grid;
+use rocking_draw::legend::{Entry, Sample};
+use rocking_draw::panel::Marker;
+use rocking_draw::text::Horizontal;
+
+const RECORD: Pen = Pen::new(Ink::Muted, 0.35);
+const SHIFT: Pen = Pen::new(Ink::Text, 0.9).dash(Dash::Dashed);
+const ORIGINAL: Ink = Ink::Series(0);
+const SHIFTED: Ink = Ink::Series(2);
+
+/// Size of a panel of Figure 11, in px.
+const SIZE_PX: (f64, f64) = (440.0, 250.0);
 
 /// Figure 11: p = 1, alpha = 0.20.
 pub(super) fn inverted(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
     let levels = demands();
     let mut panels = Vec::new();
     let mut onsets = Vec::new();
-    let mut ends = 0;
+    let mut cut = 0;
     for intensity in [Intensity::Pga, Intensity::Pgv] {
         let block = results.ordinary_block(arm, intensity, 0, 3)?;
-        onsets.push(three_quantiles(&block.samples[0])?);
+        onsets.push((three_quantiles(&block.samples[0])?, block.shift));
         let last = block.samples.last().ok_or_else(no_arm)?;
-        ends = last.iter().filter(|x| !x.is_finite()).count();
+        cut = last.iter().filter(|x| !x.is_finite()).count();
         let records = results.ordinary.records.iter().enumerate();
-        panels.push(CapacityPanel {
-            intensity,
-            shift: block.shift,
-            curves: records
-                .map(|(record, facts)| CapacityCurve {
-                    record: facts.name.clone(),
-                    edp: levels.clone(),
-                    im: block.samples.iter().map(|s| s[record]).collect(),
-                })
-                .collect(),
-            quantiles: levels
-                .iter()
-                .zip(&block.samples)
-                .map(|(edp, sample)| Ok((*edp, three_quantiles(sample)?)))
-                .collect::<anyhow::Result<_>>()?,
-        });
+        let shown: Vec<(&str, Vec<f64>)> = records
+            .map(|(record, facts)| {
+                let own = block.samples.iter().map(|s| s[record]).collect();
+                (facts.name.as_str(), own)
+            })
+            .collect();
+        let (low, high) = capacity_range(&shown, block.shift);
+        let of = block.samples.iter().map(|s| three_quantiles(s));
+        let of: Vec<[f64; 3]> = of.collect::<anyhow::Result<_>>()?;
+        for (words, ink, less) in
+            [("original", ORIGINAL, 0.0), ("shifted", SHIFTED, block.shift)]
+        {
+            // Capacities that do not lie above the shift stand at the edge.
+            let at = |im: f64| if im - less > low { im - less } else { low };
+            // Shifted, they are the same numbers less the shift.
+            let keyed = |one: Series, name: &str| match less == 0.0 {
+                true => one.keyed([
+                    intensity.name().into(),
+                    cell(block.shift),
+                    name.into(),
+                ]),
+                false => one.keyed([]),
+            };
+            let mut series = Vec::new();
+            for (name, ims) in &shown {
+                let y: Vec<f64> = ims.iter().map(|im| at(*im)).collect();
+                let stands = y.iter().take_while(|y| y.is_finite()).count();
+                if (1..y.len()).contains(&stands) {
+                    let mark = Look::marks(Marker::Triangle, 3.2, Ink::Text);
+                    let (x, y) = (levels[stands - 1], y[stands - 1]);
+                    let end = Series::of(mark, vec![x], vec![y]);
+                    series.push(end.keyed([]));
+                }
+                let one = Series::of(Look::line(RECORD), levels.clone(), y);
+                series.push(keyed(one, name));
+            }
+            let look = Look {
+                pen: Some(Pen::new(ink, 1.8)),
+                ..Look::band(Fill::tint(ink, 30))
+            };
+            let median = of.iter().map(|q| at(q[1])).collect();
+            let ends = of.iter().map(|q| (at(q[0]), at(q[2]))).collect();
+            let one = Series::of(look, levels.clone(), median).with(ends);
+            series.push(keyed(one, "median"));
+            if less == 0.0 {
+                let at = (0.0, block.shift);
+                series.push(Series::note(Mark::Across(SHIFT), "", at));
+            }
+            let label = common::intensity(intensity);
+            let minus = if less == 0.0 { "" } else { " − IM_{R}" };
+            panels.push(ChartPanel::new(
+                format!(
+                    "{}, {words}: {}, {}, {} records",
+                    intensity.name().to_uppercase(),
+                    common::frequency(FREQUENCIES_RAD_S[0]),
+                    common::slenderness(SLENDERNESSES_RAD[3]),
+                    shown.len(),
+                ),
+                Axis::linear(0.0, 1.0, 5).label(common::DEMAND),
+                Axis::logarithmic(low, high).label(format!("{label}{minus}")),
+                series,
+            ));
+        }
     }
-    let times = |of: [f64; 3], less: f64| (of[2] - less) / (of[0] - less);
-    let shifts: Vec<f64> = panels.iter().map(|p| p.shift).collect();
-    let cut = match ends {
-        0 => String::new(),
-        n => format!(" {n} records never overturn: their curves end early."),
+    let line = |ink, width| Sample::Line(Pen::new(ink, width));
+    let band = |ink| Sample::Band(Fill::tint(ink, 30));
+    let mut legend = vec![
+        Entry::new(line(RECORD.ink, 0.7), "one record"),
+        Entry::new(line(ORIGINAL, 1.8), "median, original"),
+        Entry::new(band(ORIGINAL), "16 to 84 %"),
+        Entry::new(line(SHIFTED, 1.8), "median, IM − IM_{R}"),
+        Entry::new(band(SHIFTED), "16 to 84 %"),
+        Entry::new(Sample::Line(SHIFT), "IM_{R}"),
+    ];
+    let mut ends = String::new();
+    if cut > 0 {
+        let mark = Sample::Mark(Marker::Triangle, Ink::Text);
+        legend.push(Entry::new(mark, "ends: never overturned"));
+        ends =
+            format!(" {cut} records never overturn: their curves end early.");
+    }
+    let heading = Heading::numbered(
+        11,
+        "Intensity given demand, original and shifted",
+        "A pale curve for each record of the intensity that reaches a \
+         demand, by median point, with median and band of 16 to 84 % of the \
+         records; rows PGA and PGV, columns as inverted and above IM_R; \
+         logarithmic intensity.",
+        Some(arm),
+    );
+    let layout = Layout {
+        grid: Some(Grid::new(panels.len(), 2).plot(SIZE_PX.0, SIZE_PX.1)),
+        legend,
+        by_row: true,
+        keys: &["im", "shift", "record"],
+        numbers: &[
+            ("edp", |d| d.x, cell),
+            ("intensity", |d| d.y, point),
+            ("q16", |d| d.low, point),
+            ("q84", |d| d.high, point),
+        ],
     };
-    Ok(Capacities {
-        heading: Heading::numbered(
-            11,
-            false,
-            "Intensity given demand, original and shifted",
-            "A pale curve for each record of the intensity that reaches a \
-             demand, by median point, with median and band of 16 to 84 % of \
-             the records; rows PGA and PGV, columns as inverted and above \
-             IM_R; logarithmic intensity.",
-            Some(arm),
+    let times =
+        |(of, _): ([f64; 3], f64), less: f64| (of[2] - less) / (of[0] - less);
+    let chart = Chart { heading, panels, columns: 2 };
+    Ok(chart.thinned(SIZE_PX).laid_out(
+        &layout,
+        format!(
+            "At the lowest demand the 84 % capacity is {:.2} times the 16 % \
+             one for PGA, and {:.2} times for PGV. Less IM_R it is {:.2} and \
+             {:.2} times.{ends}",
+            times(onsets[0], 0.0),
+            times(onsets[1], 0.0),
+            times(onsets[0], onsets[0].1),
+            times(onsets[1], onsets[1].1),
         ),
-        alpha_rad: SLENDERNESSES_RAD[3],
-        p_rad_s: FREQUENCIES_RAD_S[0],
-        panels,
-    }
-    .thinned()
-    .figure(format!(
-        "At the lowest demand the 84 % capacity is {:.2} times the 16 % \
-         one for PGA, and {:.2} times for PGV. Less IM_R it is {:.2} and \
-         {:.2} times.{cut}",
-        times(onsets[0], 0.0),
-        times(onsets[1], 0.0),
-        times(onsets[0], shifts[0]),
-        times(onsets[1], shifts[1]),
-    )))
+    ))
 }
+
+/// The capacities of all records, original and shifted; of the shifted ones
+/// a twentieth may leave at the bottom.
+fn capacity_range(records: &[(&str, Vec<f64>)], shift: f64) -> (f64, f64) {
+    let all = || records.iter().map(|(_, ims)| ims);
+    let (_, high) = span(all().flatten().copied(), true).unwrap_or((1.0, 2.0));
+    let mut above: Vec<f64> = all()
+        .filter_map(|ims| Some(ims.first()? - shift))
+        .filter(|x| *x > 0.0 && x.is_finite())
+        .collect();
+    above.sort_by(f64::total_cmp);
+    let low = above.get(above.len() / 20).copied().unwrap_or(0.1 * high);
+    (0.8 * low, 1.15 * high)
+}
+
+/// One block in one arm, in a panel of Figure 12 or 14.
+struct Share {
+    /// Position of the block among the fifteen.
+    block: usize,
+    arm: usize,
+    /// Accepted share of the levels, in percent.
+    accepted: f64,
+    /// Central 95 % band of that for lognormal samples whose levels are as
+    /// dependent as these, where it was computed.
+    band: Option<(f64, f64)>,
+    /// Levels at which the test could be made.
+    levels: usize,
+}
+
+const NULL_BAND: Fill = Fill::tint(Ink::Muted, 22);
+const EXPECTED: Pen = Pen::new(Ink::Text, 0.8).dash(Dash::Dashed);
+/// Marks of the arms.
+const ARMS: [Marker; 3] = [Marker::Dot, Marker::OpenSquare, Marker::Plus];
 
 /// Figure 12 (PGA) or 14 (PGV).
 pub(super) fn shares(
@@ -90,49 +201,116 @@ pub(super) fn shares(
 ) -> anyhow::Result<Figure> {
     let intensity = if number == 12 { Intensity::Pga } else { Intensity::Pgv };
     let drawn = results.plan.drawn();
+    let common = results.plan.common();
+    let levels = demands().len();
     let mut panels = Vec::new();
     let mut means = Vec::new();
+    let mut fewest = usize::MAX;
+    let mut banded: Vec<Arm> = Vec::new();
     for suite in [&results.ordinary, &results.pulse] {
         for shifted in [false, true] {
-            let mut shares = Vec::new();
-            for arm in &drawn {
-                let found = results.distributions(suite.kind, *arm, intensity);
-                for block in &found.ok_or_else(no_arm)?.blocks {
-                    let (original, above) = block.shares();
-                    shares.push(BlockShare {
-                        p_rad_s: block.p_rad_s,
-                        alpha_rad: block.alpha_rad,
-                        arm: *arm,
-                        share: if shifted { above } else { original },
-                        null_band: block.bands[usize::from(shifted)]
-                            .as_ref()
-                            .and_then(ends),
-                        levels: tested(if shifted {
-                            &block.shifted
-                        } else {
-                            &block.original
-                        }),
+            let mut shares: Vec<Share> = Vec::new();
+            for (arm, of) in drawn.iter().enumerate() {
+                let found = results.distributions(suite.kind, *of, intensity);
+                let blocks = &found.ok_or_else(no_arm)?.blocks;
+                for (block, one) in blocks.iter().enumerate() {
+                    let (original, above) = one.shares();
+                    let tests =
+                        if shifted { &one.shifted } else { &one.original };
+                    let band = one.bands[usize::from(shifted)].as_ref();
+                    let band = band.and_then(ends);
+                    if band.is_some() && !banded.contains(of) {
+                        banded.push(*of);
+                    }
+                    shares.push(Share {
+                        block,
+                        arm,
+                        accepted: 100.0
+                            * if shifted { above } else { original },
+                        band: band.map(|(a, b)| (100.0 * a, 100.0 * b)),
+                        levels: tested(tests),
                     });
                 }
             }
             // Of the arm that the findings show first.
-            let common = results.plan.common();
-            let own = || shares.iter().filter(|b| b.arm == common);
+            let own = || shares.iter().filter(|s| drawn[s.arm] == common);
             let mean =
-                own().fold(0.0, |s, b| s + b.share) / own().count() as f64;
-            means.push(percent(mean, 1));
-            panels.push(SharePanel {
-                suite: suite.kind.name().into(),
-                records: suite.records.len(),
-                shifted,
-                shares,
-            });
+                own().fold(0.0, |s, b| s + b.accepted) / own().count() as f64;
+            means.push(percent(mean / 100.0, 1));
+            let least = shares.iter().map(|s| s.levels).min();
+            fewest = fewest.min(least.unwrap_or(0));
+            let sample = if shifted { "shifted" } else { "original" };
+            let (name, records) = (suite.kind.name(), suite.records.len());
+            let mut series = groups(&shares, levels);
+            let expected = (0.0, 100.0 * (1.0 - LEVEL));
+            series.push(Series::note(Mark::Across(EXPECTED), "", expected));
+            for share in &shares {
+                let block = BLOCKS[share.block];
+                series.extend(mark_of(
+                    share,
+                    drawn.len(),
+                    [
+                        name.into(),
+                        records.to_string(),
+                        intensity.name().into(),
+                        sample.into(),
+                        drawn[share.arm].letter().into(),
+                        cell(block.frequency_rad_s()),
+                        cell(block.slenderness_rad()),
+                        share.levels.to_string(),
+                    ],
+                ));
+            }
+            let alphas = BLOCKS.map(|b| format!("{:.2}", b.slenderness_rad()));
+            let tens = [0, 20, 40, 60, 80, 100]
+                .map(|k| Tick { at: f64::from(k), label: k.to_string() });
+            panels.push(ChartPanel::new(
+                format!("{records} {name} records, {sample} sample"),
+                Axis::named(&alphas).label("*α* (rad)"),
+                Axis::linear(0.0, 128.0, 5)
+                    .with_ticks(tens.into())
+                    .label("accepted levels (%)"),
+                series,
+            ));
         }
     }
-    let measure = if number == 12 { "PGA" } else { "PGV" };
-    let all = || panels.iter().flat_map(|p| &p.shares);
-    let fewest = all().map(|s| s.levels).min().unwrap_or(0);
-    let levels = demands().len();
+    let mut legend: Vec<Entry> = Vec::new();
+    for (arm, marker) in drawn.iter().zip(ARMS) {
+        let words = common::arm_words(*arm);
+        legend.push(Entry::new(Sample::Mark(marker, Ink::Text), words));
+    }
+    legend.push(Entry::new(
+        Sample::Line(EXPECTED),
+        format!("expected of a lognormal: {}", percent(1.0 - LEVEL, 0)),
+    ));
+    if !banded.is_empty() {
+        let arms: Vec<&str> = banded.iter().map(|a| a.letter()).collect();
+        let words = format!(
+            "95 % band of lognormal suites, arm {}",
+            arms.join(" and ")
+        );
+        legend.push(Entry::new(Sample::Band(NULL_BAND), words));
+    }
+    let layout = Layout {
+        grid: Some(Grid::new(panels.len(), 2).plot(440.0, 230.0)),
+        legend,
+        by_row: false,
+        keys: &[
+            "suite",
+            "records",
+            "im",
+            "sample",
+            "arm",
+            "p_rad_s",
+            "alpha_rad",
+            "levels",
+        ],
+        numbers: &[
+            ("share", |d| d.y / 100.0, cell),
+            ("null_low", |d| d.low / 100.0, cell),
+            ("null_high", |d| d.high / 100.0, cell),
+        ],
+    };
     let rests = if fewest < levels {
         format!(
             "Where a record never overturns, fewer levels can be tested: \
@@ -141,113 +319,80 @@ pub(super) fn shares(
     } else {
         format!("All {levels} levels were tested for every block.")
     };
-    Ok(AcceptedShares {
-        heading: Heading::numbered(
-            number,
-            false,
-            format!(
-                "Share of demand levels at which lognormality is \
-                     accepted, {measure}"
-            ),
-            "Percent of the demand levels accepted by Lilliefors' test at \
-             5 %, for 15 blocks and the arms drawn, with a band for each \
-             mark of one arm; original and shifted samples, ordinary and \
-             pulse-type.",
-            None,
+    let heading = Heading::numbered(
+        number,
+        format!(
+            "Share of demand levels at which lognormality is accepted, {}",
+            intensity.name().to_uppercase()
         ),
-        intensity,
-        expected: 1.0 - LEVEL,
-        levels,
-        panels,
-        columns: 2,
+        "Percent of the demand levels accepted by Lilliefors' test at 5 %, \
+         for 15 blocks and the arms drawn, with a band for each mark of one \
+         arm; original and shifted samples, ordinary and pulse-type.",
+        None,
+    );
+    Ok(Chart { heading, panels, columns: 2 }.laid_out(
+        &layout,
+        format!(
+            "On arm {0} the mean accepted share is {1} (original) and {2} \
+             (shifted) for ordinary records, {3} and {4} for pulse-type \
+             ones. {rests} The bands are of arm {0} too: they hold 95 % of \
+             {BAND_REPLICATES} lognormal suites with the same dependence \
+             between levels.",
+            common.letter(),
+            means[0],
+            means[1],
+            means[2],
+            means[3],
+        ),
+    ))
+}
+
+/// A mark on its stem, over its band.
+fn mark_of(share: &Share, arms: usize, keys: [String; 8]) -> [Series; 3] {
+    let aside = 0.34 * (share.arm as f64 - 0.5 * (arms - 1) as f64);
+    let x = (share.block + 1) as f64 + aside;
+    let y = share.accepted;
+    let ink = Ink::Series(share.block % SLENDERNESSES_RAD.len());
+    let band = Look::band(NULL_BAND);
+    let stem = Look::line(Pen::new(ink, 0.8));
+    let mark = Look::marks(ARMS[share.arm], 3.2, ink);
+    let ends: Vec<(f64, f64)> = share.band.into_iter().collect();
+    [
+        Series::of(band, vec![x - 0.15, x + 0.15], vec![y; 2])
+            .with(ends.repeat(2))
+            .keyed([]),
+        Series::of(stem, vec![x; 2], vec![0.0, y]).keyed([]),
+        Series::of(mark, vec![x], vec![y]).with(ends).keyed(keys),
+    ]
+}
+
+/// Names of the frequency parameters over their blocks, how many levels were
+/// tested there, and lines between.
+fn groups(shares: &[Share], all: usize) -> Vec<Series> {
+    let mut notes = Vec::new();
+    let of_each = SLENDERNESSES_RAD.len();
+    for (k, p) in FREQUENCIES_RAD_S.into_iter().enumerate() {
+        let middle = (k * of_each) as f64 + 0.5 * (of_each + 1) as f64;
+        let own = || shares.iter().filter(|s| s.block / of_each == k);
+        let least = own().map(|s| s.levels).min().unwrap_or(0);
+        let words = match own().map(|s| s.levels).max().unwrap_or(0) {
+            most if most == least => format!("{least} of {all} levels"),
+            most => format!("{least} to {most} of {all} levels"),
+        };
+        let centred = Mark::Words(Horizontal::Centre);
+        let p = common::frequency(p);
+        notes.push(Series::note(centred, p, (middle, 117.5)));
+        notes.push(Series::note(centred, words, (middle, 105.5)));
+        if k + 1 < FREQUENCIES_RAD_S.len() {
+            let between = Mark::Upright(Pen::new(Ink::Muted, 0.5));
+            let x = ((k + 1) * of_each) as f64 + 0.5;
+            notes.push(Series::note(between, "", (x, 0.0)));
+        }
     }
-    .figure(format!(
-        "On arm {0} the mean accepted share is {1} (original) and {2} \
-         (shifted) for ordinary records, {3} and {4} for pulse-type ones. \
-         {rests} The bands are of arm {0} too: they hold 95 % of \
-         {BAND_REPLICATES} lognormal suites with the same dependence between \
-         levels.",
-        results.plan.common().letter(),
-        means[0],
-        means[1],
-        means[2],
-        means[3],
-    )))
+    notes
 }
 
 /// How many levels could be tested.
 fn tested(levels: &[Assessment]) -> usize {
     levels.iter().filter(|a| over_critical(a).is_finite()).count()
-}
-
-/// Figure 13: p = 3, alpha = 0.05 and 0.20, PGA.
-pub(super) fn along(results: &Results, arm: Arm) -> anyhow::Result<Figure> {
-    let edp = 0.5;
-    let mut blocks = Vec::new();
-    let mut words = Vec::new();
-    for slenderness in [0, 3] {
-        let block =
-            results.ordinary_block(arm, Intensity::Pga, 1, slenderness)?;
-        words.push(format!(
-            "{} and {} at alpha = {:.2}",
-            percent(accepted_share(&block.original), 1),
-            percent(accepted_share(&block.shifted), 1),
-            block.alpha_rad
-        ));
-        blocks.push(TestedBlock {
-            p_rad_s: block.p_rad_s,
-            alpha_rad: block.alpha_rad,
-            edp: demands(),
-            original: block.original.iter().map(over_critical).collect(),
-            shifted: block.shifted.iter().map(over_critical).collect(),
-            grid_critical: (arm == Arm::A)
-                .then(|| critical_on_grid(block))
-                .flatten(),
-            original_histogram: histogram(&block.original[demand_index(edp)]),
-            shifted_histogram: histogram(&block.shifted[demand_index(edp)]),
-        });
-    }
-    Ok(TestsAlongDemand {
-        heading: Heading::numbered(
-            13,
-            true,
-            "Lilliefors' test along the demand, p = 3",
-            "Test statistic over its critical value along the demand, and \
-             histograms of the logarithm of the capacity at demand 0.50, \
-             original and shifted; alpha = 0.05 and 0.20.",
-            Some(arm),
-        ),
-        edp,
-        blocks,
-    }
-    .figure(format!(
-        "Of the original and of the shifted levels the test accepts {}.{}",
-        words.join(", "),
-        if arm == Arm::A {
-            " The diamond is the 5 % critical value of a shifted lognormal \
-             whose overturnings lie on the 0.01 g grid."
-        } else {
-            ""
-        }
-    )))
-}
-
-/// Of the logarithms tested.
-fn histogram(test: &Assessment) -> Histogram {
-    let none = || Histogram::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
-    let Some(logs) = &test.tested else { return none() };
-    let n = logs.len() as f64;
-    let deviation = (logs.sum_of_squares() / (n - 1.0)).sqrt();
-    let quartile = |p| quartile(logs, p);
-    let quartiles = (quartile(0.25), quartile(0.75));
-    Histogram::freedman_diaconis(
-        logs.sorted(),
-        quartiles,
-        logs.mean(),
-        deviation,
-    )
-}
-
-fn quartile(sample: &Sample, p: f64) -> f64 {
-    QuantileType::default().of(sample, p).unwrap_or(f64::NAN)
 }

@@ -1,17 +1,25 @@
 //! Figures 15 to 18: fitted and transformed fragilities.
 
+mod curves;
 mod thresholds;
 
 pub(super) use thresholds::thresholds;
 
 use rocking::statistics::ExtendedSample;
 
+use curves::{KEYS, NUMBERS, along, empirical, exceedance, fitted, most_of};
+
 use crate::distributions::BlockSamples;
 use crate::fits::{BLOCK, CONSTANTS, Fits, THRESHOLDS, usfl7};
 use crate::results::Results;
 use rocking_common::paper::{Arm, Intensity, demand_index};
-use rocking_draw::figures::Figure;
-use rocking_draw::figures::{ByConstant, ByConstantPanel, Heading};
+use rocking_draw::axis::Axis;
+use rocking_draw::colour::{Dash, Ink, Pen};
+use rocking_draw::figures::common;
+use rocking_draw::figures::{
+    Chart, ChartPanel, Figure, Heading, Layout, Mark, Series,
+};
+use rocking_draw::grid::Grid;
 
 fn sample_at(
     block: &BlockSamples,
@@ -25,50 +33,78 @@ pub(super) fn constants(
     results: &Results,
     arm: Arm,
 ) -> anyhow::Result<Figure> {
-    let edp = THRESHOLDS[0];
-    let block =
-        results.ordinary_block(arm, Intensity::Pga, BLOCK.0, BLOCK.1)?;
-    let sample = sample_at(block, edp)?;
+    let at = (Intensity::Pga, THRESHOLDS[0]);
+    let block = results.ordinary_block(arm, at.0, BLOCK.0, BLOCK.1)?;
+    let sample = sample_at(block, at.1)?;
+    let data = &block.samples[demand_index(at.1)];
     let fits = Fits::new(&sample, block.shift);
+    let benchmark = Pen::new(Ink::Text, 1.3);
+    let dashes = [Dash::Dotted, Dash::Dashed, Dash::DashDot, Dash::Long];
+    // What the benchmark's bulk and most of the data need.
+    let bulk = fits.ssfl.map_or(1.0, |f| {
+        let spread = 2.0_f64.mul_add(f.dispersion(), f.log_mean());
+        f.shift() + libm::exp(spread)
+    });
+    let most = most_of(data).into_iter().fold(1.0, f64::max);
+    let x = || {
+        Axis::around(0.0, (1.02 * most).max(bulk), 7)
+            .label(common::intensity(at.0))
+    };
+    let grid = along(x().range(), 300);
     let mut words = Vec::new();
     let mut panels = Vec::new();
     for (title, usfl) in [("untrimmed", fits.usfl), ("trimmed", fits.trimmed)]
     {
+        let ssfl = fitted(at, ("SSFL", benchmark), fits.ssfl.as_ref(), &grid);
+        let mut series = vec![empirical(at, data), ssfl];
         let mut distances = Vec::new();
-        let curves = CONSTANTS
-            .iter()
-            .map(|c| {
-                let fitted = usfl7(usfl, block.shift, *c);
-                distances.push(fitted.map_or_else(
-                    || "undefined".into(),
-                    |f| format!("{:.3}", f.kolmogorov_distance(&sample)),
-                ));
-                (*c, fitted)
-            })
-            .collect();
+        let mut missing = Vec::new();
+        for (k, (c, dash)) in CONSTANTS.into_iter().zip(dashes).enumerate() {
+            let pen = Pen::new(Ink::Series(k), 1.3).dash(dash);
+            let fit = usfl7(usfl, block.shift, c);
+            let name = format!("USFL7, *c* = {c}");
+            let mut curve = fitted(at, (&name, pen), fit.as_ref(), &grid);
+            curve.keys[2] += &format!(", {title}");
+            series.push(curve);
+            match fit {
+                Some(fit) => {
+                    let apart = fit.kolmogorov_distance(&sample);
+                    distances.push(format!("{apart:.3}"));
+                }
+                None => {
+                    distances.push("undefined".into());
+                    missing.push(c.to_string());
+                }
+            }
+        }
+        if !missing.is_empty() {
+            let not = format!("not defined for *c* = {}", missing.join(", "));
+            series.push(Series::note(Mark::Corner, not, (0.0, 0.0)));
+        }
         words.push(format!("{title} {}", distances.join(", ")));
-        panels.push(ByConstantPanel {
-            title: title.into(),
-            benchmark: fits.ssfl,
-            sample: block.samples[demand_index(edp)].clone(),
-            curves,
-        });
+        let title = format!("{title}, *θ̃* = {:.2}", at.1);
+        panels.push(ChartPanel::new(title, x(), exceedance(), series));
     }
-    Ok(ByConstant {
-        heading: Heading::numbered(
-            18,
-            false,
-            "The constant c of Eq. 7",
-            "USFL7 for four constants against the SSFL, \
-                              demand 0.15, PGA; untrimmed and trimmed.",
-            Some(arm),
-        ),
-        edp,
-        panels,
-    }
-    .figure(format!(
-        "Largest distance of USFL7 to the empirical fragility for c = \
+    let layout = Layout {
+        grid: Some(Grid::new(panels.len(), 2).plot(440.0, 290.0)),
+        keys: &KEYS,
+        numbers: &NUMBERS[..2],
+        ..Layout::default()
+    };
+    let heading = Heading::numbered(
+        18,
+        "The constant c of Eq. 7",
+        "USFL7 for four constants against the SSFL, demand 0.15, PGA; \
+         untrimmed and trimmed.",
+        Some(arm),
+    );
+    let chart = Chart { heading, panels, columns: 2 };
+    Ok(chart.thinned((440.0, 290.0)).laid_out(
+        &layout,
+        format!(
+            "Largest distance of USFL7 to the empirical fragility for c = \
              0.25, 0.5, 0.75, 1: {}.",
-        words.join("; ")
-    )))
+            words.join("; ")
+        ),
+    ))
 }

@@ -3,20 +3,45 @@
 use rayon::prelude::*;
 use rocking::capacity::ResponseCurve;
 
+use super::single::demand;
 use crate::analyses::SuiteResults;
 use crate::analyses::no_arm;
 use crate::estimates::three_quantiles;
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, REFERENCE, SLENDERNESSES_RAD, position,
 };
+use rocking_common::table::number;
 use rocking_common::words::{percent, range};
-use rocking_draw::figures::Figure;
+use rocking_draw::axis::Axis;
+use rocking_draw::colour::{Ink, Pen};
+use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    Heading, QuantileGroup, QuantilePanel, Quantiles,
+    Chart, ChartPanel, Column, Figure, Heading, Layout, Mark, Series,
 };
+use rocking_draw::grid::Grid;
+use rocking_draw::legend::{Entry, Sample};
+use rocking_draw::markup::plain;
+use rocking_draw::text::Horizontal;
 
 /// Most points of a line.
 const MOST_POINTS: usize = 160;
+
+/// Columns of the CSV.
+const KEYS: [&str; 4] = ["p_rad_s", "note", "im", "group"];
+const NUMBERS: [Column; 4] = [
+    ("intensity", |d| d.y, number),
+    ("q16", |d| d.low, number),
+    ("q50", |d| d.x, number),
+    ("q84", |d| d.high, number),
+];
+
+/// Quantile curves of what is compared at one frequency parameter.
+struct Compared {
+    p_rad_s: f64,
+    /// More words for the panel's title, or nothing.
+    note: String,
+    groups: Vec<Series>,
+}
 
 /// Figure 8: a row a frequency parameter, a column an arm.
 pub(super) fn slendernesses(
@@ -42,39 +67,131 @@ pub(super) fn slendernesses(
     for frequency in 0..FREQUENCIES_RAD_S.len() {
         for (arm, own) in arms.iter().zip(&by_arm) {
             let note = format!("arm {}", arm.letter());
-            panels.push(QuantilePanel { note, ..own[frequency].clone() });
+            let Compared { p_rad_s, groups, .. } = &own[frequency];
+            let (p_rad_s, groups) = (*p_rad_s, groups.clone());
+            panels.push(Compared { p_rad_s, note, groups });
         }
     }
-    Ok(Quantiles {
-        heading: Heading::numbered(
-            8,
-            false,
-            "16/50/84 % demand given intensity, five slendernesses",
-            "Three quantile curves for each slenderness; a row a frequency \
-             parameter, a column an arm of the grid, both on the same \
-             scale; a curve ends where its quantile is overturned.",
-            None,
-        ),
-        panels,
-        columns: arms.len(),
-    }
-    .figure(words))
+    let heading = Heading::numbered(
+        8,
+        "16/50/84 % demand given intensity, five slendernesses",
+        "Three quantile curves for each slenderness; a row a frequency \
+         parameter, a column an arm of the grid, both on the same scale; a \
+         curve ends where its quantile is overturned.",
+        None,
+    );
+    Ok(figure(heading, &panels, arms.len(), words))
 }
 
-/// Intensity at which the median is overturning.
-fn median_overturns(group: &QuantileGroup) -> Option<f64> {
-    let at = group.quantiles[1].iter().position(|q| q.is_infinite())?;
-    Some(group.im[at])
+fn figure(
+    heading: Heading,
+    panels: &[Compared],
+    columns: usize,
+    words: String,
+) -> Figure {
+    let grid = Grid { right: 40.0, ..Grid::new(panels.len(), columns) };
+    let grid = match grid.columns {
+        2 => grid.plot(330.0, 190.0),
+        _ => grid.plot(264.0, grid.height),
+    };
+    let legend = [(1.8, "median"), (0.9, "16 and 84 %")].map(|(width, of)| {
+        Entry::new(Sample::Line(Pen::new(Ink::Text, width)), of)
+    });
+    let layout = Layout {
+        grid: Some(grid),
+        legend: legend.into(),
+        keys: &KEYS,
+        numbers: &NUMBERS,
+        ..Layout::default()
+    };
+    let shown = panels.iter().map(|one| {
+        let same = |p: &&Compared| p.p_rad_s == one.p_rad_s;
+        let (low, high) = levels(panels.iter().filter(same));
+        let mut title = common::frequency(one.p_rad_s);
+        if !one.note.is_empty() {
+            title += &format!(", {}", common::words(&one.note));
+        }
+        let groups = one.groups.iter().map(|group| {
+            group.clone().keyed([
+                number(one.p_rad_s),
+                one.note.clone(),
+                Intensity::Pga.name().into(),
+                plain(&group.label),
+            ])
+        });
+        ChartPanel::new(
+            title,
+            demand(),
+            Axis::linear(low, high, 6)
+                .label(common::intensity(Intensity::Pga)),
+            groups.chain(edge_words(&one.groups)).collect(),
+        )
+    });
+    let chart = Chart { heading, panels: shown.collect(), columns };
+    chart.laid_out(&layout, words)
+}
+
+/// Demands of a quantile: 0 is 16 %, 1 the median, 2 is 84 %.
+fn demands(group: &Series, quantile: usize) -> Vec<f64> {
+    let ends = group.interval.iter().copied();
+    match quantile {
+        0 => ends.map(|(low, _)| low).collect(),
+        1 => group.x.clone(),
+        _ => ends.map(|(_, high)| high).collect(),
+    }
+}
+
+/// Intensity at which a quantile is overturning.
+fn overturns(group: &Series, quantile: usize) -> Option<f64> {
+    let demands = demands(group, quantile);
+    let at = demands.iter().position(|q| q.is_infinite())?;
+    group.y.get(at).copied()
+}
+
+/// Ends of the intensity axis of some panels: 1, or the lowest level shown,
+/// and a little above the last overturning level.
+fn levels<'a>(panels: impl Iterator<Item = &'a Compared>) -> (f64, f64) {
+    let groups: Vec<&Series> = panels.flat_map(|p| &p.groups).collect();
+    let ends = groups
+        .iter()
+        .map(|g| overturns(g, 0).or(g.y.last().copied()).unwrap_or(1.0));
+    let starts = groups.iter().filter_map(|g| g.y.first().copied());
+    let (_, high) = span(ends, true).unwrap_or((1.0, 2.0));
+    let (low, _) = span(starts, true).unwrap_or((1.0, 2.0));
+    let low = if low < 0.99 { 0.0 } else { 1.0 };
+    (low, 1.06_f64.mul_add(high - low, low))
+}
+
+/// `84 %`, `50 %`, `16 %` where the curves leave, or where they end.
+fn edge_words(groups: &[Series]) -> Vec<Series> {
+    let words = |(quantile, words): (usize, &str)| {
+        let ends = groups.iter().filter_map(|g| overturns(g, quantile));
+        if let Some((low, high)) = span(ends, true) {
+            let at = (0.0, f64::midpoint(low, high));
+            return Some(Series::note(Mark::Edge, words, at));
+        }
+        let last = |g: &Series| {
+            let demands = demands(g, quantile);
+            let last = demands.iter().rposition(|e| e.is_finite())?;
+            Some((demands[last], g.y[last]))
+        };
+        let ends: Vec<(f64, f64)> = groups.iter().filter_map(last).collect();
+        let (_, right) = span(ends.iter().map(|e| e.0), false)?;
+        let at = (right + 0.02, ends[0].1);
+        Some(Series::note(Mark::Words(Horizontal::Left), words, at))
+    };
+    let all = [(2, "84 %"), (1, "50 %"), (0, "16 %")];
+    all.into_iter().filter_map(words).collect()
 }
 
 /// How far the slendernesses are apart where the median overturns.
-fn spread_in_words(arms: &[Arm], by_arm: &[Vec<QuantilePanel>]) -> String {
+fn spread_in_words(arms: &[Arm], by_arm: &[Vec<Compared>]) -> String {
     let mut out = Vec::new();
     for (arm, panels) in arms.iter().zip(by_arm) {
         let spreads: Vec<String> = panels
             .iter()
             .map(|panel| {
-                let first = |g| median_overturns(g).unwrap_or(f64::NAN);
+                let first = |g| overturns(g, 1).unwrap_or(f64::NAN);
                 let (low, high) = range(panel.groups.iter().map(first));
                 format!(
                     "{} at p = {}",
@@ -110,43 +227,36 @@ pub(super) fn adjusted(
         Ok(groups)
     })?;
     let words = overturning_in_words(&panels);
-    Ok(Quantiles {
-        heading: Heading::numbered(
-            10,
-            true,
-            "16/50/84 % demand given intensity: scaled records \
-                        and adjusted slenderness",
-            "Three quantile curves for each procedure, one panel a frequency \
-             parameter; alpha = 0.10 for the scaled records.",
-            Some(arm),
-        ),
-        panels,
-        columns: 3,
-    }
-    .figure(format!(
+    let heading = Heading::numbered(
+        10,
+        "16/50/84 % demand given intensity: scaled records and adjusted \
+         slenderness",
+        "Three quantile curves for each procedure, one panel a frequency \
+         parameter; alpha = 0.10 for the scaled records.",
+        Some(arm),
+    );
+    let words = format!(
         "The median demand becomes overturning {words}, by procedure."
-    )))
+    );
+    Ok(figure(heading, &panels, 3, words))
 }
 
 fn panels(
-    groups: impl Fn(usize) -> anyhow::Result<Vec<QuantileGroup>>,
-) -> anyhow::Result<Vec<QuantilePanel>> {
+    groups: impl Fn(usize) -> anyhow::Result<Vec<Series>>,
+) -> anyhow::Result<Vec<Compared>> {
     FREQUENCIES_RAD_S
         .into_iter()
         .enumerate()
         .map(|(frequency, p_rad_s)| {
             let groups = groups(frequency)?;
-            Ok(QuantilePanel { p_rad_s, note: String::new(), groups })
+            Ok(Compared { p_rad_s, note: String::new(), groups })
         })
         .collect()
 }
 
 /// Quantiles at the levels that the scan ran, up to the first at which the
 /// 16 % quantile has overturned; evenly thinned where there are many.
-pub(crate) fn group(
-    label: String,
-    curves: &[ResponseCurve],
-) -> anyhow::Result<QuantileGroup> {
+fn group(label: String, curves: &[ResponseCurve]) -> anyhow::Result<Series> {
     // All curves of a block share their levels; the longest has them all.
     let mut levels: Vec<f64> = Vec::new();
     for curve in curves {
@@ -170,16 +280,14 @@ pub(crate) fn group(
         .par_iter()
         .map(|im| three(curves, *im))
         .collect::<Result<_, _>>()?;
-    let of = |i: usize| at.iter().map(|q| q[i]).collect();
-    Ok(QuantileGroup { label, im, quantiles: [0, 1, 2].map(of) })
+    let medians = at.iter().map(|q| q[1]).collect();
+    let ends = at.iter().map(|q| (q[0], q[2])).collect();
+    Ok(Series::new(label, Mark::Quantiles, medians, im).with(ends))
 }
 
 /// 16, 50 and 84 % quantile of the demand at an intensity; overturned
 /// counts as infinite.
-pub(crate) fn three(
-    curves: &[ResponseCurve],
-    im: f64,
-) -> anyhow::Result<[f64; 3]> {
+fn three(curves: &[ResponseCurve], im: f64) -> anyhow::Result<[f64; 3]> {
     // Between the last standing level and a refined overturning the curve
     // says nothing; the block stands there.
     let demands: Vec<f64> = curves
@@ -192,7 +300,7 @@ pub(crate) fn three(
     three_quantiles(&demands)
 }
 
-fn overturning_in_words(panels: &[QuantilePanel]) -> String {
+fn overturning_in_words(panels: &[Compared]) -> String {
     let by_panel: Vec<String> = panels
         .iter()
         .map(|panel| {
@@ -200,7 +308,7 @@ fn overturning_in_words(panels: &[QuantilePanel]) -> String {
                 .groups
                 .iter()
                 .map(|g| {
-                    let at = median_overturns(g);
+                    let at = overturns(g, 1);
                     at.map_or("never".into(), |im| format!("{im:.2}"))
                 })
                 .collect();

@@ -47,7 +47,6 @@ pub(super) fn slendernesses(
         Boxplots {
             heading: Heading::numbered(
                 number,
-                true,
                 format!("Paired ratios of demands to alpha = 0.10, {p}"),
                 "Notched boxplots of the ratio of peak rotation over \
                  slenderness to that of the block with alpha = 0.10 under the \
@@ -85,7 +84,6 @@ pub(super) fn adjusted(
         Boxplots {
             heading: Heading::numbered(
                 9,
-                true,
                 "Slenderness adjustment against record scaling",
                 "Notched boxplots of the ratio of demands: unscaled record on \
                  a block of adjusted slenderness over scaled record on the \

@@ -3,19 +3,20 @@
 use crate::analyses::no_arm;
 use crate::analyses::{HISTORY_INTERVAL_S, SuiteResults};
 use rocking_common::paper::{
-    Arm, FREQUENCIES_RAD_S, SLENDERNESSES_RAD, position,
+    Arm, FREQUENCIES_RAD_S, Intensity, SLENDERNESSES_RAD, position,
 };
-use rocking_draw::figures::Figure;
+use rocking_common::table::{number as cell, point};
+use rocking_draw::axis::Axis;
+use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    BlockSketch, Heading, Histories, History, HistoryPanel, IdaCurve,
-    IdaCurves, IdaPanel,
+    BlockSketch, Chart, ChartPanel, Column, Figure, Heading, History,
+    HistoryPanel, Layout, Mark, Series, histories,
 };
 
 pub(super) fn sketch() -> Figure {
     BlockSketch {
         heading: Heading::numbered(
             1,
-            false,
             "The rocking block",
             "A rectangular block of width 2b and height 2h, rotated about one \
              base corner; R is half its diagonal and alpha the angle between \
@@ -32,12 +33,8 @@ pub(super) fn sketch() -> Figure {
     )
 }
 
-pub(super) fn histories(
-    suite: &SuiteResults,
-    arm: Arm,
-    number: u32,
-) -> Figure {
-    let panels = suite
+pub(super) fn motions(suite: &SuiteResults, arm: Arm, number: u32) -> Figure {
+    let panels: Vec<HistoryPanel> = suite
         .single
         .iter()
         .zip(FREQUENCIES_RAD_S)
@@ -62,20 +59,14 @@ pub(super) fn histories(
         "Response histories under three {} motions at equal intensity",
         suite.kind
     );
-    Histories {
-        heading: Heading::numbered(
-            number,
-            false,
-            title,
-            "Rotation over slenderness against time, five slendernesses in \
-             each panel; rows by frequency parameter, columns by record.",
-            Some(arm),
-        ),
-        panels,
-        columns: 3,
-    }
-    .thinned()
-    .figure(apart_in_words(suite))
+    let heading = Heading::numbered(
+        number,
+        title,
+        "Rotation over slenderness against time, five slendernesses in each \
+         panel; rows by frequency parameter, columns by record.",
+        Some(arm),
+    );
+    histories(heading, &panels, 3, apart_in_words(suite))
 }
 
 /// The history to rest.
@@ -105,6 +96,20 @@ fn apart_in_words(suite: &SuiteResults) -> String {
     )
 }
 
+/// Side of a panel of IDA curves, in px.
+const WIDTH_PX: f64 = 288.0;
+const HEIGHT_PX: f64 = 222.0;
+/// Columns of their CSV.
+const KEYS: [&str; 4] = ["p_rad_s", "record", "im", "alpha_rad"];
+const NUMBERS: [Column; 2] =
+    [("intensity", |d| d.y, cell), ("edp", |d| d.x, point)];
+
+/// The axis of the demand, past 1 so that overturning stays inside.
+pub(super) fn demand() -> Axis {
+    Axis::linear(0.0, 1.08, 5).label(common::DEMAND)
+}
+
+/// IDA curves up to first overturning.
 pub(super) fn curves(
     suite: &SuiteResults,
     arm: Arm,
@@ -114,27 +119,34 @@ pub(super) fn curves(
     let mut panels = Vec::new();
     for (frequency, p_rad_s) in FREQUENCIES_RAD_S.into_iter().enumerate() {
         for record in suite.chosen {
-            let curves = SLENDERNESSES_RAD
-                .iter()
-                .enumerate()
-                .map(|(slenderness, alpha_rad)| {
-                    let block = position(frequency, slenderness);
-                    let curve = &all[block][record];
-                    let (im, edp): (Vec<f64>, Vec<f64>) =
-                        curve.vertices().unzip();
-                    IdaCurve {
-                        alpha_rad: *alpha_rad,
-                        im,
-                        edp,
-                        overturning_im: curve.overturning_im(),
-                    }
-                })
-                .collect();
-            panels.push(IdaPanel {
-                p_rad_s,
-                record: suite.records[record].name.clone(),
+            let name = &suite.records[record].name;
+            let curve = |(slenderness, alpha_rad): (usize, f64)| {
+                let curve = &all[position(frequency, slenderness)][record];
+                let stands = curve.vertices().filter(|(_, e)| e.is_finite());
+                let falls = curve.overturning_im().map(|x| (x, f64::INFINITY));
+                let (im, edp) = stands.chain(falls).unzip();
+                let label = common::slenderness(alpha_rad);
+                Series::new(label, Mark::Line, edp, im).keyed([
+                    cell(p_rad_s),
+                    name.clone(),
+                    Intensity::Pga.name().into(),
+                    cell(alpha_rad),
+                ])
+            };
+            let curves = SLENDERNESSES_RAD.into_iter().enumerate().map(curve);
+            let curves: Vec<Series> = curves.collect();
+            let levels = curves.iter().flat_map(|c| c.y.iter().copied());
+            let (low, high) = span(levels, true).unwrap_or((1.0, 2.0));
+            let top = 1.12_f64.mul_add(high - low, low).max(1.2);
+            let bottom = if low < 0.99 { 0.0 } else { 1.0 };
+            let p = common::frequency(p_rad_s);
+            panels.push(ChartPanel::new(
+                format!("{p}\n{}", common::record(name, WIDTH_PX)),
+                demand(),
+                Axis::linear(bottom, top, 5)
+                    .label(common::intensity(Intensity::Pga)),
                 curves,
-            });
+            ));
         }
     }
     let differences: Vec<String> = suite
@@ -146,27 +158,27 @@ pub(super) fn curves(
             format!("{:.2} % at p = {p}", 100.0 * apart)
         })
         .collect();
-    Ok(IdaCurves {
-        heading: Heading::numbered(
-            number,
-            false,
-            format!(
-                "IDA curves of three {} motions, five slendernesses",
-                suite.kind
-            ),
-            "Peak rotation over slenderness against dimensionless intensity \
-             up to first overturning; rows by frequency parameter, columns by \
-             record.",
-            Some(arm),
+    let heading = Heading::numbered(
+        number,
+        format!(
+            "IDA curves of three {} motions, five slendernesses",
+            suite.kind
         ),
-        panels,
-        columns: 3,
-    }
-    .thinned()
-    .figure(format!(
-        "Over all {} records the intensity that reaches a given demand \
+        "Peak rotation over slenderness against dimensionless intensity up \
+         to first overturning; rows by frequency parameter, columns by \
+         record.",
+        Some(arm),
+    );
+    let chart = Chart { heading, panels, columns: 3 };
+    let layout =
+        Layout { keys: &KEYS, numbers: &NUMBERS, ..Layout::default() };
+    Ok(chart.thinned((WIDTH_PX, HEIGHT_PX)).laid_out(
+        &layout,
+        format!(
+            "Over all {} records the intensity that reaches a given demand \
              differs from that of alpha = 0.10 by a median of {}.",
-        suite.records.len(),
-        differences.join(", ")
-    )))
+            suite.records.len(),
+            differences.join(", ")
+        ),
+    ))
 }

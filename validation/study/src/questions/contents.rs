@@ -203,13 +203,11 @@ fn figure(ours: &[Ours; 2]) -> Figure {
                 let (low, high) = one.interval_m_s(*k);
                 (scaled(k, low), scaled(k, high))
             };
-            series.push(Series {
-                label: format!("blocks, {} motions", one.suite),
-                mark,
-                x: places.clone(),
-                y: of.iter().map(|k| scaled(k, one.median_m_s(*k))).collect(),
-                interval: of.iter().map(ends).collect(),
-            });
+            let medians = of.iter().map(|k| scaled(k, one.median_m_s(*k)));
+            let label = format!("blocks, {} motions", one.suite);
+            let own =
+                Series::new(label, mark, places.clone(), medians.collect());
+            series.push(own.with(of.iter().map(ends).collect()));
         }
         ChartPanel { title: title.into(), x: x.0, y: y.0, series }
     };

@@ -1,15 +1,13 @@
 //! Made-up numbers of the right shape; they come from closed formulas and
 //! have no meaning.
 
-mod statistics;
+mod chart;
 
 use rocking::statistics::{Boxplot, ExtendedSample, QuantileType};
 
 use crate::figures::*;
-use rocking_common::paper::{Arm, Intensity};
-pub use statistics::{
-    accepted, by_constant, chart, fragilities, spectrum, tests_along,
-};
+pub use chart::chart;
+use rocking_common::paper::Arm;
 
 pub const ALPHAS: [f64; 5] = [0.05, 0.10, 0.15, 0.20, 0.25];
 pub const FREQUENCIES: [f64; 3] = [1.0, 3.0, 4.0];
@@ -34,18 +32,10 @@ pub fn normal(i: usize) -> f64 {
 pub fn all() -> Vec<Figure> {
     vec![
         sketch().figure(String::new()),
-        histories().figure(String::new()),
-        ida().figure(String::new()),
+        histories(heading("figure-02", None), &motions(), 3, String::new()),
         boxplots(4).figure(String::new()),
         boxplots(8).figure(String::new()),
-        quantiles().figure(String::new()),
-        capacities().figure(String::new()),
-        accepted().figure(String::new()),
-        tests_along().figure(String::new()),
-        fragilities().figure(String::new()),
-        by_constant().figure(String::new()),
         chart().figure(String::new()),
-        spectrum().figure(String::new()),
         fates().figure(String::new()),
     ]
 }
@@ -77,7 +67,7 @@ pub fn sketch() -> BlockSketch {
     }
 }
 
-pub fn histories() -> Histories {
+pub fn motions() -> Vec<HistoryPanel> {
     let panel = |i: usize| {
         let p = FREQUENCIES[i / 3];
         let curve = |(k, alpha): (usize, &f64)| {
@@ -106,53 +96,7 @@ pub fn histories() -> Histories {
             curves: ALPHAS.iter().enumerate().map(curve).collect(),
         }
     };
-    Histories {
-        heading: heading("figure-02", None),
-        panels: (0..9).map(panel).collect(),
-        columns: 3,
-    }
-}
-
-pub fn ida() -> IdaCurves {
-    let panel = |i: usize| {
-        let p = FREQUENCIES[i / 3];
-        let curves = ALPHAS
-            .iter()
-            .enumerate()
-            .map(|(k, alpha)| {
-                let fall = 1.6 + 0.9 * noise(i) + 0.1 * normal(7 * i + k);
-                let im: Vec<f64> =
-                    (0..200).map(|n| 1.0 + 0.02 * n as f64).collect();
-                let im: Vec<f64> =
-                    im.into_iter().take_while(|x| *x <= fall).collect();
-                let edp = im
-                    .iter()
-                    .enumerate()
-                    .map(|(n, x)| {
-                        let s = (x - 1.0) / (fall - 1.0);
-                        let weave = 0.04 * noise(n + 3 * i);
-                        0.9 * s * s + weave * s
-                    })
-                    .collect();
-                IdaCurve {
-                    alpha_rad: *alpha,
-                    im,
-                    edp,
-                    overturning_im: Some(fall),
-                }
-            })
-            .collect();
-        IdaPanel {
-            p_rad_s: p,
-            record: format!("RSN{}_QUAKE_A{}-090, 1994", 700 + i, i),
-            curves,
-        }
-    };
-    IdaCurves {
-        heading: heading("figure-04", Some(Arm::A)),
-        panels: (0..9).map(panel).collect(),
-        columns: 3,
-    }
+    (0..9).map(panel).collect()
 }
 
 pub fn notched(sample: &[f64]) -> Boxplot {
@@ -191,74 +135,5 @@ pub fn boxplots(panels: usize) -> Boxplots {
         ratio_label: "*r*_{*α*} = *θ̃*_{*α*} / *θ̃*_{0.10}".into(),
         panels: (0..panels).map(panel).collect(),
         columns: if panels == 4 { 2 } else { 4 },
-    }
-}
-
-pub fn quantiles() -> Quantiles {
-    let group = |p: f64, alpha: f64| {
-        let im: Vec<f64> = (0..400).map(|n| 1.0 + 0.02 * n as f64).collect();
-        let curve = |z: f64| -> Vec<f64> {
-            let fall = 1.0 + (5.0 / p) * libm::exp(-0.6 * z + 0.2 * alpha);
-            im.iter()
-                .map(|x| {
-                    let s = (x - 1.0) / (fall - 1.0);
-                    if s < 1.0 { 0.85 * s * s } else { f64::INFINITY }
-                })
-                .collect()
-        };
-        QuantileGroup {
-            label: format!("*α* = {alpha:.2} rad"),
-            quantiles: [-1.0, 0.0, 1.0].map(curve),
-            im,
-        }
-    };
-    let panel = |p: &f64| QuantilePanel {
-        p_rad_s: *p,
-        note: String::new(),
-        groups: ALPHAS.iter().map(|a| group(*p, *a)).collect(),
-    };
-    Quantiles {
-        heading: heading("figure-08", Some(Arm::A)),
-        panels: FREQUENCIES.iter().map(panel).collect(),
-        columns: 3,
-    }
-}
-
-pub fn capacities() -> Capacities {
-    let panel = |(intensity, shift): (Intensity, f64)| CapacityPanel {
-        intensity,
-        shift,
-        quantiles: (0..=100)
-            .map(|k| 0.01 * f64::from(k))
-            .map(|e| (e, [1.0, 2.0, 4.0].map(|q| shift + q * e.sqrt())))
-            .collect(),
-        curves: (0..86)
-            .map(|r| {
-                let edp: Vec<f64> =
-                    (0..=100).map(|k| 0.01 * k as f64).collect();
-                let reach = 3.0 * libm::exp(0.5 * normal(r));
-                let start = match intensity {
-                    Intensity::Pga => 1.0,
-                    Intensity::Pgv => shift * (1.0 + noise(r + 500)),
-                };
-                let im = |(k, e): (usize, &f64)| {
-                    start + reach * e.sqrt() + 0.1 * noise(k + 101 * r) * e
-                };
-                CapacityCurve {
-                    record: format!("R{r}"),
-                    im: edp.iter().enumerate().map(im).collect(),
-                    edp,
-                }
-            })
-            .collect(),
-    };
-    Capacities {
-        heading: heading("figure-11", Some(Arm::A)),
-        alpha_rad: 0.20,
-        p_rad_s: 1.0,
-        panels: [(Intensity::Pga, 1.0), (Intensity::Pgv, 0.14)]
-            .into_iter()
-            .map(panel)
-            .collect(),
     }
 }

@@ -2,6 +2,9 @@
 
 use rocking::statistics::Lognormal;
 
+use super::curves::{
+    KEYS, NUMBERS, along, empirical, exceedance, fitted, keys, most_of,
+};
 use crate::analyses::no_arm;
 use crate::claims::limit_of;
 use crate::fits::{THRESHOLDS, distance, usfl7};
@@ -10,10 +13,16 @@ use crate::measures::{At, Measure, Source, Thresholds, by_demand, to_ssfl};
 use crate::results::Results;
 use rocking_common::findings::{Measured, Tested};
 use rocking_common::paper::{Arm, Intensity};
-use rocking_draw::figures::Figure;
+use rocking_draw::axis::Axis;
+use rocking_draw::colour::{Dash, Fill, Ink, Pen};
+use rocking_draw::figures::common::{self, span};
 use rocking_draw::figures::{
-    BandOf, Estimator, Fitted, Fragilities, FragilityPanel, Heading, Limit,
+    Chart, ChartPanel, Figure, Heading, Layout, Look, Mark, Series,
 };
+use rocking_draw::grid::Grid;
+
+const LIMIT: Fill = Fill::tint(Ink::Muted, 30);
+const USFL: (&str, Pen) = ("USFL", Pen::new(Ink::Series(0), 1.4));
 
 /// Intensities at which the ends of a band are computed.
 const POINTS: u32 = 80;
@@ -60,11 +69,21 @@ impl Pair {
         }
     }
 
-    /// What the band of the second fit holds.
-    fn band_of(self) -> BandOf {
+    /// Name and pen of the second fit.
+    fn other(self) -> (&'static str, Pen) {
+        let (name, series) = match self {
+            Self::Shifted => ("SSFL", 2),
+            Self::Trimmed | Self::Untrimmed => ("USFL7", 1),
+        };
+        (name, Pen::new(Ink::Series(series), 1.4).dash(Dash::Dashed))
+    }
+
+    /// Name of the second fit's band: of USFL7 it is that of the difference
+    /// to the SSFL, laid on the SSFL, so that the curve need not lie in it.
+    fn band_words(self) -> &'static str {
         match self {
-            Self::Shifted => BandOf::Curve,
-            Self::Trimmed | Self::Untrimmed => BandOf::DifferenceToSsfl,
+            Self::Shifted => "95 % band of SSFL",
+            _ => "SSFL + 95 % band of USFL7 \u{2212} SSFL",
         }
     }
 
@@ -140,21 +159,30 @@ pub(in super::super) fn thresholds(
         }
         .into(),
     );
-    Ok(Fragilities {
-        heading: Heading::numbered(
-            number,
-            false,
-            pair.title(),
-            "Six panels, PGA above and PGV below, demands 0.15, 0.35 and \
-             1.00 from left to right: probability of exceedance against \
-             intensity as dots of the sample, two fitted curves and 95 % \
-             bands; p = 3, alpha = 0.20.",
-            Some(arm),
-        ),
-        panels,
-        columns: THRESHOLDS.len(),
-    }
-    .figure(words.join(" ")))
+    let heading = Heading::numbered(
+        number,
+        pair.title(),
+        "Six panels, PGA above and PGV below, demands 0.15, 0.35 and 1.00 \
+         from left to right: probability of exceedance against intensity as \
+         dots of the sample, two fitted curves and 95 % bands; p = 3, alpha \
+         = 0.20.",
+        Some(arm),
+    );
+    let columns = THRESHOLDS.len();
+    let layout = Layout {
+        by_row: true,
+        keys: &KEYS,
+        numbers: &NUMBERS,
+        ..Layout::default()
+    };
+    let grid = Grid::new(panels.len(), columns);
+    let chart = Chart { heading, panels, columns };
+    let chart = chart.thinned((grid.width, grid.height));
+    Ok(chart.laid_out(&layout, words.join(" ")))
+}
+
+fn band(pen: Pen) -> Fill {
+    Fill::tint(pen.ink, 26)
 }
 
 /// What a panel shows.
@@ -172,16 +200,14 @@ fn panel(
     read: &Thresholds,
     pair: Pair,
     of: &Panel<'_>,
-) -> anyhow::Result<FragilityPanel> {
+) -> anyhow::Result<ChartPanel> {
     let kind = source.results.ordinary.kind;
     let whole = source.draws.whole();
     let at = read.at(whole.of(kind), of.place).ok_or_else(no_arm)?;
     let (first, second) = (pair.first(&at), pair.second(&at));
-    let sample = at.sample.sorted().to_vec();
-    let (low, high) = Fragilities::range(&sample);
-    let step = (high - low) / f64::from(POINTS);
-    let grid: Vec<f64> =
-        (0..=POINTS).map(|k| step.mul_add(f64::from(k), low)).collect();
+    let sample = at.sample.sorted();
+    let axis = range(sample);
+    let grid = along(axis, POINTS);
     // Of USFL7 the difference to SSFL, which moves with the records less
     // than either.
     let over = |draw: Draw<'_>| {
@@ -201,22 +227,38 @@ fn panel(
     let bands = source.draws.smooth(source.tested, &over);
     let bands = bands.percentiles(source.draws, source.tested);
     let (of_first, of_second) = bands.split_at(grid.len());
-    let laid_on = |on: Option<Lognormal>, ends: &[Option<(f64, f64)>]| {
-        grid.iter()
-            .zip(ends)
-            .filter_map(|(x, ends)| {
-                let p = on.map_or(0.0, |f| f.cdf(*x));
-                ends.map(|(a, b)| (*x, p + a, p + b))
-            })
-            .collect::<Vec<_>>()
+    let place = (of.intensity, of.edp);
+    // Ends of a band on a curve, or of the curve itself.
+    let laid = |name: &str, fill, on: Option<Lognormal>, ends: &[_]| {
+        let found = grid.iter().zip(ends).filter_map(|(x, ends)| {
+            let p = on.map_or(0.0, |f| f.cdf(*x));
+            let (a, b): (f64, f64) = (*ends)?;
+            Some((*x, (p + a, p + b)))
+        });
+        let (x, ends): (Vec<f64>, Vec<(f64, f64)>) = found.unzip();
+        let y = vec![f64::NAN; x.len()];
+        let keys = keys(place, name, on.as_ref());
+        let band = Series::of(Look::band(fill), x, y).labelled(name);
+        band.with(ends).keyed(keys)
     };
     let on = at.fits.ssfl.filter(|_| pair != Pair::Shifted);
-    let own = if pair == Pair::Shifted { of_first } else { &[] };
-    let estimator = match pair {
-        Pair::Shifted => Estimator::Ssfl,
-        _ => Estimator::Usfl7,
-    };
-    let notes = match (second, of.cell) {
+    let (name, pen) = pair.other();
+    let mut series = Vec::new();
+    if on.is_some() {
+        let around = vec![Some((-of.limit, of.limit)); grid.len()];
+        let words = format!("limit: SSFL ± {}", of.limit);
+        series.push(laid(&words, LIMIT, on, &around));
+    }
+    if pair == Pair::Shifted {
+        let fill = band(USFL.1);
+        series.push(laid("95 % band of USFL", fill, None, of_first));
+    }
+    series.push(laid(pair.band_words(), band(pen), on, of_second));
+    series.push(empirical(place, sample));
+    let fine = along(axis, 300);
+    series.push(fitted(place, USFL, first.as_ref(), &fine));
+    series.push(fitted(place, (name, pen), second.as_ref(), &fine));
+    let mut notes = match (second, of.cell) {
         (None, _) => Vec::new(),
         (Some(_), None) => vec![
             "largest distance to the ECDF:".into(),
@@ -230,28 +272,29 @@ fn panel(
             vec!["largest distance to SSFL:".into(), with_interval(cell)]
         }
     };
-    let limit = |around| Limit { around, by: of.limit };
-    Ok(FragilityPanel {
-        intensity: of.intensity,
-        edp: of.edp,
-        sample,
-        curves: vec![
-            Fitted {
-                estimator: Estimator::Usfl,
-                curve: first,
-                band: laid_on(None, own),
-                band_of: BandOf::Curve,
-            },
-            Fitted {
-                estimator,
-                curve: second,
-                band: laid_on(on, of_second),
-                band_of: pair.band_of(),
-            },
-        ],
-        limit: on.map(limit),
-        notes,
-    })
+    for (name, fit) in [(USFL.0, first), (name, second)] {
+        if fit.is_none() {
+            notes.push(format!("{name} is not defined"));
+        }
+    }
+    let note = |words| Series::note(Mark::Corner, words, (0.0, 0.0));
+    series.extend(notes.into_iter().map(note));
+    let name = of.intensity.name().to_uppercase();
+    Ok(ChartPanel::new(
+        format!("{name}, *θ̃* = {:.2}", of.edp),
+        Axis::linear(axis.0, axis.1, 5).label(common::intensity(of.intensity)),
+        exceedance(),
+        series,
+    ))
+}
+
+/// Ends of a panel's intensity axis: from below the least datum to what 97 %
+/// of the data do not exceed.
+fn range(sample: &[f64]) -> (f64, f64) {
+    let data = sample.iter().copied();
+    let (least, _) = span(data, true).unwrap_or((1.0, 2.0));
+    let most = most_of(sample).filter(|x| *x > least);
+    (0.6 * least, 1.05 * most.unwrap_or(2.0 * least))
 }
 
 /// `0.031 (0.012 to 0.071)`.
@@ -315,4 +358,18 @@ fn distances_in_words(name: &str, cells: &[Measured], limit: f64) -> String {
     let all: Vec<String> =
         [inside, outside, open].into_iter().flatten().collect();
     format!("For {name} {}.", all.join("; "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_that_is_laid_on_another_curve_is_named_so() {
+        assert_eq!(Pair::Shifted.band_words(), "95 % band of SSFL");
+        for pair in [Pair::Trimmed, Pair::Untrimmed] {
+            let words = pair.band_words();
+            assert!(words.starts_with("SSFL + ") && words.ends_with("SSFL"));
+        }
+    }
 }

@@ -1,0 +1,30 @@
+//! Words of the page that no run changes, which `words.toml` has.
+
+use anyhow::Context as _;
+use serde::Deserialize;
+
+const WORDS: &str = include_str!("../words.toml");
+
+/// What the file has, in its order.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Words {
+    /// How the results come about, a paragraph each.
+    pub method: Vec<String>,
+    /// Terms, and what they mean.
+    pub glossary: Vec<(String, String)>,
+    /// Factor, level, evidence and gaps, a row each.
+    pub assessment: Vec<Vec<String>>,
+    /// The row of verification, where cases were run.
+    pub verified: Vec<String>,
+    /// The row of the input, where the user gave the suites.
+    pub given: Vec<String>,
+}
+
+/// The words.
+///
+/// # Errors
+/// Where the file has other keys.
+pub fn words() -> anyhow::Result<Words> {
+    toml::from_str(WORDS).context("words.toml")
+}

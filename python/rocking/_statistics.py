@@ -397,7 +397,7 @@ def summarise(
     >>> found.quantiles[0].value, found.boxplot.whisker_high
     (3.0, 4.0)
     """
-    values, _ = given_sample(sample)
+    values, *_ = given_sample(sample)
     at = floats(probabilities, "probabilities").tolist()
     return Summary._of(_rocking.summarise(values, at, quantile_type))
 

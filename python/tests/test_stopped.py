@@ -145,6 +145,20 @@ def summarise(given: Given) -> Call:
 
 
 @long
+def fit_stripes(given: Given) -> Call:
+    ims = np.linspace(1.2, 4.0, 20)
+    fit = given.ida.fit_stripes
+    return lambda: fit(ims, edp=0.5, n_resamples=1_000_000)
+
+
+@long
+def risk(given: Given) -> Call:
+    hazard = rk.Hazard("h.csv", "pga_g,annual_frequency\n0.1,0.01\n1,1e-5\n")
+    fit = rk.fit_fragility(given.ida.capacities(0.5))
+    return lambda: rk.risk(hazard, {"fit": fit}, n_resamples=1_000_000)
+
+
+@long
 def choose(given: Given) -> Call:
     sample = given.ida.capacities(0.5)
     return lambda: rk.choose(sample, n_resamples=1_000_000)

@@ -117,7 +117,8 @@ pub fn fit_stripes(
 
 /// Fits a lognormal fragility above `shift` to stripes of the same records,
 /// as [`fit_stripes`] does. The intervals are those of a bootstrap that draws
-/// the earthquakes of the records, and keeps each record in all its stripes.
+/// the earthquakes of the records, and keeps each record in all its stripes;
+/// a record without an outcome is left out.
 ///
 /// ```
 /// use rocking::procedures::{Draws, fit_outcomes};
@@ -147,12 +148,18 @@ pub fn fit_outcomes(
     draws: Draws,
 ) -> Result<CountsFragility, ProcedureError> {
     draws.check()?;
+    let mut known: Vec<usize> = outcomes.iter().map(|o| o.record).collect();
+    known.sort_unstable();
+    known.dedup();
+    let clusters = &clusters.part(&known);
+    let place = |record| known.partition_point(|other| *other < record);
     let found = fit_stripes(&Outcome::stripes(outcomes, |_| 1), shift)?;
     let Draws { replicates, seed } = draws;
     let all = Bootstrap::of("counts", seed, clusters, replicates);
     let drawn: Vec<[f64; 2]> = all.map(|places| {
         let counts = multiplicities(places, clusters.records());
-        let stripes = Outcome::stripes(outcomes, |record| counts[record]);
+        let of = |record| counts[place(record)];
+        let stripes = Outcome::stripes(outcomes, of);
         let fit = fit_counts_alone(&stripes, shift);
         fit.map_or([f64::NAN; 2], |law| [law.median(), law.dispersion()])
     });
@@ -174,22 +181,22 @@ pub fn fit_outcomes(
 }
 
 impl Outcome {
-    /// Whether each record that was run so far responds at `edp` (peak
-    /// |theta|/alpha) or above, at each intensity.
+    /// Whether each record responds at `edp` (peak |theta|/alpha) or above,
+    /// at each intensity up to which it was run; by record.
     #[must_use]
     pub fn of(
         curves: &[ResponseCurve],
         intensities: &[f64],
         edp: f64,
     ) -> Vec<Self> {
-        let at = |&im: &f64| {
-            let one = move |(record, curve): (usize, &ResponseCurve)| {
+        let of = |(record, curve): (usize, &ResponseCurve)| {
+            let at = |&im: &f64| {
                 let exceeded = curve.edp_at(im)? >= edp;
                 Some(Self { im, record, exceeded })
             };
-            curves.iter().enumerate().filter_map(one)
+            intensities.iter().filter_map(at).collect::<Vec<_>>()
         };
-        intensities.iter().flat_map(at).collect()
+        curves.iter().enumerate().flat_map(of).collect()
     }
 
     /// The counts of outcomes, each as often as `of` says of its record;

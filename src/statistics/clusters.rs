@@ -109,6 +109,16 @@ impl Clusters {
         self.count() == self.records()
     }
 
+    /// These records alone, in this order.
+    #[must_use]
+    pub fn part(&self, records: &[usize]) -> Self {
+        let labels = records.iter().map(|record| self.of[*record].to_string());
+        match self.unit {
+            Unit::Record => Self::singletons(records.len()),
+            Unit::Earthquake => Self::from_labels(labels),
+        }
+    }
+
     /// The multiplicities without the records of one cluster.
     #[must_use]
     pub fn without(&self, cluster: usize) -> Vec<u32> {

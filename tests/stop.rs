@@ -28,7 +28,7 @@ use super::compare::same;
 type Work = (&'static str, fn(u64) -> String);
 
 /// The text of what the work gives has all its bits.
-const WORK: [Work; 18] = [
+const WORK: [Work; 17] = [
     ("IDA curves", |_| {
         text(curves(&[normalised()], &[analysis()], &Batch::default()))
     }),

@@ -133,8 +133,6 @@ named! {
         WilsonInterval = "wilson-interval",
         /// Another interval, too narrow.
         OtherInterval = "other-interval",
-        /// Each record drawn by itself, though records share earthquakes.
-        RecordsAsUnit = "records-as-unit",
         /// An interval for each cell alone where all are meant.
         PointwiseIntervals = "pointwise-intervals",
         /// Percentiles of the share of the replicates' points.

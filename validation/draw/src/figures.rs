@@ -16,16 +16,15 @@ mod fates;
 mod heading;
 mod histories;
 pub mod of_result;
+mod series;
 mod sketch;
 
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
-pub use chart::{
-    Chart, ChartAxis, ChartPanel, Column, Datum, Layout, Look, Mark, Scale,
-    Series,
-};
+pub use chart::{Chart, ChartAxis, ChartPanel, Column, Datum, Layout, Scale};
 pub use fates::{Fate, FateMap};
 pub use heading::{Figure, Heading, Place};
 pub use histories::{History, HistoryPanel, histories};
+pub use series::{Look, Mark, Series};
 pub use sketch::BlockSketch;
 
 #[cfg(test)]

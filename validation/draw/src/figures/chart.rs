@@ -2,13 +2,13 @@
 
 use super::common;
 use super::heading::{Figure, Heading};
+use super::series::{Mark, Series};
 use crate::axis::Axis;
-use crate::colour::{Dash, Fill, Ink, Pen};
+use crate::colour::Pen;
 use crate::geometry::{Point, kept};
 use crate::grid::Grid;
-use crate::legend::{Entry, Sample};
-use crate::markup;
-use crate::panel::{Marker, Panel};
+use crate::legend::Entry;
+use crate::panel::Panel;
 use crate::scene::Scene;
 use crate::text::Horizontal;
 use rocking_common::table::{Table, number};
@@ -120,29 +120,6 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// What is drawn in one way: its numbers are the rows of the CSV.
-///
-/// An abscissa of +infinity is an overturned block: its line goes on level
-/// from 1 to the end of the axis.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series {
-    /// Legend in markup; the same label has the same colour in every panel,
-    /// an empty one is drawn in grey and has no legend.
-    pub label: String,
-    /// The cells that name it in the CSV; none: it has no rows, since it
-    /// shows numbers of other series again.
-    pub keys: Vec<String>,
-    /// How it is drawn.
-    pub mark: Mark,
-    /// Abscissas.
-    pub x: Vec<f64>,
-    /// Ordinates.
-    pub y: Vec<f64>,
-    /// Intervals of the ordinates, or of the abscissas with
-    /// [`Mark::Quantiles`]; empty: none.
-    pub interval: Vec<(f64, f64)>,
-}
-
 impl ChartPanel {
     /// A panel.
     pub fn new(
@@ -152,113 +129,6 @@ impl ChartPanel {
         series: Vec<Series>,
     ) -> Self {
         Self { title: title.into(), x: x.into(), y: y.into(), series }
-    }
-}
-
-impl Series {
-    /// A series without intervals, which its label names in the CSV.
-    pub fn new(
-        label: impl Into<String>,
-        mark: Mark,
-        x: Vec<f64>,
-        y: Vec<f64>,
-    ) -> Self {
-        let label = label.into();
-        let keys = vec![markup::plain(&label)];
-        Self { label, keys, mark, x, y, interval: Vec::new() }
-    }
-
-    /// A series with this look, without legend.
-    pub fn of(look: Look, x: Vec<f64>, y: Vec<f64>) -> Self {
-        Self::new("", Mark::Own(look), x, y)
-    }
-
-    /// What is no data, at a point: reference lines and words.
-    pub fn note(mark: Mark, words: impl Into<String>, at: Point) -> Self {
-        Self::new(words, mark, vec![at.0], vec![at.1]).keyed([])
-    }
-
-    /// The series with an entry in the legend.
-    pub fn labelled(self, label: impl Into<String>) -> Self {
-        Self { label: label.into(), ..self }
-    }
-
-    /// The series with these intervals.
-    pub fn with(self, interval: Vec<(f64, f64)>) -> Self {
-        Self { interval, ..self }
-    }
-
-    /// The series with these cells that name it in the CSV.
-    pub fn keyed<const N: usize>(self, keys: [String; N]) -> Self {
-        Self { keys: keys.into(), ..self }
-    }
-
-    /// Its points.
-    fn points(&self) -> impl DoubleEndedIterator<Item = Point> + Clone {
-        self.x.iter().zip(&self.y).map(|(x, y)| (*x, *y))
-    }
-}
-
-/// How a series is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Mark {
-    /// A line, over a band where there are intervals.
-    Line,
-    /// A dashed line, such as a reference slope or a limit.
-    Dashed,
-    /// Marks alone, on bars where there are intervals.
-    Points,
-    /// Marks joined by a line.
-    LineAndPoints,
-    /// Marks joined by a dashed line.
-    DashedAndPoints,
-    /// A line, and two thin ones along the ends of the abscissas' intervals.
-    Quantiles,
-    /// As it says.
-    Own(Look),
-    /// A horizontal line through the whole panel.
-    Across(Pen),
-    /// A vertical line through the whole panel.
-    Upright(Pen),
-    /// The label, on a baseline at the point.
-    Words(Horizontal),
-    /// The label in the lower right-hand corner, above later ones.
-    Corner,
-    /// The label right of the panel, above earlier ones.
-    Edge,
-}
-
-/// Pens, fills and marks of a series; those it does not have are none.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Look {
-    /// The line.
-    pub pen: Option<Pen>,
-    /// Lines along the ends of the abscissas' intervals.
-    pub sides: Option<Pen>,
-    /// Bars between the ends of the ordinates' intervals.
-    pub bars: Option<Pen>,
-    /// The band between these ends.
-    pub band: Option<Fill>,
-    /// Bars from each abscissa to the next one, which the line goes around.
-    pub bins: Option<Fill>,
-    /// Mark, half width in px and ink at each point.
-    pub marker: Option<(Marker, f64, Ink)>,
-}
-
-impl Look {
-    /// Nothing but a line.
-    pub fn line(pen: Pen) -> Self {
-        Self { pen: Some(pen), ..Self::default() }
-    }
-
-    /// Nothing but a band.
-    pub fn band(fill: Fill) -> Self {
-        Self { band: Some(fill), ..Self::default() }
-    }
-
-    /// Nothing but marks of this half width in px.
-    pub fn marks(marker: Marker, half_px: f64, ink: Ink) -> Self {
-        Self { marker: Some((marker, half_px, ink)), ..Self::default() }
     }
 }
 
@@ -298,61 +168,6 @@ const NUMBERS: [Column; 4] = [
     ("y_low", |d| d.low, number),
     ("y_high", |d| d.high, number),
 ];
-
-impl Mark {
-    fn look(self, rank: Option<usize>) -> Look {
-        let usual = Pen::of_series(rank.unwrap_or(0));
-        let thin = Pen { width_px: 1.1, dash: Dash::Solid, ..usual };
-        let grey = Pen::new(Ink::Muted, 0.9).dash(Dash::Dashed);
-        let pen = match self {
-            Self::Own(look) => return look,
-            Self::Quantiles => {
-                let wide =
-                    |share| Pen { width_px: share * usual.width_px, ..usual };
-                let (pen, sides) = (Some(wide(1.15)), Some(wide(0.55)));
-                return Look { pen, sides, ..Look::default() };
-            }
-            _ if rank.is_none() => grey,
-            Self::Dashed | Self::DashedAndPoints => thin.dash(Dash::Dashed),
-            Self::Points | Self::LineAndPoints => thin,
-            _ => usual,
-        };
-        let line = matches!(self, Self::Line | Self::Dashed);
-        let bar = Pen { width_px: 0.8, dash: Dash::Solid, ..pen };
-        let marker = Marker::of_series(rank.unwrap_or(0));
-        Look {
-            pen: (self != Self::Points).then_some(pen),
-            bars: (!line).then_some(bar),
-            band: line.then_some(Fill::tint(pen.ink, 16)),
-            marker: (!line).then_some((marker, 3.0, pen.ink)),
-            ..Look::default()
-        }
-    }
-
-    /// What stands before the label of a series in the legend.
-    fn sample(self, rank: usize) -> Option<Sample> {
-        let look = self.look(Some(rank));
-        match (self, look.pen, look.marker) {
-            (
-                Self::Across(_)
-                | Self::Upright(_)
-                | Self::Words(_)
-                | Self::Corner
-                | Self::Edge,
-                ..,
-            ) => None,
-            (Self::Quantiles, ..) => Some(Sample::Line(Pen::of_series(rank))),
-            (_, Some(pen), Some((marker, ..))) => {
-                Some(Sample::LineAndMark(pen, marker))
-            }
-            (_, Some(pen), None) => Some(Sample::Line(pen)),
-            (_, None, Some((marker, _, ink))) => {
-                Some(Sample::Mark(marker, ink))
-            }
-            _ => look.band.map(Sample::Band),
-        }
-    }
-}
 
 impl Chart {
     /// The chart without the points of its lines that lie within a tenth of

@@ -1,8 +1,9 @@
 //! Figures 2 and 3: response histories.
 
-use super::chart::{Chart, ChartPanel, Column, Layout, Look, Mark, Series};
+use super::chart::{Chart, ChartPanel, Column, Layout};
 use super::common;
 use super::heading::{Figure, Heading};
+use super::series::{Look, Mark, Series};
 use crate::axis::Axis;
 use crate::colour::{Ink, Pen};
 use crate::grid::Grid;

@@ -263,7 +263,6 @@ fn json_is_json_and_says_no_more_than_was_asked_for() {
         "ida --alpha 0.1 --p 3 --suite s --out ida.csv",
         "capacities --curve 1:0,1.1:0.2,1.2:0.5 --overturning 1.7",
         "fragility fit --sample a.txt --shift 1",
-        "fragility transform --im50 2 --beta 0.5 --shift 1 --c 1",
         "fragility transform --im50 1.05 --beta 0.5 --shift 1 --c 1",
         "lilliefors --sample a.txt --log",
         "lilliefors --critical-values --n 10 --replicates 500",

@@ -60,7 +60,6 @@ fn every_origin_and_measure_goes_out_by_the_same_door() {
         let out: Value = serde_json::from_str(&out).unwrap();
         out["blocks"].as_array().unwrap().clone()
     };
-    let tan = libm::tan(0.1);
     let near = |found: &Value, expected: f64| {
         let found = found.as_f64().unwrap();
         assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
@@ -88,13 +87,12 @@ fn every_origin_and_measure_goes_out_by_the_same_door() {
     let other = "--alpha 0.12 --p 3 --format nrml --out x.xml";
     let other = format!("fragility export --sample sa.txt {other}");
     refused(&place, &other, "alpha 0.1 rad");
-    // Baker's example of counts (Earthquake Spectra 31 (2015) 579): 1.076.
     let counts = "intensity,exceeded,n\n0.2,0,40\n0.3,0,40\n0.4,0,40\n0.6,4,40\n\
                   0.7,6,40\n0.8,13,40\n0.9,12,40\n1,16,40\n";
     fs::write(place.join("counts.csv"), counts).unwrap();
-    let median = &row("--counts counts.csv --im pga")[0]["median"];
-    let median = median.as_f64().unwrap() / tan;
-    assert!((median - 1.076).abs() < 1e-3, "{median}");
+    let found = row("--counts counts.csv --im pga");
+    // Baker's example (Earthquake Spectra 31 (2015) 579): 1.076.
+    near(&found[0]["median"], 1.076_116 * libm::tan(0.1));
     // The surface says what `fragility surface` says, and where it is from.
     let found = row("--surrogate ordinary");
     let own = answer(&place, "fragility surface --alpha 0.1 --p 3 --json");
@@ -121,11 +119,9 @@ fn an_export_that_would_be_wrong_is_refused_and_writes_nothing() {
     let export = "--shift 1 --format nrml --out block.xml";
     let one = "fragility export --sample capacities.txt";
     for (name, table) in [
-        ("twice.csv", "id,alpha,p\nA,0.1,3\nA,0.2,3\n"),
         ("column.csv", "alfa,p\n0.1,3\n"),
         ("half.csv", "alpha,p\n0.1,\n"),
         ("dot.csv", "id,alpha,p\na.b,0.1,3\n"),
-        ("dash.csv", "id,alpha,p\na-b,0.1,3\n"),
         ("eta.csv", "alpha,p,eta\n0.1,3,0.9\n"),
         ("flat.csv", "alpha,p\n1.6,3\n"),
     ] {

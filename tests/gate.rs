@@ -13,6 +13,8 @@ mod exchange;
 mod house;
 #[path = "page.rs"]
 mod page;
+#[path = "proof.rs"]
+mod proof;
 #[path = "properties.rs"]
 mod properties;
 #[path = "ranking.rs"]

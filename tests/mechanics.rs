@@ -1,6 +1,6 @@
-//! The mechanics in a few seconds: block and integrator against values from
-//! outside, and what must hold for any of them. Mutation testing runs this
-//! target alone.
+//! The mechanics in a few seconds: edges and refusals of block and integrator,
+//! and what must hold for any of them. The declared cases hold the values.
+//! Mutation testing runs this target first.
 
 #[path = "mechanics/closed.rs"]
 mod closed;

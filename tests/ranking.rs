@@ -71,9 +71,11 @@ fn capacities_in_any_measure_are_those_in_pga_scaled_by_record() {
     };
     let uplift = tan(0.2);
     for (im, power, value) in [
-        ("pgd", 1, &(|k| of(k, "pgd_m")) as &dyn Fn(usize) -> f64),
-        ("cav", 1, &|k| of(k, "cav_m_s")),
-        ("arias", 2, &|k| of(k, "arias_intensity_m_s")),
+        (
+            "arias",
+            2,
+            &(|k| of(k, "arias_intensity_m_s")) as &dyn Fn(usize) -> f64,
+        ),
         ("sa:1", 1, &|k| spectrum(k, 1)),
         ("avgsa:0.5,1", 1, &|k| (spectrum(k, 0) * spectrum(k, 1)).sqrt()),
         ("column:rrup_km", 1, &|k| (10 + (k * 7) % 11) as f64),

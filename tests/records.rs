@@ -239,24 +239,6 @@ fn a_folder_of_pairs_is_a_suite() {
 }
 
 #[test]
-fn an_index_may_state_checksums() {
-    // By coreutils' sha256sum of the file below.
-    let sum =
-        "103671bc3a6a11aa4e586498034886e5e33d9e67f0cb7f0b0f1d8ae524e35166";
-    let right = format!("file,units,dt_s,sha256\na.txt,g,0.01,{sum}\n");
-    let wrong = right.replace("103671", "103672");
-    let files: [(&str, &[u8]); 3] = [
-        ("a.txt", b"0.1\n0.2\n"),
-        ("right.csv", right.as_bytes()),
-        ("wrong.csv", wrong.as_bytes()),
-    ];
-    let folder = folder("sums", &files);
-    answer(&folder, "records right.csv");
-    let error = failure(&folder, "records wrong.csv");
-    assert!(error.contains("wrong.csv:2: a.txt has sha256 1036"), "{error}");
-}
-
-#[test]
 fn a_zip_is_read_as_the_folder_in_it() {
     let results = "-- Summary of Metadata of Selected Records --\n\
         Record Sequence Number, Horizontal-1 Acc. Filename, Horizontal-2 Acc. Filename\n\

@@ -150,21 +150,6 @@ fn large_samples_are_simulated_without_shapiro_and_wilk() {
 }
 
 #[test]
-fn critical_values_do_not_depend_on_threads() {
-    let place = with("threads", &[]);
-    let ask = "lilliefors --critical-values --n 20 --replicates 4000";
-    let [one, two] = [1, 2]
-        .map(|threads| json(&place, &format!("{ask} --threads {threads}")));
-    assert_eq!(one, two);
-    let out = &one["critical_value"];
-    let (low, high) = (&out["low"], &out["high"]);
-    let interval = low.as_f64().unwrap()..high.as_f64().unwrap();
-    // Four standard errors, from an independent simulation.
-    let half = 2.0 * (interval.end - interval.start);
-    assert!((out["value"].as_f64().unwrap() - 0.19193).abs() < half);
-}
-
-#[test]
 fn quantiles_are_of_the_type_and_boxplots_have_their_parts() {
     let place = with("quantiles", &[]);
     let words = "sample --sample sample.txt --quantile-type 7 --at 0.5,0.84";

@@ -48,8 +48,6 @@ mod error;
 mod families;
 mod load;
 pub mod pinned;
-#[cfg(test)]
-mod tests;
 mod wrong;
 
 pub use case::{

@@ -1,8 +1,6 @@
 //! The one function that says whether a case holds, and its result.
 
 pub mod snapshot;
-#[cfg(test)]
-mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -118,32 +118,3 @@ const TOUCHES: [&str; PULSES] = [
     "touch of an antisymmetric Ricker",
     "touch of a Mavroeidis",
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::{Draw, ending, touching};
-    use crate::scene::Scene;
-    use rocking::streams::Streams;
-
-    fn drawn(of: impl Fn(&mut Draw, u64) -> Option<Scene>) -> usize {
-        let streams = Streams::new("ends of observation", 0);
-        let scene = |index| of(&mut Draw(streams.stream(index)), index);
-        (0..27).filter_map(scene).count()
-    }
-
-    #[test]
-    fn every_kind_of_end_and_of_touch_is_found() {
-        let ends = |draw: &mut Draw, index| {
-            let found = ending(draw, index).unwrap();
-            found.map(|(_, scene)| {
-                assert!(scene.until_s.is_some_and(|t| t > 0.0));
-                scene
-            })
-        };
-        assert_eq!(drawn(ends), 27);
-        let touches = |draw: &mut Draw, index| {
-            touching(draw, index).map(|(_, scene)| scene)
-        };
-        assert_eq!(drawn(touches), 27);
-    }
-}

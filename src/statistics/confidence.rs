@@ -204,7 +204,8 @@ mod tests {
         let jackknife = [0.30, 0.29, 0.31, 0.33, 0.28, 0.30, 0.20, 0.31];
         let known = Confidence::new(0.3, &replicates, &jackknife).unwrap();
         for level in [0.9, 0.95] {
-            let found = known.interval(Clusters::singletons(8).half_width(level));
+            let found =
+                known.interval(Clusters::singletons(8).half_width(level));
             let expected =
                 accelerated(0.3, &replicates, &jackknife, level).unwrap();
             assert!((found.low - expected.low).abs() < 1e-12, "{found:?}");
@@ -274,12 +275,16 @@ mod tests {
             let count = sets as f64;
             let ends = || found.iter().map(|e| of(e).0);
             let centre = ends().sum::<f64>() / count;
-            let square: f64 = ends().map(|x| (x - centre) * (x - centre)).sum();
+            let square: f64 =
+                ends().map(|x| (x - centre) * (x - centre)).sum();
             let scatter = sqrt(square / (count - 1.0));
             let said = found.iter().map(|e| of(e).1).sum::<f64>() / count;
             // A deviation of 300 values is known to 4 %; the two parts of
             // the error are taken as independent, which is a little large.
-            assert!((0.9..1.3).contains(&(said / scatter)), "{said} {scatter}");
+            assert!(
+                (0.9..1.3).contains(&(said / scatter)),
+                "{said} {scatter}"
+            );
         }
     }
 }

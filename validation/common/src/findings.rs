@@ -11,9 +11,7 @@ use std::fmt;
 
 use rocking::block::Block;
 use rocking::integrator::Overturning;
-use rocking::statistics::multiple::{
-    benjamini_hochberg, benjamini_yekutieli,
-};
+use rocking::statistics::multiple::{benjamini_hochberg, benjamini_yekutieli};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 

@@ -188,10 +188,8 @@ impl StudySuite {
 /// The earthquakes of a suite's study components; each record by itself
 /// where the index names none.
 fn clusters(suite: &Suite) -> Clusters {
-    let events: Option<Vec<&str>> = suite
-        .study_components()
-        .map(|study| study.event.as_deref())
-        .collect();
+    let events: Option<Vec<&str>> =
+        suite.study_components().map(|study| study.event.as_deref()).collect();
     events.map_or_else(
         || Clusters::singletons(suite.study_components().count()),
         Clusters::from_labels,

@@ -366,7 +366,11 @@ pub(super) fn trust(
     };
     let counts = match recorded {
         Some(recorded) => {
-            format!("{} recorded, {} embedded", counts(recorded), counts(findings))
+            format!(
+                "{} recorded, {} embedded",
+                counts(recorded),
+                counts(findings)
+            )
         }
         None => counts(findings),
     };

@@ -169,8 +169,7 @@ pub fn limit_of(measure: Measure) -> f64 {
 pub fn all(results: &Results, draws: &Draws) -> anyhow::Result<Vec<Claim>> {
     let distances = distances::all(results, draws);
     let more = OnceCell::new();
-    let drawn =
-        Drawn { results, draws, more: &more, distances: &distances };
+    let drawn = Drawn { results, draws, more: &more, distances: &distances };
     declared().iter().map(|claim| measured(claim, &drawn)).collect()
 }
 
@@ -211,12 +210,12 @@ fn measured(claim: &Declared, drawn: &Drawn<'_>) -> anyhow::Result<Claim> {
                 };
                 let asked = Asked { claim, measure, rule, shown: *shown };
                 let Some(first) = asked.judged(&source)? else { continue };
-                let result = if first.settled {
-                    first.result
+                let judged = if first.more {
+                    asked.with_more(&source, drawn.more)?.unwrap_or(first)
                 } else {
-                    asked.with_more(&source, drawn.more)?.unwrap_or(first).result
+                    first
                 };
-                found.push(result);
+                found.push(judged.result);
             }
         }
     }
@@ -275,23 +274,15 @@ impl Asked<'_> {
         Ok(Some(judged))
     }
 
-    /// The verdict by more draws than all claims share.
+    /// The verdict by more draws than all claims share; none of distances
+    /// from a lognormal, whose draws cost too much.
     fn with_more(
         &self,
         source: &Source<'_>,
         more: &OnceCell<Draws>,
     ) -> anyhow::Result<Option<Judged>> {
         let draws = more.get_or_init(|| source.results.draws(MORE));
-        let source = Source { draws, distances: &[], ..*source };
-        let found = self.judged(&source)?;
-        if found.is_some() {
-            return Ok(found);
-        }
-        // Distances, which many claims share otherwise.
-        let suite = source.kind();
-        let own = Distances::new(source.results, draws, suite, source.arm);
-        let distances = own.as_slice();
-        self.judged(&Source { distances, ..source })
+        self.judged(&Source { draws, distances: &[], ..*source })
     }
 }
 

@@ -58,14 +58,13 @@ pub struct Cell {
     pub records: usize,
 }
 
-/// A result, and whether other draws would give the same verdict in all
-/// likelihood. Where they might not, the verdict is inconclusive.
+/// A result. Where an end that decides lies within four errors of the draws
+/// from its limit, the verdict is inconclusive.
 pub struct Judged {
     /// The result.
     pub result: ClaimResult,
-    /// Whether each end that decides lies four errors of the draws from its
-    /// limit.
-    pub settled: bool,
+    /// Whether [`MORE`] draws may decide what these do not.
+    pub more: bool,
 }
 
 /// The result of a claim on a suite and arm.
@@ -107,9 +106,13 @@ pub fn judge(
         }
         result
     };
-    let result = by(Caution::Careful);
-    let settled = result.by_equivalence == by(Caution::Bold).by_equivalence;
-    Judged { result, settled }
+    let result = by(Caution::FULL);
+    let settled = |caution: Caution| {
+        let verdict = |caution| by(caution).by_equivalence;
+        verdict(caution) == verdict(caution.inwards())
+    };
+    let more = !settled(Caution::FULL) && settled(Caution::FULL.with(MORE));
+    Judged { result, more }
 }
 
 /// A share of cells with its interval, and on which side of a region it is.
@@ -123,7 +126,7 @@ pub fn share(
     let known = Known::new(draws, tested, (0.0, 1.0), measured);
     let ends = known.drawn(0, LEVEL);
     let verdict = ends.map_or(Verdict::Inconclusive, |ends| {
-        ends.verdict(region, Caution::Careful)
+        ends.verdict(region, Caution::FULL)
     });
     (known.shown(0, ends), verdict)
 }

@@ -58,7 +58,7 @@ pub fn at_once(
     let known = Known::new(draws, tested, any, measured);
     let none = vec![false; measured.points.len()];
     let outside = |region| {
-        let found = refuted(&known, region, &none, Caution::Careful);
+        let found = refuted(&known, region, &none, Caution::FULL);
         found.ends.iter().flatten().count()
     };
     (outside(Region::Above(limit)), outside(Region::Below(limit)))

@@ -109,9 +109,8 @@ impl Draws {
         Self {
             whole: Set(both.map(|place| vec![ones(place)])),
             bootstrap: Set(both.map(bootstrap)),
-            subsamples: Set(both.map(|place| {
-                drawn(nine_tenths(place), SUBSAMPLES * times)
-            })),
+            subsamples: Set(both
+                .map(|place| drawn(nine_tenths(place), SUBSAMPLES * times))),
             halves: Set(both.map(|place| {
                 let half = rule("halves", place, |n| n / 2);
                 drawn(half, SUBSAMPLES / 5)

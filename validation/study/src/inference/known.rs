@@ -11,9 +11,6 @@ use rocking::statistics::resampling::Subsampling;
 use rocking_common::findings::{Interval, Measured, Region, Tested};
 use rocking_common::paper::Verdict;
 
-/// Errors of the draws that an end has to be away from a limit.
-const MARGIN: f64 = 4.0;
-
 /// An interval; the standard error of each end over sets of draws; the ends
 /// that the value cannot cross.
 #[derive(Clone, Copy, Debug)]
@@ -54,21 +51,26 @@ impl Ends {
     }
 }
 
-/// Whether ends are moved outwards or inwards by what the draws leave open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Caution {
-    /// Outwards: what is decided stays so with other draws.
-    Careful,
-    /// Inwards: what other draws may decide.
-    Bold,
-}
+/// By how many errors of the draws ends are moved outwards: what is decided
+/// then stays so with other draws. Inwards: what other draws may decide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Caution(f64);
 
 impl Caution {
+    /// That of a verdict.
+    pub(super) const FULL: Self = Self(4.0);
+
+    /// The same where so many times as many are drawn.
+    pub(super) fn with(self, times: usize) -> Self {
+        Self(self.0 / (times as f64).sqrt())
+    }
+
+    pub(super) fn inwards(self) -> Self {
+        Self(-self.0)
+    }
+
     pub(super) fn errors(self) -> f64 {
-        match self {
-            Self::Careful => MARGIN,
-            Self::Bold => -MARGIN,
-        }
+        self.0
     }
 }
 
@@ -99,10 +101,9 @@ impl<'a> Known<'a> {
             Confidence::new(measured.points[k], &values, &others)
         };
         let confidence = match measured.scheme {
-            Scheme::Bootstrap => (0..measured.points.len())
-                .into_par_iter()
-                .map(of)
-                .collect(),
+            Scheme::Bootstrap => {
+                (0..measured.points.len()).into_par_iter().map(of).collect()
+            }
             _ => Vec::new(),
         };
         Self {
@@ -139,11 +140,14 @@ impl<'a> Known<'a> {
                 let own = Confidence::new(point, &values, &[])?;
                 let z = Clusters::singletons(0).half_width(level);
                 let ends = own.interval(z);
-                let scale =
-                    (plain.high - plain.low) / (ends.high - ends.low);
+                let scale = (plain.high - plain.low) / (ends.high - ends.low);
                 // What one earthquake carries moves with no draw.
                 let error = |moves: bool, error: f64| {
-                    if moves && scale.is_finite() { scale * error } else { 0.0 }
+                    if moves && scale.is_finite() {
+                        scale * error
+                    } else {
+                        0.0
+                    }
                 };
                 let errors = (
                     error(found.low == plain.low, ends.high_error),
@@ -185,8 +189,8 @@ impl<'a> Known<'a> {
         records: usize,
         level: f64,
     ) -> Option<Ends> {
-        let few =
-            records < LEAST_DECIDING && self.measured.scheme != Scheme::Counted;
+        let few = records < LEAST_DECIDING
+            && self.measured.scheme != Scheme::Counted;
         if few { self.exact(k, level) } else { self.drawn(k, level) }
     }
 

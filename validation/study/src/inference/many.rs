@@ -71,9 +71,8 @@ pub(super) fn many(
             Verdict::Confirmed => true,
             Verdict::Inconclusive => !shown[cell.k],
         };
-        let ends_of = |cell: &Deciding| {
-            refuted.ends[cell.k].unwrap_or(cell.ends)
-        };
+        let ends_of =
+            |cell: &Deciding| refuted.ends[cell.k].unwrap_or(cell.ends);
         let Some(worst) =
             worst(deciding.iter().filter(bears), rule.region, &ends_of)
         else {
@@ -88,6 +87,7 @@ pub(super) fn many(
         result.by_equivalence = Some(verdict);
         result.p = match verdict {
             Verdict::NotConfirmed => refuted.p,
+            _ if caution != Caution::FULL => f64::NAN,
             _ => {
                 let largest = deciding.iter().map(|cell| {
                     let records = cells[cell.k].records;
@@ -102,8 +102,7 @@ pub(super) fn many(
         share(rule, &deciding, known, caution, result);
         let any = |_: &&Deciding| true;
         let ends_of = |cell: &Deciding| cell.ends;
-        let worst =
-            worst(deciding.iter().filter(any), rule.region, &ends_of);
+        let worst = worst(deciding.iter().filter(any), rule.region, &ends_of);
         result.deciding_cell = worst.map(|cell| Detail {
             name: named(&cells[cell.k], known),
             measured: known.shown(cell.k, Some(cell.ends)),
@@ -268,9 +267,8 @@ fn details(
         let confidence = Confidence::new(value, &values, &[]);
         let interval = confidence.map(|known_| {
             let plain = known_.interval(known.clusters.half_width(LEVEL));
-            let reflected = |x: f64| {
-                clipped(2.0 * value - x, (0.0, f64::INFINITY))
-            };
+            let reflected =
+                |x: f64| clipped(2.0 * value - x, (0.0, f64::INFINITY));
             (reflected(plain.high), reflected(plain.low))
         });
         result.details.push(Detail {

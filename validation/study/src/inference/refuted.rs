@@ -54,7 +54,7 @@ fn by_holm(known: &Known<'_>, region: Region, shown: &[bool]) -> Refuted {
     for (rank, (_, k)) in all.iter().enumerate() {
         let level = 1.0 - 2.0 * FAMILY / (count - rank) as f64;
         let found = known.drawn(*k, level).filter(|e| {
-            e.verdict(region, Caution::Careful) == Verdict::NotConfirmed
+            e.verdict(region, Caution::FULL) == Verdict::NotConfirmed
         });
         let Some(found) = found else { break };
         let way = match found.way {
@@ -131,8 +131,8 @@ fn by_maximum(
         return none(ends);
     }
     // Student's t and the bias of the variance of few earthquakes.
-    let wider = known.clusters.half_width(LEVEL)
-        / normal::quantile(0.5 + 0.5 * LEVEL);
+    let wider =
+        known.clusters.half_width(LEVEL) / normal::quantile(0.5 + 0.5 * LEVEL);
     let mut p = 1.0;
     loop {
         let mut largest = known
@@ -144,10 +144,11 @@ fn by_maximum(
                     let by = scale.on(row[*k]) - scale.on(points[*k]);
                     wider * scale.outwards(by) / s
                 };
-                active.iter().map(of).filter(|x| x.is_finite()).fold(
-                    0.0,
-                    |most, x| if x > most { x } else { most },
-                )
+                active
+                    .iter()
+                    .map(of)
+                    .filter(|x| x.is_finite())
+                    .fold(0.0, |most, x| if x > most { x } else { most })
             })
             .collect::<Vec<f64>>();
         largest.sort_by(f64::total_cmp);

@@ -11,9 +11,7 @@ use rocking::block::Block;
 use rocking::fragility::options::{Centre, Recipe};
 use rocking::integrator::Model;
 use rocking::statistics::bootstrap::Bootstrap;
-use rocking::statistics::{
-    Clusters, ExtendedSample, Lognormal, QuantileType,
-};
+use rocking::statistics::{Clusters, ExtendedSample, Lognormal, QuantileType};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_exchange::{Pact, unit_intensity};
 

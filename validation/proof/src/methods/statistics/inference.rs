@@ -235,10 +235,12 @@ impl Trials {
         match measure {
             Measure::CellShare => self.share(trial, &scores),
             Measure::FewSurvivors => {
-                // The strongest are left out, whatever their ratio.
+                // Some of each large earthquake.
+                let step = scores[0].len() / SURVIVORS;
                 let values: Vec<f64> =
-                    scores[0].iter().copied().take(SURVIVORS).collect();
-                let Ok(sample) = ExtendedSample::try_new(&values) else {
+                    scores[0].iter().copied().step_by(step).collect();
+                let values = &values[..SURVIVORS];
+                let Ok(sample) = ExtendedSample::try_new(values) else {
                     return false;
                 };
                 let level = match self.wrong {
@@ -396,7 +398,13 @@ impl Trials {
         let without = (0..self.drawn.count())
             .map(|cluster| of(&held(&self.drawn.without(cluster))))
             .collect::<Result<Vec<_>, _>>()?;
-        let found = rule.interval(point, &values, &without, LEVEL);
+        let found = match self.wrong {
+            // Neither as likely nor with the range of leaving one out.
+            Some(WrongModel::OtherInterval) => {
+                rule.interval(point, &values, &[], 3.0 * LEVEL - 2.0)
+            }
+            _ => rule.interval(point, &values, &without, LEVEL),
+        };
         Ok((point, found.map(|e| (e.low, e.high))))
     }
 }

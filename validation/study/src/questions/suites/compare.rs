@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use rocking::excitation::NormalisedRecord;
 use rocking::ida::Adjust;
-use rocking::statistics::ExtendedSample;
 use rocking::statistics::Clusters;
+use rocking::statistics::ExtendedSample;
 use rocking::statistics::bootstrap::Bootstrap;
 use rocking::statistics::two_sample::kolmogorov_smirnov;
 

@@ -424,7 +424,7 @@ pub(super) fn by_theme(
         .count();
     if against > 0 {
         words += &format!(
-            " by the limits here, {against} claims in them not by the \
+            " by the limits here, {against} of their claims not by the \
              paper's own criterion"
         );
     }

@@ -207,10 +207,10 @@ pub(super) fn defect(context: &Context) -> Result<Answer, MethodError> {
 ///
 /// With a = IM g tan(alpha) S(t) and x = |theta|/sin(alpha), Eq. 1 of the
 /// motion on one side, -p^2 (sin(alpha - theta) + a/g cos(alpha - theta)),
-/// becomes x'' = -p^2 (1 + IM S) + p^2 cos(alpha) x (1 - IM S tan^2(alpha))
-/// + O(x^2). Its terms of order 0 hold no alpha, and the loss at an impact
-/// holds none. What is left is of order p^2 t^2 alpha^2, with t the duration
-/// of the flights.
+/// becomes x'' = -p^2 (1 + IM S) and, of order 1 in x, p^2 cos(alpha) x (1 -
+/// IM S tan^2(alpha)). The terms of order 0 hold no alpha, and the loss at an
+/// impact holds none. What is left is of order p^2 t^2 alpha^2, with t the
+/// duration of the flights.
 ///
 /// The slendernesses are those given or, of Figure 9, those on which each
 /// record as it is has that intensity, tan(alpha) = PGA/(g IM); their closed

@@ -352,7 +352,7 @@ fn findings(theme: Theme, columns: &[Column]) -> Markup {
 fn quotation(claim: &Claim) -> Markup {
     html! {
         details {
-            summary { (claim.section) }
+            summary { "Section " (claim.section) }
             "\u{201c}" (claim.quote) "\u{201d} "
             span.source { "(" (claim.section) ")" }
         }

@@ -42,18 +42,21 @@ fn of_source<'a>(source: &Source<'a>) -> Option<&'a Distances> {
     source.distances.iter().find(is)
 }
 
+/// What is shown beside a measure: its name, and a number of a draw.
+type Beside<'a> = (&'a str, &'a dyn Fn(&[f64]) -> f64);
+
 /// Some numbers of the excesses, by cell; of the accepted shares, what is
 /// shown beside them, by name.
 fn of_cells(
     source: &Source<'_>,
     cells: &[String],
     f: impl Fn(&[f64]) -> Vec<f64>,
-    beside: &[(&str, &dyn Fn(&[f64]) -> f64)],
+    beside: &[Beside<'_>],
 ) -> Found {
     let Some(own) = of_source(source) else { return Ok(None) };
     let records = source.results.suite(source.kind()).records.len();
     let cell = |at: &String| Cell { at: at.clone(), records };
-    let detail = |(name, of): &(&str, &dyn Fn(&[f64]) -> f64)| Detail {
+    let detail = |(name, of): &Beside<'_>| Detail {
         name: (*name).into(),
         measured: Measured::exact(own.found.map(|row| vec![of(row)]).point(0)),
     };
@@ -67,7 +70,7 @@ fn of_cells(
 fn of_blocks(
     source: &Source<'_>,
     f: impl Fn(&[f64]) -> f64,
-    beside: &[(&str, &dyn Fn(&[f64]) -> f64)],
+    beside: &[Beside<'_>],
 ) -> Found {
     let Some(own) = of_source(source) else { return Ok(None) };
     let untested = own.levels.iter().filter(|(a, b)| a < b).count();
@@ -121,11 +124,7 @@ const ORIGINAL: &str = "mean accepted share, original";
 const SHIFTED: &str = "mean accepted share, shifted";
 
 /// The excess of one set of tests.
-fn excess(
-    source: &Source<'_>,
-    tests: Tests,
-    beside: &[(&str, &dyn Fn(&[f64]) -> f64)],
-) -> Found {
+fn excess(source: &Source<'_>, tests: Tests, beside: &[Beside<'_>]) -> Found {
     of_blocks(source, |row| over_blocks(excesses(row, tests)), beside)
 }
 

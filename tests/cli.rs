@@ -268,7 +268,6 @@ fn json_is_json_and_says_no_more_than_was_asked_for() {
         "lilliefors --critical-values --n 10 --replicates 500",
         "sample --sample b.txt --at 0.5,1",
         "compare --a a.txt --b b.txt",
-        "records s",
     ] {
         let text = answer(&place, &format!("{arguments} --json"));
         let _: Value = serde_json::from_str(&text).unwrap();

@@ -62,22 +62,6 @@ fn degenerate_samples_are_refused() {
     assert!(matches!(refused(&[1.0, 2.0], f64::NAN), FitError::Parameters(_)));
 }
 
-#[test]
-fn the_distribution_is_consistent_with_itself() {
-    let fragility = Lognormal::try_new(1.0, 0.2, 0.6).unwrap();
-    for p in [1e-6, 0.16, 0.5, 0.84, 0.999] {
-        let x = fragility.quantile(p);
-        assert!((fragility.cdf(x) / p - 1.0).abs() < 1e-10);
-        let upper = fragility.survival(x) / (1.0 - p);
-        assert!((upper - 1.0).abs() < 1e-9);
-    }
-    assert_eq!(fragility.cdf(0.5), 0.0);
-    assert_eq!(fragility.ln_pdf(1.0), f64::NEG_INFINITY);
-    // The slope of F is the density.
-    let slope = (fragility.cdf(2.001) - fragility.cdf(1.999)) / 0.002;
-    assert!((slope / exp(fragility.ln_pdf(2.0)) - 1.0).abs() < 1e-5);
-}
-
 const CENSORED: &str = include_str!("../../../fixtures/oracles/censored.csv");
 /// The sample of `fixtures/oracles/censored.py`: exact values, limits.
 const EXACT: [f64; 17] = [

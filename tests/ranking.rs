@@ -207,10 +207,14 @@ fn counts_agree_with_statsmodels() {
             "intensity,exceeded,n\n1,x,2\n",
             "wrong.csv:2: found `x` in column exceed",
         ),
-        ("intensity,k,n\n1,1,2\n", "expected `intensity,exceeded,n,"),
+        ("intensity,k,n\n1,1,2\n", "expected `intensity,exceeded,n`"),
         (
-            "intensity,exceeded,n,schema\n1,1,2,7\n",
-            "wrong.csv:2: found `7` in column schema",
+            "intensity,record,event,exceeded,schema\n1,a,,2,1\n",
+            "wrong.csv:2: found `2` in column exceeded: expected 1 or 0",
+        ),
+        (
+            "intensity,record,event,exceeded,schema\n1,a,X,0,1\n1,b,,0,1\n",
+            "wrong.csv:3: found `` in column event: expected the earthquake",
         ),
         ("intensity,exceeded,n\n1,0,2\n2,2,2\n", "tell no dispersion"),
     ] {

@@ -408,3 +408,22 @@ fn number(text: &str) -> Option<f64> {
     let says_so = text.to_ascii_lowercase().contains("inf");
     (value.is_finite() || says_so).then_some(value)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn earthquakes_stand_on_every_line_or_on_none() {
+        let read = |text| SampleFile::parse(text, Path::new("s.txt"));
+        let file = read("# c\n1.5 # a # X\n>2 # b # Y\n1 # c # X\n").unwrap();
+        let clusters = file.clusters();
+        assert_eq!((clusters.records(), clusters.count()), (3, 2));
+        assert!(file.by_name().unwrap().is_some());
+        let plain = read("1.5 # a\n2\n").unwrap().clusters();
+        assert!(plain.is_singletons());
+        let Err(error) = read("1.5 # a # X\n2 # b\n") else { panic!() };
+        let error = error.to_string();
+        assert!(error.starts_with("s.txt:2: found `2 # b`"), "{error}");
+    }
+}

@@ -51,7 +51,7 @@ fn remarks_travel_to_every_result() {
     assert!(out.contains(row) && out.contains(words), "{out}");
     let table = std::fs::read_to_string(folder.join("ida.out")).unwrap();
     let of_b = table.lines().find(|line| line.starts_with("b_E,")).unwrap();
-    assert!(of_b.contains(",end-velocity offset,0.92,"), "{of_b}");
+    assert!(of_b.contains(",end-velocity offset,,0.92,"), "{of_b}");
     let json = json(&folder, &format!("{ida} --json"));
     assert_eq!(json["remarks"]["codes"][0]["code"], "offset");
     assert_eq!(json["version"], env!("CARGO_PKG_VERSION"));

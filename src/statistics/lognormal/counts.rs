@@ -106,12 +106,13 @@ pub fn fit_counts_alone(
     Ok(Lognormal::try_new(shift, log_mean, dispersion)?)
 }
 
+/// Observations, the logarithm of the binomial coefficients, and the maximum
+/// (log-mean, dispersion, log-likelihood).
+type Maximum = (Vec<Observation>, f64, (f64, f64, f64));
+
 /// The observations of stripes, the logarithm of their binomial
 /// coefficients, and the maximum of their likelihood.
-fn maximum(
-    stripes: &[Stripe],
-    shift: f64,
-) -> Result<(Vec<Observation>, f64, (f64, f64, f64)), FitError> {
+fn maximum(stripes: &[Stripe], shift: f64) -> Result<Maximum, FitError> {
     if !(shift >= 0.0 && shift.is_finite()) {
         return Err(LognormalError::Shift(shift).into());
     }

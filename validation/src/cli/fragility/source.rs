@@ -125,6 +125,9 @@ enum Values {
 /// A fragility, and what the draws of its sample make of it.
 pub type Law = (Lognormal, Option<Sampled>);
 
+/// The fragilities of a block, and what draws make of each limit state.
+type Drawn = (BlockFragility, Vec<Option<Sampled>>);
+
 /// Where one limit state comes from.
 struct Level {
     /// The file, or what stands for it.
@@ -452,10 +455,7 @@ impl Source {
         Ok(all.map(|(fragility, _)| fragility).collect())
     }
 
-    fn all(
-        &self,
-        options: &FitOptions,
-    ) -> Result<Vec<(BlockFragility, Vec<Option<Sampled>>)>, Failure> {
+    fn all(&self, options: &FitOptions) -> Result<Vec<Drawn>, Failure> {
         if self.rows.is_empty() {
             return Err(Failure::input(
                 "expected --blocks, or --alpha and --p, or --width-m and \
@@ -469,7 +469,7 @@ impl Source {
         &self,
         row: &Row,
         options: &FitOptions,
-    ) -> Result<(BlockFragility, Vec<Option<Sampled>>), Failure> {
+    ) -> Result<Drawn, Failure> {
         let own = row.samples.iter().filter_map(|path| self.samples.get(path));
         let own: Vec<&Level> = match row.samples.is_empty() {
             true => self.levels.iter().collect(),

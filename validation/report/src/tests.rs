@@ -5,6 +5,7 @@ use indicatif::ProgressBar;
 use rocking::block::Restitution;
 use rocking::integrator::Overturning;
 use rocking::record::{Processing, ReadOptions, SetAside};
+use rocking::statistics::Clusters;
 
 use crate::answers;
 use crate::credibility;
@@ -49,6 +50,7 @@ fn empty(source: &Source) -> Results {
         sha256: String::new(),
         work: Work { analyses: 0, certainty: Certainty::default() },
         records: Vec::new(),
+        clusters: Clusters::singletons(0),
         list: Vec::new(),
         chosen: [0; 3],
         arms: Vec::new(),

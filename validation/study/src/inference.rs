@@ -111,7 +111,10 @@ pub fn judge(
         let verdict = |caution| by(caution).by_equivalence;
         verdict(caution) == verdict(caution.inwards())
     };
-    let more = !settled(Caution::FULL) && settled(Caution::FULL.with(MORE));
+    // More subsamples are not drawn: they cost too much.
+    let more = measured.scheme == Scheme::Bootstrap
+        && !settled(Caution::FULL)
+        && settled(Caution::FULL.with(MORE));
     Judged { result, more }
 }
 

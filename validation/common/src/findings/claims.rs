@@ -359,8 +359,8 @@ impl Interval {
             Self::Own => "90 %, bootstrap, of this cell alone",
             Self::ShareOfCells => "95 %, bootstrap of the share of cells",
             Self::Simultaneous => {
-                "95 %, bootstrap, at once for all cells not shown inside \
-                 (Romano and Wolf)"
+                "95 %, bootstrap, at once for all cells (Holm, or Romano and \
+                 Wolf)"
             }
             Self::Subsampling => {
                 "95 %, subsamples of 90 %, with the range of leaving one out"

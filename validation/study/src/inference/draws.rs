@@ -74,7 +74,7 @@ pub struct Draws {
 
 impl Draws {
     /// The draws for suites of these earthquakes, ordinary and pulse-type;
-    /// `times` as many as are enough for most claims.
+    /// of the bootstrap `times` as many as are enough for most claims.
     ///
     /// Streams: `study/records/SUITE` (bootstrap), `study/nine-tenths/SUITE`
     /// and `study/halves/SUITE` (subsamples), each of seed 0.
@@ -109,8 +109,9 @@ impl Draws {
         Self {
             whole: Set(both.map(|place| vec![ones(place)])),
             bootstrap: Set(both.map(bootstrap)),
-            subsamples: Set(both
-                .map(|place| drawn(nine_tenths(place), SUBSAMPLES * times))),
+            subsamples: Set(
+                both.map(|place| drawn(nine_tenths(place), SUBSAMPLES))
+            ),
             halves: Set(both.map(|place| {
                 let half = rule("halves", place, |n| n / 2);
                 drawn(half, SUBSAMPLES / 5)

@@ -9,7 +9,7 @@
 use super::draws::Scheme;
 use super::known::{Caution, Ends, Known, clipped, p_value};
 use super::refuted::refuted;
-use super::{Cell, FAMILY, LEVEL, OWN, Rule};
+use super::{Cell, FAMILY, LEAST_DECIDING, LEVEL, OWN, Rule};
 use rocking::statistics::confidence::Confidence;
 use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, Interval, Measured, Quantifier, Region,
@@ -99,7 +99,13 @@ pub(super) fn many(
         };
     } else {
         counts.inside = discovered(rule.region, cells, known, &deciding);
-        share(rule, &deciding, known, caution, result);
+        // The median of few records wanders in a bootstrap: such cells are
+        // counted by their exact intervals, and not in the share.
+        let drawn: Vec<&Deciding> = deciding
+            .iter()
+            .filter(|cell| cells[cell.k].records >= LEAST_DECIDING)
+            .collect();
+        share(rule, &drawn, known, caution, result);
         let any = |_: &&Deciding| true;
         let ends_of = |cell: &Deciding| cell.ends;
         let worst = worst(deciding.iter().filter(any), rule.region, &ends_of);
@@ -136,7 +142,7 @@ fn own_way(way: Interval) -> Interval {
 
 /// The name of a cell; of few records, whose they are.
 fn named(cell: &Cell, known: &Known<'_>) -> String {
-    let few = cell.records < super::LEAST_DECIDING
+    let few = cell.records < LEAST_DECIDING
         && known.measured.scheme != Scheme::Counted;
     match few {
         true => format!("{}, of the {} survivors", cell.at, cell.records),
@@ -194,7 +200,7 @@ fn discovered(
 /// The share of the cells in the region, with its interval.
 fn share(
     rule: &Rule,
-    deciding: &[Deciding],
+    deciding: &[&Deciding],
     known: &Known<'_>,
     caution: Caution,
     result: &mut ClaimResult,
@@ -202,7 +208,7 @@ fn share(
     let total = deciding.len() as f64;
     // A cell without a value in a replicate lies outside.
     let of = |row: &[f64]| {
-        let holds = |cell: &&Deciding| rule.region.holds(row[cell.k]);
+        let holds = |cell: &&&Deciding| rule.region.holds(row[cell.k]);
         deciding.iter().filter(holds).count() as f64 / total
     };
     let value = of(&known.measured.points);
@@ -210,9 +216,9 @@ fn share(
         known.measured.replicates.iter().map(|row| of(row)).collect();
     result.value = value;
     result.unit = Unit::Share;
-    result.at = "share of the cells".into();
+    result.at = "share of the cells of 30 records or more".into();
     let Some(confidence) = Confidence::new(value, &values, &[]) else {
-        // A count without replicates.
+        // No cell of enough records.
         return;
     };
     let ends = |level: f64| {

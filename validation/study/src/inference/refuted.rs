@@ -6,11 +6,14 @@ use rocking::statistics::normal;
 
 use super::draws::{Replicated, Scheme};
 use super::known::{Caution, Known, p_value};
-use super::{FAMILY, LEVEL};
+use super::{FAMILY, LEVEL, REPLICATES};
 use rocking_common::findings::{Interval, Region};
 use rocking_common::paper::Verdict;
 
 use super::known::Ends;
+
+/// Replicates beyond a limit that tell it.
+const LEAST_BEYOND: f64 = 5.0;
 
 /// The cells that are shown to lie outside, with their simultaneous limits,
 /// and the smallest adjusted p-value.
@@ -22,25 +25,35 @@ pub(super) struct Refuted {
 /// Refutes cells with a family-wise error of [`FAMILY`]: at most that is the
 /// probability that any cell is refuted although it lies in the region.
 ///
-/// Of a bootstrap by the largest studentized deviation over the cells,
-/// stepwise (Romano and Wolf, Econometrica 73 (2005) 1237), ratios on the
-/// scale of their logarithm. Cells that are `shown` to lie inside cannot be
-/// refuted and leave the maximum (Romano, Shaikh and Wolf, Econometrica 82
-/// (2014) 1979). Of counts by exact limits and Holm's steps.
+/// By Holm's steps over the cells' own limits where these can be told: exact
+/// ones, and those of a bootstrap of 20 cells or fewer. Of more cells by the
+/// largest studentized deviation over them, stepwise (Romano and Wolf,
+/// Econometrica 73 (2005) 1237), ratios on the scale of their logarithm.
+/// Cells that are `shown` to lie inside cannot be refuted and leave the
+/// maximum (Romano, Shaikh and Wolf, Econometrica 82 (2014) 1979).
 pub(super) fn refuted(
     known: &Known<'_>,
     region: Region,
     shown: &[bool],
     caution: Caution,
 ) -> Refuted {
+    // Draws beyond the limit of the first step.
+    let beyond = FAMILY / shown.len() as f64 * REPLICATES as f64;
     match known.measured.scheme {
-        Scheme::Bootstrap => by_maximum(known, region, shown, caution),
-        _ => by_holm(known, region, shown),
+        Scheme::Bootstrap if beyond < LEAST_BEYOND => {
+            by_maximum(known, region, shown, caution)
+        }
+        _ => by_holm(known, region, shown, caution),
     }
 }
 
 /// Holm's steps over the cells' own one-sided limits.
-fn by_holm(known: &Known<'_>, region: Region, shown: &[bool]) -> Refuted {
+fn by_holm(
+    known: &Known<'_>,
+    region: Region,
+    shown: &[bool],
+    caution: Caution,
+) -> Refuted {
     let count = shown.len();
     let outside =
         |k: &usize| !shown[*k] && !region.holds(known.measured.points[*k]);
@@ -53,13 +66,14 @@ fn by_holm(known: &Known<'_>, region: Region, shown: &[bool]) -> Refuted {
     let mut ends = vec![None; count];
     for (rank, (_, k)) in all.iter().enumerate() {
         let level = 1.0 - 2.0 * FAMILY / (count - rank) as f64;
-        let found = known.drawn(*k, level).filter(|e| {
-            e.verdict(region, Caution::FULL) == Verdict::NotConfirmed
-        });
+        let found = known
+            .drawn(*k, level)
+            .filter(|e| e.verdict(region, caution) == Verdict::NotConfirmed);
         let Some(found) = found else { break };
         let way = match found.way {
             Interval::Exact => Interval::ExactSimultaneous,
-            other => other,
+            Interval::Subsampling => Interval::Subsampling,
+            _ => Interval::Simultaneous,
         };
         ends[*k] = Some(Ends { way, ..found });
     }

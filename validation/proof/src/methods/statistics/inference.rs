@@ -401,7 +401,7 @@ impl Trials {
         let found = match self.wrong {
             // Neither as likely nor with the range of leaving one out.
             Some(WrongModel::OtherInterval) => {
-                rule.interval(point, &values, &[], 3.0 * LEVEL - 2.0)
+                rule.interval(point, &values, &[], 5.0 * LEVEL - 4.0)
             }
             _ => rule.interval(point, &values, &without, LEVEL),
         };

@@ -123,6 +123,24 @@ fn asks_nothing_of_network_or_scripts() {
 }
 
 #[test]
+fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
+    let html = page(&made_up(&sketches()));
+    let values = |key: &str| -> Vec<String> {
+        let parts = html.split(key).skip(1);
+        parts.map(|p| p.split('"').next().unwrap().to_owned()).collect()
+    };
+    let mut ids = values(" id=\"");
+    assert!(ids.len() > 30);
+    for target in values("href=\"#") {
+        assert!(ids.contains(&target), "{target}");
+    }
+    let all = ids.len();
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), all);
+}
+
+#[test]
 fn figures_share_one_style_sheet() {
     assert_eq!(page(&made_up(&sketches())).matches(colour::STYLE).count(), 1);
 }

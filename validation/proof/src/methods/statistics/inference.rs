@@ -94,6 +94,9 @@ struct Input {
     measure: Measure,
     like: Like,
     trials: u64,
+    /// Share of the suites in which the interval is to hold the truth, or a
+    /// cell on the end of its region may be shown inside.
+    nominal: f64,
 }
 
 impl Like {
@@ -142,12 +145,7 @@ pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
     let count = held.iter().filter(|held| **held).count();
     let rate = count as f64 / held.len() as f64;
     let mut answer = Answer::default();
-    let wanted = match input.measure {
-        Measure::CellOnTheEdge => 0.5 * (1.0 - OWN),
-        Measure::FewSurvivors => OWN,
-        _ => LEVEL,
-    };
-    answer.put("rate", [rate], [wanted]);
+    answer.put("rate", [rate], [input.nominal]);
     Ok(answer)
 }
 

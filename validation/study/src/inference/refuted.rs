@@ -25,7 +25,7 @@ pub(super) struct Refuted {
 /// Refutes cells with a family-wise error of [`FAMILY`]: at most that is the
 /// probability that any cell is refuted although it lies in the region.
 ///
-/// By Holm's steps over the cells' own limits where these can be told: exact
+/// By Holm's steps over the cells' own limits where draws resolve these: exact
 /// ones, and those of a bootstrap of 20 cells or fewer. Of more cells by the
 /// largest studentized deviation over them, stepwise (Romano and Wolf,
 /// Econometrica 73 (2005) 1237), ratios on the scale of their logarithm.

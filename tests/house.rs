@@ -361,6 +361,7 @@ fn it_stands_on_the_crates_and_folders_asked_for() {
         "rayon",
         "insta",
         "proptest",
+        "plotters",
     ] {
         let there = all.iter().any(|m| {
             m.dependencies.contains_key(name)

@@ -1,4 +1,10 @@
 //! Linear and logarithmic axes with round ticks.
+//!
+//! plotters chooses the ticks of a linear axis. On a logarithmic axis it marks
+//! nothing below the first decade: the ticks there are our own.
+
+use plotters::coord::ranged1d::{BoldPoints, Ranged as _};
+use plotters::coord::types::RangedCoordf64;
 
 /// A labelled position on an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,16 +52,14 @@ impl Axis {
     /// range without extent is widened.
     pub fn linear(low: f64, high: f64, count: usize) -> Self {
         let (low, high) = proper(low, high);
-        let step = round_step((high - low) / count.max(1) as f64);
-        let first = (low / step - 1e-6).ceil();
-        let last = (high / step + 1e-6).floor();
-        let digits = decimals(step);
-        let ticks = (0..=(last - first).max(0.0) as usize)
-            .map(|i| {
-                let at = (first + i as f64) * step;
-                Tick { at, label: fixed(at, digits) }
-            })
-            .collect();
+        Self::divided(low, high, most(count))
+    }
+
+    fn divided(low: f64, high: f64, most: usize) -> Self {
+        let round = round_numbers(low, high, most);
+        let digits = decimals(round[1] - round[0]);
+        let tick = |at| Tick { at, label: fixed(at, digits) };
+        let ticks = round.into_iter().map(tick).collect();
         Self::new(low, high, Scale::Linear, ticks)
     }
 
@@ -64,13 +68,14 @@ impl Axis {
         Self { low, high, scale, ticks, minor, title, grid: true }
     }
 
-    /// A linear axis that ends at round numbers around the range.
+    /// A linear axis that ends at the ticks around the range.
     pub fn around(low: f64, high: f64, count: usize) -> Self {
         let (low, high) = proper(low, high);
-        let step = round_step((high - low) / count.max(1) as f64);
+        let round = round_numbers(low, high, most(count));
+        let step = round[1] - round[0];
         let down = (low / step + 1e-6).floor() * step;
         let up = (high / step - 1e-6).ceil() * step;
-        Self::linear(down, up, count)
+        Self::divided(down, up, round.len() + 2)
     }
 
     /// A logarithmic axis of exactly this range; ends that are not positive
@@ -191,32 +196,35 @@ impl Axis {
     }
 }
 
-/// A range with an extent.
+/// A range with an extent that rounding does not spoil.
 fn proper(low: f64, high: f64) -> (f64, f64) {
-    if high > low && low.is_finite() && high.is_finite() {
+    let least = (1e-12 * low.abs().max(high.abs())).max(1e-300);
+    if (least..1e300).contains(&(high - low)) {
         (low, high)
-    } else if low.is_finite() {
-        let half = if low == 0.0 { 0.5 } else { 0.1 * low.abs() };
+    } else if low.abs() < 1e300 {
+        let half = if low.abs() < 1e-299 { 0.5 } else { 0.1 * low.abs() };
         (low - half, low + half)
     } else {
         (0.0, 1.0)
     }
 }
 
-/// 1, 2 or 5 times a power of ten, near `rough`; 2.5 where it fits.
-fn round_step(rough: f64) -> f64 {
-    let base = power_of_ten(libm::log10(rough).floor() as i32);
-    let lead = rough / base;
-    let digit = if lead < 1.4 {
-        1.0
-    } else if lead < 3.2 {
-        2.0
-    } else if lead < 7.1 {
-        5.0
-    } else {
-        10.0
-    };
-    digit * base
+/// The most ticks of an axis with about this many.
+fn most(count: usize) -> usize {
+    count.clamp(4, 13) * 3 / 2
+}
+
+/// Round numbers of a range by plotters: two at least, `most` at most.
+///
+/// plotters takes the logarithm of the platform. In tenths of the extent's
+/// power of ten its numbers are whole: rounding there gives the same bits on
+/// every machine. A hair more range keeps the ticks at both ends.
+fn round_numbers(low: f64, high: f64, most: usize) -> Vec<f64> {
+    let hair = 1e-7 * (high - low);
+    let unit = power_of_ten(libm::log10(high - low).floor() as i32 - 1);
+    let range = (low - hair) / unit..(high + hair) / unit;
+    let whole = RangedCoordf64::from(range).key_points(BoldPoints(most));
+    whole.into_iter().map(|n| n.round() * unit).collect()
 }
 
 fn power_of_ten(n: i32) -> f64 {

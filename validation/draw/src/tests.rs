@@ -19,6 +19,11 @@ fn linear_ticks_are_round_and_have_a_true_minus() {
     assert_eq!(labels(&axis), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
     assert_eq!(Axis::around(0.3, 9.2, 5).range(), (0.0, 10.0));
     assert_eq!(labels(&Axis::linear(0.0, 30.0, 5)).len(), 7);
+    let end = |axis: Axis| axis.ticks.last().map(|tick| tick.label.clone());
+    assert_eq!(end(Axis::linear(10.0, 11.2, 6)).as_deref(), Some("11.2"));
+    assert_eq!(end(Axis::around(0.5, 6.5, 5)).as_deref(), Some("7"));
+    let small = Axis::linear(0.0, 2e-16, 4);
+    assert!((small.ticks[1].at / 5e-17 - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -30,6 +35,9 @@ fn axes_without_extent_are_widened() {
         Axis::logarithmic(-1.0, 0.0),
         Axis::logarithmic(3.0, 3.0),
         Axis::linear(f64::NEG_INFINITY, f64::INFINITY, 5),
+        Axis::around(f64::MIN, f64::MAX, 5),
+        Axis::linear(0.0, f64::MIN_POSITIVE, 5),
+        Axis::around(1.0, 1.0 + f64::EPSILON, 5),
     ] {
         let (low, high) = axis.range();
         assert!(low < high && low.is_finite() && high.is_finite());

@@ -71,7 +71,7 @@ impl Axis {
     /// A linear axis that ends at the ticks around the range.
     pub fn around(low: f64, high: f64, count: usize) -> Self {
         let (low, high) = proper(low, high);
-        let round = round_numbers(low, high, most(count));
+        let round = round_numbers(low, high, most(count) - 1);
         let step = round[1] - round[0];
         let down = (low / step + 1e-6).floor() * step;
         let up = (high / step - 1e-6).ceil() * step;

@@ -3,8 +3,7 @@
 //! The earthquakes are the sample, each with its records; blocks, stripes,
 //! levels, intensity measures and arms are computed from the same records. A
 //! replicate takes the same earthquakes everywhere and recomputes the whole
-//! measure of a claim. The two
-//! suites are resampled independently of each other.
+//! measure of a claim. The two suites are resampled independently of each other.
 
 mod counted;
 mod drawn;
@@ -12,9 +11,10 @@ mod draws;
 mod known;
 mod many;
 mod refuted;
+mod rule;
 
 use rocking_common::findings::{
-    ClaimResult, Detail, Measured, Quantifier, Region, Tested, Unit,
+    ClaimResult, Detail, Measured, Quantifier, Region, Tested,
 };
 use rocking_common::paper::{Arm, Verdict};
 
@@ -24,39 +24,7 @@ pub use draws::{
     SUBSAMPLES, Scheme,
 };
 use known::{Caution, Known, p_value};
-
-/// Level of the interval of one value, and of a share of cells.
-pub const LEVEL: f64 = 0.95;
-
-/// Level of the interval of a cell among many: the region holds all of it
-/// where both one-sided tests of 5 % say so.
-pub const OWN: f64 = 0.9;
-
-/// Error of a statement about many cells at once: the probability that any
-/// cell is refuted wrongly, or the expected share of those wrongly shown.
-const FAMILY: f64 = 0.05;
-
-/// What a claim asks of its cells.
-#[derive(Clone, Copy, Debug)]
-pub struct Rule {
-    /// How many of them.
-    pub quantifier: Quantifier,
-    /// Where they have to lie.
-    pub region: Region,
-    /// Unit of a cell.
-    pub unit: Unit,
-    /// Ends that a value cannot cross: 0 and 1 of a share.
-    pub range: (f64, f64),
-}
-
-/// A cell's name, and how many records are in it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Cell {
-    /// Where it is: `p = 3, alpha = 0.20`.
-    pub at: String,
-    /// Records whose values are in it.
-    pub records: usize,
-}
+pub use rule::{Cell, LEVEL, OWN, Rule};
 
 /// A result. Where an end that decides lies within four errors of the draws
 /// from its limit, the verdict is inconclusive.
@@ -160,7 +128,10 @@ fn one(
     }
     if !measured.halves.is_empty() {
         let halves = Replicated::column(&measured.halves, 0);
-        let mean = crate::estimates::mean(halves);
+        let finite: Vec<f64> =
+            halves.into_iter().filter(|x| x.is_finite()).collect();
+        let sum = finite.iter().fold(0.0, |sum, x| sum + x);
+        let mean = sum / finite.len() as f64;
         result.details.push(Detail {
             name: "mean over halves of the records".into(),
             measured: Measured::exact(mean),

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::draws::{Draws, Replicated};
 use super::known::{Caution, Known};
 use super::refuted::refuted;
-use super::{LEVEL, OWN};
+use super::rule::{LEVEL, OWN};
 use rocking_common::findings::{Measured, Region, Tested};
 
 impl Replicated {

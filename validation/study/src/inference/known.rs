@@ -6,7 +6,7 @@ use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::confidence::Confidence;
 use rocking::statistics::{Clusters, ExtendedSample};
 
-use super::draws::{Draws, LEAST_DECIDING, Replicated, Scheme};
+use super::draws::{Draws, LEAST_DECIDING, REPLICATES, Replicated, Scheme};
 use rocking::statistics::resampling::Subsampling;
 use rocking_common::findings::{Interval, Measured, Region, Tested};
 use rocking_common::paper::Verdict;
@@ -218,7 +218,7 @@ pub(super) fn p_value(
         })
     };
     // What 2000 draws cannot tell from 0, and next to no width at all.
-    let (mut no, mut yes) = (0.5 / super::REPLICATES as f64, 0.499);
+    let (mut no, mut yes) = (0.5 / REPLICATES as f64, 0.499);
     if lies(no) {
         return no;
     }

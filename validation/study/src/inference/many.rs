@@ -6,10 +6,11 @@
 //! *Most* and *almost all*: by the interval of the share of the cells that
 //! lie in the region.
 
+use super::draws::LEAST_DECIDING;
 use super::draws::Scheme;
 use super::known::{Caution, Ends, Known, clipped, p_value};
 use super::refuted::refuted;
-use super::{Cell, FAMILY, LEAST_DECIDING, LEVEL, OWN, Rule};
+use super::rule::{Cell, FAMILY, LEVEL, OWN, Rule};
 use rocking::statistics::confidence::Confidence;
 use rocking_common::findings::{
     CellCounts, ClaimResult, Detail, Interval, Measured, Quantifier, Region,

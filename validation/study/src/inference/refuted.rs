@@ -4,15 +4,15 @@
 use rayon::prelude::*;
 use rocking::statistics::normal;
 
+use super::draws::REPLICATES;
 use super::draws::{Replicated, Scheme};
+use super::known::Ends;
 use super::known::{Caution, Known, p_value};
-use super::{FAMILY, LEVEL, REPLICATES};
+use super::rule::{FAMILY, LEVEL};
 use rocking_common::findings::{Interval, Region};
 use rocking_common::paper::Verdict;
 
-use super::known::Ends;
-
-/// Replicates beyond a limit that tell it.
+/// Replicates beyond a limit that resolve it.
 const LEAST_BEYOND: f64 = 5.0;
 
 /// The cells that are shown to lie outside, with their simultaneous limits,

@@ -3,6 +3,7 @@ use rocking::statistics::resampling::Ranked;
 use super::*;
 use rocking::statistics::{Clusters, Proportion};
 use rocking_common::findings::Interval;
+use rocking_common::findings::Unit;
 use rocking_common::paper::SuiteKind;
 
 /// Draws of suites without earthquakes.

@@ -104,7 +104,9 @@ fn first_of(table: &str) -> String {
 /// suites, as a table: the commands of `rocking sweep`.
 fn swept(first: u64, blocks: u64) -> Result<String, Failure> {
     let place = tempfile::tempdir()?;
-    let program = env::current_exe()?;
+    // Where cargo has put the program: the tests above may have put it there
+    // anew.
+    let program = fs::canonicalize(env::args_os().next().unwrap_or_default())?;
     let run = |line: &str| -> Result<(), Failure> {
         let done = Command::new(&program)
             .args(line.split_whitespace())

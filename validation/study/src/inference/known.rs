@@ -31,7 +31,8 @@ impl Ends {
     }
 
     pub(super) fn both(&self) -> (f64, f64) {
-        self.moved(0.0)
+        // Not moved by no error: an error may be infinite.
+        (clipped(self.low, self.range), clipped(self.high, self.range))
     }
 
     /// On which side of a region the interval lies, wherever other draws put
@@ -217,7 +218,7 @@ pub(super) fn p_value(
             region.verdict(low, high) == wanted
         })
     };
-    // What 2000 draws cannot tell from 0, and next to no width at all.
+    // What 2000 draws cannot distinguish from 0, and next to no width at all.
     let (mut no, mut yes) = (0.5 / REPLICATES as f64, 0.499);
     if lies(no) {
         return no;

@@ -278,7 +278,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("0.98,", "1.03,", "expected rising numbers"),
         ("0.98,", "null,", "expected rising numbers"),
         ("\"value\": 1.0", "\"value\": \"one\"", "found \"one\""),
-        ("\"value\": 1.0,", "", "missing field `value` at line 24"),
+        ("\"value\": 1.0,", "", "missing field `value` at line 25"),
         ("\"p_rad_s\": 1.0", "\"p_rad_s\": 3.0", "twice"),
         ("energy-loss", "ratios", "twice"),
     ];

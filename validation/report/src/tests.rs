@@ -106,8 +106,10 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
 
 fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
-    ordinary.motions.truncate(10);
-    pulse.motions.truncate(4);
+    for (suite, records) in [(&mut ordinary, 10), (&mut pulse, 4)] {
+        suite.motions.truncate(records);
+        suite.clusters = Clusters::singletons(records);
+    }
     let plan = plan(way);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("pool").install(|| {

@@ -106,10 +106,11 @@ impl Layout {
     /// where people wrote the table, without.
     ///
     /// ```
-    /// use rocking_exchange::columns::COUNTS;
-    /// assert!(COUNTS.has(["intensity", "exceeded", "n", "schema"]));
-    /// assert!(COUNTS.has(["intensity", "exceeded", "n"]));
-    /// assert!(!COUNTS.has(["intensity", "n", "exceeded"]));
+    /// use rocking_exchange::columns::OUTCOMES;
+    /// let own = ["intensity", "record", "event", "exceeded"];
+    /// assert!(OUTCOMES.has(own));
+    /// assert!(OUTCOMES.has(own.into_iter().chain(["schema"])));
+    /// assert!(!OUTCOMES.has(["record", "intensity", "event", "exceeded"]));
     /// ```
     pub fn has<'a>(&self, header: impl IntoIterator<Item = &'a str>) -> bool {
         let header: Vec<&str> = header.into_iter().collect();

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::clusters::Clusters;
-use super::sample::mean;
+use super::confidence::{Confidence, Ends};
 use super::{QuantileType, Sample, normal};
 use crate::stop;
 use crate::streams::{Streams, below};
@@ -159,28 +159,12 @@ pub fn accelerated(
     let plain = estimate(point, replicates, level)?;
     let finite: Vec<f64> =
         replicates.iter().copied().filter(|x| x.is_finite()).collect();
-    let sample = Sample::try_new(&finite).ok()?;
-    let sorted = sample.sorted();
-    let below = sorted.partition_point(|x| *x < point);
-    let up_to = sorted.partition_point(|x| *x <= point);
-    let share = 0.5 * (below + up_to) as f64 / sorted.len() as f64;
-    let shift = normal::quantile(share);
-    let centre = mean(jackknife);
-    let (square, cube) = jackknife.iter().fold((0.0, 0.0), |(s, c), x| {
-        let d = centre - x;
-        (f64::mul_add(d, d, s), f64::mul_add(d * d, d, c))
-    });
-    let acceleration = cube / (6.0 * square * square.sqrt());
-    if !(shift.is_finite() && acceleration.is_finite()) {
+    let known = Confidence::new(point, &finite, jackknife)?;
+    if !known.is_accelerated() {
         return None;
     }
-    let quantile_type = QuantileType::try_new(7).ok()?;
-    let end = |p: f64| {
-        let z = shift + normal::quantile(p);
-        let p = normal::cdf(shift + z / (1.0 - acceleration * z));
-        quantile_type.of(&sample, p).ok()
-    };
-    let (low, high) = (end(0.5 - 0.5 * level)?, end(0.5 + 0.5 * level)?);
+    let Ends { low, high, .. } =
+        known.interval(normal::quantile(0.5 + 0.5 * level));
     Some(Estimate { low, high, ..plain })
 }
 

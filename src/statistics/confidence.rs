@@ -195,27 +195,7 @@ impl Confidence {
 mod tests {
     use super::*;
     use crate::statistics::Clusters;
-    use crate::statistics::bootstrap::{Bootstrap, accelerated};
-
-    #[test]
-    fn intervals_are_those_of_the_bootstrap() {
-        let replicates: Vec<f64> =
-            (0..1000).map(|i| f64::from(i * i) / 1e6).collect();
-        let jackknife = [0.30, 0.29, 0.31, 0.33, 0.28, 0.30, 0.20, 0.31];
-        let known = Confidence::new(0.3, &replicates, &jackknife).unwrap();
-        for level in [0.9, 0.95] {
-            let found =
-                known.interval(Clusters::singletons(8).half_width(level));
-            let expected =
-                accelerated(0.3, &replicates, &jackknife, level).unwrap();
-            assert!((found.low - expected.low).abs() < 1e-12, "{found:?}");
-            assert!((found.high - expected.high).abs() < 1e-12, "{found:?}");
-        }
-        assert!(known.is_accelerated());
-        // All replicates above the measure: plain percentiles.
-        let beside = Confidence::new(-1.0, &replicates, &jackknife).unwrap();
-        assert!(!beside.is_accelerated());
-    }
+    use crate::statistics::bootstrap::Bootstrap;
 
     #[test]
     fn replicates_without_a_value_widen_both_ends() {

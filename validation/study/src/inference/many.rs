@@ -107,9 +107,8 @@ pub(super) fn many(
             .filter(|cell| cells[cell.k].records >= LEAST_DECIDING)
             .collect();
         share(rule, &drawn, known, caution, result);
-        let any = |_: &&Deciding| true;
         let ends_of = |cell: &Deciding| cell.ends;
-        let worst = worst(deciding.iter().filter(any), rule.region, &ends_of);
+        let worst = worst(drawn.into_iter(), rule.region, &ends_of);
         result.deciding_cell = worst.map(|cell| Detail {
             name: named(&cells[cell.k], known),
             measured: known.shown(cell.k, Some(cell.ends)),

@@ -44,7 +44,8 @@ pub struct Clusters {
 }
 
 impl Clusters {
-    /// Of one label a record: records with the same label make a cluster.
+    /// Clusters from one label a record: records with the same label make a
+    /// cluster.
     #[must_use]
     pub fn from_labels(labels: impl IntoIterator<Item: AsRef<str>>) -> Self {
         let mut known = std::collections::BTreeMap::new();
@@ -66,7 +67,7 @@ impl Clusters {
         Self { unit: Unit::Earthquake, of, members }
     }
 
-    /// Of `n` records without a label: each is a cluster.
+    /// Clusters of `n` records without a label: each record is a cluster.
     #[must_use]
     pub fn singletons(n: usize) -> Self {
         let members = (0..n).map(|record| vec![record]).collect();

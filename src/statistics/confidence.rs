@@ -44,12 +44,12 @@ pub struct Ends {
     pub high: f64,
     /// Standard error of the low end over sets of draws.
     pub low_error: f64,
-    /// The same of the high end.
+    /// Standard error of the high end over sets of draws.
     pub high_error: f64,
 }
 
 impl Confidence {
-    /// Of the measure itself, its replicates and its values without each
+    /// From the measure itself, its replicates and its values without each
     /// record, or earthquake, in turn. Where `jackknife` is empty or holds a
     /// value that is not finite, and where all replicates lie on one side,
     /// the ends are plain percentiles: z0 = a = 0.

@@ -50,7 +50,7 @@ pub struct Requirement {
     /// Functions of the gate: `file::function`.
     #[serde(default)]
     pub tests: Vec<String>,
-    /// Numbers of the paper's figures, first and last, each of which the run
+    /// Numbers of the paper's figures, first and last; the run
     /// draws and writes with its numbers.
     pub figures: Option<(u32, u32)>,
     /// What the evidence leaves open; may be empty.

@@ -82,7 +82,7 @@ struct OverLevels {
 }
 
 impl OverLevels {
-    /// Of the distances of levels of n records each; NaN is no distance.
+    /// Summary of the distances of levels with n records each; NaN is no distance.
     fn new(found: &[f64], null: f64, critical: f64) -> Self {
         let usable = || found.iter().copied().filter(|d| !d.is_nan());
         let accepted = |d: f64| f64::from(u8::from(d <= critical));
@@ -164,7 +164,7 @@ impl Distances {
         let means: Option<Vec<f64>> =
             facts.records.iter().map(|r| r.mean_over_study).collect();
         let mut all: Vec<Option<Tested15>> = Vec::new();
-        // Of all levels, which are the values of the claims.
+        // Values of the claims: they use all levels.
         let mut whole: Vec<OverLevels> = Vec::new();
         for tests in Tests::ALL {
             for at in 0..COUNT {

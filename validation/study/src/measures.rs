@@ -127,39 +127,40 @@ measures! {
     AdjustmentRatiosSlender: One, ANY, |s| stripes::adjusted(s, Some(true));
     /// The same where it is above.
     AdjustmentRatiosStocky: One, ANY, |s| stripes::adjusted(s, Some(false));
-    /// All of them, the closed form divided out record by record.
+    /// Both, with the closed form divided out record by record.
     AdjustmentRatiosCorrected: One, ANY, stripes::adjusted_corrected;
     /// 16, 50 and 84 % quantiles, adjusted over scaled.
     AdjustmentQuantiles: One, ANY, capacities::adjusted_quantiles;
     /// 84 over 16 % quantile of the onset in PGV.
     OnsetSpreadPgv: One, ANY, capacities::onset;
-    /// Excess of D, original PGA.
+    /// Distance from a lognormal (Lilliefors' D less its mean for a lognormal),
+    /// original samples in PGA.
     DistanceOriginalPga: Probability, SIGNED, |s| distances::original(s, Intensity::Pga);
-    /// The same of p = 3 and 4 minus p = 1.
+    /// That distance for p = 3 and 4 minus that for p = 1.
     DistanceSmallMinusLarge: Probability, SIGNED, distances::small_minus_large;
-    /// What shifting takes off it, PGA.
+    /// Reduction of the distance by shifting, PGA.
     DistanceGainPga: Probability, SIGNED, |s| distances::gain(s, Intensity::Pga);
-    /// Excess of D, shifted PGA.
+    /// Distance from a lognormal, shifted samples in PGA.
     DistanceShiftedPga: Probability, SIGNED, |s| distances::shifted(s, Intensity::Pga);
-    /// Excess of D of alpha = 0.05, p = 3, original and shifted PGA.
+    /// Distance for alpha = 0.05, p = 3, original and shifted samples in PGA.
     DistanceSlender: Probability, SIGNED, distances::slender;
-    /// What leaving out its three earliest overturnings takes off it.
+    /// Reduction of the distance without the three earliest overturnings.
     DistanceEarliestRemoved: Probability, SIGNED, distances::earliest_removed;
-    /// Excess of alpha = 0.05 minus that of 0.20, p = 3, shifted PGA.
+    /// Distance for alpha = 0.05 minus that for 0.20, p = 3, shifted PGA.
     DistanceSlenderMinusStocky: Probability, SIGNED, distances::less_slender;
-    /// Excess of D of original samples, PGA minus PGV.
+    /// Distance of original samples in PGA minus that in PGV.
     DistancePgvGain: Probability, SIGNED, distances::pgv_gain;
-    /// Excess of D, original PGV.
+    /// Distance from a lognormal, original samples in PGV.
     DistanceOriginalPgv: Probability, SIGNED, |s| distances::original(s, Intensity::Pgv);
-    /// What shifting takes off it, PGV.
+    /// Reduction of the distance by shifting, PGV.
     DistanceGainPgv: Probability, SIGNED, |s| distances::gain(s, Intensity::Pgv);
-    /// Excess of D, shifted PGV.
+    /// Distance from a lognormal, shifted samples in PGV.
     DistanceShiftedPgv: Probability, SIGNED, |s| distances::shifted(s, Intensity::Pgv);
     /// Gain in distance to the sample by shifting, PGA.
     ShiftGainPga: Probability, SIGNED, |s| fragilities::shift_gain(s, Intensity::Pga);
     /// The same, PGV.
     ShiftGainPgv: Probability, SIGNED, |s| fragilities::shift_gain(s, Intensity::Pgv);
-    /// Probability by the trimmed USFL at uplift, PGA.
+    /// Probability of the trimmed USFL at the intensity of uplift, PGA.
     AtUplift: Probability, FROM_0_TO_1, fragilities::at_uplift;
     /// Distance of trimmed USFL7 to SSFL, PGA.
     TrimmedToSsfl: Probability, FROM_0_TO_1, |s| fragilities::trimmed(s, Intensity::Pga);
@@ -171,9 +172,9 @@ measures! {
     TailRate: Share, FROM_0_TO_1, fragilities::tail_rate;
     /// Annual frequency by the SSFL over the sample's.
     ShiftedRate: One, NOT_NEGATIVE, fragilities::shifted_rate;
-    /// What trimming takes off the distance of USFL7 to SSFL, PGA.
+    /// Reduction of the distance of USFL7 to SSFL by trimming, PGA.
     TrimmingGain: Probability, SIGNED, fragilities::trimming_gain;
-    /// What c = 0.5 to 1 instead of 0.25 takes off it, trimmed, PGA.
+    /// Reduction of that distance by c = 0.5 to 1 instead of 0.25, trimmed, PGA.
     HighConstantGain: Probability, SIGNED, fragilities::high_constant_gain;
     /// Distance of untrimmed USFL7 to SSFL, PGA.
     UntrimmedToSsfl: Probability, FROM_0_TO_1, |s| fragilities::untrimmed(s, Intensity::Pga);

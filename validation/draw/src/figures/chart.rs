@@ -245,7 +245,7 @@ impl Chart {
     }
 }
 
-/// Leaves of a line the points of which it is said so.
+/// Keeps the points of a line that are marked to stay.
 fn retain(line: &mut Series, keep: &[bool]) {
     for values in [&mut line.x, &mut line.y] {
         let mut keep = keep.iter();

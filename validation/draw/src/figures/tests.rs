@@ -120,7 +120,7 @@ fn a_thinned_line_lies_within_a_tenth_of_a_pixel() {
     let y: Vec<f64> = x.iter().map(wave).collect();
     let axis = |low, high| ChartAxis::linear("", (low, high));
     let mut line = Series::new("a", Mark::Line, x.clone(), y.clone());
-    // Of what cannot be drawn the first stays.
+    // The first of the points that cannot be drawn stays.
     line.x.extend([30.0, 30.1]);
     line.y.extend([f64::INFINITY; 2]);
     let (across, up) = (axis(0.0, 30.0), axis(-1.0, 1.0));

@@ -232,7 +232,7 @@ pub(super) fn shares(
                     });
                 }
             }
-            // Of the arm that the findings show first.
+            // The arm that the findings show first.
             let own = || shares.iter().filter(|s| drawn[s.arm] == common);
             let mean =
                 own().fold(0.0, |s, b| s + b.accepted) / own().count() as f64;

@@ -167,7 +167,7 @@ fn medians_in_words(panels: &[BoxPanel]) -> String {
         stripes().filter_map(|s| s.summary.as_ref()).map(|b| b.median);
     let (low, high) = range(medians);
     let (least, _) = range(stripes().map(Stripe::usable_share));
-    // Of the boxes with enough ratios to tell.
+    // Only boxes with enough ratios count.
     let many = stripes().filter(|s| s.usable >= LEAST_DECIDING);
     let (_, off) = range(many.map(|s| {
         let of = s.closed_form.unwrap_or(1.0);

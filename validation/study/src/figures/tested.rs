@@ -80,7 +80,7 @@ impl Histogram {
         Self { edges, counts, mean, deviation }
     }
 
-    /// Of the logarithms that were tested.
+    /// The logarithms that were tested.
     fn of(test: &Assessment) -> Self {
         let none = || Self::freedman_diaconis(&[], (0.0, 0.0), 0.0, 0.0);
         let Some(logs) = &test.tested else { return none() };

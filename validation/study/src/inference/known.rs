@@ -81,7 +81,7 @@ pub(super) struct Known<'a> {
     pub(super) clusters: &'a Clusters,
     rule: &'a Subsampling,
     range: (f64, f64),
-    /// Of a bootstrap, by cell.
+    /// Intervals of a bootstrap, one for each cell; empty otherwise.
     confidence: Vec<Option<Confidence>>,
 }
 

@@ -100,12 +100,7 @@ pub(super) fn many(
         };
     } else {
         counts.inside = discovered(rule.region, cells, known, &deciding);
-        // The median of few records wanders in a bootstrap: such cells are
-        // counted by their exact intervals, and not in the share.
-        let drawn: Vec<&Deciding> = deciding
-            .iter()
-            .filter(|cell| cells[cell.k].records >= LEAST_DECIDING)
-            .collect();
+        let drawn = drawn(&deciding, cells);
         share(rule, &drawn, known, caution, result);
         let ends_of = |cell: &Deciding| cell.ends;
         let worst = worst(drawn.into_iter(), rule.region, &ends_of);
@@ -118,7 +113,8 @@ pub(super) fn many(
     if let Region::Within(a, b) = rule.region
         && known.measured.scheme == Scheme::Bootstrap
     {
-        details(&deciding, known, 0.5 * (a + b), result);
+        let drawn = drawn(&deciding, cells);
+        details(&drawn, known, 0.5 * (a + b), result);
     }
 }
 
@@ -130,6 +126,14 @@ fn deciding(cells: &[Cell], known: &Known<'_>) -> Vec<Deciding> {
         there.then_some(Deciding { k, ends })
     };
     cells.iter().enumerate().filter_map(of).collect()
+}
+
+/// Those whose replicates count. The median of few records wanders in a
+/// bootstrap: cells of few are judged by their exact intervals, and do not
+/// enter a share or a quantile over cells.
+fn drawn<'a>(deciding: &'a [Deciding], cells: &[Cell]) -> Vec<&'a Deciding> {
+    let enough = |cell: &&Deciding| cells[cell.k].records >= LEAST_DECIDING;
+    deciding.iter().filter(enough).collect()
 }
 
 /// How an interval of one cell among many is called.
@@ -251,7 +255,7 @@ fn share(
 /// region's middle. Scatter only raises such a distance, in a replicate more
 /// than in the sample: its percentiles are reflected at the value.
 fn details(
-    deciding: &[Deciding],
+    deciding: &[&Deciding],
     known: &Known<'_>,
     middle: f64,
     result: &mut ClaimResult,

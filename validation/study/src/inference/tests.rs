@@ -218,7 +218,7 @@ fn few_records_have_the_exact_interval_of_their_median() {
     assert_eq!(found.interval, Some(Interval::Exact));
     assert_eq!((found.low, found.high), (1.002, 1.008));
     assert_eq!(found.at, "cell 0, of the 11 survivors");
-    // Of four the range holds the median in 87.5 %: no interval.
+    // The range of four values holds the median in 87.5 %: no interval.
     let found = few(&[values(4)], region);
     assert_eq!(found.by_equivalence, None);
     assert_eq!(found.cells.map(|c| (c.deciding, c.too_few)), Some((0, 1)));
@@ -317,7 +317,7 @@ fn a_verdict_that_other_draws_may_change_is_none() {
         let decided = result.by_equivalence == Some(Verdict::Confirmed);
         assert_eq!(decided, decides, "{away}");
     }
-    // Of two one-sided tests at 2.5 %, the p-value is that at the limit.
+    // The p-value belongs to the one-sided test at the limit.
     let at_the_end = judged(high + 1e-9).result.p;
     assert!((at_the_end - 0.025).abs() < 2e-3, "{at_the_end}");
 }

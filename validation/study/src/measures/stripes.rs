@@ -23,7 +23,7 @@ struct Ratios {
 }
 
 impl Ratios {
-    /// Of two lists of demands; where a block overturned there is none.
+    /// From two lists of demands; an overturned block has no demand.
     fn new(at: String, a: &[f64], b: &[f64], scale: f64) -> Self {
         let ratios = source::ratios(a, b, scale);
         Self { at, ranked: Ranked::new(&ratios) }

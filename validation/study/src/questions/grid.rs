@@ -145,7 +145,7 @@ fn dispersion(values: &[f64], shift: f64) -> Option<f64> {
     Fits::new(&sample, shift).ssfl.map(|f| f.dispersion())
 }
 
-/// The same of first overturnings that are known by their brackets: above
+/// The same share for first overturnings that are known by their brackets: above
 /// the last level that stood, up to the first that did not.
 fn by_intervals(curves: &[ResponseCurve], shift: f64) -> Option<f64> {
     let high = |c: &ResponseCurve| c.overturning_im().unwrap_or(f64::INFINITY);

@@ -147,7 +147,7 @@ impl Dispersions {
         })
     }
 
-    /// The same of one measure.
+    /// The same for one measure.
     fn ratios_of(&self, place: usize) -> Replicated {
         self.ratios()
             .map(|row| row.chunks(COUNT).map(|block| block[place]).collect())

@@ -50,8 +50,8 @@ pub struct Requirement {
     /// Functions of the gate: `file::function`.
     #[serde(default)]
     pub tests: Vec<String>,
-    /// Numbers of the paper's figures, first and last; the run
-    /// draws and writes with its numbers.
+    /// Numbers of the first and the last of the figures that the run draws
+    /// and writes with their numbers.
     pub figures: Option<(u32, u32)>,
     /// What the evidence leaves open; may be empty.
     #[serde(default)]

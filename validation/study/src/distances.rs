@@ -82,7 +82,8 @@ struct OverLevels {
 }
 
 impl OverLevels {
-    /// Summary of the distances of levels with n records each; NaN is no distance.
+    /// Summary of the distances of levels with n records each. NaN is no
+    /// distance.
     fn new(found: &[f64], null: f64, critical: f64) -> Self {
         let usable = || found.iter().copied().filter(|d| !d.is_nan());
         let accepted = |d: f64| f64::from(u8::from(d <= critical));

@@ -146,8 +146,18 @@ const STUDY: Edges = "
     whole analyses claims distributions figures findings questions results
 ";
 
+/// The modules of the command: the commands above, what they share below.
+const COMMAND: Edges = "
+    cli failure input sweep terminal threads
+    failure
+    input failure
+    sweep failure input
+    terminal failure
+    threads failure terminal
+";
+
 /// Each source folder with its table.
-pub const TREES: [(&str, Edges); 8] = [
+pub const TREES: [(&str, Edges); 9] = [
     ("src", CORE),
     ("exchange/src", EXCHANGE),
     ("synthesis/src", SYNTHESIS),
@@ -155,5 +165,6 @@ pub const TREES: [(&str, Edges); 8] = [
     ("validation/draw/src", DRAW),
     ("validation/proof/src", PROOF),
     ("validation/report/src", REPORT),
+    ("validation/src", COMMAND),
     ("validation/study/src", STUDY),
 ];

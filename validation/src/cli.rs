@@ -3,20 +3,20 @@
 mod accept;
 mod validate;
 
-use std::io;
-use std::num::NonZeroUsize;
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, mpsc};
-use std::time::Duration;
 
 use clap::{
     Arg, ArgAction, CommandFactory as _, FromArgMatches as _, Parser,
     Subcommand,
 };
-use rocking::stop::{Stop, StopError};
 use signal_hook::consts::SIGABRT;
 use signal_hook::flag::register_conditional_shutdown;
+
+use crate::failure::Failure;
+use crate::terminal::note;
+use crate::threads::with_threads;
 
 pub mod blocks;
 pub mod capacities;
@@ -26,7 +26,6 @@ pub mod diff;
 pub mod excitation;
 pub mod fragility;
 pub mod ida;
-pub mod input;
 pub mod lilliefors;
 mod limit;
 pub mod man;
@@ -47,13 +46,7 @@ pub mod stripes;
 pub mod study;
 pub mod suite;
 pub mod sweep;
-pub mod terminal;
 pub mod way;
-
-pub use terminal::{SOFTWARE, note, print, say};
-
-/// Threads beyond which more only cost.
-const MOST_THREADS_A_PROCESSOR: usize = 8;
 
 /// The commands by what they are for, as `rocking --help` lists them.
 const GROUPS: [(&str, &[&str]); 4] = [
@@ -109,181 +102,6 @@ enum Command {
     Sweep(sweep::Args),
     /// Runs the declared cases and writes or checks their results.
     Validate(validate::Args),
-}
-
-/// A command that did not do what it was asked: what is printed, and the
-/// exit status.
-#[derive(Debug)]
-pub struct Failure {
-    /// One message for people, on standard error.
-    pub message: String,
-    /// 1 for a failed gate, 2 for bad usage or input.
-    pub status: u8,
-}
-
-impl Failure {
-    /// Bad usage or bad input: exit status 2.
-    #[must_use]
-    pub fn input(message: impl std::fmt::Display) -> Self {
-        Self { message: message.to_string(), status: 2 }
-    }
-
-    /// A gate that failed: exit status 1.
-    #[must_use]
-    pub fn gate(message: impl std::fmt::Display) -> Self {
-        Self { message: message.to_string(), status: 1 }
-    }
-}
-
-impl<E: Into<anyhow::Error>> From<E> for Failure {
-    fn from(error: E) -> Self {
-        let mut message = String::new();
-        for source in error.into().chain().map(ToString::to_string) {
-            if message.is_empty() {
-                message = source;
-            } else if !message.contains(&source) {
-                message = format!("{message}: {source}");
-            }
-        }
-        Self::input(message)
-    }
-}
-
-/// Names the file or the flag of a refusal.
-pub trait At<T> {
-    /// Puts the file or the flag before the message.
-    ///
-    /// # Errors
-    /// [`Failure`] where there was one.
-    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure>;
-}
-
-impl<T, E: Into<Failure>> At<T> for Result<T, E> {
-    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure> {
-        self.map_err(|error| {
-            let Failure { message, status } = error.into();
-            Failure { message: format!("{place}: {message}"), status }
-        })
-    }
-}
-
-/// Runs `work` on `threads` threads (default: all processors). Caps the count
-/// at eight per processor, with a note.
-///
-/// # Errors
-/// [`Failure`] for zero threads, or threads that cannot be started.
-pub fn with_threads<T: Send>(
-    threads: Option<usize>,
-    work: impl FnOnce() -> T + Send,
-) -> Result<T, Failure> {
-    let done = until(&Stop::default(), threads, work)?;
-    done.ok_or_else(|| Failure::gate("the work was stopped"))
-}
-
-/// [`with_threads`], unless a stop ends the work before.
-///
-/// # Errors
-/// As [`with_threads`].
-pub fn until<T: Send>(
-    stop: &Stop,
-    threads: Option<usize>,
-    work: impl FnOnce() -> T + Send,
-) -> Result<Option<T>, Failure> {
-    if threads == Some(0) {
-        return Err(Failure::input("--threads 0: expected at least 1"));
-    }
-    let processors =
-        std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let most = MOST_THREADS_A_PROCESSOR * processors;
-    if let Some(asked) = threads.filter(|asked| *asked > most) {
-        note(&format!(
-            "--threads {asked}: {most} are used, \
-             {MOST_THREADS_A_PROCESSOR} for each of {processors} processors"
-        ));
-    }
-    let count = threads.unwrap_or(processors).min(most);
-    match stop.run(count, work) {
-        Ok(result) => Ok(Some(result)),
-        Err(StopError::Stopped) => Ok(None),
-        Err(error) => Err(Failure::input(format!("{count} {error}"))),
-    }
-}
-
-/// A progress bar of `length` steps, shown on a terminal only.
-#[must_use]
-pub fn progress(length: u64) -> indicatif::ProgressBar {
-    use std::io::IsTerminal as _;
-    if io::stderr().is_terminal() {
-        indicatif::ProgressBar::new(length)
-    } else {
-        indicatif::ProgressBar::hidden()
-    }
-}
-
-/// Interval of progress in a log.
-const LOG_INTERVAL: Duration = Duration::from_secs(30);
-
-/// Does `work`, and where there is no terminal to draw `bar` on, says on
-/// standard error every half a minute how far it is.
-pub fn logged<T>(bar: &indicatif::ProgressBar, work: impl FnOnce() -> T) -> T {
-    use std::io::IsTerminal as _;
-    if io::stderr().is_terminal() {
-        return work();
-    }
-    let say = || {
-        let length = bar.length().unwrap_or(0);
-        note(&format!("{} of {length} done", bar.position()));
-    };
-    saying([LOG_INTERVAL, LOG_INTERVAL], &say, work)
-}
-
-/// Time after which one long analysis says how far it is.
-const PATIENCE: Duration = Duration::from_secs(2);
-
-/// Interval at which it says so on a terminal.
-const TERMINAL_INTERVAL: Duration = Duration::from_millis(200);
-
-/// Does `work`, and from two seconds on says on standard error how far it
-/// is: on a terminal in a line that changes, elsewhere every half a minute.
-pub fn patiently<T>(
-    words: &(dyn Fn() -> String + Sync),
-    work: impl FnOnce() -> T,
-) -> T {
-    use std::io::IsTerminal as _;
-    if !io::stderr().is_terminal() {
-        let say = || note(&words());
-        return saying([PATIENCE, LOG_INTERVAL], &say, work);
-    }
-    let line = indicatif::ProgressBar::new_spinner();
-    let say = || line.set_message(words());
-    let result = saying([PATIENCE, TERMINAL_INTERVAL], &say, work);
-    line.finish_and_clear();
-    result
-}
-
-/// Does `work`, and says something after a first time and then at intervals
-/// until it is done. Where no thread can be started, nothing is said.
-fn saying<T>(
-    [first, interval]: [Duration; 2],
-    say: &(dyn Fn() + Sync),
-    work: impl FnOnce() -> T,
-) -> T {
-    std::thread::scope(|scope| {
-        let (done, waits) = mpsc::channel::<()>();
-        let says =
-            std::thread::Builder::new().spawn_scoped(scope, move || {
-                let mut wait = first;
-                while let Err(mpsc::RecvTimeoutError::Timeout) =
-                    waits.recv_timeout(wait)
-                {
-                    say();
-                    wait = interval;
-                }
-            });
-        let result = work();
-        drop((done, says));
-        result
-    })
 }
 
 /// The same command, which reads `-1` behind an option as its value.
@@ -396,7 +214,7 @@ pub fn run() -> ExitCode {
 
 #[cfg(test)]
 mod tests {
-    use super::{Duration, GROUPS, command, mpsc, saying};
+    use super::{GROUPS, command};
 
     #[test]
     fn every_command_is_in_one_group() {
@@ -408,21 +226,5 @@ mod tests {
         let mut known: Vec<&str> = known.collect();
         known.sort_unstable();
         assert_eq!(listed, known);
-    }
-
-    #[test]
-    fn long_work_says_so_until_it_is_done() {
-        let (says, hears) = mpsc::channel();
-        let say = || says.send(()).unwrap();
-        let short = Duration::from_millis(1);
-        let result = saying([short, short], &say, || {
-            // It goes on until it has been spoken of twice.
-            hears.recv().unwrap();
-            hears.recv().unwrap();
-            7
-        });
-        assert_eq!(result, 7);
-        let long = Duration::from_secs(3600);
-        saying([long, long], &|| panic!("nothing was long"), || ());
     }
 }

@@ -2,4 +2,8 @@
 //! commands make.
 
 pub mod cli;
+pub mod failure;
+pub mod input;
 pub mod sweep;
+pub mod terminal;
+pub mod threads;

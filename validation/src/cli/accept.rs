@@ -12,7 +12,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::show::text;
-use super::{At as _, Failure, note, say, study, validate};
+use super::{study, validate};
+use crate::failure::{At as _, Failure};
+use crate::terminal::{note, say};
 use rocking_common::files::{Folder, is_interrupted};
 use rocking_common::findings::Findings;
 use rocking_proof::cases::pinned::{COUNTERS, counters_csv, expect_counters};

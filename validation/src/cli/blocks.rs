@@ -7,7 +7,8 @@ use rocking::block::{Block, Restitution};
 use rocking_exchange::Id;
 use serde::Deserialize;
 
-use super::{At as _, Failure, input};
+use crate::failure::{At as _, Failure};
+use crate::input;
 
 /// The columns that a table of blocks has.
 const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \

@@ -7,7 +7,8 @@ use rocking::procedures::{Comparison, compare};
 use serde::Serialize;
 
 use super::shared::JsonArg;
-use super::{Failure, input};
+use crate::failure::Failure;
+use crate::input;
 
 /// Paired ratios a/b of two samples: counts, boxplot, tests of a centre at 1
 /// and of equivalence to it. Values are paired by the names of their records,

@@ -3,7 +3,8 @@
 use clap::{Args as ClapArgs, Command};
 use clap_complete::{Shell, generate};
 
-use super::{Failure, print};
+use crate::failure::Failure;
+use crate::terminal::print;
 
 /// Completions of commands and flags for a shell, on standard output.
 #[derive(ClapArgs)]

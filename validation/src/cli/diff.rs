@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::study::REPORT;
-use super::{Failure, print, say};
+use crate::failure::Failure;
+use crate::terminal::{print, say};
 use rocking_report::diff::{Comparison, Results, compare};
 
 /// What changed between two results, and whether it matters.

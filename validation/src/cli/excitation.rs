@@ -8,7 +8,7 @@ use rocking::excitation::{
 };
 use rocking::record::{Accelerogram, Record, Remarked, SetAside, read_file};
 
-use super::Failure;
+use crate::failure::Failure;
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;

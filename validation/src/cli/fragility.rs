@@ -10,7 +10,7 @@ mod transform;
 
 use clap::{Args as ClapArgs, Subcommand};
 
-use super::Failure;
+use crate::failure::Failure;
 
 /// Lognormal fragilities: fitted, transformed, or of a fitted surface.
 ///

@@ -11,7 +11,9 @@ use rocking::statistics::lilliefors::{
 use serde::Serialize;
 
 use super::shared::{JsonArg, ThreadsArg};
-use super::{Failure, input, progress};
+use crate::failure::Failure;
+use crate::input;
+use crate::terminal::progress;
 use rocking_common::files::Outputs;
 use rocking_common::table::Table as Csv;
 use rocking_exchange::sample::SampleFile;

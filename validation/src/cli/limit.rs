@@ -3,7 +3,7 @@
 use rocking::ida::IdaError;
 use rocking::integrator::{SceneError, WorkLimit};
 
-use super::Failure;
+use crate::failure::Failure;
 
 /// Work beyond which a run is refused.
 #[derive(clap::Args, Clone, Copy, Debug)]

@@ -3,7 +3,8 @@
 use clap::{Args as ClapArgs, Command};
 use clap_mangen::Man;
 
-use super::{Failure, print};
+use crate::failure::Failure;
+use crate::terminal::print;
 
 /// The manual page of the program, or of one of its commands, on standard
 /// output.

@@ -13,7 +13,8 @@ use rocking_exchange::ida::IdaTable;
 
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
-use super::{At as _, Failure, input};
+use crate::failure::{At as _, Failure};
+use crate::input;
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 

@@ -2,7 +2,7 @@
 
 use rocking::record::Processing;
 
-use super::{At as _, Failure};
+use crate::failure::{At as _, Failure};
 
 /// What is done to records; nothing unless asked for.
 #[derive(clap::Args, Clone, Copy, Debug)]

@@ -14,7 +14,8 @@ use serde::Serialize;
 use super::measure::{Ground, GroundArgs};
 use super::names;
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
-use super::{Failure, input};
+use crate::failure::Failure;
+use crate::input;
 use rocking_common::files::Outputs;
 use rocking_draw::figures::of_result::ranking_svg;
 

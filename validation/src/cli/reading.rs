@@ -4,7 +4,7 @@
 use rocking::record::{ReadOptions, SetAside};
 use rocking::units::AccelerationUnit;
 
-use super::Failure;
+use crate::failure::Failure;
 use rocking_common::suites::remarks::Remarks;
 
 /// What record files do not state.

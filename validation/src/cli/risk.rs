@@ -10,7 +10,9 @@ use rocking::statistics::{Lognormal, QuantileType};
 use super::fragility::fit::FitArgs;
 use super::fragility::source::SourceArgs;
 use super::shared::{BootstrapArgs, JsonArg, ThreadsArg};
-use super::{Failure, input, note};
+use crate::failure::Failure;
+use crate::input;
+use crate::terminal::note;
 
 /// Mean annual frequency of overturning, or of exceeding a demand, and its
 /// probability in T years, from a hazard curve and a fragility.

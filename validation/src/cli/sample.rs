@@ -7,7 +7,8 @@ use rocking::procedures::summarise;
 use rocking::statistics::QuantileType;
 
 use super::shared::JsonArg;
-use super::{Failure, input};
+use crate::failure::Failure;
+use crate::input;
 
 /// Quantiles of a sample by named type (Hyndman and Fan 1996), its quartiles,
 /// whiskers, outliers and McGill's notch, and the exact order-statistic

@@ -5,7 +5,7 @@ use rocking::block::{Block, Restitution};
 use rocking::integrator::{Model, Overturning};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use super::Failure;
+use crate::failure::Failure;
 use super::names;
 use super::shared::positive;
 

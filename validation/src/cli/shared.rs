@@ -4,7 +4,8 @@ use rocking::procedures::Draws;
 use serde::Serialize;
 
 use super::show::show;
-use super::{Failure, with_threads};
+use crate::failure::Failure;
+use crate::threads::with_threads;
 
 /// The value of a flag that is positive and finite.
 ///

@@ -4,7 +4,8 @@
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use super::{Failure, print};
+use crate::failure::Failure;
+use crate::terminal::print;
 use rocking_common::table::columns::SCHEMA;
 
 /// What every JSON of a command carries.

@@ -9,7 +9,8 @@ use rocking::record::{ReadOptions, SetAside};
 use serde::Serialize;
 
 use super::shared::JsonArg;
-use super::{Failure, progress};
+use crate::failure::Failure;
+use crate::terminal::progress;
 use rocking_common::curves::Execution;
 use rocking_common::files::Outputs;
 use rocking_common::paper::BLOCKS;

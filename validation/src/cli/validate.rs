@@ -7,7 +7,9 @@ use serde::Serialize;
 
 use super::shared::JsonArg;
 use super::show::shown;
-use super::{At as _, Failure, input, say};
+use crate::failure::{At as _, Failure};
+use crate::input;
+use crate::terminal::say;
 use rocking_common::files::Outputs;
 use rocking_proof::cases::{Case, Cost, FAMILIES, load_all};
 use rocking_proof::methods::{digits, digits_csv};

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use rocking::number::dispatch::Isa;
 
-use super::Failure;
+use crate::failure::Failure;
 use super::names::named;
 use rocking_common::curves::Execution;
 

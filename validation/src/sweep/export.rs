@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
-use crate::cli::{At as _, Failure};
+use crate::failure::{At as _, Failure};
 
 /// A row of a tile's fragilities; other columns are not read.
 #[derive(Deserialize)]

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::content::Content;
 use super::plan::Planned;
 use super::tile::{self, State};
-use crate::cli::Failure;
+use crate::failure::Failure;
 use rocking_common::files::Outputs;
 
 /// Puts the tiles together in the plan's order, one after the other: as

@@ -15,7 +15,8 @@ use rocking_exchange::Id;
 use serde::{Deserialize, Serialize};
 
 use super::cost::{self, Cost, Tile};
-use crate::cli::{At as _, Failure, input};
+use crate::failure::{At as _, Failure};
+use crate::input;
 use rocking_common::files::write_atomically;
 use rocking_common::suites::export;
 use rocking_common::suites::inputs::{read_suite, sha256_hex};

@@ -13,7 +13,7 @@ use rocking::statistics::lognormal::{FitMethod, fit};
 
 use super::content::Content;
 use super::plan::{Given, Plan, Planned};
-use crate::cli::{At as _, Failure};
+use crate::failure::{At as _, Failure};
 use rocking_common::files::write_atomically;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::Table;

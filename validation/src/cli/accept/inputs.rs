@@ -6,7 +6,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::super::{Failure, note, study};
+use super::super::study;
+use crate::failure::Failure;
+use crate::terminal::note;
 use rocking_common::paper::SuiteKind;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_report::output::{FINDINGS, Files};

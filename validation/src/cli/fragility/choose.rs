@@ -6,7 +6,8 @@ use clap::Args as ClapArgs;
 use rocking::procedures::choose;
 
 use crate::cli::shared::{BootstrapArgs, JsonArg, ThreadsArg};
-use crate::cli::{At as _, Failure, input};
+use crate::failure::{At as _, Failure};
+use crate::input;
 
 /// Compares lognormal, shifted lognormal (its shift fitted too), Weibull,
 /// gamma and generalized extreme value distributions.

@@ -14,7 +14,8 @@ use rocking::statistics::Clusters;
 use rocking::statistics::lognormal::Stripe;
 
 use crate::cli::shared::{BootstrapArgs, JsonArg, ThreadsArg};
-use crate::cli::{At as _, Failure, input};
+use crate::failure::{At as _, Failure};
+use crate::input;
 use rocking_exchange::FileError;
 use rocking_exchange::columns::{COUNTS, OUTCOMES};
 use rocking_exchange::read::{Cells, rows};

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::fit::FitArgs;
 use super::source::SourceArgs;
-use crate::cli::Failure;
+use crate::failure::Failure;
 use crate::cli::names::named;
 use crate::cli::shared::JsonArg;
 use rocking_common::files::Outputs;

@@ -25,7 +25,8 @@ use crate::cli::capacities::Levels;
 use crate::cli::names;
 use crate::cli::scene::BlockArgs;
 use crate::cli::shared::positive;
-use crate::cli::{At as _, Failure, input};
+use crate::failure::{At as _, Failure};
+use crate::input;
 use rocking_common::paper::SuiteKind;
 use rocking_exchange::sample::SampleSetting;
 

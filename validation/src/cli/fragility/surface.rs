@@ -3,7 +3,7 @@
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_surrogate::Surrogate;
 
-use crate::cli::Failure;
+use crate::failure::Failure;
 use crate::cli::scene::BlockArgs;
 use crate::cli::shared::JsonArg;
 

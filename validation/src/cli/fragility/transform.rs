@@ -3,7 +3,7 @@
 use clap::Args as ClapArgs;
 use rocking::procedures::fit::Transformed;
 
-use crate::cli::Failure;
+use crate::failure::Failure;
 use crate::cli::shared::JsonArg;
 
 /// Eqs. 5 to 7: a shifted fragility from unshifted numbers.

@@ -8,7 +8,7 @@ use rocking::intensity::{IntensityError, Measures, PairMeasures, Settings};
 use serde::Serialize;
 
 use super::{Finding, Listed};
-use crate::cli::Failure;
+use crate::failure::Failure;
 use rocking_draw::figures::of_result::record_svg;
 
 /// What is asked for beside the list.

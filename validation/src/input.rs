@@ -8,7 +8,7 @@ use rocking::intensity::Intensity;
 use rocking_exchange::ida::{Curves, IdaTable};
 use rocking_exchange::sample::SampleFile;
 
-use super::{At as _, Failure};
+use crate::failure::{At as _, Failure};
 
 fn opened(path: &Path) -> io::Result<Box<dyn Read>> {
     if path == Path::new("-") {

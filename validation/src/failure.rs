@@ -1,0 +1,57 @@
+//! A command that did not do what it was asked.
+
+/// A command that did not do what it was asked: what is printed, and the
+/// exit status.
+#[derive(Debug)]
+pub struct Failure {
+    /// One message for people, on standard error.
+    pub message: String,
+    /// 1 for a failed gate, 2 for bad usage or input.
+    pub status: u8,
+}
+
+impl Failure {
+    /// Bad usage or bad input: exit status 2.
+    #[must_use]
+    pub fn input(message: impl std::fmt::Display) -> Self {
+        Self { message: message.to_string(), status: 2 }
+    }
+
+    /// A gate that failed: exit status 1.
+    #[must_use]
+    pub fn gate(message: impl std::fmt::Display) -> Self {
+        Self { message: message.to_string(), status: 1 }
+    }
+}
+
+impl<E: Into<anyhow::Error>> From<E> for Failure {
+    fn from(error: E) -> Self {
+        let mut message = String::new();
+        for source in error.into().chain().map(ToString::to_string) {
+            if message.is_empty() {
+                message = source;
+            } else if !message.contains(&source) {
+                message = format!("{message}: {source}");
+            }
+        }
+        Self::input(message)
+    }
+}
+
+/// Names the file or the flag of a refusal.
+pub trait At<T> {
+    /// Puts the file or the flag before the message.
+    ///
+    /// # Errors
+    /// [`Failure`] where there was one.
+    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure>;
+}
+
+impl<T, E: Into<Failure>> At<T> for Result<T, E> {
+    fn at(self, place: impl std::fmt::Display) -> Result<T, Failure> {
+        self.map_err(|error| {
+            let Failure { message, status } = error.into();
+            Failure { message: format!("{place}: {message}"), status }
+        })
+    }
+}

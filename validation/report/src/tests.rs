@@ -129,7 +129,7 @@ fn said_of(source: &Source) -> String {
         credibility::tables(&results, &[], None, None).expect("tables");
     let cells = tables.into_iter().flat_map(|table| table.rows).flatten();
     let cells: String = cells.collect();
-    limits + &answers::not_checked(results.embedded()) + &cells
+    limits + &answers::not_run(results.embedded()) + &cells
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn what_is_said_of_the_suites_follows_from_their_source_not_their_name() {
 fn the_command_names_the_proof_only_where_one_was_handed_in() {
     let results = empty(&Source::Embedded { streams: "x" });
     let command = |proved| {
-        let rows = head::head(&results, proved);
+        let rows = head::head(&results, proved, &Signatures::default());
         let row = rows.into_iter().find(|(name, _)| name == "Command");
         row.expect("a command").1
     };

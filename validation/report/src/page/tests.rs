@@ -33,8 +33,7 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
     };
     ReportInput {
         title: "Rocking: what was verified, what was found".into(),
-        subtitle: "Free-standing blocks under 86 + 44 records".into(),
-        head: vec![("Paper".into(), "Made-up authors".into())],
+        intro: vec!["Free-standing blocks under 86 + 44 records".into()],
         signatures: vec![
             ("Issued".into(), Some("a day".into())),
             ("Approved by".into(), None),
@@ -43,10 +42,14 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
             question: "Is slenderness normalized out?".into(),
             answer: "Nearly: for ratios; open for quantiles.".into(),
             effect: "-0.9 % (-1 to -0.8 %)".into(),
-            columns: vec!["7 results for it".into(); 2],
             shown: vec![("figure-08".into(), "Figure 8".into())],
         }],
+        otherwise: Some("Other motions say the same.".into()),
         first: Vec::new(),
+        scope: Chapter {
+            text: vec!["Made-up numbers.".into()],
+            ..Chapter::titled("scope", "Scope")
+        },
         columns: ["recorded suites", "embedded suites"].map(column).into(),
         findings: vec![Shown {
             theme: Theme::Statistics,
@@ -70,6 +73,13 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
             )],
             ..Chapter::default()
         }],
+        files: PlainTable {
+            name: "list-of-files".into(),
+            title: "Files".into(),
+            reading: "Each with its hash.".into(),
+            header: words(&["file", "SHA-256"]),
+            rows: vec![words(&["data/table-1.csv", &"ab1".repeat(21)])],
+        },
         annexes: vec![Chapter {
             id: "blocks",
             title: "Blocks".into(),
@@ -119,7 +129,10 @@ fn asks_nothing_of_network_or_scripts() {
         assert!(!html.contains(word), "{word}");
     }
     let plain = html.replace("http://www.w3.org/2000/svg", "");
+    let plain = plain.replace("meta http-equiv=", "");
     assert!(!plain.contains("http"));
+    // And a browser lets nothing through.
+    assert!(html.contains("content=\"default-src 'none'; style-src "));
 }
 
 #[test]

@@ -1,6 +1,9 @@
 //! The first screen: what was done, and the answers, each a sentence made
 //! from verdicts and numbers by one rule.
 
+use anyhow::Context as _;
+use serde::Deserialize;
+
 use crate::evidence::Proof;
 use crate::page::AnswerRow;
 use crate::quantity::{cell_text, measured_text, number};
@@ -10,34 +13,36 @@ use rocking_common::findings::{Claim, ClaimResult, Findings, Region, Tested};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_draw::figures::Figure;
 
+/// The questions that claims answer; the file says what its fields are.
+const ASKED: &str = include_str!("../answers.toml");
+
 /// A question of a reader that claims answer.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Asked {
-    question: &'static str,
-    /// First words of an answer: all parts hold; some hold and the others
-    /// are open; some hold and others fail; some fail and none holds; all
-    /// are open.
-    leads: [&'static str; 5],
-    parts: &'static [Part],
-    /// What is said besides, unless it is open.
+    question: String,
+    leads: [String; 5],
+    parts: Vec<Part>,
     aside: Option<Part>,
-    figures: &'static [u32],
+    figures: Vec<u32>,
 }
 
 /// Claims that one fact answers.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Part {
-    claims: &'static [&'static str],
+    claims: Vec<String>,
     /// What is measured, in a few words.
-    name: &'static str,
-    /// The fact, true for any verdict: `{}` is the number, `{limit}` the
-    /// limit of each compared value.
-    fact: &'static str,
+    name: String,
+    fact: String,
     shown: Shown,
-    /// Whether the claims say the opposite.
+    #[serde(default)]
     against: bool,
 }
 
 /// Which number of a result a fact has.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 enum Shown {
     /// The distance of a ratio from 1, in per cent.
     Apart,
@@ -47,125 +52,15 @@ enum Shown {
     Plain,
 }
 
-const fn part(
-    claims: &'static [&'static str],
-    name: &'static str,
-    fact: &'static str,
-    shown: Shown,
-) -> Part {
-    Part { claims, name, fact, shown, against: false }
+fn asked() -> anyhow::Result<Vec<Asked>> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct File {
+        asked: Vec<Asked>,
+    }
+    let file: File = toml::from_str(ASKED).context("answers.toml")?;
+    Ok(file.asked)
 }
-
-const ASKED: [Asked; 4] = [
-    Asked {
-        question: "Does shape matter once size is known, if every impact \
-                   loses the same share of energy?",
-        leads: ["Hardly", "Hardly, it seems", "In part", "Yes", "Open"],
-        parts: &[
-            part(
-                &["ratios-p1", "ratios-p3-p4", "ratios-at-demand"],
-                "median rotations",
-                "medians differ by {}",
-                Shown::Apart,
-            ),
-            part(
-                &["quantiles-coincide"],
-                "quantiles within the limit",
-                "{} of quantiles agree within {limit}",
-                Shown::Percent,
-            ),
-        ],
-        aside: Some(part(
-            &["housner-breaks"],
-            "with Housner's restitution",
-            "With Housner's restitution, medians differ by {}",
-            Shown::Percent,
-        )),
-        figures: &[6, 7, 8],
-    },
-    Asked {
-        question: "May I change the shape of the block instead of scaling \
-                   the motion?",
-        leads: ["Yes", "Yes, it seems", "In part", "No", "Open"],
-        parts: &[
-            part(
-                &["adjustment-ratios"],
-                "median rotations",
-                "medians differ by {}",
-                Shown::Apart,
-            ),
-            part(
-                &["adjustment-quantiles"],
-                "quantiles within the limit",
-                "{} of quantiles agree within {limit}",
-                Shown::Percent,
-            ),
-        ],
-        aside: None,
-        figures: &[9, 10],
-    },
-    Asked {
-        question: "Which fragility may I use?",
-        leads: [
-            "The shifted lognormal",
-            "Probably the shifted lognormal",
-            "Partly the shifted lognormal",
-            "Not the shifted lognormal",
-            "Open",
-        ],
-        parts: &[
-            part(
-                &["shift-gains-pga"],
-                "gain in probability over the unshifted, PGA",
-                "it fits better by {} in PGA",
-                Shown::Plain,
-            ),
-            part(
-                &["shifted-rate"],
-                "rate over the sample's",
-                "overturning rate off by {}",
-                Shown::Apart,
-            ),
-        ],
-        aside: Some(part(
-            &["shift-gains-little-pgv"],
-            "PGV",
-            "Gain in PGV: {}",
-            Shown::Plain,
-        )),
-        figures: &[12, 14, 15],
-    },
-    Asked {
-        question: "May I shift a published, unshifted fragility (Eqs. 5 to \
-                   7)?",
-        leads: ["Yes", "Yes, it seems", "In part", "No", "Open"],
-        parts: &[
-            part(
-                &["eq7-untrimmed-pgv"],
-                "error in probability, PGV",
-                "PGV off by {}",
-                Shown::Plain,
-            ),
-            part(
-                &["eq7-trimmed-pga"],
-                "trimmed PGA",
-                "trimmed PGA off by {}",
-                Shown::Plain,
-            ),
-            Part {
-                against: true,
-                ..part(
-                    &["eq7-untrimmed-fails-pga"],
-                    "untrimmed PGA",
-                    "untrimmed PGA off by {}",
-                    Shown::Plain,
-                )
-            },
-        ],
-        aside: None,
-        figures: &[16, 17, 18],
-    },
-];
 
 /// What came out about a part.
 struct Found {
@@ -190,9 +85,9 @@ impl Part {
     /// with the worst verdict speaks; of several, the one with the worst
     /// number.
     fn found(&self, claims: &[Claim], first: Arm) -> Found {
-        let own = claims.iter().filter(|c| {
-            self.claims.contains(&c.id.as_str()) && c.region.is_some()
-        });
+        let own = claims
+            .iter()
+            .filter(|c| self.claims.contains(&c.id) && c.region.is_some());
         let shown = |r: &&ClaimResult| {
             r.arm.is_none_or(|arm| arm == first) && !self.value(r).is_nan()
         };
@@ -268,7 +163,7 @@ impl Asked {
     }
 
     /// Which of the first words the verdicts give; none without data.
-    fn lead(&self, claims: &[Claim], first: Arm) -> Option<&'static str> {
+    fn lead(&self, claims: &[Claim], first: Arm) -> Option<&str> {
         let found = self.parts.iter().map(|p| p.found(claims, first));
         let all: Vec<Verdict> = found.flat_map(|f| f.verdicts).collect();
         let (yes, no) = (Verdict::Confirmed, Verdict::NotConfirmed);
@@ -280,7 +175,7 @@ impl Asked {
             (false, true) => 3,
             (false, false) => 4,
         };
-        Some(self.leads[lead])
+        Some(&self.leads[lead])
     }
 
     /// The answer: first words, then the facts that hold, those that fail,
@@ -297,7 +192,7 @@ impl Asked {
                 .filter(|(_, f)| f.verdicts.first() == verdict.as_ref());
             let words = own.map(|(part, f)| match &f.words {
                 Some((fact, _)) => fact.as_str(),
-                None => part.name,
+                None => part.name.as_str(),
             });
             words.collect::<Vec<&str>>().join(", ")
         };
@@ -334,6 +229,9 @@ impl Asked {
 
 /// The rows of the first table, by the first of `recorded` and `here` that
 /// there is.
+///
+/// # Errors
+/// Where the questions have been damaged.
 pub(super) fn rows(
     embedded: bool,
     here: &Findings,
@@ -341,7 +239,7 @@ pub(super) fn rows(
     timings: &Timings,
     proof: Option<&Proof>,
     figures: &[&Figure],
-) -> Vec<AnswerRow> {
+) -> anyhow::Result<Vec<AnswerRow>> {
     let lead = recorded.unwrap_or(here);
     let first = first_arm(lead);
     let row = |question: &str, answer, effect, shown: &[(&str, &str)]| {
@@ -353,7 +251,8 @@ pub(super) fn rows(
             shown: shown.iter().map(pair).collect(),
         }
     };
-    let claimed = ASKED.iter().map(|asked| {
+    let asked = asked()?;
+    let claimed = asked.iter().map(|asked| {
         let shown = asked.figures.iter().filter_map(|number| {
             let is = |f: &&&Figure| f.heading.number == Some(*number);
             let name = figures.iter().find(is)?.heading.name.clone();
@@ -362,7 +261,7 @@ pub(super) fn rows(
         AnswerRow {
             shown: shown.collect(),
             ..row(
-                asked.question,
+                &asked.question,
                 asked.answer(&lead.claims, first),
                 asked.numbers(&lead.claims, first),
                 &[],
@@ -396,7 +295,7 @@ pub(super) fn rows(
             &[("provenance", "sign-off")],
         ),
     ];
-    claimed.chain(others).collect()
+    Ok(claimed.chain(others).collect())
 }
 
 /// What the model leaves out.
@@ -486,27 +385,29 @@ pub(super) fn done(here: &Findings, recorded: Option<&Findings>) -> String {
 }
 
 /// Where the embedded motions answer otherwise than the recorded ones.
+///
+/// # Errors
+/// As [`rows`].
 pub(super) fn otherwise(
     here: &Findings,
     recorded: Option<&Findings>,
-) -> Option<String> {
-    let recorded = recorded?;
-    let lead = |asked: &Asked, findings: &Findings| {
+) -> anyhow::Result<Option<String>> {
+    let Some(recorded) = recorded else { return Ok(None) };
+    fn lead<'a>(asked: &'a Asked, findings: &Findings) -> Option<&'a str> {
         asked.lead(&findings.claims, first_arm(findings))
-    };
-    let other = ASKED.iter().filter_map(|asked| {
+    }
+    let asked = asked()?;
+    let other = asked.iter().filter_map(|asked| {
         let own = lead(asked, here);
         let words =
             format!("{} {}.", asked.question, own.unwrap_or("No data"));
         (own != lead(asked, recorded)).then_some(words)
     });
     let other: Vec<String> = other.collect();
-    Some(match other.is_empty() {
+    Ok(Some(match other.is_empty() {
         true => "The embedded synthetic motions give the same answers.".into(),
-        false => {
-            format!("Embedded synthetic motions: {}", other.join(" "))
-        }
-    })
+        false => format!("Embedded synthetic motions: {}", other.join(" ")),
+    }))
 }
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ pub fn input<'a>(
         &timings,
         proof,
         &own,
-    );
+    )?;
     let compared = || questions.iter().filter(|q| q.id == "suites");
     let work = [&results.ordinary, &results.pulse].map(verdicts::work);
     let suites = Chapter {
@@ -99,7 +99,7 @@ pub fn input<'a>(
         intro: vec![words.intro, answers::done(found, recorded)],
         signatures: signatures.shown(),
         answers: rows,
-        otherwise: answers::otherwise(found, recorded),
+        otherwise: answers::otherwise(found, recorded)?,
         scope: Chapter {
             text: words.scope,
             folded: vec![only(

@@ -241,7 +241,7 @@ pub fn answers_text(
         &Timings::kept()?,
         proof,
         &[],
-    );
+    )?;
     let text = |row: &AnswerRow| {
         let AnswerRow { question, answer, effect, .. } = row;
         format!("{question}\n  {answer}\n  {effect}.\n")

@@ -47,7 +47,7 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
         &timings,
         Some(proof),
         &[],
-    );
+    )?;
     let line = |row: &AnswerRow| {
         let AnswerRow { question, answer, effect, .. } = row;
         let effect = effect.replace('|', "\\|");

@@ -104,10 +104,17 @@ fn what_a_suite_sets_aside_is_under_provenance_and_in_the_findings() {
     assert_eq!(serde_json::to_value(&found).expect("JSON"), expected);
 }
 
+/// A name that a page must not take for its own.
+const HOSTILE: &str = "</text><script>alert(1)</script><a onload='b()' \"&lt;";
+
 fn small(threads: usize, way: Execution, proof: Option<&Proof>) -> Files {
     let [mut ordinary, mut pulse] = StudySuite::embedded().expect("suites");
     for (suite, records) in [(&mut ordinary, 10), (&mut pulse, 4)] {
         suite.motions.truncate(records);
+        for motion in &mut suite.motions {
+            let name = format!("{HOSTILE}{}", motion.study.name());
+            motion.study = motion.study.clone().named(name).expect("a name");
+        }
         suite.clusters = Clusters::singletons(records);
     }
     let plan = plan(way);
@@ -203,6 +210,14 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
         assert!(*content == two[name], "{name} differs");
     }
     let [page, without] = pages;
+    // Names of records stand on the page and in the drawings, as text.
+    let drawings = one.iter().filter(|(name, _)| name.ends_with(".svg"));
+    let drawings = drawings.map(|(_, svg)| String::from_utf8_lossy(svg));
+    let all: String = drawings.chain([page.as_str().into()]).collect();
+    assert!(page.contains("&lt;script&gt;alert(1)"), "no record is named");
+    for word in ["<script", "</text><", "<a onload", "\"&lt;\""] {
+        assert!(!all.contains(word), "{word}");
+    }
     // The first case is named by an identity of the paper.
     let cases = load_all().expect("cases");
     let (id, table) = (&cases[cases.len() - 1].id, "table-precision");

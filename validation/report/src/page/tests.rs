@@ -135,6 +135,25 @@ fn asks_nothing_of_network_or_scripts() {
     assert!(html.contains("content=\"default-src 'none'; style-src "));
 }
 
+/// Suites and files are named by users.
+#[test]
+fn hostile_names_stay_text() {
+    let name = "<script>alert(1)</script>\" onload='b()' x=\"&lt;";
+    let figures = sketches();
+    let mut input = made_up(&figures);
+    input.chapters[0].list[0].1 = name.into();
+    input.chapters[0].text[0] = name.into();
+    input.annexes[0].tables[0].rows[0][0] = name.into();
+    input.annexes[0].tables[0].title = name.into();
+    input.intro[0] = name.into();
+    let html = page(&input);
+    let escaped = "&lt;script&gt;alert(1)&lt;/script&gt;&quot; onload='b()' \
+                   x=&quot;&amp;lt;";
+    // The title of a table also names its box.
+    assert_eq!(html.matches(escaped).count(), 6);
+    assert!(!html.contains("<script") && !html.contains("\" onload"));
+}
+
 #[test]
 fn every_anchor_leads_somewhere_and_no_name_is_used_twice() {
     let html = page(&made_up(&sketches()));

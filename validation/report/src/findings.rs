@@ -93,11 +93,8 @@ pub fn criteria(here: &Findings) -> PlainTable {
 pub fn identities(here: &Findings) -> PlainTable {
     let row = |claim: &Claim| {
         let is = match claim.kind {
-            Kind::Identity => format!(
-                "true by definition or arithmetic: declared case {}",
-                claim.case
-            ),
-            Kind::Description => "a description: not judged".into(),
+            Kind::Identity => format!("identity, case {}", claim.case),
+            Kind::Description => "description, not judged".into(),
             Kind::Finding => return None,
         };
         let quote = format!("\u{201c}{}\u{201d}", claim.quote);

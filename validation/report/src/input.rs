@@ -97,6 +97,12 @@ pub fn input<'a>(
     Ok(ReportInput {
         title: TITLE.into(),
         intro: vec![words.intro, answers::done(found, recorded)],
+        head: [
+            head::head(results, proof.is_some(), signatures),
+            recorded.map(findings::kept).unwrap_or_default(),
+            provenance(results),
+        ]
+        .concat(),
         signatures: signatures.shown(),
         answers: rows,
         otherwise: answers::otherwise(found, recorded)?,
@@ -107,7 +113,7 @@ pub fn input<'a>(
                 "Acceptance criteria",
                 vec![findings::criteria(found)],
             )],
-            ..Chapter::titled("scope", "Scope, use and acceptance")
+            ..Chapter::titled("scope", "Scope")
         },
         first: placed(&own, Place::Answers),
         columns: findings::columns(found, recorded),
@@ -129,14 +135,6 @@ pub fn input<'a>(
         families: proof.map(evidence::shown).transpose()?.unwrap_or_default(),
         evidence: Chapter {
             figures: placed(&charts, Place::Proof),
-            folded: vec![Chapter {
-                tables: evidence::checks(proof)?,
-                figures: placed(&charts, Place::Checks),
-                ..Chapter::titled(
-                    "checks",
-                    "Pulses, critical values, departure from similarity",
-                )
-            }],
             ..Chapter::default()
         },
         chapters: vec![
@@ -173,19 +171,7 @@ pub fn input<'a>(
                         ..Chapter::titled("references", "References")
                     },
                 ],
-                ..Chapter::titled(
-                    "limits",
-                    "Limits, deviations, credibility, references",
-                )
-            },
-            Chapter {
-                list: [
-                    head::head(results, proof.is_some(), signatures),
-                    recorded.map(findings::kept).unwrap_or_default(),
-                    provenance(results),
-                ]
-                .concat(),
-                ..Chapter::titled("provenance", "Provenance")
+                ..Chapter::titled("limits", "Limits and references")
             },
         ],
         files: PlainTable::default(),
@@ -200,6 +186,14 @@ pub fn input<'a>(
                 ..Chapter::titled(
                     "blocks",
                     "The blocks, and the digits of three precisions",
+                )
+            },
+            Chapter {
+                tables: evidence::checks(proof)?,
+                figures: placed(&charts, Place::Checks),
+                ..Chapter::titled(
+                    "checks",
+                    "Pulses, critical values, departure from similarity",
                 )
             },
             only(

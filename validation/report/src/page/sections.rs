@@ -68,7 +68,12 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
         }
     });
     add(!i.scope.text.is_empty(), i.scope.id, &i.scope.title, &|| {
-        chapter(&i.scope)
+        html! {
+            div.columns { @for words in &i.scope.text { p { (words) } } }
+            @for part in &i.scope.folded {
+                (folded(part.id, &part.title, &chapter(part)))
+            }
+        }
     });
     add(!i.findings.is_empty(), "findings", "Findings", &|| {
         html! {
@@ -105,8 +110,11 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
     for one in &i.chapters {
         add(true, one.id, &one.title, &|| chapter(one));
     }
-    add(!i.signatures.is_empty(), "sign-off", "Sign-off", &|| {
-        signatures(&i.signatures)
+    add(true, "provenance", "Provenance and sign-off", &|| {
+        html! {
+            (folded("inputs", "Program, suites, command", &list(&i.head)))
+            (signatures(&i.signatures))
+        }
     });
     let annexes = !i.annexes.is_empty() || !i.families.is_empty();
     add(annexes, "annexes", "Annexes", &|| {
@@ -131,12 +139,9 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
 /// A heading whose part is folded on a screen.
 fn folded(id: &str, title: &str, body: &Markup) -> Markup {
     html! {
-        div id=(id) {
-            h3 { (title) }
-            details {
-                summary { "Show: " (title) }
-                (body)
-            }
+        details.part id=(id) {
+            summary { h3 { (title) } }
+            (body)
         }
     }
 }
@@ -184,8 +189,10 @@ fn answers(rows: &[AnswerRow]) -> Markup {
                 @for row in rows {
                     tr {
                         th scope="row" { (row.question) }
-                        td data-label="Answer" { strong { (row.answer) } }
-                        td data-label="Numbers" { (row.effect) }
+                        td data-label="Answer" {
+                            strong { (joined(&row.answer)) }
+                        }
+                        td data-label="Numbers" { (joined(&row.effect)) }
                         td data-label="Shown in" { (links(&row.shown)) }
                     }
                 }
@@ -193,6 +200,11 @@ fn answers(rows: &[AnswerRow]) -> Markup {
         }
     };
     scrolled("Questions and answers", body)
+}
+
+/// No line breaks between a number and its per cent.
+fn joined(text: &str) -> String {
+    text.replace(" %", "\u{a0}%")
 }
 
 fn links(shown: &[(String, String)]) -> Markup {
@@ -380,7 +392,7 @@ fn quotation(claim: &Claim) -> Markup {
 fn finding(claim: &Claim, columns: &[Column]) -> Markup {
     html! {
         td data-label="In plain words" {
-            (claim.plain) ": " span.source { (rule_text(claim)) }
+            (claim.plain) ": " span.source { (joined(&rule_text(claim))) }
             @if !claim.criterion.is_empty() {
                 span.source { ". The paper: " (claim.criterion) }
             }
@@ -433,7 +445,7 @@ fn outcome(claim: &Claim, one: &ClaimResult, place: &str) -> Markup {
         div.outcome {
             @if let Some(verdict) = one.by_equivalence { (short(verdict)) " " }
             @if !place.is_empty() { span.source { (place) ": " } }
-            (value_text(claim, one))
+            (joined(&value_text(claim, one)))
             @if let Some(verdict) = one.by_criterion {
                 "; the paper: " (short(verdict))
             }

@@ -64,15 +64,13 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
         glossary: vec![("p".into(), "frequency parameter".into())],
         evidence: Chapter::default(),
         chapters: vec![Chapter {
-            id: "provenance",
-            title: "Provenance".into(),
             text: vec!["Two suites only.".into()],
-            list: vec![(
-                "suite ordinary".into(),
-                "sha256 ".to_owned() + &"ab1".repeat(21),
-            )],
-            ..Chapter::default()
+            ..Chapter::titled("limits", "Limits")
         }],
+        head: vec![(
+            "suite ordinary".into(),
+            "sha256 ".to_owned() + &"ab1".repeat(21),
+        )],
         files: PlainTable {
             name: "list-of-files".into(),
             title: "Files".into(),
@@ -141,7 +139,7 @@ fn hostile_names_stay_text() {
     let name = "<script>alert(1)</script>\" onload='b()' x=\"&lt;";
     let figures = sketches();
     let mut input = made_up(&figures);
-    input.chapters[0].list[0].1 = name.into();
+    input.head[0].1 = name.into();
     input.chapters[0].text[0] = name.into();
     input.annexes[0].tables[0].rows[0][0] = name.into();
     input.annexes[0].tables[0].title = name.into();

@@ -226,11 +226,44 @@ impl Asked {
     }
 }
 
+/// A question with what the findings of one study answer.
+pub(super) struct Answered {
+    pub question: String,
+    /// Which of the first words; none without data.
+    pub lead: Option<usize>,
+    /// Those words.
+    pub first: String,
+    /// The sentence.
+    pub answer: String,
+    numbers: String,
+    figures: Vec<u32>,
+}
+
+/// The questions that claims answer, with their answers.
+///
+/// # Errors
+/// Where the questions have been damaged.
+pub(super) fn answers(findings: &Findings) -> anyhow::Result<Vec<Answered>> {
+    let (claims, first) = (&findings.claims, first_arm(findings));
+    let answered = |asked: Asked| {
+        let lead = asked.lead(claims, first);
+        Answered {
+            lead,
+            first: lead.map_or("No data", |k| &asked.leads[k]).into(),
+            answer: asked.answer(claims, first),
+            numbers: asked.numbers(claims, first),
+            question: asked.question,
+            figures: asked.figures,
+        }
+    };
+    Ok(asked()?.into_iter().map(answered).collect())
+}
+
 /// The rows of the first table, by the first of `recorded` and `here` that
 /// there is.
 ///
 /// # Errors
-/// Where the questions have been damaged.
+/// As [`answers`].
 pub(super) fn rows(
     embedded: bool,
     here: &Findings,
@@ -240,58 +273,47 @@ pub(super) fn rows(
     figures: &[&Figure],
 ) -> anyhow::Result<Vec<AnswerRow>> {
     let lead = recorded.unwrap_or(here);
-    let first = first_arm(lead);
-    let row = |question: &str, answer, effect, shown: &[(&str, &str)]| {
-        let pair = |&(id, words): &(&str, &str)| (id.into(), words.into());
-        AnswerRow {
-            question: question.into(),
-            answer,
-            effect,
-            shown: shown.iter().map(pair).collect(),
-        }
-    };
-    let asked = asked()?;
-    let claimed = asked.iter().map(|asked| {
-        let shown = asked.figures.iter().filter_map(|number| {
+    let claimed = answers(lead)?.into_iter().map(|own| {
+        let shown = own.figures.iter().filter_map(|number| {
             let is = |f: &&&Figure| f.heading.number == Some(*number);
             let name = figures.iter().find(is)?.heading.name.clone();
             Some((name, format!("Figure {number}")))
         });
         AnswerRow {
             shown: shown.collect(),
-            ..row(
-                &asked.question,
-                asked.answer(&lead.claims, first),
-                asked.numbers(&lead.claims, first),
-                &[],
-            )
+            question: own.question,
+            answer: own.answer,
+            effect: own.numbers,
         }
     });
-    let (fast, rate) = timings.speed();
-    let kept = recorded.is_some();
-    let evidence: &[_] = match proof {
-        Some(_) => &[("evidence", "proof")],
-        None => &[],
+    let row = |question: &str, answer, effect, (id, words): (&str, &str)| {
+        AnswerRow {
+            question: question.into(),
+            answer,
+            effect,
+            shown: vec![(id.into(), words.into())],
+        }
     };
+    let (fast, rate) = timings.speed();
     let others = [
         row(
             "How sure is the integrator?",
             sure(proof),
             timings.error(),
-            evidence,
+            ("evidence", "proof"),
         ),
-        row("Is it fast?", fast, rate, &[("speed", "speed")]),
+        row("Is it fast?", fast, rate, ("speed", "speed")),
         row(
             "What was not checked?",
             format!("The model against tests. It leaves out {LEFT_OUT}."),
             not_run(embedded),
-            &[("limits", "limits")],
+            ("limits", "limits"),
         ),
         row(
             "May I sign?",
-            signed(proof, kept),
+            signed(proof, recorded.is_some()),
             chance(lead),
-            &[("provenance", "sign-off")],
+            ("provenance", "sign-off"),
         ),
     ];
     Ok(claimed.chain(others).collect())
@@ -387,22 +409,17 @@ pub(super) fn done(here: &Findings, recorded: Option<&Findings>) -> String {
 /// less certain is not to answer otherwise.
 ///
 /// # Errors
-/// As [`rows`].
+/// As [`answers`].
 pub(super) fn otherwise(
     here: &Findings,
     recorded: Option<&Findings>,
 ) -> anyhow::Result<Option<String>> {
     let Some(recorded) = recorded else { return Ok(None) };
-    let lead = |asked: &Asked, findings: &Findings| {
-        let lead = asked.lead(&findings.claims, first_arm(findings));
-        lead.map(|lead| if lead == 1 { 0 } else { lead })
-    };
+    let alike = |lead| if lead == Some(1) { Some(0) } else { lead };
     let mut other = String::new();
-    for asked in asked()? {
-        let own = lead(&asked, here);
-        if own != lead(&asked, recorded) {
-            let words = own.map_or("No data", |own| &asked.leads[own]);
-            other += &format!(" {} {words}.", asked.question);
+    for (own, kept) in answers(here)?.iter().zip(answers(recorded)?) {
+        if alike(own.lead) != alike(kept.lead) {
+            other += &format!(" {} {}.", own.question, own.first);
         }
     }
     Ok(Some(match other.as_str() {

@@ -75,7 +75,9 @@ pub fn criteria(here: &Findings) -> PlainTable {
         let limit = [rule_text(claim), claim.reason.clone()];
         match rows.iter_mut().find(|row| row[..2] == limit) {
             Some(row) => row[2] += &format!("; {}", claim.plain),
-            None => rows.push([&limit[..], &[claim.plain.clone()]].concat()),
+            None => rows.push(
+                [&limit[..], std::slice::from_ref(&claim.plain)].concat(),
+            ),
         }
     }
     let header = ["limit", "why there", "what has to lie within it"];

@@ -165,7 +165,11 @@ pub fn input<'a>(
                             "Deviations from the paper",
                         )
                     },
-                    only("credibility", "Credibility", assessment),
+                    only(
+                        "credibility",
+                        "Credibility, after NASA-STD-7009B",
+                        assessment,
+                    ),
                     Chapter {
                         list: words.references,
                         ..Chapter::titled("references", "References")

@@ -162,7 +162,13 @@ fn chapter(one: &Chapter<'_>) -> Markup {
         @for words in &one.text { p { (words) } }
         @if !one.list.is_empty() { (list(&one.list)) }
         (drawings(&one.figures))
-        @for t in &one.tables { (table::plain(t)) }
+        @for t in &one.tables {
+            @if t.title == one.title {
+                (table::untitled(t))
+            } @else {
+                (table::plain(t))
+            }
+        }
         @for part in &one.folded {
             (folded(part.id, &part.title, &chapter(part)))
         }

@@ -182,22 +182,15 @@ pub fn input<'a>(
         annexes: vec![
             Chapter {
                 text: work.into(),
-                tables: [
-                    vec![table_1()?],
-                    proof.map(Proof::digits_table).into_iter().collect(),
-                ]
-                .concat(),
-                ..Chapter::titled(
-                    "blocks",
-                    "The blocks, and the digits of three precisions",
-                )
+                tables: vec![table_1()?],
+                ..Chapter::titled("blocks", "The blocks")
             },
             Chapter {
                 tables: evidence::checks(proof)?,
                 figures: placed(&charts, Place::Checks),
                 ..Chapter::titled(
                     "checks",
-                    "Pulses, critical values, departure from similarity",
+                    "Digits, pulses, critical values, similarity",
                 )
             },
             only(

@@ -19,7 +19,7 @@ use crate::recorded;
 use rocking_common::curves::Execution;
 use rocking_common::findings::{Findings, Kind, Topic};
 use rocking_common::paper::{Arm, SuiteKind};
-use rocking_common::suites::inputs::read_suite;
+use rocking_common::suites::inputs::{read_suite, sha256_hex};
 use rocking_common::suites::{Source, StudySuite};
 use rocking_proof::cases::load_all;
 use rocking_study::Study;
@@ -200,7 +200,9 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     let proof = Proof::read(data.as_ref()).expect("proof");
     let mut one = small(1, Execution::default(), Some(&proof));
     let mut two = small(2, Execution::OneByOne, None);
-    // The proof is on the page alone.
+    // The proof is on the page and in the ledger alone.
+    let ledgers = [&mut one, &mut two].map(|f| f.remove("data/ledger.csv"));
+    assert!(ledgers.iter().all(Option::is_some) && ledgers[0] != ledgers[1]);
     let pages = [&mut one, &mut two].map(|files| {
         let page = files.remove("index.html").expect("page");
         String::from_utf8(page).expect("text")
@@ -225,6 +227,12 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
     assert!(page.contains(id) && page.contains(table));
     assert!(without.contains(NOT_RUN) && !without.contains("cases pass"));
     assert!(!without.contains(id) && !without.contains(table));
+    // Each data file stands on the page with its hash, but for the page.
+    for (name, content) in one.iter().filter(|(n, _)| n.starts_with("data/")) {
+        let hash = sha256_hex(content);
+        assert!(page.contains(name) && page.contains(&hash), "{name}");
+    }
+    assert!(page.contains("data/validation.json"));
     // Up to what the proof says, they are the same.
     let findings = |page: &str| {
         let start = page.find("<section id=\"findings\"").expect("findings");

@@ -57,6 +57,7 @@ const COMMON: Edges = "
     paper words
     suites paper table
     table
+    verdicts
     words
 ";
 
@@ -94,14 +95,14 @@ const PROOF: Edges = "
 
 /// The modules of the report.
 const REPORT: Edges = "
-    answers evidence page quantity recorded timings
+    answers evidence page quantity recorded timings verdicts
     credibility evidence recorded words
     diff
     evidence diff
-    findings answers page
+    findings page quantity verdicts
     head
     input answers credibility evidence findings head ledger page recorded timings \
-        words
+        verdicts words
     ledger evidence recorded
     output answers evidence head input page quantity timings
     page evidence quantity recorded
@@ -113,6 +114,7 @@ const REPORT: Edges = "
     tests answers credibility evidence findings head input ledger output \
         recorded
     timings speed
+    verdicts
     words
 ";
 

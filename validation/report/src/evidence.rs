@@ -24,14 +24,16 @@ pub fn shown(proof: &Proof) -> anyhow::Result<Vec<Family>> {
     Ok(families(&load_all()?, proof.results()))
 }
 
-/// The tables of the proof: pulses against closed forms, if results were
-/// handed in, and critical values beside published ones.
+/// The tables of the proof: digits and pulses against closed forms, if
+/// results were handed in, and critical values beside published ones.
 ///
 /// # Errors
 /// Where the cases cannot be read.
 pub fn checks(proof: Option<&Proof>) -> anyhow::Result<Vec<PlainTable>> {
     let pulses = proof.map(|proof| tables::similarity(proof.results()));
-    let mut all: Vec<PlainTable> = pulses.transpose()?.into_iter().collect();
+    let digits = proof.map(Proof::digits_table);
+    let mut all: Vec<PlainTable> =
+        digits.into_iter().chain(pulses.transpose()?).collect();
     all.push(tables::critical_values()?);
     Ok(all)
 }

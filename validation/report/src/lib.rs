@@ -16,6 +16,7 @@ pub mod recorded;
 pub mod speed;
 pub mod stale;
 pub mod timings;
+mod verdicts;
 mod words;
 
 #[cfg(test)]

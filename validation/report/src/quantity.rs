@@ -103,11 +103,16 @@ fn of_cells(claim: &Claim) -> bool {
     matches!(quantifier, Some(Quantifier::Most | Quantifier::AlmostAll))
 }
 
-/// A result's value with its interval and unit: `12 % (8 to 17)`. Where the
-/// limit is about one cell of many, it is the share of the cells within it.
-pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
+/// A result's value with its interval and unit: `12 % (8 to 17)`.
+pub fn measured_text(claim: &Claim, result: &ClaimResult) -> String {
     let region = claim.region.filter(|_| !of_cells(claim));
-    let text = measured(result.measured(), scale(result.unit, region));
+    measured(result.measured(), scale(result.unit, region))
+}
+
+/// That text; where the limit is about one cell of many, it is the share of
+/// the cells within it, and their number follows.
+pub fn value_text(claim: &Claim, result: &ClaimResult) -> String {
+    let text = measured_text(claim, result);
     match &result.cells {
         Some(cells) if of_cells(claim) && cells.deciding > 0 => format!(
             "{text}, {}/{} cells",

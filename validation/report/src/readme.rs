@@ -47,17 +47,15 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
         &timings,
         Some(proof),
         &[],
-    );
+    )?;
     let line = |row: &AnswerRow| {
-        let columns = row.columns.join(" | ");
         let AnswerRow { question, answer, effect, .. } = row;
         let effect = effect.replace('|', "\\|");
-        format!("| {question} | {answer} | {effect} | {columns} |\n")
+        format!("| {question} | {answer} | {effect} |\n")
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
     Ok(format!(
-        "| question | answer | effect (95 % interval) | recorded suites | \
-         embedded suites |\n|---|---|---|---|---|\n{}",
+        "| question | answer | numbers (95 % interval) |\n|---|---|---|\n{}",
         lines.concat()
     ))
 }

@@ -9,6 +9,7 @@ use std::path::Path;
 use anyhow::{anyhow, bail};
 
 use crate::diff;
+use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
 use rocking_proof::cases::{Case, CaseError, Cost, load_all};
@@ -37,6 +38,7 @@ pub struct Proof {
     place: String,
     results: snapshot::Results,
     digits: String,
+    hash: String,
 }
 
 /// Shares of simulated suites in which intervals hold the truth: of each
@@ -102,6 +104,7 @@ impl Proof {
         let path = folder.join(RESULTS);
         // Refuses what has another form.
         diff::Results::from_text(&path, results)?;
+        let hash = sha256_hex(results.as_bytes());
         let results: snapshot::Results =
             serde_json::from_str(results).unwrap_or_default();
         same_cases(&path, &load_all()?, &results)?;
@@ -109,7 +112,7 @@ impl Proof {
         // The same words wherever the folder lies.
         let place = Path::new(folder.file_name().unwrap_or_default());
         let place = place.join(RESULTS).display().to_string();
-        Ok(Self { place, results, digits })
+        Ok(Self { place, results, digits, hash })
     }
 
     /// What a folder holds; none where neither file is there.
@@ -121,6 +124,12 @@ impl Proof {
         (there(RESULTS) || there(DIGITS))
             .then(|| Self::read(folder))
             .transpose()
+    }
+
+    /// Its files, each with its hash.
+    pub fn hashes(&self) -> [(String, String); 2] {
+        let digits = sha256_hex(self.digits.as_bytes());
+        [(RESULTS.into(), self.hash.clone()), (DIGITS.into(), digits)]
     }
 
     /// The results by id.

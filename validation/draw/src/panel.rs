@@ -7,6 +7,7 @@ use crate::markup;
 use crate::scene::Scene;
 use crate::text::TEXT_PX;
 use crate::text::{Horizontal, TextLine};
+use serde::{Deserialize, Serialize};
 
 const TICK_PX: f64 = 3.5;
 const MINOR_PX: f64 = 2.0;
@@ -15,7 +16,7 @@ const HAIRLINE: Pen = Pen::new(Ink::Text, 0.7);
 const GRID: Pen = Pen::new(Ink::Grid, 0.6);
 
 /// A mark at a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Marker {
     /// Filled circle.
     Dot,

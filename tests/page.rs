@@ -164,7 +164,8 @@ fn every_claim_case_and_caption_is_on_paper() {
         }
     }
     browser.open(&page, 1400, "light");
-    for selector in ["caption", "figcaption", "th", "td"] {
+    let drawn = ".figures > figure > figcaption";
+    for selector in ["caption", drawn, "th", "td"] {
         let all = words(&mut browser, selector);
         assert!(all.len() > 20, "{selector}");
         let all: BTreeSet<String> = all.into_iter().collect();

@@ -10,7 +10,6 @@ use crate::grid::Grid;
 use crate::legend::Entry;
 use crate::panel::Panel;
 use crate::scene::Scene;
-use crate::text::Horizontal;
 use rocking_common::table::{Table, digits};
 use rocking_common::words::letter;
 use serde::{Deserialize, Serialize};
@@ -458,8 +457,7 @@ fn outer_words(panel: &mut Panel<'_>, all: &[Series]) {
     let of = |mark| all.iter().filter(move |s| s.mark == mark);
     let corner: Vec<&Series> = of(Mark::Corner).collect();
     for (k, note) in corner.iter().rev().enumerate() {
-        let at = (0.985, 0.96 - 0.06 * k as f64);
-        panel.note(note.label.as_str(), at, Horizontal::Right);
+        panel.corner(note.label.as_str(), k);
     }
     let mut last = f64::INFINITY;
     for words in of(Mark::Edge) {

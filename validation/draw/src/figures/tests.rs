@@ -4,9 +4,16 @@ mod made_up;
 mod spare;
 mod xml;
 
+use super::Figure;
 use crate::geometry::Rect;
 use crate::scene::WANTED_BYTES;
 use rocking_common::paper::Arm;
+
+/// The figures of the recorded suites.
+fn recorded() -> Vec<Figure> {
+    let kept = include_str!("../../../../fixtures/recorded/figures.json");
+    serde_json::from_str(kept).unwrap()
+}
 
 /// Writes each demonstration figure where `ROCKING_FIGURES` says, to be
 /// looked at.
@@ -33,7 +40,8 @@ fn same_bytes_twice_below_the_limit() {
 
 #[test]
 fn svg_is_well_formed_and_has_no_number_that_is_none() {
-    for figure in made_up::all().iter().chain(&spare::all()) {
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
         let svg = figure.svg();
         let name = &figure.heading.name;
         xml::check(&svg).unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -58,7 +66,8 @@ fn says_so_in_words_where_there_is_nothing_to_draw() {
 
 #[test]
 fn text_lies_inside_the_figure() {
-    for figure in made_up::all().iter().chain(&spare::all()) {
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
         let scene = figure.scene();
         let all = scene.extent();
         for text in scene.texts() {
@@ -82,7 +91,8 @@ fn text_does_not_lie_on_text() {
             || a.bottom < b.top + 1.5
             || b.bottom < a.top + 1.5
     };
-    for figure in made_up::all().iter().chain(&spare::all()) {
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
         let scene = figure.scene();
         let texts: Vec<_> = scene.texts().collect();
         for (i, a) in texts.iter().enumerate() {
@@ -101,7 +111,7 @@ fn text_does_not_lie_on_text() {
 
 #[test]
 fn a_kept_figure_is_drawn_as_before() {
-    use super::{Chart, ChartAxis, ChartPanel, Figure, Mark, Series};
+    use super::{Chart, ChartAxis, ChartPanel, Mark, Series};
     let (axis, nan) = (|| ChartAxis::linear("", (0.0, 4.0)), f64::NAN);
     let (x, y) = (vec![1.0, 2.0, f64::INFINITY], vec![1.0, nan, 3.0]);
     let ends = vec![(0.5, 1.5), (nan, nan), (2.0, f64::INFINITY)];

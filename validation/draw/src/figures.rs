@@ -20,9 +20,11 @@ mod series;
 mod sketch;
 
 pub use boxplots::{BoxPanel, Boxplots, Stripe};
-pub use chart::{Chart, ChartAxis, ChartPanel, Column, Datum, Layout, Scale};
+pub use chart::{
+    Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of, Scale,
+};
 pub use fates::{Fate, FateMap};
-pub use heading::{Figure, Heading, Place};
+pub use heading::{Figure, Heading, Motions, Place};
 pub use histories::{History, HistoryPanel, histories};
 pub use series::{Look, Mark, Series};
 pub use sketch::BlockSketch;

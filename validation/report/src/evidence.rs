@@ -60,7 +60,8 @@ mod tests {
             assert!(figure.svg().starts_with("<svg"));
             assert!(!figure.reading.contains("NaN"), "{}", figure.reading);
             let mut drawn: BTreeMap<[String; 2], usize> = BTreeMap::new();
-            let mut rows = csv::Reader::from_reader(figure.csv.as_bytes());
+            let csv = figure.csv();
+            let mut rows = csv::Reader::from_reader(csv.as_bytes());
             for row in rows.records() {
                 let row = row.unwrap();
                 let series = [row[0].to_owned(), row[1].to_owned()];

@@ -12,6 +12,7 @@ use crate::input;
 use crate::page;
 use crate::page::AnswerRow;
 use crate::quantity::{rule_text, value_text};
+use crate::recorded;
 use crate::timings::Timings;
 use rocking_common::findings::{Claim, Findings};
 use rocking_common::paper::{FREQUENCIES_RAD_S, REFERENCE, SLENDERNESSES_RAD};
@@ -33,6 +34,9 @@ pub(super) const CASES: [&str; 2] =
 
 /// Where a report's findings lie.
 pub const FINDINGS: &str = "data/findings.json";
+
+/// Where a report on suites of files has what its figures draw.
+pub const FIGURES: &str = "data/figures.json";
 
 /// What of a folder no study wrote, if it holds such a thing: a report there
 /// would replace it, or stand among it.
@@ -98,20 +102,24 @@ pub fn files(
     let mut files = Files::new();
     let mut charts = vec![Timings::kept()?.figure()];
     charts.extend(evidence::charts()?);
-    for figure in study.figures.iter().chain(&charts) {
+    let figures = recorded::figures(study)?;
+    for figure in figures.iter().chain(&charts) {
         let name = &figure.heading.name;
         files.insert(format!("{name}.svg"), figure.svg().into_bytes());
-        let csv = figure.csv.clone();
-        files.insert(format!("{name}.csv"), csv.into_bytes());
+        files.insert(format!("{name}.csv"), figure.csv().into_bytes());
     }
     let single = single_csv(&study.results);
     files.insert("single-records.csv".into(), single.into_bytes());
     let text = study.findings.text();
     files.insert("findings.json".into(), text.into_bytes());
+    if !study.results.embedded() {
+        let text = recorded::kept(study)?;
+        files.insert("figures.json".into(), text.into_bytes());
+    }
     files.extend(questions::files(&study.answers));
     let mut input = input::input(
         &study.results,
-        &study.figures,
+        &figures,
         &charts,
         &study.findings,
         &study.answers,

@@ -250,9 +250,15 @@ fn the_same_bytes_in_lanes_with_one_thread_and_one_by_one_with_two() {
             assert!(found, "{stem}: no {suffix}");
         }
     }
-    for name in [FINDINGS, "data/table-01.csv"] {
+    let recorded = "data/figure-15-recorded.csv";
+    for name in [FINDINGS, "data/table-01.csv", recorded] {
         assert!(one.contains_key(name), "{name}");
     }
+    // Recorded ones first, the same of embedded motions folded; no history.
+    let at = |words: &str| page.find(words).expect(words);
+    assert!(at("Figure 15, recorded") < at("Show: Figure 15, embedded"));
+    assert!(page.contains("Figure 2, embedded motions"));
+    assert!(!page.contains("Figure 2, recorded"));
     let text = String::from_utf8(one[FINDINGS].clone()).expect("text");
     let findings = Findings::parse(&text).expect("findings");
     assert_eq!(findings.text(), text);

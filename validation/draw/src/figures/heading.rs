@@ -1,11 +1,15 @@
 //! A figure, and the words that go with it.
 
+use super::boxplots::{self, Boxplots};
+use super::chart::{self, Panels};
 use crate::scene::Scene;
 use rocking_common::findings::Theme;
 use rocking_common::paper::Arm;
+use rocking_common::words::named;
+use serde::{Deserialize, Serialize};
 
 /// The words that go with a figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Heading {
     /// File stem, unique in a report: `figure-06-c`.
     pub name: String,
@@ -19,12 +23,25 @@ pub struct Heading {
     pub arm: Option<Arm>,
     /// Its number, where it has one.
     pub number: Option<u32>,
-    /// Where it belongs.
+    /// Whose motions it shows, where a page has it of both.
+    pub motions: Option<Motions>,
+    /// Where it belongs, which is not kept: the number says it.
+    #[serde(skip)]
     pub place: Place,
 }
 
+named! {
+    /// Motions that a figure of the paper is drawn of.
+    pub enum Motions {
+        /// Recorded in earthquakes.
+        Recorded = "recorded",
+        /// Synthetic, made by this program.
+        Embedded = "embedded",
+    }
+}
+
 /// Where a figure belongs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Place {
     /// To the answers.
     Answers,
@@ -43,6 +60,7 @@ pub enum Place {
     /// To that comparison block by block.
     SuitesByBlock,
     /// To the questions beyond the paper.
+    #[default]
     Beyond,
 }
 
@@ -55,26 +73,26 @@ const NUMBERED: [(Place, bool); 21] = {
     };
     [
         (Folded(Choices), false),
-        (Opens(SingleRecords), false),
+        (Folded(SingleRecords), false),
         (Folded(SingleRecords), false),
         (Opens(SingleRecords), false),
         (Folded(SingleRecords), false),
         (Opens(Statistics), true),
-        (Opens(Statistics), true),
-        (Answers, false),
+        (Folded(Statistics), true),
+        (Answers, true),
         (Folded(Statistics), true),
         (Folded(Statistics), true),
-        (Opens(Lognormality), false),
+        (Folded(Lognormality), false),
         (Opens(Lognormality), false),
         (Folded(Lognormality), true),
         (Folded(Lognormality), false),
+        (Folded(Fragilities), false),
         (Opens(Fragilities), false),
-        (Answers, false),
-        (Opens(Fragilities), false),
+        (Folded(Fragilities), false),
         (Folded(Fragilities), false),
         (Checks, false),
         (Proof, false),
-        (Proof, false),
+        (Checks, false),
     ]
 };
 
@@ -87,7 +105,8 @@ impl Heading {
     ) -> Self {
         let (name, title) = (name.into(), title.into());
         let (description, place) = (description.into(), Place::Beyond);
-        Self { name, title, description, arm: None, number: None, place }
+        let (arm, number, motions) = (None, None, None);
+        Self { name, title, description, arm, number, motions, place }
     }
 
     /// The same words of an arm.
@@ -111,50 +130,104 @@ impl Heading {
         Self { place, arm, number: Some(number), ..words }
     }
 
+    /// The same figure of these motions, where a page has it of both; of the
+    /// recorded ones its name ends in `-recorded`.
+    pub fn of_motions(self, motions: Motions) -> Self {
+        let words = match self.number {
+            Some(number) => {
+                Self::numbered(number, self.title, self.description, self.arm)
+            }
+            None => self,
+        };
+        let suffix = match motions {
+            Motions::Recorded => "-recorded",
+            Motions::Embedded => "",
+        };
+        let name = words.name + suffix;
+        Self { name, motions: Some(motions), ..words }
+    }
+
+    /// Whether both are the same figure, be it of other motions.
+    pub fn is_beside(&self, other: &Self) -> bool {
+        let key = |one: &Self| (one.number, one.own_arm());
+        self.number.is_some() && key(self) == key(other)
+    }
+
     /// The arm, where it is drawn once for each.
     pub fn own_arm(&self) -> Option<Arm> {
         let by_arm = |n: u32| NUMBERED[n as usize - 1].1;
         self.arm.filter(|_| self.number.is_some_and(by_arm))
     }
 
-    /// What stands before its title: `Figure 6, arm C`.
+    /// What stands before its title: `Figure 6, arm C, recorded motions`.
     pub fn label(&self) -> String {
-        match (self.number, self.own_arm(), self.place) {
-            (Some(n), Some(arm), _) => {
-                format!("Figure {n}, arm {}", arm.letter())
-            }
-            (Some(n), None, _) => format!("Figure {n}"),
-            (None, _, Place::Speed) => "Speed".into(),
-            (None, ..) => "Beyond the paper".into(),
+        let Some(number) = self.number else {
+            return match self.place {
+                Place::Speed => "Speed".into(),
+                _ => "Beyond the paper".into(),
+            };
+        };
+        let mut label = format!("Figure {number}");
+        if let Some(arm) = self.own_arm() {
+            label += &format!(", arm {}", arm.letter());
         }
+        if let Some(motions) = self.motions {
+            label += &format!(", {} motions", motions.name());
+        }
+        label
     }
 }
 
 /// A figure: its words, its shapes and its numbers.
-#[derive(Debug)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Figure {
     /// The words that go with it.
     pub heading: Heading,
-    /// The shapes, before they are written.
-    pub scene: Scene,
-    /// The numbers, one header line, long format.
-    pub csv: String,
+    /// The numbers that it draws.
+    drawn: Drawn,
     /// What one sees, in one sentence made from the numbers.
     pub reading: String,
+}
+
+/// The numbers of a figure in the form in which they are drawn.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) enum Drawn {
+    Chart(Panels),
+    Boxplots(Boxplots),
+    /// Shapes and CSV of what is neither; such a figure is not kept.
+    #[serde(skip)]
+    Other(Scene, String),
 }
 
 impl Figure {
     pub(super) fn new(
         heading: &Heading,
-        scene: Scene,
-        csv: String,
+        drawn: Drawn,
         reading: String,
     ) -> Self {
-        Self { heading: heading.clone(), scene, csv, reading }
+        Self { heading: heading.clone(), drawn, reading }
+    }
+
+    /// The shapes, before they are written.
+    pub fn scene(&self) -> Scene {
+        match &self.drawn {
+            Drawn::Chart(panels) => chart::scene(&self.heading, panels),
+            Drawn::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
+            Drawn::Other(scene, _) => scene.clone(),
+        }
+    }
+
+    /// The numbers, one header line, long format.
+    pub fn csv(&self) -> String {
+        match &self.drawn {
+            Drawn::Chart(panels) => panels.csv(),
+            Drawn::Boxplots(boxes) => boxes.csv(),
+            Drawn::Other(_, csv) => csv.clone(),
+        }
     }
 
     /// The drawing.
     pub fn svg(&self) -> String {
-        self.scene.svg()
+        self.scene().svg()
     }
 }

@@ -178,7 +178,11 @@ fn chapter(one: &Chapter<'_>) -> Markup {
 fn drawings(shown: &[&Figure]) -> Markup {
     html! {
         @if !shown.is_empty() {
-            div.figures { @for f in shown { (figures::figure(f)) } }
+            div.figures {
+                @for same in shown.chunk_by(|a, b| beside(a, b)) {
+                    (figures::figure(same[0], &same[1..]))
+                }
+            }
         }
     }
 }
@@ -227,7 +231,7 @@ fn legend() -> Markup {
         "A cell shows the value and its 95 % interval. Where the limit is \
          about a share of cells, it is that of the cells with 30 records or \
          more; 28/128 counts these and all. The arm is C, or A where C was not run. Figures are of the \
-         suites of this run. Values on all suites and arms, measures and reasons: "
+         suites of the first column. Values on all suites and arms, measures and reasons: "
         a href="#all-results" { "every result" } "."
     }
 }
@@ -331,9 +335,13 @@ fn came_out<'a>(
 }
 
 fn called(figures: &[&Figure]) -> String {
-    let names: Vec<String> =
-        figures.iter().map(|f| f.heading.label()).collect();
+    let each = figures.chunk_by(|a, b| beside(a, b));
+    let names: Vec<String> = each.map(|f| f[0].heading.label()).collect();
     names.join(", ")
+}
+
+fn beside(a: &Figure, b: &Figure) -> bool {
+    a.heading.is_beside(&b.heading)
 }
 
 /// Suites of the columns of a table of findings.

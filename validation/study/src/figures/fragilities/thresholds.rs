@@ -169,13 +169,9 @@ pub(in super::super) fn thresholds(
         Some(arm),
     );
     let columns = THRESHOLDS.len();
-    let layout = Layout {
-        by_row: true,
-        keys: &KEYS,
-        numbers: &NUMBERS,
-        ..Layout::default()
-    };
     let grid = Grid::new(panels.len(), columns);
+    let grid = grid.plot(grid.width, 170.0);
+    let layout = Layout { grid: Some(grid), ..Layout::of(&KEYS, &NUMBERS) };
     let chart = Chart { heading, panels, columns };
     let chart = chart.thinned((grid.width, grid.height));
     Ok(chart.laid_out(&layout, words.join(" ")))

@@ -97,8 +97,8 @@ const PROOF: Edges = "
 const REPORT: Edges = "
     answers evidence page quantity recorded timings
     credibility evidence recorded words
-    diff
-    evidence diff
+    diff answers
+    evidence
     findings answers page
     head
     input answers credibility evidence findings head ledger page recorded timings \

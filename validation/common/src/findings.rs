@@ -5,6 +5,7 @@
 //! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
 
 mod claims;
+mod effect;
 mod measured;
 
 use std::fmt;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use crate::json::nine;
 use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
 
+pub use effect::Effect;
 pub use measured::{Measured, Unit};
 
 pub use claims::{
@@ -405,14 +407,6 @@ impl Findings {
             }
         }
         Ok(findings)
-    }
-
-    /// Number of results with this verdict, of all findings, suites and
-    /// arms.
-    #[must_use]
-    pub fn count(&self, verdict: Verdict) -> usize {
-        let results = self.claims.iter().flat_map(|claim| &claim.results);
-        results.filter(|r| r.by_equivalence == Some(verdict)).count()
     }
 
     /// How many decisions do not hold at a false discovery rate, over all

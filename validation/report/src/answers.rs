@@ -179,6 +179,16 @@ fn sentence(parts: &[(&str, Count)]) -> String {
     word.to_owned() + &rest
 }
 
+/// The questions with their answers by the findings of one study.
+pub(super) fn answers(findings: &Findings) -> Vec<(&'static str, String)> {
+    let answer = |asked: &Asked| {
+        let count = |(name, ids): &Part| (*name, Count::of(findings, ids));
+        let parts: Vec<_> = asked.parts.iter().map(count).collect();
+        (asked.question, sentence(&parts))
+    };
+    ASKED.iter().map(answer).collect()
+}
+
 /// The rows of the first table. The first of `recorded` and `here` that
 /// there is leads.
 pub(super) fn rows(

@@ -70,7 +70,7 @@ pub(super) fn made(words: &mut String) -> Result<Files, Failure> {
         let found = text(&[], FINDINGS)?;
         let old = super::file(RECORDED_FINDINGS)?;
         let path = Path::new(RECORDED_FINDINGS);
-        *words += &stale::compared(path, &old, &found, 0.0);
+        *words += &stale::compared(path, &old, &found);
         put(RECORDED_FINDINGS, found);
         put(COMPARISON, text(&["--arms", "C"], "data/suites.csv")?);
     } else {

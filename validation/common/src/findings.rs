@@ -146,22 +146,25 @@ pub struct Reevaluated {
     pub wrong_in_double: usize,
 }
 
-/// What a table is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// What a table is about, in the order of consequence: what an engineer acts
+/// on first.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Topic {
-    /// Shares of demand levels that the Lilliefors test accepts.
-    AcceptedShares,
-    /// Figure 9: slenderness adjusted instead of scaling the record.
-    SlendernessAdjustment,
     /// Median overturning intensities.
     Overturning,
-    /// Blocks that stand at an intensity above their first overturning.
-    Resurrections,
+    /// Shares of demand levels that the Lilliefors test accepts.
+    AcceptedShares,
     /// Capacities by other choices.
     Sensitivities,
+    /// Figure 9: slenderness adjusted instead of scaling the record.
+    SlendernessAdjustment,
     /// Figures 2 to 5: records one by one.
     SingleRecords,
+    /// Blocks that stand at an intensity above their first overturning.
+    Resurrections,
     /// Records that move a block without being scaled.
     UpliftUnscaled,
 }

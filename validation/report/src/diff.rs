@@ -11,6 +11,7 @@ mod input;
 mod item;
 mod moved;
 mod print;
+mod records;
 #[cfg(test)]
 mod tests;
 
@@ -59,6 +60,13 @@ pub struct Changes {
     pub changed: Vec<Change>,
 }
 
+impl Changes {
+    /// Number of those that differ, in every suite and arm.
+    pub fn count(&self) -> usize {
+        self.changed.iter().map(|change| change.places.len().max(1)).sum()
+    }
+}
+
 /// Something that is said differently.
 #[derive(Clone, Debug, Serialize)]
 pub struct Change {
@@ -78,7 +86,7 @@ impl Comparison {
     /// of what is on one side only.
     pub fn significant(&self) -> usize {
         let said = [&self.answers, &self.verdicts, &self.settings];
-        said.map(|c| c.changed.len()).iter().sum::<usize>()
+        said.map(Changes::count).iter().sum::<usize>()
             + self.numbers.iter().map(Kind::beyond).sum::<usize>()
             + self.appeared.len()
             + self.vanished.len()
@@ -185,7 +193,7 @@ pub fn compare(old: &Results, new: &Results) -> anyhow::Result<Comparison> {
         topic.sort_by(heavier);
     }
     if !out.identical {
-        out.notes.extend(findings::records(old, new));
+        out.notes.extend(records::notes(old, new));
     }
     Ok(out)
 }

@@ -5,27 +5,13 @@ use std::collections::BTreeSet;
 
 use anyhow::bail;
 
-use super::input::Results;
 use super::item::{Content, Item};
-use super::moved::{Limit, Number, percent};
-use crate::answers::{answers, first_arm};
+use super::moved::{Limit, Number};
+use crate::answers::answers;
 use rocking_common::findings::{
-    Claim, ClaimResult, Effect, Findings, Measured, Quantifier, RecordName,
-    Row, Suite, Table, Topic, Unit,
+    Claim, ClaimResult, Effect, Findings, Measured, Quantifier, Row, Suite,
+    Table, Unit,
 };
-use rocking_common::paper::SuiteKind;
-use rocking_study::estimates::median;
-
-/// The tables, what an engineer acts on first.
-const TOPICS: [Topic; 7] = [
-    Topic::Overturning,
-    Topic::AcceptedShares,
-    Topic::Sensitivities,
-    Topic::SlendernessAdjustment,
-    Topic::SingleRecords,
-    Topic::Resurrections,
-    Topic::UpliftUnscaled,
-];
 
 /// The items of a study's findings.
 pub fn items(findings: &Findings) -> anyhow::Result<Vec<Item>> {
@@ -34,8 +20,9 @@ pub fn items(findings: &Findings) -> anyhow::Result<Vec<Item>> {
         let mut own = Owner::new(&mut out, "answers", question.into());
         own.item("", question, Content::Answer(answer));
     }
-    let tables = TOPICS.iter().filter_map(|topic| findings.table(*topic));
-    tables.for_each(|table| cells(&mut out, table));
+    let mut tables: Vec<&Table> = findings.tables.iter().collect();
+    tables.sort_by_key(|table| table.topic);
+    tables.iter().for_each(|table| cells(&mut out, table));
     for by_paper in [false, true] {
         let claims = findings.claims.iter();
         claims.for_each(|claim| verdicts(&mut out, claim, by_paper));
@@ -241,68 +228,4 @@ fn cells(out: &mut Vec<Item>, table: &Table) {
             own.interval(&name, values[k]);
         }
     }
-}
-
-/// How many records both runs have, and how the same records moved.
-pub fn records(old: &Results, new: &Results) -> Vec<String> {
-    let (Some(before), Some(after)) = (&old.findings, &new.findings) else {
-        return Vec::new();
-    };
-    let mut notes = Vec::new();
-    let mut same = Vec::new();
-    for suite in &before.suites {
-        let own = |s: &&Suite| s.kind == suite.kind;
-        let Some(other) = after.suites.iter().find(own) else { continue };
-        let here = |r: &&RecordName| other.list.contains(r);
-        let (both, lost): (Vec<_>, Vec<_>) = suite.list.iter().partition(here);
-        let (kind, gained) = (suite.kind, other.list.len() - both.len());
-        if lost.is_empty() && gained == 0 {
-            same.push(format!("{} {kind}", both.len()));
-        } else {
-            notes.push(format!(
-                "{} {kind} records are in both runs, {} only in the old one, \
-                 {gained} only in the new one.",
-                both.len(),
-                lost.len(),
-            ));
-        }
-        if kind == SuiteKind::Ordinary && first_arm(before) == first_arm(after)
-        {
-            let names = both.iter().map(|record| record.name.as_str());
-            notes.extend(paired(names, old, new));
-        }
-    }
-    if !same.is_empty() {
-        notes.push(format!(
-            "Both runs have the same records ({}): the sampling error of a \
-             run is not the error of the difference.",
-            same.join(", ")
-        ));
-    }
-    notes
-}
-
-/// By how much the first overturning of the block of Figure 11 moved, record
-/// by record: the median of the paired ratio with its exact interval.
-fn paired<'a>(
-    records: impl Iterator<Item = &'a str>,
-    old: &Results,
-    new: &Results,
-) -> Option<String> {
-    let ratio = |name: &str| {
-        Some(new.overturnings.get(name)? / old.overturnings.get(name)?)
-    };
-    let ratios: Vec<f64> = records.filter_map(ratio).collect();
-    let Measured { value, interval } = median(&ratios);
-    let (low, high) = interval?;
-    let text = |ratio: f64| percent(ratio - 1.0);
-    Some(format!(
-        "Record by record, the first overturning of the block of Figure 11 \
-         moves by {} in the median ({} to {}, exact 95 % interval, {} \
-         ordinary records).",
-        text(value),
-        text(low),
-        text(high),
-        ratios.len()
-    ))
 }

@@ -65,9 +65,9 @@ impl Comparison {
         format!(
             "Changed: {} of {} answers, {} of {} verdicts; {beyond} of \
              {numbers} numbers beyond the smallest effect of interest.",
-            answers.changed.len(),
+            answers.count(),
             answers.compared,
-            verdicts.changed.len(),
+            verdicts.count(),
             verdicts.compared,
         )
     }
@@ -139,7 +139,7 @@ impl Comparison {
                 elsewhere,
                 "values of claims are not compared: another cell decides",
             ),
-            (self.texts.changed.len(), "words, intervals and details differ"),
+            (self.texts.count(), "words, intervals and details differ"),
         ] {
             if n > 0 {
                 out.push(format!("{n} {what}"));

@@ -97,8 +97,8 @@ const PROOF: Edges = "
 const REPORT: Edges = "
     answers evidence page quantity recorded timings verdicts
     credibility evidence recorded words
-    diff
-    evidence diff
+    diff answers verdicts
+    evidence
     findings page quantity verdicts
     head
     input answers credibility evidence findings head ledger page recorded timings \
@@ -130,7 +130,7 @@ const STUDY: Edges = "
     estimates analyses results runs sensitivities
     figures analyses claims distributions estimates fits inference measures \
         normality results stripes ties
-    findings analyses estimates figures inference normality questions results \
+    findings analyses estimates figures inference questions results \
         stripes
     fits
     inference

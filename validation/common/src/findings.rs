@@ -5,6 +5,7 @@
 //! digits; an infinite one is `"inf"` or `"-inf"`, a missing one `null`.
 
 mod claims;
+mod effect;
 mod measured;
 
 use std::fmt;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 use crate::json::nine;
 use crate::paper::{Arm, Intensity, SuiteKind, Verdict};
 
+pub use effect::Effect;
 pub use measured::{Measured, Unit};
 
 pub use claims::{
@@ -144,22 +146,25 @@ pub struct Reevaluated {
     pub wrong_in_double: usize,
 }
 
-/// What a table is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// What a table is about, in the order of consequence: what an engineer acts
+/// on first.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Topic {
-    /// Shares of demand levels that the Lilliefors test accepts.
-    AcceptedShares,
-    /// Figure 9: slenderness adjusted instead of scaling the record.
-    SlendernessAdjustment,
     /// Median overturning intensities.
     Overturning,
-    /// Blocks that stand at an intensity above their first overturning.
-    Resurrections,
+    /// Shares of demand levels that the Lilliefors test accepts.
+    AcceptedShares,
     /// Capacities by other choices.
     Sensitivities,
+    /// Figure 9: slenderness adjusted instead of scaling the record.
+    SlendernessAdjustment,
     /// Figures 2 to 5: records one by one.
     SingleRecords,
+    /// Blocks that stand at an intensity above their first overturning.
+    Resurrections,
     /// Records that move a block without being scaled.
     UpliftUnscaled,
 }
@@ -405,14 +410,6 @@ impl Findings {
             }
         }
         Ok(findings)
-    }
-
-    /// Number of results with this verdict, of all findings, suites and
-    /// arms.
-    #[must_use]
-    pub fn count(&self, verdict: Verdict) -> usize {
-        let results = self.claims.iter().flat_map(|claim| &claim.results);
-        results.filter(|r| r.by_equivalence == Some(verdict)).count()
     }
 
     /// How many decisions do not hold at a false discovery rate, over all

@@ -310,8 +310,7 @@ fn compared(old: &str, new: &str) -> String {
     if old.is_empty() {
         return String::new();
     }
-    // A declared tolerance is stated for every number.
-    stale::compared(&Path::new(REPORTS).join(CASES), old, new, 0.0)
+    stale::compared(&Path::new(REPORTS).join(CASES), old, new)
 }
 
 /// Those of the files that are not as they are in the folder; adds to `words`

@@ -6,9 +6,8 @@ use std::fmt;
 use std::fs;
 use std::path::Path;
 
-use anyhow::{anyhow, bail};
+use anyhow::{Context as _, anyhow, bail};
 
-use crate::diff;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
@@ -102,11 +101,9 @@ impl Proof {
         digits: String,
     ) -> anyhow::Result<Self> {
         let path = folder.join(RESULTS);
-        // Refuses what has another form.
-        diff::Results::from_text(&path, results)?;
         let hash = sha256_hex(results.as_bytes());
-        let results: snapshot::Results =
-            serde_json::from_str(results).unwrap_or_default();
+        let results: snapshot::Results = serde_json::from_str(results)
+            .with_context(|| path.display().to_string())?;
         same_cases(&path, &load_all()?, &results)?;
         whole_table(&folder.join(DIGITS), &digits)?;
         // The same words wherever the folder lies.

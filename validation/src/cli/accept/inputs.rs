@@ -74,7 +74,7 @@ pub(super) fn made(words: &mut String) -> Result<Files, Failure> {
         let found = text(&all, FINDINGS)?;
         let old = super::file(RECORDED_FINDINGS)?;
         let path = Path::new(RECORDED_FINDINGS);
-        *words += &stale::compared(path, &old, &found, 0.0);
+        *words += &stale::compared(path, &old, &found);
         put(RECORDED_FINDINGS, found);
         put(RECORDED_FIGURES, text(&all, FIGURES)?);
         let of_c =

@@ -56,7 +56,7 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
     Ok(format!(
-        "| question | answer | effect (95 % interval) | recorded suites | \
+        "| question | answer | effect (90 % interval) | recorded suites | \
          embedded suites |\n|---|---|---|---|---|\n{}",
         lines.concat()
     ))

@@ -148,7 +148,7 @@ fn drawings(shown: &[&Figure]) -> Markup {
 }
 
 fn answers(rows: &[AnswerRow], columns: &[Column]) -> Markup {
-    let mut head = vec!["Question", "Answer", "Effect (95 % interval)"];
+    let mut head = vec!["Question", "Answer", "Effect (90 % interval)"];
     head.extend(columns.iter().map(|column| column.name));
     head.push("Shown in");
     let body = html! {
@@ -188,7 +188,8 @@ fn links(shown: &[(String, String)]) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "A cell shows the value and its 95 % interval. Where the limit is \
+        "A cell shows the value and the 90 % interval that decides: either \
+         end is wrong in 5 %. Where the limit is \
          about a share of cells, it is that of the cells with 30 records or \
          more; 28/128 counts these and all. The arm is C, or A where C was not run. Figures are of the \
          suites of this run. Values on all suites and arms, measures and reasons: "

@@ -23,13 +23,13 @@ pub use effect::Effect;
 pub use measured::{Measured, Unit};
 
 pub use claims::{
-    CellCounts, Claim, ClaimResult, Detail, Interval, Kind, Quantifier,
-    Region, Tested, Theme,
+    CellCounts, Claim, ClaimResult, Detail, ERROR, Interval, Kind, LEVEL,
+    Power, Quantifier, Region, Tested, Theme,
 };
 
 /// Version of the file's shape. It rises with every change of a field or of
 /// its meaning.
-pub const SCHEMA: u32 = 5;
+pub const SCHEMA: u32 = 6;
 
 /// Everything that a study found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -12,8 +12,8 @@ use rocking_common::words::rounded_text;
 use rocking_study::measures::without_closed_form;
 use rocking_study::results::Results;
 
-/// Half width of a 95 % interval in standard uncertainties.
-const COVERAGE: f64 = 1.959_963_985;
+/// Half width of a finding's 90 % interval in standard uncertainties.
+const COVERAGE: f64 = 1.644_853_627;
 
 /// Half a unit of the last digit as a standard uncertainty.
 const fn half_unit(unit: f64) -> Option<f64> {
@@ -167,7 +167,7 @@ fn comparison(compared: &[Compared], shift: f64) -> PlainTable {
                   suites and the paper's, which are not listed there. u are \
                   standard uncertainties: of the numerics, by the open \
                   fates, at most; of the input, by the choice of records, \
-                  from the 95 % interval over 3.92; of D, by its printed \
+                  from the 90 % interval over 3.29; of D, by its printed \
                   digits. Of several cells the one that decides is shown, with \
                   the interval that holds for all cells at once. Other \
                   figures of the paper print no number that one could \
@@ -343,7 +343,7 @@ mod tests {
                 quantity: "q".into(),
                 ours: Measured {
                     value: 0.9866,
-                    interval: Some((0.984_640_036, 0.988_559_964)),
+                    interval: Some((0.984_955_146, 0.988_244_854)),
                 },
                 paper: 1.0,
                 rounding: None,

@@ -1,7 +1,7 @@
 //! Values of findings as people read them, each in the unit of its limit.
 
 use rocking_common::findings::{
-    Claim, ClaimResult, Measured, Quantifier, Region, Unit,
+    Claim, ClaimResult, Measured, Power, Quantifier, Region, Unit,
 };
 use rocking_common::words::{rounded, rounded_text};
 
@@ -156,8 +156,22 @@ pub fn rule_text(claim: &Claim) -> String {
     }
 }
 
+/// What a suite like this one is able to decide.
+fn power_text(power: Power) -> String {
+    let share = number(100.0 * power.probability);
+    let times = if power.times.is_finite() {
+        format!("{} times as many motions decide", number(power.times))
+    } else {
+        "100 times as many motions do not decide".into()
+    };
+    format!(
+        "power: were the value true, {share} % of such suites decide; {times} \
+         in 80 %"
+    )
+}
+
 /// What stands beside a result: cells, the deciding one, details, how the
-/// interval was made.
+/// interval was made, and power.
 pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
     let mut remarks = Vec::new();
     match &result.cells {
@@ -189,6 +203,7 @@ pub fn remarks(claim: &Claim, result: &ClaimResult) -> Vec<String> {
     if let Some(interval) = result.interval {
         remarks.push(format!("interval: {}", interval.words()));
     }
+    remarks.extend(result.power.map(power_text));
     remarks
 }
 

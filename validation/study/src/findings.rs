@@ -6,7 +6,6 @@ use rocking::statistics::{Clusters, Proportion, clusters};
 use crate::analyses::{Plan, SuiteResults};
 use crate::estimates;
 use crate::figures::adjusted_boxes;
-use crate::inference::LEVEL;
 use crate::questions::{self, Answer};
 use crate::results::Results;
 use crate::stripes::{adjusted_split, of_arm};
@@ -329,7 +328,7 @@ fn adjustment(results: &Results) -> anyhow::Result<Table> {
 /// Of as many records of the kind, how many would be usable.
 fn usable(stripe: &Stripe) -> anyhow::Result<Measured> {
     let share = Proportion::try_new(stripe.usable, stripe.records)?;
-    let (low, high) = share.interval(LEVEL)?;
+    let (low, high) = share.interval(estimates::LEVEL)?;
     let n = stripe.records as f64;
     Ok(Measured {
         value: stripe.usable as f64,

@@ -188,7 +188,7 @@ fn drawings(shown: &[&Figure]) -> Markup {
 }
 
 fn answers(rows: &[AnswerRow]) -> Markup {
-    let head = ["Question", "Answer", "Numbers (95 % interval)", "Shown in"];
+    let head = ["Question", "Answer", "Numbers (90 % interval)", "Shown in"];
     let body = html! {
         table.cards.answers {
             caption {
@@ -228,7 +228,8 @@ fn links(shown: &[(String, String)]) -> Markup {
 
 fn legend() -> Markup {
     html! {
-        "A cell shows the value and its 95 % interval. Where the limit is \
+        "A cell shows the value and the 90 % interval that decides: either \
+         end is wrong in 5 %. Where the limit is \
          about a share of cells, it is that of the cells with 30 records or \
          more; 28/128 counts these and all. The arm is C, or A where C was not run. Figures are of the \
          suites of the first column. Values on all suites and arms, measures and reasons: "

@@ -40,7 +40,10 @@ impl Comparison {
         let mut count = out.chars().count();
         for (title, lines) in self.lists(false) {
             let title = format!("\n### {title}\n\n");
-        XX
+            let lines = lines.iter().map(|entry| {
+                let parts: Vec<String> = entry.lines().map(escaped).collect();
+                format!("- {}\n", parts.join("  \n  "))
+            });
             for part in [title].into_iter().chain(lines) {
                 count += part.chars().count();
                 if count > most {

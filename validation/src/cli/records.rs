@@ -15,8 +15,8 @@ use super::shared::JsonArg;
 use super::{Failure, with_threads};
 use measures::{MeasureArgs, Measured};
 use rocking_common::files::Outputs;
-use rocking_common::suites::inputs;
 use rocking_common::suites::remarks::Remarks;
+use rocking_common::suites::{clusters, earthquakes, inputs};
 
 mod measures;
 
@@ -113,6 +113,8 @@ struct Row<'a> {
 struct SuiteRow {
     suite: String,
     records: usize,
+    /// None where the index names none.
+    earthquakes: Option<usize>,
     pairs: usize,
     study_components: usize,
     study_rule: String,
@@ -327,9 +329,11 @@ impl Listing {
 
     fn add_suite(&mut self, path: &Path, suite: &Suite) {
         self.inputs.extend(inputs::files(path, suite));
+        let members: Vec<_> = suite.members().iter().collect();
         self.suites.push(SuiteRow {
             suite: suite.name().to_owned(),
             records: suite.members().len(),
+            earthquakes: earthquakes(&clusters(&members)),
             pairs: suite.both().len(),
             study_components: suite.study_components().count(),
             study_rule: suite.study_rule().to_string(),

@@ -219,8 +219,9 @@ impl Clusters {
         replicates.iter().map(|x| wider * (x - point)).collect()
     }
 
-    /// t/z, and 1 of clusters of one record.
-    pub(super) fn student_over_normal(&self, level: f64) -> f64 {
+    /// t/z of [`Self::half_width`], and 1 of clusters of one record.
+    #[must_use]
+    pub fn student_over_normal(&self, level: f64) -> f64 {
         if self.is_singletons() {
             return 1.0;
         }

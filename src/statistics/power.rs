@@ -30,12 +30,13 @@ impl Power {
     /// size from the truth, and `decides` says whether an interval decides.
     ///
     /// A sample m times as large has the measure point + d/sqrt(m), with d
-    /// one of the deviations, and the ends point + (d + low - point)/sqrt(m)
-    /// and point + (d + high - point)/sqrt(m). `probability` is the share of
-    /// the deviations whose ends decide for m = 1, `times` the least m at
-    /// which that share is 80 %. With clusters the ends narrow a little
-    /// faster, since Student's t gains degrees of freedom: `times` is up to
-    /// a fifth too large.
+    /// one of the deviations, and the ends point + (d + (low -
+    /// point)/student)/sqrt(m), likewise the high one. `student` is Student's
+    /// t over the normal quantile, by which few clusters widen an interval
+    /// ([`Clusters::student_over_normal`](super::Clusters)): that widening
+    /// answers the scatter of widths from sample to sample, which is left out
+    /// here. `probability` is the share of the deviations whose ends decide
+    /// for m = 1, `times` the least m at which that share is 80 %.
     ///
     /// Of a normal measure of standard error s at the distance e from its
     /// limit, at the one-sided error a, the share is Phi(e/s - z(1 - a)) and
@@ -49,7 +50,7 @@ impl Power {
     /// // Standard error 1, limit at 1, one-sided limits of 5 %.
     /// let normal: Vec<f64> =
     ///     (1..1000).map(|i| quantile(1e-3 * f64::from(i))).collect();
-    /// let found = Power::of((0.0, -1.645, 1.645), &normal, |_, high| {
+    /// let found = Power::of((0.0, -1.645, 1.645), 1.0, &normal, |_, high| {
     ///     high < 1.0
     /// });
     /// assert!((found.probability - 0.26).abs() < 0.002);
@@ -58,12 +59,15 @@ impl Power {
     #[must_use]
     pub fn of(
         (point, low, high): (f64, f64, f64),
+        student: f64,
         deviations: &[f64],
         decides: impl Fn(f64, f64) -> bool,
     ) -> Self {
         let share = |times: f64| {
             let root = sqrt(times);
-            let at = |d: f64, end: f64| point + (d + end - point) / root;
+            let at = |d: f64, end: f64| {
+                point + (d + (end - point) / student) / root
+            };
             let holds = |d: &&f64| decides(at(**d, low), at(**d, high));
             deviations.iter().filter(holds).count() as f64
                 / deviations.len() as f64

@@ -151,7 +151,7 @@ const STUDY: Edges = "
 const COMMAND: Edges = "
     cli failure input sweep terminal threads
     failure
-    input failure
+    input failure terminal
     sweep failure input
     terminal failure
     threads failure terminal

@@ -114,6 +114,7 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rejected-share", statistics::rejection),
     ("coverage", statistics::coverage),
     ("coverage-of-inference", statistics::inference),
+    ("power-of-a-design", statistics::power),
     ("rates-by-earthquake", statistics::rates),
     ("earthquakes-of-other-packages", statistics::other_packages),
     ("bias", statistics::bias),

@@ -1,7 +1,7 @@
 //! Everything that a study found, as [`Findings`].
 
 use rocking::record::{AsideCount, SetAside};
-use rocking::statistics::{Clusters, Proportion, clusters};
+use rocking::statistics::Proportion;
 
 use crate::analyses::{Plan, SuiteResults};
 use crate::estimates;
@@ -14,6 +14,7 @@ use rocking_common::findings::{
     Suite, Table, Topic, Unit,
 };
 use rocking_common::paper::{BLOCKS, FREQUENCIES_RAD_S, SLENDERNESSES_RAD};
+use rocking_common::suites::earthquakes;
 use rocking_draw::figures::Stripe;
 
 /// All findings of a study.
@@ -73,11 +74,6 @@ fn suite(suite: &SuiteResults) -> Suite {
         first_overturnings_reevaluated: certainty.reevaluated,
         largest_shift_if_flipped: certainty.largest_shift,
     }
-}
-
-/// Number of earthquakes, where they are known.
-fn earthquakes(clusters: &Clusters) -> Option<usize> {
-    (clusters.unit() == clusters::Unit::Earthquake).then_some(clusters.count())
 }
 
 /// What a suite set aside, by reason.

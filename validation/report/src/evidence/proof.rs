@@ -8,6 +8,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, anyhow, bail};
 
+use rocking_common::findings::LEVEL;
 use rocking_common::suites::inputs::sha256_hex;
 use rocking_common::table::{PlainTable, cells};
 use rocking_common::words::{percent, range};
@@ -22,8 +23,6 @@ const DIGITS: &str = "precision.csv";
 
 /// Method of the cases that measure the coverage of the study's intervals.
 const COVERAGE: &str = "coverage-of-inference";
-/// Level of the intervals of the findings.
-const LEVEL: f64 = 0.95;
 
 /// How to get what is not there.
 pub const NOT_RUN: &str = "The declared cases were not run here: `rocking \
@@ -48,13 +47,13 @@ pub struct Coverage {
 }
 
 impl Coverage {
-    /// The shares of intervals of 95 %, in a sentence.
+    /// The shares of the findings' intervals, in a sentence.
     pub fn words(&self) -> String {
         let own = self.rows.iter().filter(|row| row.1 == LEVEL);
         let (low, high) = range(own.map(|row| row.2));
         format!(
             "Coverage. In simulated suites, whose truth is known, intervals \
-             of 95 % hold it in {} to {}: the annex says which.",
+             of 90 % hold it in {} to {}: the annex says which.",
             percent(low, 1),
             percent(high, 1)
         )

@@ -9,7 +9,7 @@ use rocking::statistics::{Clusters, ExtendedSample, power};
 use super::draws::{Draws, LEAST_DECIDING, REPLICATES, Replicated, Scheme};
 use rocking::statistics::resampling::Subsampling;
 use rocking_common::findings::{
-    ERROR, Interval, Measured, Power, Region, Tested,
+    ERROR, Interval, LEVEL, Measured, Power, Region, Tested,
 };
 use rocking_common::paper::Verdict;
 
@@ -221,7 +221,12 @@ impl<'a> Known<'a> {
             Scheme::Subsampling => self.rule.deviations(&column),
             _ => self.clusters.deviations(point, &column),
         };
-        power_of(point, ends, &deviations, region)
+        let student = match ends.way {
+            // Its unit is the record.
+            Interval::Exact => 1.0,
+            _ => self.clusters.student_over_normal(LEVEL),
+        };
+        power_of(point, ends, student, &deviations, region)
     }
 
     /// A cell with its interval.
@@ -238,12 +243,14 @@ impl<'a> Known<'a> {
 pub(super) fn power_of(
     point: f64,
     ends: &Ends,
+    student: f64,
     deviations: &[f64],
     region: Region,
 ) -> Option<Power> {
     let decides = decides(point, region, ends.range);
     let Ends { low, high, .. } = *ends;
-    let found = power::Power::of((point, low, high), deviations, decides);
+    let found =
+        power::Power::of((point, low, high), student, deviations, decides);
     (!deviations.is_empty()).then(|| stored(&found))
 }
 
@@ -297,8 +304,10 @@ pub(super) fn p_value(
         let ends = ends(1.0 - 2.0 * p);
         ends.is_some_and(|e| e.verdict(region, caution) == wanted)
     };
-    // What 2000 draws cannot distinguish from 0, and next to no width at all.
-    let (least, most) = (0.5 / REPLICATES as f64, 0.499);
+    // Of one value what 2000 draws cannot distinguish from 0, and next to no
+    // width at all.
+    let least = error / ERROR * 0.5 / REPLICATES as f64;
+    let most = 0.499;
     let (mut no, mut yes) =
         if lies(error) { (least, error) } else { (error, most) };
     if lies(no) {

@@ -230,8 +230,7 @@ fn share(
         return;
     };
     let ends = |level: f64| {
-        let half_width = known.clusters.half_width(level);
-        let found = confidence.interval_of_share(value, half_width);
+        let found = confidence.interval_of_share(value, known.clusters, level);
         Some(Ends {
             low: found.low,
             high: found.high,
@@ -254,7 +253,8 @@ fn share(
         result.p = p_of(ends, region, verdict);
         if verdict == Verdict::Inconclusive {
             let deviations = known.clusters.deviations(value, &values);
-            result.power = power_of(value, &own, &deviations, region);
+            let student = known.clusters.student_over_normal(LEVEL);
+            result.power = power_of(value, &own, student, &deviations, region);
         }
     }
 }

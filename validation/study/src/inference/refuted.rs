@@ -126,15 +126,6 @@ impl Scale {
             Region::Above(limit) => limit - y,
         }
     }
-
-    /// A deviation towards the outside.
-    fn outwards(self, by: f64) -> f64 {
-        match self.region {
-            Region::Within(..) => by.abs(),
-            Region::Below(_) => by,
-            Region::Above(_) => -by,
-        }
-    }
 }
 
 fn by_maximum(
@@ -163,13 +154,15 @@ fn by_maximum(
     if !statistics.iter().any(|x| *x > 0.0) {
         return found;
     }
-    // Student's t and the bias of the variance of few earthquakes.
+    // Deviations to both sides: those to one side alone are too small where
+    // a measure is skewed or ends there. Student's t and the bias of the
+    // variance of few earthquakes.
     let wider = known.clusters.half_width(1.0 - ERROR)
         / normal::quantile(1.0 - 0.5 * ERROR);
     let deviation = |row: usize, place: usize| {
         let (k, s) = active[place];
         let by = scale.on(replicates[row][k]) - scale.on(points[k]);
-        wider * scale.outwards(by) / s
+        wider * by.abs() / s
     };
     let of = |caution: Caution| {
         let rows = replicates.len();

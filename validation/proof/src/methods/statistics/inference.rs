@@ -16,16 +16,16 @@ use rocking::statistics::boxplot::median_interval;
 use rocking::statistics::confidence::Confidence;
 use rocking::statistics::lilliefors::Table;
 use rocking::statistics::resampling::{Ranked, Subsampling};
-use rocking::statistics::{Clusters, ExtendedSample, Proportion, normal};
+use rocking::statistics::step_down::StepDown;
+use rocking::statistics::{
+    Clusters, ExtendedSample, Proportion, Sample, normal,
+};
 use rocking::streams::{Stream, Streams, standard_normal};
+use rocking_common::findings::{ERROR, LEVEL};
 use serde::Deserialize;
 
 use super::truths::{Shape, share};
 use crate::methods::method::{Answer, Context, WrongModel};
-
-/// Level of the intervals of one value, and of one cell among many.
-const LEVEL: f64 = 0.95;
-const OWN: f64 = 0.9;
 
 /// Replicates of an interval; the study has 2000. With 400 the level of an
 /// interval is uncertain by 0.01, which the bounds leave room for.
@@ -35,7 +35,7 @@ const REPLICATES: usize = 400;
 const SUBSAMPLES: u64 = 100;
 
 /// Share of the variance that the records of an earthquake share.
-const SHARED: f64 = 0.2;
+pub(super) const SHARED: f64 = 0.2;
 
 /// Correlation from level to level, and between blocks.
 const LEVELS_ALIKE: f64 = 0.97;
@@ -66,6 +66,16 @@ enum Measure {
     CellShare,
     /// How often a cell that lies on the end of its region is shown inside.
     CellOnTheEdge,
+    /// How often it is shown outside.
+    CellRefuted,
+    /// How often any of many cells on the end, which share nothing but their
+    /// earthquakes, is shown outside.
+    FamilyRefuted,
+    /// How often a share of cells on its limit of 90 % is shown below it.
+    ShareRefuted,
+    /// Share of the cells whose median is within 5 %, three of four cells of
+    /// few survivors, which do not count.
+    ShareBesideSurvivors,
     /// Median of few survivors, by order statistics.
     FewSurvivors,
     /// Probability of an event that records have or not.
@@ -76,8 +86,8 @@ enum Measure {
     AcceptedShare,
 }
 
-/// Share of the simulated suites whose interval holds the truth; of a cell on
-/// the edge, share of those in which it is shown inside.
+/// Share of the simulated suites whose interval holds the truth; of what lies
+/// on a limit, share of those in which it is decided.
 pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
     input! { context;
         measure: Measure,
@@ -85,7 +95,7 @@ pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
         like: Shape,
         trials: u64,
         /// Share of the suites in which the interval is to hold the truth, or
-        /// a cell on the end of its region may be shown inside.
+        /// what lies on the limit may be decided.
         nominal: f64,
     }
     let clusters = like.clusters();
@@ -200,7 +210,12 @@ impl Trials {
         let every = vec![1; self.clusters.records()];
         let ratio = |shift: f64| move |z: f64| exp(SPREAD * z + shift);
         match measure {
-            Measure::CellShare => self.share(trial, &scores),
+            Measure::CellShare
+            | Measure::ShareRefuted
+            | Measure::ShareBesideSurvivors => {
+                self.share(trial, &scores, measure)
+            }
+            Measure::FamilyRefuted => self.refuted(trial),
             Measure::FewSurvivors => {
                 // Some of each large earthquake.
                 let step = scores[0].len() / SURVIVORS;
@@ -210,7 +225,7 @@ impl Trials {
                 let Ok(sample) = ExtendedSample::try_new(values) else {
                     return false;
                 };
-                let level = self.or(WrongModel::OtherInterval, 0.75, OWN);
+                let level = self.or(WrongModel::OtherInterval, 0.75, LEVEL);
                 let found = median_interval(&sample, level);
                 hold(found.map(|i| (i.low, i.high)), 0.0)
             }
@@ -222,16 +237,16 @@ impl Trials {
                 let exact = found.and_then(|p| p.interval(LEVEL));
                 let share = count as f64 / n as f64;
                 let error = sqrt(share * (1.0 - share) / n as f64);
-                let normal = (share - 1.96 * error, share + 1.96 * error);
+                let wide = normal::quantile(1.0 - ERROR) * error;
+                let normal = (share - wide, share + wide);
                 let wrong = WrongModel::OtherInterval;
                 let ends = self.or(wrong, Some(normal), exact.ok());
                 hold(ends, PROBABILITY)
             }
             _ => {
-                let edge = if measure == Measure::CellOnTheEdge {
-                    log(1.05)
-                } else {
-                    0.0
+                let edge = match measure {
+                    Measure::CellOnTheEdge | Measure::CellRefuted => log(1.05),
+                    _ => 0.0,
                 };
                 let values: Vec<f64> =
                     scores[0].iter().copied().map(ratio(edge)).collect();
@@ -247,28 +262,90 @@ impl Trials {
                 };
                 let known =
                     Confidence::new(point, &column(&replicates), &others);
-                let level = match measure {
-                    Measure::CellOnTheEdge => OWN,
-                    _ => LEVEL,
-                };
                 // Three times the tail's probability.
-                let (wrong, more) = (WrongModel::OtherInterval, 3.0 * level);
-                let level = self.or(wrong, more - 2.0, level);
+                let (wrong, more) = (WrongModel::OtherInterval, 3.0 * LEVEL);
+                let level = self.or(wrong, more - 2.0, LEVEL);
                 let Some(known) = known else { return false };
                 let ends = known.interval(self.drawn.half_width(level));
                 match measure {
                     Measure::CellOnTheEdge => {
                         ends.low >= 0.95 && ends.high <= 1.05
                     }
+                    Measure::CellRefuted => ends.low > 1.05,
                     _ => hold(Some((ends.low, ends.high)), 1.0),
                 }
             }
         }
     }
 
-    /// Whether the interval of the share of cells within 5 % holds it.
-    fn share(&self, trial: u64, scores: &[Vec<f64>]) -> bool {
+    /// Whether any of [`BLOCKS`] times [`LEVELS`] cells on the end of their
+    /// region is shown outside.
+    fn refuted(&self, trial: u64) -> bool {
+        let mut stream = self.streams.stream(trial);
+        let n = self.clusters.records();
+        let cell = |stream: &mut Stream| -> Ranked {
+            let mut values = vec![0.0; n];
+            for event in 0..self.clusters.count() {
+                let shared = sqrt(SHARED) * standard_normal(stream);
+                for record in self.clusters.members(event) {
+                    let own = standard_normal(stream);
+                    values[*record] =
+                        SPREAD * f64::mul_add(sqrt(1.0 - SHARED), own, shared);
+                }
+            }
+            Ranked::new(&values)
+        };
+        let cells: Vec<Ranked> =
+            (0..BLOCKS * LEVELS).map(|_| cell(&mut stream)).collect();
+        let every = vec![1; n];
+        let points: Vec<f64> =
+            cells.iter().map(|r| r.median(&every)).collect();
+        let (rows, without) = self.medians(trial, &cells);
+        let column = |rows: &[Vec<f64>], k: usize| -> Vec<f64> {
+            rows.iter().map(|row| row[k]).collect()
+        };
+        if self.wrong == Some(WrongModel::HolmByPercentiles) {
+            let level = 1.0 - 2.0 * ERROR / points.len() as f64;
+            let half_width = self.drawn.half_width(level);
+            return (0..points.len()).any(|k| {
+                let (own, others) = (column(&rows, k), column(&without, k));
+                Confidence::new(points[k], &own, &others)
+                    .is_some_and(|known| known.interval(half_width).low > 0.0)
+            });
+        }
+        let spread = |k: usize| {
+            let own = Sample::try_new(&column(&rows, k));
+            own.map_or(f64::NAN, |own| {
+                sqrt(own.sum_of_squares() / (rows.len() as f64 - 1.0))
+            })
+        };
+        let spreads: Vec<f64> = (0..points.len()).map(spread).collect();
+        let found: Vec<f64> =
+            points.iter().zip(&spreads).map(|(x, s)| x / s).collect();
+        let wider = self.drawn.half_width(1.0 - ERROR)
+            / normal::quantile(1.0 - 0.5 * ERROR);
+        let deviation = |row: usize, k: usize| {
+            wider * (rows[row][k] - points[k]).abs() / spreads[k]
+        };
+        let steps = StepDown::new(&found, rows.len(), deviation, ERROR, 0.0);
+        steps.rejected.contains(&true)
+    }
+
+    /// Whether the interval of the share of cells within 5 % holds it, or
+    /// lies below the limit that the share lies on.
+    fn share(
+        &self,
+        trial: u64,
+        scores: &[Vec<f64>],
+        measure: Measure,
+    ) -> bool {
         let count = scores.len();
+        let few =
+            |k: usize| measure == Measure::ShareBesideSurvivors && k % 4 != 0;
+        let enters = |k: &usize| {
+            self.wrong == Some(WrongModel::SurvivorsEnter) || !few(*k)
+        };
+        let entering: Vec<usize> = (0..count).filter(enters).collect();
         // True medians from a normal law, nine of ten cells within 5 %.
         let truth = |k: usize| {
             // Neighbours are not of one size.
@@ -278,15 +355,21 @@ impl Trials {
         };
         let within = |x: f64| (0.95..=1.05).contains(&x);
         let share = |row: &[f64]| {
-            row.iter().filter(|x| within(**x)).count() as f64 / count as f64
+            let inside = entering.iter().filter(|k| within(row[**k]));
+            inside.count() as f64 / entering.len() as f64
         };
         let truths: Vec<f64> = (0..count).map(truth).collect();
         let cells: Vec<Ranked> = scores
             .iter()
-            .zip(&truths)
-            .map(|(cell, truth)| {
-                let of = |z: &f64| truth * exp(SPREAD * z);
-                Ranked::new(&cell.iter().map(of).collect::<Vec<f64>>())
+            .enumerate()
+            .map(|(k, cell)| {
+                let step = if few(k) { cell.len() / SURVIVORS } else { 1 };
+                let of = |(record, z): (usize, &f64)| match record % step {
+                    0 => truths[k] * exp(SPREAD * z),
+                    _ => f64::NAN,
+                };
+                let values = cell.iter().enumerate().map(of);
+                Ranked::new(&values.collect::<Vec<f64>>())
             })
             .collect();
         let every = vec![1; self.clusters.records()];
@@ -299,11 +382,13 @@ impl Trials {
         let Some(known) = Confidence::new(point, &values, &[]) else {
             return false;
         };
-        let half_width = self.drawn.half_width(LEVEL);
-        let of_points = known.interval(half_width);
-        let own = known.interval_of_share(point, half_width);
+        let of_points = known.interval(self.drawn.half_width(LEVEL));
+        let own = known.interval_of_share(point, &self.drawn, LEVEL);
         let ends = self.or(WrongModel::ShareOfPoints, of_points, own);
-        hold(Some((ends.low, ends.high)), share(&truths))
+        match measure {
+            Measure::ShareRefuted => ends.high < 0.9,
+            _ => hold(Some((ends.low, ends.high)), share(&truths)),
+        }
     }
 
     /// The distance, or accepted share, of capacities that are lognormal

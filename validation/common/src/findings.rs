@@ -245,7 +245,7 @@ pub struct Row {
     pub values: Vec<Measured>,
 }
 
-/// What tells a row of a table from the others.
+/// What distinguishes a row of a table from the others.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Place {

@@ -1,4 +1,4 @@
-//! What a command tells: its result on standard output, notes on standard
+//! What a command writes: its result on standard output, notes on standard
 //! error.
 
 use std::io::{self, Write as _};

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::measured::{Measured, Unit};
 use crate::json::nine;
 use crate::paper::{Arm, Section, SuiteKind, Verdict};
+use crate::words::named;
 
 /// One statement of the paper, and what was found about it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -225,32 +226,17 @@ impl fmt::Display for Region {
     }
 }
 
-/// On what a statement was tested.
-#[derive(
-    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize,
-)]
-#[serde(rename_all = "kebab-case")]
-pub enum Tested {
-    /// No records are needed.
-    None,
-    /// The ordinary suite.
-    Ordinary,
-    /// The pulse-type suite.
-    PulseType,
-    /// A comparison of the two.
-    Both,
-}
-
-impl Tested {
-    /// The name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::None => "none",
-            Self::Ordinary => "ordinary",
-            Self::PulseType => "pulse-type",
-            Self::Both => "both",
-        }
+named! {
+    /// On what a statement was tested.
+    pub enum Tested {
+        /// No records are needed.
+        None = "none",
+        /// The ordinary suite.
+        Ordinary = "ordinary",
+        /// The pulse-type suite.
+        PulseType = "pulse-type",
+        /// A comparison of the two.
+        Both = "both",
     }
 }
 

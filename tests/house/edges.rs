@@ -82,15 +82,14 @@ const PROOF: Edges = "
     cases references
     edge
     engine arithmetic scene
-    error scene
-    methods arithmetic cases edge engine error naive oracles references scene \
+    methods arithmetic cases edge engine naive oracles references scene \
         trials
-    naive scene
+    naive cases scene
     oracles scene
-    references arithmetic error scene
+    references arithmetic scene
     scene
     trials arithmetic cases engine scene
-    verdict cases error methods
+    verdict cases methods
 ";
 
 /// The modules of the report.

@@ -1,4 +1,4 @@
-//! Wrong models by name: what a case must be able to tell from the right one.
+//! Wrong models by name: what a case must distinguish from the right one.
 
 use rocking_common::words::named;
 

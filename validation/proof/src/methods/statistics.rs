@@ -2,7 +2,6 @@
 //! published critical values, other packages, and simulated truths.
 
 mod calibration;
-mod cells;
 mod choice;
 mod earthquakes;
 mod equations;

@@ -7,6 +7,7 @@
 //! its own. Each part is correlated by [`BLOCKS_ALIKE`] between two blocks,
 //! and by [`LEVELS_ALIKE`] from level to level of a block.
 
+use anyhow::Result;
 use libm::{exp, log, sqrt};
 use rayon::prelude::*;
 use rocking::statistics::acceptance::{AcceptedShare, distances};
@@ -19,8 +20,8 @@ use rocking::statistics::{Clusters, ExtendedSample, Proportion, normal};
 use rocking::streams::{Stream, Streams, standard_normal};
 use serde::Deserialize;
 
-use super::cells::refused;
-use crate::methods::method::{Answer, Context, MethodError, WrongModel};
+use super::truths::{Shape, share};
+use crate::methods::method::{Answer, Context, WrongModel};
 
 /// Level of the intervals of one value, and of one cell among many.
 const LEVEL: f64 = 0.95;
@@ -46,11 +47,6 @@ const LEVELS: usize = 13;
 
 /// Spread of a paired ratio.
 const SPREAD: f64 = 0.15;
-
-/// Records of each earthquake of a recorded suite.
-const ORDINARY: [usize; 22] =
-    [12, 12, 11, 9, 6, 5, 5, 4, 4, 3, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1];
-const PULSE: [usize; 16] = [6, 6, 6, 6, 3, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1];
 
 /// Survivors among few records.
 const SURVIVORS: usize = 12;
@@ -80,73 +76,41 @@ enum Measure {
     AcceptedShare,
 }
 
-/// Which recorded suite the simulated ones are like.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum Like {
-    Ordinary,
-    PulseType,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Input {
-    measure: Measure,
-    like: Like,
-    trials: u64,
-    /// Share of the suites in which the interval is to hold the truth, or a
-    /// cell on the end of its region may be shown inside.
-    nominal: f64,
-}
-
-impl Like {
-    fn clusters(self) -> Clusters {
-        let sizes = match self {
-            Self::Ordinary => &ORDINARY[..],
-            Self::PulseType => &PULSE[..],
-        };
-        let labels = sizes.iter().enumerate().flat_map(|(event, size)| {
-            std::iter::repeat_n(event.to_string(), *size)
-        });
-        Clusters::from_labels(labels)
-    }
-}
-
 /// Share of the simulated suites whose interval holds the truth; of a cell on
 /// the edge, share of those in which it is shown inside.
-pub(crate) fn coverage(context: &Context) -> Result<Answer, MethodError> {
-    let input: Input = context.input()?;
-    let clusters = input.like.clusters();
-    let drawn = match context.wrong {
-        Some(WrongModel::RecordsAsUnit) => {
-            Clusters::singletons(clusters.records())
-        }
-        _ => clusters.clone(),
-    };
-    let trials = Trials {
+pub fn coverage(context: &Context, answer: &mut Answer) -> Result<()> {
+    input! { context;
+        measure: Measure,
+        /// The recorded suite that the simulated ones are like.
+        like: Shape,
+        trials: u64,
+        /// Share of the suites in which the interval is to hold the truth, or
+        /// a cell on the end of its region may be shown inside.
+        nominal: f64,
+    }
+    let clusters = like.clusters();
+    let drawn = context.drawn(&clusters);
+    let suites = Trials {
         streams: Streams::new(&context.case.id, 0),
         clusters,
         drawn,
         wrong: context.wrong,
     };
-    let all = (0..input.trials).into_par_iter();
-    let held: Vec<bool> = match input.measure {
+    let all = (0..trials).into_par_iter();
+    let held: Vec<bool> = match measure {
         Measure::Distance | Measure::AcceptedShare => {
             let found = all
-                .map(|trial| trials.lognormal(trial, input.measure))
+                .map(|trial| suites.lognormal(trial, measure))
                 .collect::<Result<Vec<_>, _>>()?;
             // The truth is the mean over the simulated suites.
             let sum = found.iter().fold(0.0, |sum, (x, _)| sum + x);
             let truth = sum / found.len() as f64;
             found.into_iter().map(|(_, ends)| hold(ends, truth)).collect()
         }
-        measure => all.map(|trial| trials.holds(trial, measure)).collect(),
+        measure => all.map(|trial| suites.holds(trial, measure)).collect(),
     };
-    let count = held.iter().filter(|held| **held).count();
-    let rate = count as f64 / held.len() as f64;
-    let mut answer = Answer::default();
-    answer.put("rate", [rate], [input.nominal]);
-    Ok(answer)
+    answer.put("rate", [share(&held)], [nominal]);
+    Ok(())
 }
 
 fn hold(ends: Option<(f64, f64)>, truth: f64) -> bool {
@@ -187,6 +151,11 @@ struct Trials {
 }
 
 impl Trials {
+    /// `mistaken` where this is the mistake that is made, else `right`.
+    fn or<T>(&self, wrong: WrongModel, mistaken: T, right: T) -> T {
+        if self.wrong == Some(wrong) { mistaken } else { right }
+    }
+
     /// Normal scores by cell, then by record.
     fn scores(&self, trial: u64) -> Vec<Vec<f64>> {
         let mut stream = self.streams.stream(trial);
@@ -241,10 +210,7 @@ impl Trials {
                 let Ok(sample) = ExtendedSample::try_new(values) else {
                     return false;
                 };
-                let level = match self.wrong {
-                    Some(WrongModel::OtherInterval) => 0.75,
-                    _ => OWN,
-                };
+                let level = self.or(WrongModel::OtherInterval, 0.75, OWN);
                 let found = median_interval(&sample, level);
                 hold(found.map(|i| (i.low, i.high)), 0.0)
             }
@@ -256,12 +222,9 @@ impl Trials {
                 let exact = found.and_then(|p| p.interval(LEVEL));
                 let share = count as f64 / n as f64;
                 let error = sqrt(share * (1.0 - share) / n as f64);
-                let ends = match self.wrong {
-                    Some(WrongModel::OtherInterval) => {
-                        Some((share - 1.96 * error, share + 1.96 * error))
-                    }
-                    _ => exact.ok(),
-                };
+                let normal = (share - 1.96 * error, share + 1.96 * error);
+                let wrong = WrongModel::OtherInterval;
+                let ends = self.or(wrong, Some(normal), exact.ok());
                 hold(ends, PROBABILITY)
             }
             _ => {
@@ -288,11 +251,9 @@ impl Trials {
                     Measure::CellOnTheEdge => OWN,
                     _ => LEVEL,
                 };
-                let level = match self.wrong {
-                    // Three times the tail's probability.
-                    Some(WrongModel::OtherInterval) => 3.0 * level - 2.0,
-                    _ => level,
-                };
+                // Three times the tail's probability.
+                let (wrong, more) = (WrongModel::OtherInterval, 3.0 * level);
+                let level = self.or(wrong, more - 2.0, level);
                 let Some(known) = known else { return false };
                 let ends = known.interval(self.drawn.half_width(level));
                 match measure {
@@ -339,10 +300,9 @@ impl Trials {
             return false;
         };
         let half_width = self.drawn.half_width(LEVEL);
-        let ends = match self.wrong {
-            Some(WrongModel::ShareOfPoints) => known.interval(half_width),
-            _ => known.interval_of_share(point, half_width),
-        };
+        let of_points = known.interval(half_width);
+        let own = known.interval_of_share(point, half_width);
+        let ends = self.or(WrongModel::ShareOfPoints, of_points, own);
         hold(Some((ends.low, ends.high)), share(&truths))
     }
 
@@ -352,27 +312,27 @@ impl Trials {
         &self,
         trial: u64,
         measure: Measure,
-    ) -> Result<(f64, Option<(f64, f64)>), MethodError> {
+    ) -> Result<(f64, Option<(f64, f64)>)> {
         let table = Table::embedded();
         let logs: Vec<Vec<f64>> = self
             .scores(trial)
             .into_iter()
             .map(|cell| cell.into_iter().map(|z| log(1.0 + exp(z))).collect())
             .collect();
-        let of = |places: &[usize]| -> Result<f64, MethodError> {
+        let of = |places: &[usize]| -> Result<f64> {
             let drawn: Vec<Vec<f64>> = logs
                 .iter()
                 .map(|level| places.iter().map(|r| level[*r]).collect())
                 .collect();
             if measure == Measure::AcceptedShare {
                 let critical = table.critical_value(places.len(), 0.05);
-                let (critical, _) = critical.map_err(refused)?;
+                let (critical, _) = critical?;
                 let found = AcceptedShare::of_values(&drawn, critical);
                 return Ok(found.share().unwrap_or(f64::NAN));
             }
             let d = distances(&drawn);
             let mean = d.iter().fold(0.0, |sum, d| sum + d) / d.len() as f64;
-            Ok(mean - table.mean(places.len()).map_err(refused)?)
+            Ok(mean - table.mean(places.len())?)
         };
         let held = |counts: &[u32]| -> Vec<usize> {
             (0..counts.len()).filter(|r| counts[*r] > 0).collect()

@@ -52,7 +52,7 @@ const SYNTHESIS: Edges = "
 const COMMON: Edges = "
     curves
     files
-    findings json paper
+    findings json paper words
     json words
     paper words
     suites paper table

@@ -175,7 +175,7 @@ fn by<N: Wide>(trial: &Trial) -> Result<Truth, EngineError> {
 ///     Judgement, Reading, Stratum, compare, trial,
 /// };
 /// let trial = trial(Stratum::Ordinary, 0)?.unwrap();
-/// let judgement = Judgement::of(&compare(&trial)?, Reading::Whole);
+/// let judgement = Judgement::of(&compare(&trial)?, Reading::WHOLE);
 /// assert!(matches!(judgement, Judgement::Right | Judgement::Within(_)));
 /// # Ok::<(), rocking_proof::scene::EngineError>(())
 /// ```

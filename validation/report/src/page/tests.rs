@@ -44,7 +44,7 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
             answer: "Nearly: for ratios; open for quantiles.".into(),
             effect: "-0.9 % (-1 to -0.8 %)".into(),
             columns: vec!["7 results for it".into(); 2],
-            shown: vec![("figure-08".into(), "Figure 8".into())],
+            shown: vec![("figure-08-c".into(), "Figure 8".into())],
         }],
         first: Vec::new(),
         columns: ["recorded suites", "embedded suites"].map(column).into(),

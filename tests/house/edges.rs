@@ -104,7 +104,7 @@ const REPORT: Edges = "
     input answers credibility evidence findings head ledger page recorded timings \
         verdicts words
     ledger evidence recorded
-    output answers evidence head input page quantity timings
+    output answers evidence head input page quantity recorded timings
     page evidence quantity recorded
     quantity
     readme answers evidence page recorded timings

@@ -13,6 +13,7 @@ mod boxplots;
 mod chart;
 pub mod common;
 mod fates;
+mod figure;
 mod heading;
 mod histories;
 pub mod of_result;
@@ -24,7 +25,8 @@ pub use chart::{
     Chart, ChartAxis, ChartPanel, Column, DIGITS, Layout, Of, Scale,
 };
 pub use fates::{Fate, FateMap};
-pub use heading::{Figure, Heading, Motions, Place};
+pub use figure::Figure;
+pub use heading::{Heading, Motions, Place};
 pub use histories::{History, HistoryPanel, histories};
 pub use series::{Look, Mark, Series};
 pub use sketch::BlockSketch;

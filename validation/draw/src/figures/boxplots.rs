@@ -1,7 +1,7 @@
 //! Figures 6, 7 and 9: notched boxplots of paired ratios by stripe.
 
 use super::common;
-use super::heading::{Drawn, Figure, Heading};
+use super::heading::Heading;
 use rocking::statistics::Boxplot;
 
 use crate::axis::Axis;
@@ -66,11 +66,6 @@ impl Stripe {
 }
 
 impl Boxplots {
-    /// The figure, with a sentence that says what one sees in it.
-    pub fn figure(self, heading: &Heading, reading: String) -> Figure {
-        Figure::new(heading, Drawn::Boxplots(self), reading)
-    }
-
     /// One row a stripe, then one row an outlier:
     /// `panel,p_rad_s,alpha_rad,note,stripe_kind,level,quantity,value`.
     pub(super) fn csv(&self) -> String {

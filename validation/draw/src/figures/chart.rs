@@ -1,7 +1,7 @@
 //! Lines and marks over two axes: the figures that the paper does not have.
 
 use super::common;
-use super::heading::{Drawn, Figure, Heading};
+use super::heading::Heading;
 use super::series::{Mark, Series};
 use crate::axis::Axis;
 use crate::colour::Pen;
@@ -174,7 +174,7 @@ pub enum Of {
     High,
 }
 
-const NUMBERS: [Column; 4] =
+pub(super) const NUMBERS: [Column; 4] =
     [("x", Of::X), ("y", Of::Y), ("y_low", Of::Low), ("y_high", Of::High)];
 
 /// Significant digits of a number that is drawn: more than a drawing shows.
@@ -183,9 +183,9 @@ pub const DIGITS: usize = 6;
 /// What a chart draws, and how it is laid out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Panels {
-    panels: Vec<ChartPanel>,
-    columns: usize,
-    layout: Layout,
+    pub(super) panels: Vec<ChartPanel>,
+    pub(super) columns: usize,
+    pub(super) layout: Layout,
 }
 
 impl Chart {
@@ -210,25 +210,6 @@ impl Chart {
             }
         }
         self
-    }
-
-    /// The figure, with a sentence that says what one sees in it.
-    pub fn figure(&self, reading: impl Into<String>) -> Figure {
-        self.laid_out(&Layout::of(&["series"], &NUMBERS), reading)
-    }
-
-    /// The figure in this layout.
-    pub fn laid_out(
-        &self,
-        layout: &Layout,
-        reading: impl Into<String>,
-    ) -> Figure {
-        let drawn = Drawn::Chart(Panels {
-            panels: self.panels.clone(),
-            columns: self.columns,
-            layout: layout.clone(),
-        });
-        Figure::new(&self.heading, drawn, reading.into())
     }
 }
 

@@ -1,7 +1,8 @@
 //! A map of fates in the plane of frequency and amplitude.
 
 use super::common;
-use super::heading::{Drawn, Figure, Heading};
+use super::figure::{Drawn, Figure};
+use super::heading::Heading;
 use crate::axis::Axis;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::grid::Grid;

@@ -1,8 +1,5 @@
-//! A figure, and the words that go with it.
+//! The words that go with a figure.
 
-use super::boxplots::{self, Boxplots};
-use super::chart::{self, Panels};
-use crate::scene::Scene;
 use rocking_common::findings::Theme;
 use rocking_common::paper::Arm;
 use rocking_common::words::named;
@@ -175,59 +172,5 @@ impl Heading {
             label += &format!(", {} motions", motions.name());
         }
         label
-    }
-}
-
-/// A figure: its words, its shapes and its numbers.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Figure {
-    /// The words that go with it.
-    pub heading: Heading,
-    /// The numbers that it draws.
-    drawn: Drawn,
-    /// What one sees, in one sentence made from the numbers.
-    pub reading: String,
-}
-
-/// The numbers of a figure in the form in which they are drawn.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) enum Drawn {
-    Chart(Panels),
-    Boxplots(Boxplots),
-    /// Shapes and CSV of what is neither; such a figure is not kept.
-    #[serde(skip)]
-    Other(Scene, String),
-}
-
-impl Figure {
-    pub(super) fn new(
-        heading: &Heading,
-        drawn: Drawn,
-        reading: String,
-    ) -> Self {
-        Self { heading: heading.clone(), drawn, reading }
-    }
-
-    /// The shapes, before they are written.
-    pub fn scene(&self) -> Scene {
-        match &self.drawn {
-            Drawn::Chart(panels) => chart::scene(&self.heading, panels),
-            Drawn::Boxplots(boxes) => boxplots::scene(&self.heading, boxes),
-            Drawn::Other(scene, _) => scene.clone(),
-        }
-    }
-
-    /// The numbers, one header line, long format.
-    pub fn csv(&self) -> String {
-        match &self.drawn {
-            Drawn::Chart(panels) => panels.csv(),
-            Drawn::Boxplots(boxes) => boxes.csv(),
-            Drawn::Other(_, csv) => csv.clone(),
-        }
-    }
-
-    /// The drawing.
-    pub fn svg(&self) -> String {
-        self.scene().svg()
     }
 }

@@ -2,7 +2,8 @@
 
 use super::chart::{Chart, ChartPanel, Column, Layout, Of};
 use super::common;
-use super::heading::{Figure, Heading};
+use super::figure::Figure;
+use super::heading::Heading;
 use super::series::{Look, Mark, Series};
 use crate::axis::Axis;
 use crate::colour::{Ink, Pen};

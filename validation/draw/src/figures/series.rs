@@ -6,8 +6,7 @@ use crate::legend::Sample;
 use crate::markup;
 use crate::panel::Marker;
 use crate::text::Horizontal;
-use rocking_common::json::Extended;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 /// What is drawn in one way: its numbers are the rows of the CSV.
 ///
@@ -31,7 +30,9 @@ pub struct Series {
     pub y: Vec<f64>,
     /// Intervals of the ordinates, or of the abscissas with
     /// [`Mark::Quantiles`]; empty: none.
-    #[serde(with = "ends", default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(serialize_with = "numbers::ends")]
+    #[serde(deserialize_with = "numbers::intervals")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub interval: Vec<(f64, f64)>,
 }
 
@@ -199,9 +200,11 @@ impl Mark {
     }
 }
 
-/// Numbers in JSON, which tell infinity.
+/// Numbers in JSON, which tell infinity; the ends of intervals are lower,
+/// upper, lower and so on.
 mod numbers {
-    use super::{Deserialize, Deserializer, Extended, Serializer};
+    use rocking_common::json::Extended;
+    use serde::{Deserialize as _, Deserializer, Serializer};
 
     pub(super) fn serialize<S: Serializer>(
         values: &[f64],
@@ -216,24 +219,19 @@ mod numbers {
         let kept = Vec::<Extended>::deserialize(from)?;
         Ok(kept.into_iter().map(|Extended(x)| x).collect())
     }
-}
 
-/// The ends of intervals in JSON: lower, upper, lower and so on.
-mod ends {
-    use super::{Deserializer, Serializer, numbers};
-
-    pub(super) fn serialize<S: Serializer>(
+    pub(super) fn ends<S: Serializer>(
         intervals: &[(f64, f64)],
         to: S,
     ) -> Result<S::Ok, S::Error> {
         let ends = intervals.iter().flat_map(|(low, high)| [*low, *high]);
-        numbers::serialize(&ends.collect::<Vec<_>>(), to)
+        serialize(&ends.collect::<Vec<_>>(), to)
     }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+    pub(super) fn intervals<'de, D: Deserializer<'de>>(
         from: D,
     ) -> Result<Vec<(f64, f64)>, D::Error> {
-        let ends = numbers::deserialize(from)?;
+        let ends = deserialize(from)?;
         Ok(ends.chunks_exact(2).map(|ends| (ends[0], ends[1])).collect())
     }
 }

@@ -1,7 +1,8 @@
 //! Figure 1: the block and its symbols.
 
 use super::common;
-use super::heading::{Drawn, Figure, Heading};
+use super::figure::{Drawn, Figure};
+use super::heading::Heading;
 use crate::colour::{Dash, Fill, Ink, Pen};
 use crate::geometry::Point;
 use crate::scene::Scene;

@@ -20,7 +20,8 @@ fn recorded() -> Vec<Figure> {
 #[test]
 fn writes_them_to_be_looked_at() {
     let Ok(folder) = std::env::var("ROCKING_FIGURES") else { return };
-    for figure in made_up::all().iter().chain(&spare::all()) {
+    for figure in made_up::all().iter().chain(&spare::all()).chain(&recorded())
+    {
         let name = &figure.heading.name;
         let svg = figure.svg();
         std::fs::write(format!("{folder}/{name}.svg"), svg).unwrap();

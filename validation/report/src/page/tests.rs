@@ -42,7 +42,7 @@ fn made_up(figures: &[Figure]) -> ReportInput<'_> {
             question: "Is slenderness normalized out?".into(),
             answer: "Nearly: for ratios; open for quantiles.".into(),
             effect: "-0.9 % (-1 to -0.8 %)".into(),
-            shown: vec![("figure-08".into(), "Figure 8".into())],
+            shown: vec![("figure-08-c".into(), "Figure 8".into())],
         }],
         otherwise: Some("Other motions say the same.".into()),
         first: Vec::new(),

@@ -305,7 +305,10 @@ pub(super) fn rows(
         row("Is it fast?", fast, rate, ("speed", "speed")),
         row(
             "What was not checked?",
-            format!("The model against tests. It leaves out {LEFT_OUT}."),
+            format!(
+                "The model against shaking-table tests. It leaves out \
+                 {LEFT_OUT}."
+            ),
             not_run(embedded),
             ("limits", "limits"),
         ),

@@ -55,7 +55,7 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
     Ok(format!(
-        "| question | answer | numbers (95 % interval) |\n|---|---|---|\n{}",
+        "| question | answer | numbers (interval) |\n|---|---|---|\n{}",
         lines.concat()
     ))
 }

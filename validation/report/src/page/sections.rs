@@ -164,7 +164,7 @@ fn chapter(one: &Chapter<'_>) -> Markup {
         (drawings(&one.figures))
         @for t in &one.tables {
             @if t.title == one.title {
-                (table::untitled(t))
+                div id=(t.name) { (table::untitled(t)) }
             } @else {
                 (table::plain(t))
             }
@@ -184,7 +184,7 @@ fn drawings(shown: &[&Figure]) -> Markup {
 }
 
 fn answers(rows: &[AnswerRow]) -> Markup {
-    let head = ["Question", "Answer", "Numbers (95 % interval)", "Shown in"];
+    let head = ["Question", "Answer", "Numbers (interval)", "Shown in"];
     let body = html! {
         table.cards.answers {
             caption {

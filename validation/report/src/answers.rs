@@ -426,7 +426,7 @@ pub(super) fn otherwise(
         }
     }
     Ok(Some(match other.as_str() {
-        "" => "The embedded synthetic motions give the same answers.".into(),
+        "" => "The embedded synthetic motions answer alike.".into(),
         _ => format!("Embedded synthetic motions answer otherwise:{other}"),
     }))
 }

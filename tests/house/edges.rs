@@ -57,7 +57,6 @@ const COMMON: Edges = "
     paper words
     suites paper table
     table
-    verdicts
     words
 ";
 

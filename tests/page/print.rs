@@ -64,5 +64,7 @@ impl Printed {
 
 fn bare(text: &str) -> String {
     let text = text.replace('\u{fb01}', "fi").replace('\u{fb02}', "fl");
-    text.chars().filter(|c| !c.is_whitespace()).collect()
+    // A word joiner only tells where no line breaks.
+    let shown = |c: &char| !c.is_whitespace() && *c != '\u{2060}';
+    text.chars().filter(shown).collect()
 }

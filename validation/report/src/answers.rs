@@ -305,7 +305,10 @@ pub(super) fn rows(
         row("Is it fast?", fast, rate, ("speed", "speed")),
         row(
             "What was not checked?",
-            format!("The model against tests. It leaves out {LEFT_OUT}."),
+            format!(
+                "The model against shaking-table tests. It leaves out \
+                 {LEFT_OUT}."
+            ),
             not_run(embedded),
             ("limits", "limits"),
         ),
@@ -423,7 +426,7 @@ pub(super) fn otherwise(
         }
     }
     Ok(Some(match other.as_str() {
-        "" => "The embedded synthetic motions give the same answers.".into(),
+        "" => "The embedded synthetic motions answer alike.".into(),
         _ => format!("Embedded synthetic motions answer otherwise:{other}"),
     }))
 }

@@ -137,7 +137,7 @@ pub fn levels(assessment: &PlainTable) -> String {
     let all: Vec<String> = assessment.rows.iter().filter_map(of).collect();
     format!(
         "Credibility after NASA-STD-7009B, from 0 (insufficient evidence) to \
-         4, by the project's own judgement: {}. Reasons stand in the annex.",
+         4, by the project's own judgement: {}. The reasons follow.",
         all.join(", ")
     )
 }

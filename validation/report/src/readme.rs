@@ -54,8 +54,10 @@ fn table(findings: &Findings, proof: &Proof) -> anyhow::Result<String> {
         format!("| {question} | {answer} | {effect} |\n")
     };
     let lines: Vec<String> = rows.iter().map(line).collect();
+    let other = answers::otherwise(findings, Some(&recorded))?;
     Ok(format!(
-        "| question | answer | numbers (90 % interval) |\n|---|---|---|\n{}",
-        lines.concat()
+        "| question | answer | numbers (90 % interval) |\n|---|---|---|\n{}\n{}\n",
+        lines.concat(),
+        other.unwrap_or_default()
     ))
 }

@@ -4,7 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::figures;
 use super::input::{AnswerRow, Chapter, Column, Part, ReportInput, Shown};
-use super::table::{self, scrolled};
+use super::table::{self, joined, scrolled};
 use crate::evidence::families::{Family, rejects, source, tolerance, worst};
 use crate::quantity::{remarks, rule_text, value_text};
 use rocking_common::findings::{Claim, ClaimResult, Kind, Tested, Theme};
@@ -164,7 +164,7 @@ fn chapter(one: &Chapter<'_>) -> Markup {
         (drawings(&one.figures))
         @for t in &one.tables {
             @if t.title == one.title {
-                (table::untitled(t))
+                div id=(t.name) { (table::untitled(t)) }
             } @else {
                 (table::plain(t))
             }
@@ -210,11 +210,6 @@ fn answers(rows: &[AnswerRow]) -> Markup {
         }
     };
     scrolled("Questions and answers", body)
-}
-
-/// No line breaks between a number and its per cent.
-fn joined(text: &str) -> String {
-    text.replace(" %", "\u{a0}%")
 }
 
 fn links(shown: &[(String, String)]) -> Markup {
@@ -568,11 +563,11 @@ fn cases(family: &Family) -> Markup {
                         td data-label="Claim" { (c.claim) }
                         td data-label="Source" { (source(c)) }
                         td data-label="Tolerance and why" {
-                            (tolerance(c)) " "
-                            span.source { (c.tolerance.because) }
+                            (joined(&tolerance(c))) " "
+                            span.source { (joined(&c.tolerance.because)) }
                         }
                         td data-label="Worst share of tolerance" { (worst(result)) }
-                        td data-label="Rejects" { (rejects(c, result)) }
+                        td data-label="Rejects" { (joined(&rejects(c, result))) }
                         td data-label="Result" {
                             @if result.is_some_and(CaseResult::passed) {
                                 span.verdict.yes { "✓ passed" }

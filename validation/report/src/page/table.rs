@@ -40,14 +40,24 @@ pub fn head<T: Render>(names: &[T]) -> Markup {
     }
 }
 
+/// No line breaks between a number and its per cent, or within a power.
+pub fn joined(text: &str) -> String {
+    let text = text.replace(" %", "\u{a0}%");
+    ('0'..='9').fold(text, |text, digit| {
+        let (power, whole) =
+            (format!("e-{digit}"), format!("e-\u{2060}{digit}"));
+        text.replace(&power, &whole)
+    })
+}
+
 fn line(cells: &[String]) -> Markup {
     html! {
         tr {
             @for (k, cell) in cells.iter().enumerate() {
                 @if k == 0 {
-                    th scope="row" { (cell) }
+                    th scope="row" { (joined(cell)) }
                 } @else {
-                    td { (cell) }
+                    td { (joined(cell)) }
                 }
             }
         }

@@ -44,7 +44,8 @@ impl Effect {
     ///
     /// ```
     /// use rocking_common::findings::{Effect, Region, Unit};
-    /// let ratio = Effect::of_claim(Some(Region::Within(0.75, 1.25)), Unit::One);
+    /// let third = Some(Region::Within(0.75, 1.25));
+    /// let ratio = Effect::of_claim(third, Unit::One);
     /// assert_eq!(ratio, Some(Effect::Relative(0.1)));
     /// let small = Effect::of_claim(Some(Region::Below(0.05)), Unit::One);
     /// assert_eq!(small, Some(Effect::Absolute(0.05)));

@@ -1,5 +1,6 @@
 //! A comparison for people, and for a pull request: the consequence first.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::moved::Kind;
@@ -39,7 +40,8 @@ impl Comparison {
         let mut count = out.chars().count();
         for (title, lines) in self.lists(false) {
             let title = format!("\n### {title}\n\n");
-            let lines = lines.iter().map(|l| format!("- {}\n", escaped(l)));
+            let lines = lines.iter().map(|line| line.replace('\n', "; "));
+            let lines = lines.map(|line| format!("- {}\n", escaped(&line)));
             for part in [title].into_iter().chain(lines) {
                 count += part.chars().count();
                 if count > most {
@@ -79,7 +81,7 @@ impl Comparison {
     /// The lists that have something, in the order of consequence.
     fn lists(&self, all: bool) -> Vec<List> {
         let lines = |list: &[Change]| list.iter().map(line).collect();
-        let only = |list: &std::collections::BTreeMap<String, usize>| {
+        let only = |list: &BTreeMap<String, usize>| {
             let line = |(what, n): (&String, &usize)| match n {
                 1 => what.clone(),
                 n => format!("{what}: {n} results"),

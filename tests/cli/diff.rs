@@ -258,11 +258,21 @@ fn runs_of_the_same_records_are_paired() {
         ],
     );
     let (_, out, _) = run(&place, "diff old new");
-    let same = "Both runs have the same 8 ordinary records";
+    let same = "Both runs have the same records (8 ordinary)";
     assert!(out.contains(same), "{out}");
     let moved = "moves by +8.5 % in the median (+5 % to +12 %, exact 95 % \
                  interval, 8 ordinary records)";
     assert!(out.contains(moved), "{out}");
+    // The same name with other samples is another record.
+    let other = new.replacen("\"sha256\": \"7\"", "\"sha256\": \"8\"", 1);
+    fs::write(place.join("new/data/findings.json"), other).unwrap();
+    let (_, out, _) = run(&place, "diff old new");
+    let parted = "7 ordinary records are in both runs, 1 (r7) only in the \
+                  old one, 1 (r7) only in the new one.";
+    assert!(
+        out.contains(parted) && out.contains("7 ordinary records)"),
+        "{out}"
+    );
 }
 
 #[test]

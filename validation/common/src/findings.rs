@@ -170,6 +170,18 @@ pub enum Topic {
 }
 
 impl Topic {
+    /// The smallest effect of interest of a quantity of such a table: 5 % of
+    /// a response ratio, else that of its unit.
+    #[must_use]
+    pub fn smallest_effect(self, unit: Unit) -> Option<Effect> {
+        match (self, unit) {
+            (Self::SlendernessAdjustment | Self::SingleRecords, Unit::One) => {
+                Some(Effect::Relative(0.05))
+            }
+            _ => Effect::of(unit),
+        }
+    }
+
     /// The topic in words.
     #[must_use]
     pub fn words(self) -> &'static str {

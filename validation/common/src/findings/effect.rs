@@ -1,7 +1,8 @@
 //! The smallest effects of interest: a change that is smaller leads to no
 //! other decision of an engineer.
 
-use super::{Region, Topic, Unit};
+use super::claims::Region;
+use super::measured::Unit;
 
 /// A smallest effect of interest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,19 +24,6 @@ impl Effect {
             Unit::Share | Unit::Points => Some(Self::Absolute(0.1)),
             Unit::Distance | Unit::Probability => Some(Self::Absolute(0.05)),
             Unit::Count => None,
-        }
-    }
-
-    /// The effect of a quantity of a table: as [`Effect::of`], and 5 % of a
-    /// response ratio.
-    #[must_use]
-    pub fn of_table(topic: Topic, unit: Unit) -> Option<Self> {
-        match (topic, unit) {
-            (
-                Topic::SlendernessAdjustment | Topic::SingleRecords,
-                Unit::One,
-            ) => Some(Self::Relative(0.05)),
-            _ => Self::of(unit),
         }
     }
 

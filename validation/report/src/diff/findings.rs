@@ -210,7 +210,7 @@ fn cells(out: &mut Vec<Item>, table: &Table) {
     let topic = table.topic.words();
     let mut own = Owner::new(out, topic, topic.into());
     for (k, quantity) in table.quantities.iter().enumerate() {
-        let effect = Effect::of_table(table.topic, quantity.unit);
+        let effect = table.topic.smallest_effect(quantity.unit);
         let limit = Limit::of(effect, quantity.unit);
         for Row { at, values } in &table.rows {
             let suite = at.suite.map(|suite| suite.to_string());

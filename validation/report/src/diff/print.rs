@@ -40,10 +40,8 @@ impl Comparison {
         let mut count = out.chars().count();
         for (title, lines) in self.lists(false) {
             let title = format!("\n### {title}\n\n");
-            let lines = lines.iter().map(|entry| {
-                let parts: Vec<String> = entry.lines().map(escaped).collect();
-                format!("- {}\n", parts.join("  \n  "))
-            });
+            let lines = lines.iter().map(|line| line.replace('\n', "; "));
+            let lines = lines.map(|line| format!("- {}\n", escaped(&line)));
             for part in [title].into_iter().chain(lines) {
                 count += part.chars().count();
                 if count > most {
@@ -131,7 +129,7 @@ impl Comparison {
         let small = |kind: &Kind| kind.moved.len() - kind.beyond();
         let moved: usize = self.numbers.iter().map(small).sum();
         if moved > 0 {
-            out.push(format!("{moved} numbers moved by less, or are counts"));
+            out.push(format!("Smaller moves, and moves of counts: {moved}"));
         }
         let kinds = self.numbers.iter();
         let kinds = kinds.filter(|k| k.beyond() == 0 && !k.moved.is_empty());
@@ -141,12 +139,12 @@ impl Comparison {
         for (n, what) in [
             (
                 elsewhere,
-                "values of claims are not compared: another cell decides",
+                "Values of claims not compared, as another cell decides",
             ),
-            (self.texts.count(), "words, intervals and details differ"),
+            (self.texts.count(), "Words, intervals and details that differ"),
         ] {
             if n > 0 {
-                out.push(format!("{n} {what}"));
+                out.push(format!("{what}: {n}"));
             }
         }
         out

@@ -17,23 +17,23 @@ pub fn notes(old: &Results, new: &Results) -> Vec<String> {
     for suite in &before.suites {
         let own = |s: &&Suite| s.kind == suite.kind;
         let Some(other) = after.suites.iter().find(own) else { continue };
-        let here = |r: &&RecordName| other.list.contains(r);
-        let (both, lost): (Vec<_>, Vec<_>) = suite.list.iter().partition(here);
-        let (kind, gained) = (suite.kind, other.list.len() - both.len());
-        if lost.is_empty() && gained == 0 {
+        let (both, lost) = parted(suite, other);
+        let (_, gained) = parted(other, suite);
+        let kind = suite.kind;
+        if lost.is_empty() && gained.is_empty() {
             same.push(format!("{} {kind}", both.len()));
         } else {
             notes.push(format!(
                 "{} {kind} records are in both runs, {} only in the old one, \
-                 {gained} only in the new one.",
+                 {} only in the new one.",
                 both.len(),
-                lost.len(),
+                named(&lost),
+                named(&gained),
             ));
         }
         if kind == SuiteKind::Ordinary && first_arm(before) == first_arm(after)
         {
-            let names = both.iter().map(|record| record.name.as_str());
-            notes.extend(paired(names, old, new));
+            notes.extend(paired(&both, old, new));
         }
     }
     if !same.is_empty() {
@@ -46,17 +46,35 @@ pub fn notes(old: &Results, new: &Results) -> Vec<String> {
     notes
 }
 
+/// Records of a suite that the other has too, and those that it lacks; the
+/// same name with other samples is another record.
+fn parted<'a>(
+    suite: &'a Suite,
+    other: &Suite,
+) -> (Vec<&'a str>, Vec<&'a str>) {
+    let there = |r: &&RecordName| other.list.contains(r);
+    let (both, rest): (Vec<_>, Vec<_>) = suite.list.iter().partition(there);
+    let names = |list: Vec<&'a RecordName>| {
+        list.into_iter().map(|r| r.name.as_str()).collect()
+    };
+    (names(both), names(rest))
+}
+
+/// A number of records, with their names where there are few.
+fn named(records: &[&str]) -> String {
+    match records.len() {
+        n @ 1..=3 => format!("{n} ({})", records.join(", ")),
+        n => n.to_string(),
+    }
+}
+
 /// By how much the first overturning of the block of Figure 11 moved, record
 /// by record: the median of the paired ratio with its exact interval.
-fn paired<'a>(
-    records: impl Iterator<Item = &'a str>,
-    old: &Results,
-    new: &Results,
-) -> Option<String> {
-    let ratio = |name: &str| {
-        Some(new.overturnings.get(name)? / old.overturnings.get(name)?)
+fn paired(records: &[&str], old: &Results, new: &Results) -> Option<String> {
+    let ratio = |name: &&str| {
+        Some(new.overturnings.get(*name)? / old.overturnings.get(*name)?)
     };
-    let ratios: Vec<f64> = records.filter_map(ratio).collect();
+    let ratios: Vec<f64> = records.iter().filter_map(ratio).collect();
     let Measured { value, interval } = median(&ratios);
     let (low, high) = interval?;
     let text = |ratio: f64| percent(ratio - 1.0);

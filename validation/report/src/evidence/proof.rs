@@ -6,7 +6,7 @@ use std::fmt;
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context as _, anyhow, bail};
+use anyhow::{anyhow, bail};
 
 use rocking_common::findings::LEVEL;
 use rocking_common::suites::inputs::sha256_hex;
@@ -102,7 +102,7 @@ impl Proof {
         let path = folder.join(RESULTS);
         let hash = sha256_hex(results.as_bytes());
         let results: snapshot::Results = serde_json::from_str(results)
-            .with_context(|| path.display().to_string())?;
+            .map_err(|e| anyhow!("{}: {e}, expected JSON", path.display()))?;
         same_cases(&path, &load_all()?, &results)?;
         whole_table(&folder.join(DIGITS), &digits)?;
         // The same words wherever the folder lies.

@@ -140,8 +140,12 @@ pub fn input<'a>(
         chapters: vec![
             Chapter {
                 text: vec![timings.plain()],
-                tables: vec![timings.settings()],
                 figures: placed(&charts, Place::Speed),
+                folded: vec![only(
+                    "settings",
+                    "Which of our settings when",
+                    vec![timings.settings()],
+                )],
                 ..Chapter::titled("speed", "Speed against error")
             },
             suites,

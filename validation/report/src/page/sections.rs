@@ -69,7 +69,7 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
     });
     add(!i.scope.text.is_empty(), i.scope.id, &i.scope.title, &|| {
         html! {
-            div.columns { @for words in &i.scope.text { p { (words) } } }
+            div.columns { @for words in &i.scope.text { p { (joined(words)) } } }
             @for part in &i.scope.folded {
                 (folded(part.id, &part.title, &chapter(part)))
             }
@@ -91,7 +91,7 @@ pub fn all(input: &ReportInput<'_>) -> Vec<Part> {
     });
     add(!i.method.is_empty(), "method", "Method and glossary", &|| {
         html! {
-            div.columns { @for words in &i.method { p { (words) } } }
+            div.columns { @for words in &i.method { p { (joined(words)) } } }
             (folded("equations", "Equations", &PreEscaped(EQUATIONS.into())))
             @if !i.glossary.is_empty() {
                 h3 { "Glossary" }
@@ -151,7 +151,7 @@ fn list(pairs: &[(String, String)]) -> Markup {
         dl {
             @for (name, value) in pairs {
                 dt { (name) }
-                dd { (value) }
+                dd { (joined(value)) }
             }
         }
     }

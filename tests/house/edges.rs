@@ -129,7 +129,7 @@ const STUDY: Edges = "
     estimates analyses results runs sensitivities
     figures analyses claims distributions estimates fits inference measures \
         normality results stripes ties
-    findings analyses estimates figures inference normality questions results \
+    findings analyses estimates figures normality questions results \
         stripes
     fits
     inference

@@ -84,9 +84,8 @@ impl Power {
     /// use rocking::statistics::power::Power;
     /// // 0 of 44 does not show that a probability is below 5 %; 0 of 59
     /// // does, since 0.95^59 is 4.8 %.
-    /// let found = Power::of_count(Proportion::try_new(0, 44)?, 0.9, |_, high| {
-    ///     high < 0.05
-    /// });
+    /// let none = Proportion::try_new(0, 44)?;
+    /// let found = Power::of_count(none, 0.9, |_, high| high < 0.05);
     /// assert_eq!(found.probability, 0.0);
     /// assert!((found.times - 59.0 / 44.0).abs() < 0.02);
     /// # Ok::<(), rocking::statistics::proportion::ProportionError>(())

@@ -65,6 +65,7 @@ impl StepDown {
             };
             let mut largest: Vec<f64> = (0..replicates)
                 .into_par_iter()
+                .panic_fuse()
                 .map(|row| {
                     most(&mut active.iter().map(|k| deviation(row, *k)))
                 })

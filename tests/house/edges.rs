@@ -129,8 +129,7 @@ const STUDY: Edges = "
     estimates analyses results runs sensitivities
     figures analyses claims distributions estimates fits inference measures \
         normality results stripes ties
-    findings analyses estimates figures inference questions results \
-        stripes
+    findings analyses estimates figures questions results stripes
     fits
     inference
     measures analyses distances distributions estimates fits inference results \

@@ -30,8 +30,9 @@ pub(super) struct Refuted {
 /// (Romano and Wolf, Econometrica 73 (2005) 1237), where they are of a
 /// bootstrap, ratios on the scale of their logarithm: the ends that Holm's
 /// steps ask of a bootstrap lie among its last draws, and fall short of their
-/// level (declared cases `family-on-the-edge`). Cells that are `shown` to lie inside cannot be refuted and leave the
-/// maximum (Romano, Shaikh and Wolf, Econometrica 82 (2014) 1979).
+/// level (declared cases `family-on-the-edge`). Cells that are `shown` to lie
+/// inside cannot be refuted and leave the maximum (Romano, Shaikh and Wolf,
+/// Econometrica 82 (2014) 1979).
 pub(super) fn refuted(
     known: &Known<'_>,
     region: Region,

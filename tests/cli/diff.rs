@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::support::{folder, json, refused_for, run};
 
 const FINDINGS: &str = r#"{
-  "schema": 5,
+  "schema": 6,
   "version": "0.1.0",
   "settings": {
     "arms": ["C"], "eta": 0.92, "overturning": "alpha", "refinement_im": 0.0001
@@ -162,7 +162,7 @@ fn the_consequence_comes_first() {
     assert_eq!(error, "rocking: 6 significant changes\n");
     let lines = [
         "Changed: 1 of 4 answers, 2 of 3 verdicts; 2 of ",
-        "Before: Yes: all 1 results confirm it.",
+        "Before: Hardly: medians differ by 0 %",
         "\"the same\" (ratios-p1), ordinary, arm C: confirmed to inconclusive",
         "  case free-rocking/one: pass to fail\n",
         "  median overturning, PGA/(g tan alpha), ordinary: +6.3 % (p = 1: \
@@ -282,7 +282,7 @@ fn bad_input_is_refused_with_the_file_and_what_was_expected() {
         ("cut.json", &FINDINGS[..300], "expected JSON"),
         ("list.json", "[1]", "expected findings of a study"),
         ("other.json", "{\"a\": 1}", "expected findings of a study"),
-        ("first.json", "{\"claims\": []}", "schema 1, expected schema 5"),
+        ("first.json", "{\"claims\": []}", "schema 1, expected schema 6"),
     ];
     for (name, text, _) in files {
         fs::write(place.join(name), text).unwrap();

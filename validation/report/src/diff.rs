@@ -109,7 +109,13 @@ impl Comparison {
         use Content::{Answer, Number, Setting, Text, Verdict};
         let (list, a, b) = match (&old.content, &new.content) {
             (Number(a), Number(b)) => return self.number(old, a, b),
-            (Answer(a), Answer(b)) => (&mut self.answers, a, b),
+            (Answer(was, a), Answer(is, b)) if was != is => {
+                (&mut self.answers, a, b)
+            }
+            (Answer(_, a), Answer(_, b)) => {
+                self.answers.compared += 1;
+                (&mut self.texts, a, b)
+            }
             (Verdict(a), Verdict(b)) => (&mut self.verdicts, a, b),
             (Setting(a), Setting(b)) => (&mut self.settings, a, b),
             (Text(a), Text(b)) => (&mut self.texts, a, b),

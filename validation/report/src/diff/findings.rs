@@ -16,9 +16,10 @@ use rocking_common::findings::{
 /// The items of a study's findings.
 pub fn items(findings: &Findings) -> anyhow::Result<Vec<Item>> {
     let mut out = Vec::new();
-    for Answered { question, answer, .. } in answers(findings)? {
+    for own in answers(findings)? {
+        let Answered { question, answer, verdicts, .. } = own;
         let mut own = Owner::new(&mut out, "answers", question.clone());
-        own.item("", &question, Content::Answer(answer));
+        own.item("", &question, Content::Answer(verdicts, answer));
     }
     let mut tables: Vec<&Table> = findings.tables.iter().collect();
     tables.sort_by_key(|table| table.topic);

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::moved::Number;
+use rocking_common::paper::Verdict;
 
 /// One thing that results say.
 #[derive(Clone, Debug)]
@@ -24,8 +25,9 @@ pub struct Item {
 /// What an item says.
 #[derive(Clone, Debug)]
 pub enum Content {
-    /// The answer to a question of the first table.
-    Answer(String),
+    /// The answer to a question of the first table: the verdicts that it is
+    /// made from, and the sentence.
+    Answer(Vec<Vec<Verdict>>, String),
     /// Whether a claim or a case holds.
     Verdict(String),
     /// What makes two runs different runs: a setting, a suite, a declared

@@ -8,9 +8,12 @@ use crate::evidence::Proof;
 use crate::page::AnswerRow;
 use crate::quantity::{cell_text, measured_text, number};
 use crate::timings::Timings;
-use crate::verdicts::{FALSE_DISCOVERIES, first_arm, rank, score};
-use rocking_common::findings::{Claim, ClaimResult, Findings, Region, Tested};
+use crate::verdicts::{FALSE_DISCOVERIES, first_arm, rank, score, turned};
+use rocking_common::findings::{
+    Claim, ClaimResult, Findings, Region, Suite, Tested,
+};
 use rocking_common::paper::{Arm, Verdict};
+use rocking_common::words::percent;
 use rocking_draw::figures::Figure;
 
 /// The questions that claims answer; the file says what its fields are.
@@ -303,7 +306,7 @@ pub(super) fn rows(
         row(
             "How sure is the integrator?",
             sure(proof),
-            timings.error(),
+            format!("{}; {}", timings.error(), open_fates(lead)),
             ("evidence", "proof"),
         ),
         row("Is it fast?", fast, rate, ("speed", "speed")),
@@ -375,33 +378,53 @@ fn signed(proof: Option<&Proof>, kept: bool) -> String {
     }
 }
 
+/// The share of analyses that rounding may have changed.
+fn open_fates(findings: &Findings) -> String {
+    let sum =
+        |of: fn(&Suite) -> u64| findings.suites.iter().map(of).sum::<u64>();
+    let open = sum(|suite| suite.unresolved as u64) as f64;
+    format!(
+        "in {} of the analyses rounding may have changed peak or fate; first \
+         overturnings among these are resolved in wider arithmetic",
+        percent(open / sum(|suite| suite.analyses) as f64, 1)
+    )
+}
+
 fn chance(findings: &Findings) -> String {
     let found = findings.withdrawn(FALSE_DISCOVERIES);
     format!(
-        "{} of {} verdicts would not stand at 5 % false discoveries",
-        found.positive, found.decided
+        "{} of {} verdicts would not stand at 5 % false discoveries, {} under \
+         any dependence",
+        found.positive, found.decided, found.any
     )
 }
 
 /// What was done, in a few sentences.
 pub(super) fn done(here: &Findings, recorded: Option<&Findings>) -> String {
     let lead = recorded.unwrap_or(here);
-    let motions: Vec<String> = lead
-        .suites
-        .iter()
-        .map(|suite| format!("{} {}", suite.records, suite.kind))
-        .collect();
-    let analyses: u64 = lead.suites.iter().map(|s| s.analyses).sum();
     let source = match recorded {
         Some(_) => " recorded",
         None => "",
     };
+    let motions: Vec<String> = lead
+        .suites
+        .iter()
+        .map(|suite| match suite.earthquakes {
+            Some(count) => format!(
+                "{} {}{source} motions of {count} earthquakes",
+                suite.records, suite.kind
+            ),
+            None => {
+                format!("{} {}{source} motions", suite.records, suite.kind)
+            }
+        })
+        .collect();
+    let analyses: u64 = lead.suites.iter().map(|s| s.analyses).sum();
     let score = score(lead);
     let count = |v| score.iter().find(|(own, _)| *own == v).map_or(0, |s| s.1);
     let all: usize = score.iter().map(|s| s.1).sum();
     format!(
-        "We let fifteen blocks rock under {}{source} earthquake motions at \
-         rising intensity, {analyses} times in all, and asked whether a \
+        "We let fifteen blocks rock under {} at rising intensity, {analyses} times in all, and asked whether a \
          paper [1] is right about the statistics of their rocking. Of its \
          {all} sentences that one can test, {} hold, {} fail and {} stay \
          open.",
@@ -422,6 +445,7 @@ pub(super) fn otherwise(
     recorded: Option<&Findings>,
 ) -> anyhow::Result<Option<String>> {
     let Some(recorded) = recorded else { return Ok(None) };
+    let (turned, all) = turned(here, recorded);
     let alike = |lead| if lead == Some(1) { Some(0) } else { lead };
     let mut other = String::new();
     for (own, kept) in answers(here)?.iter().zip(answers(recorded)?) {
@@ -430,8 +454,14 @@ pub(super) fn otherwise(
         }
     }
     Ok(Some(match other.as_str() {
-        "" => "The embedded synthetic motions answer alike.".into(),
-        _ => format!("Embedded synthetic motions answer otherwise:{other}"),
+        "" => format!(
+            "Embedded synthetic motions give the same answers, though {turned} \
+             of {all} claims come out otherwise."
+        ),
+        _ => format!(
+            "Embedded synthetic motions answer otherwise:{other} Of {all} \
+             claims {turned} come out otherwise."
+        ),
     }))
 }
 

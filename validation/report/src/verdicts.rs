@@ -1,6 +1,8 @@
 //! What the results add up to: what rounding and chance may have changed, and
 //! the verdicts theme by theme and over all sentences of the paper.
 
+use std::collections::BTreeMap;
+
 use rocking_common::findings::{Claim, ClaimResult, Findings, Theme};
 use rocking_common::paper::{Arm, Verdict};
 use rocking_common::words::rounded_text;
@@ -148,6 +150,20 @@ pub(super) fn by_theme(
         n => format!("{n} come out otherwise on the embedded suites"),
     };
     format!("On the recorded suites {words}. {other}.")
+}
+
+/// How many claims come out otherwise in other findings, of how many that
+/// both judge.
+pub(super) fn turned(a: &Findings, b: &Findings) -> (usize, usize) {
+    let own = |findings: &Findings| -> BTreeMap<String, Verdict> {
+        let first = first_arm(findings);
+        let claims = findings.claims.iter();
+        claims.filter_map(|c| Some((c.id.clone(), whole(c, first)?))).collect()
+    };
+    let (a, b) = (own(a), own(b));
+    let both = a.iter().filter_map(|(id, v)| Some((v, b.get(id)?)));
+    let (same, other): (Vec<_>, Vec<_>) = both.partition(|(v, w)| v == w);
+    (other.len(), same.len() + other.len())
 }
 
 /// The verdict on each sentence of the paper: confirmed where every claim in

@@ -166,7 +166,8 @@ fn spread_in_words(panels: &[Compared]) -> String {
         })
         .collect();
     format!(
-        "The five medians overturn within {} of one another.",
+        "Median overturning intensities of the five shapes differ by at most \
+         {}.",
         spreads.join(", ")
     )
 }

@@ -149,7 +149,7 @@ pub(in super::super) fn thresholds(
         match pair {
             Pair::Shifted => {
                 "Bands hold 95 % of the fits to resampled suites; brackets \
-                 are 95 % intervals."
+                 are 90 % intervals."
             }
             _ => {
                 "The band is SSFL plus 95 % of the differences of USFL7 to \

@@ -340,8 +340,9 @@ impl Trials {
         measure: Measure,
     ) -> bool {
         let count = scores.len();
-        let few =
-            |k: usize| measure == Measure::ShareBesideSurvivors && k % 4 != 0;
+        let few = |k: usize| {
+            measure == Measure::ShareBesideSurvivors && !k.is_multiple_of(4)
+        };
         let enters = |k: &usize| {
             self.wrong == Some(WrongModel::SurvivorsEnter) || !few(*k)
         };

@@ -170,7 +170,7 @@ pub fn fit_outcomes(
     })
 }
 
-/// The fits to the draws of [`fit_outcomes`]: what [`risk`](super::risk)
+/// The fits to the draws of [`fit_outcomes`]: what [`risk`](super::risk())
 /// makes an interval of.
 ///
 /// # Errors

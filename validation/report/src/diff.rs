@@ -1,6 +1,6 @@
 //! What changed between two sets of results, in engineering terms.
 //!
-//! Findings of a study and results of declared cases become [`Item`]s.
+//! Findings of a study and results of declared cases become `Item`s.
 //! [`compare`] sets like beside like; a [`Comparison`] has the answers and
 //! verdicts that changed, and the numbers by kind, each against the smallest
 //! effect of interest.

@@ -80,6 +80,7 @@ from ._results import (
     VelocityPulse,
 )
 from ._rocking import __version__
+from ._score import Score, score
 from ._statistics import (
     CountsFragility,
     Fragility,
@@ -121,6 +122,7 @@ __all__ = [
     "Risk",
     "STANDARD_GRAVITY",
     "Sample",
+    "Score",
     "StripeResponses",
     "Suite",
     "Summary",
@@ -144,6 +146,7 @@ __all__ = [
     "respond",
     "risk",
     "rotd50",
+    "score",
     "spectrum",
     "summarise",
     "surface_fragility",

@@ -11,6 +11,7 @@ mod measures;
 mod mechanics;
 mod peak;
 mod procedures;
+mod score;
 mod work;
 
 /// Native functions of the package `rocking`; its public names are in
@@ -40,6 +41,9 @@ mod _rocking {
         choose_distribution, compare, fit, fit_stripes, lognormal, summarise,
         test_normality,
     };
+
+    #[pymodule_export]
+    use crate::score::{score, score_scenes};
 
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -35,6 +35,15 @@ const EXCHANGE: Edges = "
     table columns
 ";
 
+/// The modules of the score of answers.
+const SCORE: Edges = "
+    answers reference
+    diagnosis answers reference
+    own answers reference
+    reference
+    score answers diagnosis reference
+";
+
 /// The modules of the embedded suites.
 const SYNTHESIS: Edges = "
     near_fault draws noise pair special
@@ -108,6 +117,7 @@ const REPORT: Edges = "
     quantity
     readme answers evidence page recorded timings
     recorded
+    scored page
     speed
     stale diff output
     tests answers credibility evidence findings head input ledger output \
@@ -156,9 +166,10 @@ const COMMAND: Edges = "
 ";
 
 /// Each source folder with its table.
-pub const TREES: [(&str, Edges); 9] = [
+pub const TREES: [(&str, Edges); 10] = [
     ("src", CORE),
     ("exchange/src", EXCHANGE),
+    ("score/src", SCORE),
     ("synthesis/src", SYNTHESIS),
     ("validation/common/src", COMMON),
     ("validation/draw/src", DRAW),

@@ -39,6 +39,7 @@ pub mod respond;
 pub mod risk;
 pub mod sample;
 pub mod scene;
+pub mod score;
 mod shared;
 pub mod show;
 pub mod speed;
@@ -66,7 +67,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
             "lilliefors",
         ],
     ),
-    ("Prove", &["study", "validate", "diff", "speed"]),
+    ("Prove", &["study", "validate", "score", "diff", "speed"]),
     ("Develop", &["accept", "completions", "man"]),
 ];
 
@@ -102,6 +103,7 @@ enum Command {
     Rank(Box<rank::Args>),
     Risk(risk::Args),
     Sample(sample::Args),
+    Score(score::Args),
     Speed(speed::Args),
     Stripes(stripes::Args),
     Study(study::Args),
@@ -199,6 +201,7 @@ pub fn run() -> ExitCode {
         Command::Rank(args) => rank::run(&args),
         Command::Risk(args) => risk::run(&args),
         Command::Sample(args) => sample::run(&args),
+        Command::Score(args) => score::run(&args),
         Command::Speed(args) => {
             with_threads(None, || speed::run(&args)).flatten()
         }

@@ -13,6 +13,7 @@ pub mod page;
 pub mod quantity;
 pub mod readme;
 pub mod recorded;
+pub mod scored;
 pub mod speed;
 pub mod stale;
 pub mod timings;

@@ -17,10 +17,10 @@ use input::Part;
 
 pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
 
-const STYLE: &str = include_str!("page/page.css");
+pub(crate) const STYLE: &str = include_str!("page/page.css");
 
 /// Nothing is loaded and nothing runs; styles stand in the page.
-const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
+pub(crate) const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; \
     base-uri 'none'; form-action 'none'";
 
 /// The page.

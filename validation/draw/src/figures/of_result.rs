@@ -4,6 +4,7 @@ use rocking::integrator::{HistoryPoint, Response, Scene, uplift_threshold};
 use rocking::intensity::{IntensityMeasure, Measures};
 use rocking::procedures::Ranking;
 use rocking::record::Accelerogram;
+use rocking_score::{Code, Score};
 
 use super::{
     Chart, ChartAxis, ChartPanel, Heading, History, HistoryPanel, Mark,
@@ -164,6 +165,69 @@ pub fn ranking_svg(
         ),
         panels: vec![ChartPanel::new("", x, y, vec![series])],
         columns: 1,
+    };
+    chart.figure(String::new()).svg()
+}
+
+/// Digits of answers against their condition, and their medians by level
+/// beside those of known codes, as SVG.
+pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
+    let all = score.quantities.iter().zip(conditions);
+    let points: Vec<_> =
+        all.filter_map(|(q, k)| Some((k.max(1.0), q.digits?))).collect();
+    let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+    let most = x.iter().fold(1e3, |most: f64, x| most.max(*x));
+    let line = [1.0, 1e12].map(|k: f64| (k, 15.0 - k.log10()));
+    let (line_x, line_y) = line.into_iter().unzip();
+    let digits = || ChartAxis::linear("digits", (0.0, 15.5));
+    let left = ChartPanel::new(
+        "Every number",
+        ChartAxis::logarithmic("condition number", (1.0, 2.0 * most)),
+        digits(),
+        vec![
+            Series::new("these answers", Mark::Points, x, y),
+            Series::new(
+                "what double precision can get",
+                Mark::Dashed,
+                line_x,
+                line_y,
+            ),
+        ],
+    );
+    let mut series = Vec::new();
+    let names = codes.iter().map(|code| code.code.as_str());
+    let mut names: Vec<&str> = names.collect();
+    names.dedup();
+    for name in names {
+        let own = codes.iter().filter(|code| code.code == name);
+        let own = own.filter_map(|code| {
+            Some((f64::from(code.level), code.median_digits?))
+        });
+        let (x, y) = own.unzip();
+        let name = markup::escape(name);
+        series.push(Series::new(name, Mark::LineAndPoints, x, y));
+    }
+    let own = score.levels.iter().filter_map(|level| {
+        Some((f64::from(level.level), level.median_digits?))
+    });
+    let (x, y) = own.unzip();
+    series.insert(0, Series::new("these answers", Mark::LineAndPoints, x, y));
+    let levels = score.levels.iter().map(|level| level.kind.clone());
+    let right = ChartPanel::new(
+        "Median of each level",
+        ChartAxis::named(levels.collect()),
+        digits(),
+        series,
+    );
+    let chart = Chart {
+        heading: Heading::new(
+            "score",
+            "Digits against difficulty",
+            "Digits of each answer against its condition number, and the \
+             median of each level beside known codes.",
+        ),
+        panels: vec![left, right],
+        columns: 2,
     };
     chart.figure(String::new()).svg()
 }

@@ -1,0 +1,32 @@
+//! Scores the answers of any rocking code against certified ones, and names
+//! the mistake that explains them.
+//!
+//! The data set is `fixtures/benchmark`, whose README says what is asked and
+//! how the certified values were computed. The command line and the Python
+//! package both call this crate.
+//!
+//! ```
+//! use std::path::Path;
+//! use rocking_score::{Answers, Verdict, own_answers, score};
+//! let csv = "scene,quantity,value\nfree-half,fate,rocked\n";
+//! let few = Answers::parse(csv, Path::new("answers.csv"))?;
+//! assert_eq!(score(&few).diagnosis.verdict, Verdict::TooFew);
+//! assert_eq!(score(&own_answers()?).diagnosis.verdict, Verdict::None);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![deny(missing_docs)]
+
+mod answers;
+mod diagnosis;
+mod own;
+mod reference;
+mod score;
+
+pub use answers::Answers;
+pub use diagnosis::{Diagnosis, Explanation, Mistake, Verdict};
+pub use own::{Engine, answers_of, own_answers};
+pub use reference::{
+    Excitation, INPUTS, Item, Reference, SCENES, Scene, Value, reference,
+};
+pub use score::{Code, LevelScore, QuantityScore, Score, codes, score};

@@ -1,0 +1,166 @@
+//! The answers of this project's own integrator.
+
+use rocking::block::{Block, Restitution};
+use rocking::excitation::{Excitation as Ground, Pulse, ScaledRecord};
+use rocking::integrator::{
+    Observe, Outcome, Response, SceneError, respond, respond_precise,
+};
+use rocking::number::Real;
+
+use crate::answers::Answers;
+use crate::reference::{Excitation, Scene, Value, reference};
+
+/// Rotations are asked at multiples of this, s.
+const GRID_S: f64 = 1.0 / 64.0;
+
+/// What a run of the core says of the quantities of a scene, in its numbers.
+#[derive(Clone, Debug)]
+pub struct Engine<N> {
+    response: Response<N>,
+    /// +1, or -1 where the scene was run with the other side up.
+    sign: f64,
+}
+
+impl Engine<f64> {
+    /// Runs a scene in double precision.
+    ///
+    /// # Errors
+    /// Why the core refused the scene.
+    pub fn double(scene: &Scene) -> Result<Self, String> {
+        Self::run(scene, respond)
+    }
+}
+
+impl<N: Real> Engine<N> {
+    /// Runs a scene in the arithmetic of `N`.
+    ///
+    /// # Errors
+    /// Why the core refused the scene.
+    pub fn precise(scene: &Scene) -> Result<Self, String> {
+        Self::run(scene, respond_precise::<N>)
+    }
+
+    fn run(
+        scene: &Scene,
+        by: impl FnOnce(
+            &rocking::Scene<'_>,
+            &Observe,
+        ) -> Result<Response<N>, SceneError>,
+    ) -> Result<Self, String> {
+        let refused =
+            |e: &dyn std::fmt::Display| format!("{}: {e}", scene.name);
+        let block = Block::try_new(scene.alpha_rad, scene.p_rad_s)
+            .map_err(|e| refused(&e))?;
+        let eta = Restitution::constant(scene.eta).map_err(|e| refused(&e))?;
+        let (g, pulse) = (scene.g_m_s2, &mut None);
+        let excitation = match &scene.excitation {
+            Excitation::Free => Ground::Free,
+            Excitation::Pulse(kind) => {
+                let made = Pulse::try_new_si(*kind, g);
+                Ground::Pulse(pulse.insert(made.map_err(|e| refused(&e))?))
+            }
+            Excitation::Samples { dt_s, samples_m_s2 } => Ground::Record(
+                ScaledRecord::try_new_si(samples_m_s2, *dt_s, g)
+                    .map_err(|e| refused(&e))?,
+            ),
+        };
+        let theta = scene.initial_theta_rad;
+        let core = rocking::Scene {
+            model: scene.equation,
+            overturning: scene.overturning,
+            initial_ratio: theta.abs() / scene.alpha_rad,
+            ..rocking::Scene::new(block, eta, excitation)
+        };
+        let observe = Observe {
+            events: true,
+            history_interval_s: Some(GRID_S),
+            ..Observe::default()
+        };
+        let response = by(&core, &observe).map_err(|e| refused(&e))?;
+        Ok(Self { response, sign: if theta < 0.0 { -1.0 } else { 1.0 } })
+    }
+
+    /// The fate, as the core names it.
+    #[must_use]
+    pub fn fate(&self) -> &'static str {
+        self.response.outcome.name()
+    }
+
+    /// Impacts until a time, s.
+    #[must_use]
+    pub fn impacts(&self, until_s: f64) -> usize {
+        let times = self.response.impacts.iter().map(|i| i.time_s.to_f64());
+        times.filter(|t| *t <= until_s).count()
+    }
+
+    /// A quantity that is a number; none where the run has none.
+    #[must_use]
+    pub fn number(&self, scene: &Scene, quantity: &str) -> Option<N> {
+        let found = &self.response;
+        let falls = found.outcome.is_overturned();
+        let numbered = |before: &str, after: &str| {
+            let middle = quantity.strip_prefix(before)?.strip_suffix(after)?;
+            middle.parse::<usize>().ok()?.checked_sub(1)
+        };
+        if let Some(k) = numbered("impact_", "_time_s") {
+            return found.impacts.get(k).map(|i| i.time_s);
+        }
+        if let Some(k) = numbered("theta_", "_rad") {
+            let time = scene.theta_times_s.get(k)?;
+            let point = found.history.get((time / GRID_S).round() as usize)?;
+            return Some(N::from_f64(self.sign) * point.rotation_rad);
+        }
+        match quantity {
+            "uplift_time_s" => found.uplift_time_s,
+            "impact_1_speed_rad_s" => {
+                found.impacts.first().map(|i| i.speed_before_rad_s)
+            }
+            "peak_ratio" => (!falls).then_some(found.peak_ratio),
+            "peak_time_s" => found.peak_time_s.filter(|_| !falls),
+            "rest_time_s" => found.rest_time_s,
+            "overturning_time_s" => match found.outcome {
+                Outcome::Overturned { time_s, .. } => Some(time_s),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    fn value(&self, scene: &Scene, quantity: &str) -> Option<Value> {
+        match quantity {
+            "fate" => Some(Value::Fate(self.fate().into())),
+            "impacts" => {
+                Some(Value::Count(self.impacts(scene.impacts_until_s) as u64))
+            }
+            _ => {
+                self.number(scene, quantity).map(|x| Value::Number(x.to_f64()))
+            }
+        }
+    }
+}
+
+/// The answers of the core in double precision, as it comes.
+///
+/// # Errors
+/// Why the core refused a scene.
+pub fn own_answers() -> Result<Answers, String> {
+    answers_of(Engine::double)
+}
+
+/// The answers of a run of each scene.
+///
+/// # Errors
+/// Those of the runs.
+pub fn answers_of<N: Real>(
+    run: impl Fn(&Scene) -> Result<Engine<N>, String>,
+) -> Result<Answers, String> {
+    let set = reference();
+    let runs: Vec<Engine<N>> =
+        set.scenes.iter().map(run).collect::<Result<_, _>>()?;
+    let mut answers = Answers::none();
+    for (place, item) in set.items.iter().enumerate() {
+        let (scene, run) = (set.scene(item), &runs[item.scene]);
+        answers.set(place, run.value(scene, &item.quantity));
+    }
+    Ok(answers)
+}

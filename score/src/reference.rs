@@ -1,0 +1,303 @@
+//! The data set: scenes, certified values, and the answers of wrong models.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::str::FromStr;
+use std::sync::LazyLock;
+
+use rocking::excitation::{PulseKind, PulseName};
+use rocking::integrator::{Model, Overturning};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// The scenes and what is asked of each, as JSON.
+pub const SCENES: &str = include_str!("../../fixtures/benchmark/scenes.json");
+const CERTIFIED: &str = include_str!("../../fixtures/benchmark/certified.csv");
+const WRONG: &str = include_str!("../../fixtures/benchmark/wrong-models.csv");
+const MISTAKES: &str = include_str!("../../fixtures/benchmark/mistakes.csv");
+
+/// Inputs whose relative derivatives are known, as the columns name them.
+pub const INPUTS: [&str; 5] = ["alpha", "p", "eta", "size", "clock"];
+
+/// A block, what moves it, and what is asked; inputs in SI units.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Scene {
+    /// Its name, unique in the set.
+    pub name: String,
+    /// Level of difficulty, 1 to 5.
+    pub level: u8,
+    /// Its level in words.
+    pub kind: String,
+    /// Equation of motion.
+    #[serde(deserialize_with = "by_name")]
+    pub equation: Model,
+    /// What ends the run.
+    #[serde(deserialize_with = "by_name")]
+    pub overturning: Overturning,
+    /// Slenderness angle, rad.
+    pub alpha_rad: f64,
+    /// Frequency parameter, rad/s.
+    pub p_rad_s: f64,
+    /// Ratio of angular velocities at an impact.
+    pub eta: f64,
+    /// Gravity, m/s2.
+    pub g_m_s2: f64,
+    /// Rotation from which the block is released, rad.
+    pub initial_theta_rad: f64,
+    /// What moves the ground.
+    pub excitation: Excitation,
+    /// When the rotation is asked, s.
+    pub theta_times_s: Vec<f64>,
+    /// Until when impacts are counted, s.
+    pub impacts_until_s: f64,
+    /// Everything that is asked has happened before, s.
+    pub end_s: f64,
+}
+
+/// Ground motion of a scene.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(try_from = "Fields")]
+pub enum Excitation {
+    /// None.
+    Free,
+    /// A pulse, its amplitude in m/s2.
+    Pulse(PulseKind),
+    /// Samples in m/s2 at an interval in s, linear between them.
+    Samples {
+        /// Interval, s.
+        dt_s: f64,
+        /// Samples, m/s2.
+        samples_m_s2: Vec<f64>,
+    },
+}
+
+/// An excitation as the file has it.
+#[derive(Deserialize)]
+struct Fields {
+    kind: String,
+    samples_m_s2: Option<Vec<f64>>,
+    #[serde(flatten)]
+    numbers: BTreeMap<String, serde_json::Value>,
+}
+
+impl TryFrom<Fields> for Excitation {
+    type Error = String;
+
+    fn try_from(fields: Fields) -> Result<Self, String> {
+        let number = |name: &str| {
+            let found = fields.numbers.get(name);
+            found.and_then(serde_json::Value::as_f64).ok_or_else(|| {
+                format!("excitation {}: no number {name}", fields.kind)
+            })
+        };
+        match (fields.kind.as_str(), &fields.samples_m_s2) {
+            ("free", None) => Ok(Self::Free),
+            ("samples", Some(samples)) => Ok(Self::Samples {
+                dt_s: number("dt_s")?,
+                samples_m_s2: samples.clone(),
+            }),
+            (name, _) => {
+                use rocking::excitation::PulseParameter as P;
+                let name: PulseName = text(name.parse())?;
+                let kind = name.kind(|parameter| match parameter {
+                    P::Amplitude => number("amplitude_m_s2"),
+                    P::Omega => number("omega_rad_s"),
+                    P::Duration => number("duration_s"),
+                    P::Period => number("period_s"),
+                    P::Cycles => number("cycles"),
+                    other => Err(format!("no pulse with {other:?}")),
+                });
+                kind.map(Self::Pulse)
+            }
+        }
+    }
+}
+
+fn text<T, E: Display>(found: Result<T, E>) -> Result<T, String> {
+    found.map_err(|error| error.to_string())
+}
+
+fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err: Display>>(
+    from: D,
+) -> Result<T, D::Error> {
+    String::deserialize(from)?.parse().map_err(D::Error::custom)
+}
+
+/// What a code says of a quantity.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// The fate, as the core names it.
+    Fate(String),
+    /// A number of impacts.
+    Count(u64),
+    /// A time, a rotation, a speed or a ratio.
+    Number(f64),
+}
+
+/// Names of fates.
+const FATES: [&str; 3] = ["no-uplift", "rocked", "overturned"];
+
+impl Value {
+    /// Reads the value of a quantity.
+    ///
+    /// # Errors
+    /// What was expected.
+    pub fn parse(quantity: &str, text: &str) -> Result<Self, String> {
+        match quantity {
+            "fate" if FATES.contains(&text) => Ok(Self::Fate(text.into())),
+            "fate" => Err(format!("expected one of {}", FATES.join(", "))),
+            "impacts" => text
+                .parse::<f64>()
+                .ok()
+                .filter(|n| *n >= 0.0 && n.fract() == 0.0 && *n < 1e15)
+                .map(|n| Self::Count(n as u64))
+                .ok_or_else(|| "expected a count".into()),
+            _ => text
+                .parse::<f64>()
+                .ok()
+                .filter(|x| x.is_finite())
+                .map(Self::Number)
+                .ok_or_else(|| {
+                    "expected a finite number, or nothing where it is missing"
+                        .into()
+                }),
+        }
+    }
+
+    /// The number, where it is one.
+    #[must_use]
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+}
+
+/// A quantity of a scene: its certified value, and what is known of it.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// Index of the scene.
+    pub scene: usize,
+    /// The quantity.
+    pub quantity: String,
+    /// The certified value, all digits.
+    pub digits: String,
+    /// The certified value.
+    pub value: Value,
+    /// Uncertainty of the certified value.
+    pub uncertainty: f64,
+    /// Sum of the relative derivatives by the inputs, in size.
+    pub condition: f64,
+    /// Digits that double precision can get; none of fates and counts.
+    pub attainable: Option<f64>,
+    /// Relative derivatives by [`INPUTS`].
+    pub rates: [f64; 5],
+    /// What each wrong model says; none where it has no such value.
+    pub wrong: Vec<Option<Value>>,
+}
+
+/// The data set.
+#[derive(Debug)]
+pub struct Reference {
+    /// Scenes by level.
+    pub scenes: Vec<Scene>,
+    /// Quantities, scene after scene.
+    pub items: Vec<Item>,
+    /// Names of the wrong models; `+` joins two mistakes.
+    pub models: Vec<String>,
+    /// For each single mistake and each input: what it is, what to look at.
+    pub mistakes: BTreeMap<String, [String; 2]>,
+    places: BTreeMap<(String, String), usize>,
+}
+
+#[derive(Deserialize)]
+struct File {
+    scenes: Vec<Scene>,
+}
+
+/// The data set, read once.
+///
+/// # Panics
+/// Never: the files are part of the program, and a test reads them.
+#[must_use]
+pub fn reference() -> &'static Reference {
+    static SET: LazyLock<Reference> = LazyLock::new(|| {
+        Reference::read().unwrap_or_else(|e| panic!("fixtures/benchmark: {e}"))
+    });
+    &SET
+}
+
+fn lines(csv: &str) -> csv::Reader<&[u8]> {
+    csv::Reader::from_reader(csv.as_bytes())
+}
+
+impl Reference {
+    fn read() -> Result<Self, String> {
+        let File { scenes } = text(serde_json::from_str(SCENES))?;
+        let mut wrong = lines(WRONG);
+        let models = text(wrong.headers())?.iter().skip(2);
+        let models = models.map(str::to_owned).collect();
+        let mut items = Vec::new();
+        let mut places = BTreeMap::new();
+        for (row, others) in lines(CERTIFIED).records().zip(wrong.records()) {
+            let (row, others) = (text(row)?, text(others)?);
+            let place = (row[0].to_owned(), row[1].to_owned());
+            if !others.iter().take(2).eq([&place.0, &place.1]) {
+                return Err(format!("wrong-models.csv: {place:?} expected"));
+            }
+            let scene = scenes.iter().position(|s| s.name == place.0);
+            let item =
+                item(scene.ok_or_else(|| row[0].to_owned())?, &row, &others)?;
+            if places.insert(place, items.len()).is_some() {
+                return Err(format!("{}, {} twice", &row[0], &row[1]));
+            }
+            items.push(item);
+        }
+        let mut mistakes = BTreeMap::new();
+        for row in lines(MISTAKES).records() {
+            let row = text(row)?;
+            let about = [row[1].to_owned(), row[2].to_owned()];
+            mistakes.insert(row[0].to_owned(), about);
+        }
+        Ok(Self { scenes, items, models, mistakes, places })
+    }
+
+    /// Index of a quantity of a scene.
+    #[must_use]
+    pub fn place(&self, scene: &str, quantity: &str) -> Option<usize> {
+        self.places.get(&(scene.to_owned(), quantity.to_owned())).copied()
+    }
+
+    /// The scene of an item.
+    #[must_use]
+    pub fn scene(&self, item: &Item) -> &Scene {
+        &self.scenes[item.scene]
+    }
+}
+
+fn item(
+    scene: usize,
+    row: &csv::StringRecord,
+    others: &csv::StringRecord,
+) -> Result<Item, String> {
+    let number = |k: usize| text(row[k].parse::<f64>());
+    let value = Value::parse(&row[1], &row[2])?;
+    let wrong = others.iter().skip(2).map(|cell| match cell {
+        "" => Ok(None),
+        "=" => Ok(Some(value.clone())),
+        cell => Value::parse(&row[1], cell).map(Some),
+    });
+    Ok(Item {
+        scene,
+        quantity: row[1].to_owned(),
+        digits: row[2].to_owned(),
+        wrong: wrong.collect::<Result<_, _>>()?,
+        value,
+        uncertainty: number(3)?,
+        condition: number(4)?,
+        attainable: (!row[5].is_empty()).then(|| number(5)).transpose()?,
+        rates: [number(6)?, number(7)?, number(8)?, number(9)?, number(10)?],
+    })
+}

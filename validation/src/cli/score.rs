@@ -1,0 +1,70 @@
+//! `rocking score`: how right a rocking code is, and what is wrong with it.
+
+use std::path::PathBuf;
+
+use rocking_common::files::Outputs;
+use rocking_report::scored::page;
+use rocking_score::{Answers, Score, own_answers, score};
+
+use super::shared::JsonArg;
+use crate::failure::Failure;
+use crate::input;
+
+/// Scores the answers of any rocking code, and names its mistake.
+///
+/// ANSWERS.csv has the columns `scene,quantity,value`. The scenes, in SI
+/// units, and what is asked of each lie in fixtures/benchmark, whose README
+/// needs no other file. A missing line is no answer. Digits are -log10 of
+/// the relative error, up to what double precision can get. The diagnosis
+/// compares all answers with those of 34 wrong models and of 36 pairs of
+/// them, and says which one explains the answers: none, one or several that
+/// the answers cannot tell apart, or an unknown one.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  \
+    rocking score answers.csv\n  \
+    rocking score answers.csv --out page.html\n  \
+    rocking score --write-answers ours.csv")]
+pub struct Args {
+    /// Answers of a code; `-` is standard input.
+    #[arg(
+        value_name = "ANSWERS.csv",
+        required_unless_present = "write_answers"
+    )]
+    answers: Option<PathBuf>,
+    /// Write a page with a figure: digits against difficulty, beside known
+    /// codes.
+    #[arg(long, value_name = "PAGE.html", requires = "answers")]
+    out: Option<PathBuf>,
+    /// Write the answers of this program; `-` is standard output.
+    #[arg(
+        long,
+        value_name = "OUT.csv",
+        conflicts_with_all = ["answers", "out", "json"]
+    )]
+    write_answers: Option<PathBuf>,
+    #[command(flatten)]
+    json: JsonArg,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// [`Failure`] for answers that are refused.
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let mut outputs = Outputs::of(args.answers.iter().cloned().collect());
+    if let Some(out) = outputs.open_some(args.write_answers.as_ref())? {
+        out.write(own_answers().map_err(Failure::input)?.csv())?;
+    }
+    let Some(path) = &args.answers else { return Ok(()) };
+    let out = outputs.open_some(args.out.as_ref())?;
+    let answers = Answers::parse(&input::text(path)?, path)?;
+    let found = score(&answers);
+    if let Some(out) = out {
+        out.write(page(&found))?;
+    }
+    if args.json.json {
+        return args.json.show(&found);
+    }
+    // Every quantity is in the JSON and on the page.
+    args.json.show(&Score { quantities: Vec::new(), ..found })
+}

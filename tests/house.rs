@@ -441,7 +441,8 @@ fn the_harness_stands_on_the_public_core() {
             problems.push(format!("{path}: an oracle uses the core"));
         }
     }
-    for path in sources(&["src", "exchange/src", "score/src", "synthesis/src"]) {
+    for path in sources(&["src", "exchange/src", "score/src", "synthesis/src"])
+    {
         let tokens = tokens(&read(&path));
         if holds(&tokens, &["doc", "(", "hidden", ")"]) {
             problems.push(format!("{path}: public but hidden"));

@@ -85,7 +85,10 @@ impl Answers {
         Ok(())
     }
 
-    pub(crate) fn set(&mut self, place: usize, value: Option<Value>) {
+    /// Sets the answer at a place of [`Reference::items`].
+    ///
+    /// [`Reference::items`]: crate::Reference::items
+    pub fn set(&mut self, place: usize, value: Option<Value>) {
         self.0[place] = value;
     }
 

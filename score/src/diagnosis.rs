@@ -176,8 +176,10 @@ fn given(answers: &Answers) -> Vec<Given> {
     found.collect()
 }
 
-/// Says which mistake explains the answers, if any.
-pub(crate) fn diagnose(answers: &Answers) -> Diagnosis {
+/// Says which mistake explains the answers, if any; mistakes `withheld` are
+/// not known.
+#[must_use]
+pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let given = given(answers);
     let numbers = given.iter().filter(|g| g.value.number().is_some());
     if numbers.count() < FEWEST {
@@ -187,7 +189,7 @@ pub(crate) fn diagnose(answers: &Answers) -> Diagnosis {
     let still = vec![0.0; given.len()];
     let errors = given.iter().map(|g| g.error).collect();
     let none = Hypothesis::new(&given, errors, still);
-    let known = models(&given, none.likelihood + GAIN);
+    let known = models(&given, withheld, none.likelihood + GAIN);
     let (explanations, scatter) = if known.is_empty() {
         inputs(&given, none.likelihood + GAIN)
     } else {
@@ -241,8 +243,11 @@ impl Found {
 }
 
 /// The wrong models that explain the answers.
-fn models(given: &[Given], least: f64) -> Found {
+fn models(given: &[Given], withheld: &[&str], least: f64) -> Found {
     let names = reference().models.iter().enumerate();
+    let names = names.filter(|(_, name)| {
+        !name.split('+').any(|name| withheld.contains(&name))
+    });
     let all = names.map(|(model, name)| {
         let of = |g: &Given| g.item.wrong[model].clone();
         let left = given.iter().map(|g| {

@@ -24,7 +24,7 @@ mod reference;
 mod score;
 
 pub use answers::Answers;
-pub use diagnosis::{Diagnosis, Explanation, Mistake, Verdict};
+pub use diagnosis::{Diagnosis, Explanation, Mistake, Verdict, diagnose};
 pub use own::{Engine, answers_of, own_answers};
 pub use reference::{
     Excitation, INPUTS, Item, Reference, SCENES, Scene, Value, reference,

@@ -113,7 +113,9 @@ fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
         quantity: &item.quantity,
         value: value.clone(),
         certified: &item.value,
-        digits: found.zip(cap).map(|(digits, cap)| digits.clamp(0.0, cap.max(0.0))),
+        digits: found
+            .zip(cap)
+            .map(|(digits, cap)| digits.clamp(0.0, cap.max(0.0))),
         attainable_digits: cap,
         attained,
     }
@@ -144,7 +146,7 @@ pub fn score(answers: &Answers) -> Score {
         asked: set.items.len(),
         answered: quantities.len(),
         levels,
-        diagnosis: diagnose(answers),
+        diagnosis: diagnose(answers, &[]),
         quantities,
     }
 }

@@ -22,6 +22,7 @@ mod points;
 mod precise;
 mod response;
 mod schemes;
+mod scored;
 mod sines;
 mod solution;
 mod spectrum;
@@ -118,6 +119,8 @@ pub const METHODS: &[(&str, Run)] = &[
     ("rates-by-earthquake", statistics::rates),
     ("earthquakes-of-other-packages", statistics::other_packages),
     ("bias", statistics::bias),
+    ("certified-values", scored::certified),
+    ("diagnosis", scored::diagnosis),
     ("intensity", intensity::measures),
     ("velocity-pulse", velocity_pulse::pulses),
 ];

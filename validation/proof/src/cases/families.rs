@@ -12,6 +12,7 @@ macro_rules! families {
 
 /// The case files, by family, embedded.
 pub const FAMILIES: &[(&str, &str)] = families![
+    "benchmark",
     "block-geometry",
     "calibration",
     "certificate",

@@ -1,0 +1,205 @@
+//! The reference data set for other codes: its certified values against the
+//! core in double-double, and its diagnosis against codes whose mistake is
+//! known.
+
+use anyhow::{Result, anyhow};
+use rocking::number::Real as _;
+use rocking::number::double::DoubleDouble;
+use rocking::streams::{Streams, standard_normal};
+use rocking_score::{
+    Answers, Diagnosis, Engine as Run, Excitation, Item, Scene as Asked,
+    Value, Verdict, answers_of, diagnose, reference,
+};
+
+use super::method::{Answer, Context, WrongModel};
+use crate::arithmetic::{RoundedConstants, Wide, decimal};
+use crate::engine::Core;
+use crate::scene::{Forcing, Scene, Trace};
+
+/// The scene as a wrong model of the input has it.
+fn mistaken(context: &Context, scene: &Asked) -> Asked {
+    let mut scene = scene.clone();
+    if context.is(WrongModel::EtaSquared) {
+        scene.eta *= scene.eta;
+    }
+    scene
+}
+
+/// Largest error of a certified value over its size and condition; fates and
+/// counts that differ.
+pub fn certified(context: &Context, answer: &mut Answer) -> Result<()> {
+    let (mut worst, mut wrong) = (0.0_f64, 0.0);
+    for (index, scene) in reference().scenes.iter().enumerate() {
+        let scene = mistaken(context, scene);
+        let found = match context.is(WrongModel::F64Constants) {
+            true => errors::<RoundedConstants>(index, &scene),
+            false => errors::<DoubleDouble>(index, &scene),
+        };
+        let (error, others) = found?;
+        worst = worst.max(error);
+        wrong += others;
+    }
+    answer.put("error-over-condition", [worst], [0.0]);
+    answer.put("fates-and-counts-wrong", [wrong], [0.0]);
+    Ok(())
+}
+
+fn errors<N: Wide>(index: usize, scene: &Asked) -> Result<(f64, f64)> {
+    let run = Run::<N>::precise(scene).map_err(|e| anyhow!(e))?;
+    let (mut worst, mut wrong) = (0.0_f64, 0.0);
+    let items = reference().items.iter();
+    for item in items.filter(|item| item.scene == index) {
+        let right = match &item.value {
+            Value::Fate(fate) => fate == run.fate(),
+            Value::Count(n) => *n == run.impacts(scene.impacts_until_s) as u64,
+            Value::Number(size) => {
+                let due = decimal(&item.digits);
+                let found = run.number(scene, &item.quantity);
+                let error = found.zip(due).map_or(f64::INFINITY, |(a, b)| {
+                    (a.wide() - b).abs().to_f64() / size.abs()
+                });
+                worst = worst.max(error / item.condition.max(1.0));
+                true
+            }
+        };
+        wrong += f64::from(u8::from(!right));
+    }
+    Ok((worst, wrong))
+}
+
+/// Shares of codes whose diagnosis is right: of the right code, of every
+/// wrong model and pair on its own answers, of wrong models by the integrator
+/// of the harness; and the share of wrong models that are taken for another
+/// one where they are not known.
+pub fn diagnosis(context: &Context, answer: &mut Answer) -> Result<()> {
+    input! { context;
+        /// Relative scatter of the answers.
+        noise: Vec<f64>,
+        /// Wrong models that the harness runs itself.
+        naive: Vec<WrongModel>,
+    }
+    let set = reference();
+    let right = answers_of(|scene| Run::double(&mistaken(context, scene)))
+        .map_err(|e| anyhow!(e))?;
+    for scatter in noise {
+        let noisy =
+            |name: &str, right: &dyn Fn(usize, &Item) -> Option<Value>| {
+                let streams = Streams::new(&format!("{scatter}/{name}"), 0);
+                let mut stream = streams.stream(0);
+                let mut answers = Answers::none();
+                for (place, item) in set.items.iter().enumerate() {
+                    let value = right(place, item).map(|value| match value {
+                        Value::Number(x) => Value::Number(
+                            x * (1.0 + scatter * standard_normal(&mut stream)),
+                        ),
+                        other => other,
+                    });
+                    answers.set(place, value);
+                }
+                answers
+            };
+        let own = noisy("right", &|place, _| right.get(place).cloned());
+        let none = diagnose(&own, &[]).verdict == Verdict::None;
+        answer.see("right-code-told-none", [f64::from(u8::from(none))]);
+        let (mut named, mut guessed, mut singles) = (0.0, 0.0, 0.0);
+        for (model, name) in set.models.iter().enumerate() {
+            let own = noisy(name, &|_, item| item.wrong[model].clone());
+            let found = diagnose(&own, &[]);
+            let good = names(&found) == [name.clone()];
+            named += f64::from(u8::from(good));
+            if !name.contains('+') {
+                let found = diagnose(&own, &[name.as_str()]);
+                let other =
+                    found.explanations.iter().any(|one| one.factor.is_none());
+                guessed += f64::from(u8::from(other));
+                singles += 1.0;
+            }
+        }
+        answer.see("wrong-models-named", [named / set.models.len() as f64]);
+        answer.see("unknown-models-guessed", [guessed / singles]);
+        let mut good = 0.0;
+        for wrong in &naive {
+            let runs: Vec<Trace> = set
+                .scenes
+                .iter()
+                .map(|scene| {
+                    let mut scene = scene_of(scene);
+                    wrong.alter(&mut scene);
+                    Ok(wrong.engine(&Core).respond(&scene)?)
+                })
+                .collect::<Result<_>>()?;
+            let own = noisy(wrong.name(), &|_, item| {
+                seen(&set.scenes[item.scene], &runs[item.scene], item)
+            });
+            let found = names(&diagnose(&own, &[]));
+            good += f64::from(u8::from(found == [wrong.name()]));
+        }
+        answer.see("models-of-the-harness-named", [good / naive.len() as f64]);
+    }
+    Ok(())
+}
+
+/// The explanations, each as the names of its mistakes.
+fn names(found: &Diagnosis) -> Vec<String> {
+    let explanations = found.explanations.iter().map(|one| {
+        let all = one.mistakes.iter().map(|mistake| mistake.name.as_str());
+        all.collect::<Vec<_>>().join("+")
+    });
+    explanations.collect()
+}
+
+/// A scene of the data set as the harness has it.
+fn scene_of(asked: &Asked) -> Scene {
+    let forcing = match &asked.excitation {
+        Excitation::Free => {
+            Forcing::Free { rotation_rad: asked.initial_theta_rad }
+        }
+        Excitation::Pulse(kind) => Forcing::Pulse(*kind),
+        Excitation::Samples { dt_s, samples_m_s2 } => {
+            Forcing::samples(*dt_s, samples_m_s2.clone())
+        }
+    };
+    let block = [asked.alpha_rad, asked.p_rad_s, asked.g_m_s2];
+    Scene::new(block, asked.eta, forcing)
+        .in_equation(asked.equation)
+        .to(asked.overturning)
+}
+
+/// What a trace of the harness says of a quantity; nothing of rotations.
+fn seen(asked: &Asked, trace: &Trace, item: &Item) -> Option<Value> {
+    let falls = trace.overturned_s.is_some();
+    let quantity = item.quantity.as_str();
+    let number = match quantity {
+        "fate" => {
+            let moves = trace.uplifts > 0 || asked.initial_theta_rad != 0.0;
+            let fate = match (falls, moves) {
+                (true, _) => "overturned",
+                (false, true) => "rocked",
+                (false, false) => "no-uplift",
+            };
+            return Some(Value::Fate(fate.into()));
+        }
+        "impacts" => {
+            let until = asked.impacts_until_s;
+            let all = trace.impacts.iter();
+            let count = all.filter(|i| i.time_s <= until).count();
+            return Some(Value::Count(count as u64));
+        }
+        "uplift_time_s" => trace.uplift_s,
+        "peak_ratio" => {
+            (!falls && trace.peak_ratio > 0.0).then_some(trace.peak_ratio)
+        }
+        "peak_time_s" => trace.peak_time_s,
+        "rest_time_s" => trace.rest_s,
+        "overturning_time_s" => trace.overturned_s,
+        "impact_1_speed_rad_s" => {
+            trace.impacts.first().map(|i| i.speed_before_rad_s)
+        }
+        _ => {
+            let place = quantity.strip_prefix("impact_")?;
+            let place: usize = place.strip_suffix("_time_s")?.parse().ok()?;
+            trace.impacts.get(place - 1).map(|i| i.time_s)
+        }
+    };
+    number.map(Value::Number)
+}

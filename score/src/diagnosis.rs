@@ -3,13 +3,14 @@
 //! Each hypothesis predicts every answer: the certified values (no mistake),
 //! the values of a wrong model or of two at once, or the certified values
 //! moved along one input's derivatives. What is left of an answer is judged
-//! against a scatter `s sqrt(K)`, K the condition of the quantity, by the
-//! heavy-tailed law of Cauchy, with the `s` that suits the hypothesis best.
+//! against a scatter `s K^n`, K the condition of the quantity, by the
+//! heavy-tailed law of Cauchy, with the `s` and the `n` (0, 1/2 or 1) that
+//! suit the hypothesis best.
 
 use serde::Serialize;
 
 use crate::answers::Answers;
-use crate::reference::{INPUTS, Item, Value, reference};
+use crate::reference::{Excitation, INPUTS, Item, Value, reference};
 
 /// Fewest answers of which anything is said.
 const FEWEST: usize = 12;
@@ -27,8 +28,15 @@ const BEYOND: f64 = 10.0;
 const COARSEST: f64 = 1e-2;
 /// Relative error within which a right code answers, at a condition of 1.
 const RIGHT: f64 = 1e-3;
+/// Largest product of a factor less one and a condition for which an answer
+/// moves along a straight line.
+const STRAIGHT: f64 = 0.3;
+/// Share of the answers that must agree so well where no mistake is found.
+const AGREE: f64 = 0.99;
 /// Scatters that are tried: from the digits of the wrong models' values up.
 const SCATTERS: std::ops::Range<i32> = -36..0;
+/// Powers of the condition with which the scatter may grow.
+const POWERS: [f64; 3] = [0.0, 0.5, 1.0];
 
 /// What is wrong with a code.
 #[derive(Clone, Debug, Serialize)]
@@ -89,6 +97,7 @@ fn mistake(name: &str) -> Mistake {
 }
 
 /// An answer, and how far it may scatter.
+#[derive(Clone)]
 struct Given {
     item: &'static Item,
     value: Value,
@@ -111,23 +120,33 @@ struct Hypothesis {
     left: Vec<f64>,
     /// Distance of each prediction from the certified value.
     moved: Vec<f64>,
-    scatter: f64,
+    scatter: Scatter,
     likelihood: f64,
 }
 
+/// Scatter of answers: at a condition of 1, and the power of the condition
+/// with which it grows.
+#[derive(Clone, Copy)]
+struct Scatter(f64, f64);
+
 impl Hypothesis {
     fn new(given: &[Given], left: Vec<f64>, moved: Vec<f64>) -> Self {
-        let fit = |scatter: f64| {
+        let fit = |scatter: Scatter| {
             let terms = given.iter().zip(&left).map(|(given, left)| {
-                let x = left / given.allowed(scatter);
-                let own = given.value.number().map_or(0.0, |_| scatter.ln());
+                let allowed = given.allowed(scatter);
+                let x = left / allowed;
+                let own = given.value.number().map_or(0.0, |_| allowed.ln());
                 -own - (x * x).ln_1p()
             });
             (scatter, terms.sum::<f64>())
         };
-        let fits = SCATTERS.map(|k| fit(10_f64.powf(0.25 * f64::from(k))));
+        let fits = SCATTERS.flat_map(|k| {
+            let scatter = 10_f64.powf(0.25 * f64::from(k));
+            POWERS.map(|power| fit(Scatter(scatter, power)))
+        });
         let best = fits.max_by(|a, b| a.1.total_cmp(&b.1));
-        let (scatter, likelihood) = best.unwrap_or((1.0, f64::NEG_INFINITY));
+        let worst = (Scatter(1.0, 0.0), f64::NEG_INFINITY);
+        let (scatter, likelihood) = best.unwrap_or(worst);
         Self { left, moved, scatter, likelihood }
     }
 
@@ -146,13 +165,22 @@ impl Hypothesis {
     fn explains(&self, given: &[Given]) -> bool {
         let (all, good) = self.account(given);
         let enough = good as f64 >= SHARE * all as f64;
-        good >= 3 && enough && self.scatter <= COARSEST
+        good >= 3 && enough && self.scatter.0 <= COARSEST
     }
 }
 
 impl Given {
-    fn allowed(&self, scatter: f64) -> f64 {
-        scatter * self.condition.sqrt()
+    /// How the value moves with an input; a release is no ground motion, of
+    /// whose size one may be wrong.
+    fn rate(&self, input: usize) -> f64 {
+        let scene = reference().scene(self.item);
+        let still = matches!(scene.excitation, Excitation::Free);
+        let size = INPUTS[input] == "size";
+        if size && still { 0.0 } else { self.item.rates[input] }
+    }
+
+    fn allowed(&self, Scatter(scatter, power): Scatter) -> f64 {
+        scatter * self.condition.powf(power)
     }
 }
 
@@ -190,20 +218,20 @@ pub fn diagnose(answers: &Answers, withheld: &[&str]) -> Diagnosis {
     let errors = given.iter().map(|g| g.error).collect();
     let none = Hypothesis::new(&given, errors, still);
     let known = models(&given, withheld, none.likelihood + GAIN);
-    let (explanations, scatter) = if known.is_empty() {
-        inputs(&given, none.likelihood + GAIN)
-    } else {
-        known
-    }
-    .into_parts(&given);
+    let (explanations, scatter) =
+        if known.is_empty() { inputs(&given) } else { known }
+            .into_parts(&given);
     if !explanations.is_empty() {
         let verdict = Verdict::Known;
         return Diagnosis { verdict, explanations, scatter };
     }
-    let right = given.iter().filter(|g| g.error <= g.allowed(RIGHT)).count();
-    let agrees = right as f64 >= 0.95 * given.len() as f64;
+    let right = given
+        .iter()
+        .filter(|g| g.error <= g.allowed(Scatter(RIGHT, 0.5)))
+        .count();
+    let agrees = right as f64 >= AGREE * given.len() as f64;
     let verdict = if agrees { Verdict::None } else { Verdict::Unknown };
-    Diagnosis { verdict, explanations, scatter: Some(none.scatter) }
+    Diagnosis { verdict, explanations, scatter: Some(none.scatter.0) }
 }
 
 /// Hypotheses that explain the answers, each with its names and its factor.
@@ -215,7 +243,7 @@ impl Found {
     }
 
     fn into_parts(self, given: &[Given]) -> (Vec<Explanation>, Option<f64>) {
-        let scatter = self.0.first().map(|(_, _, first)| first.scatter);
+        let scatter = self.0.first().map(|(_, _, first)| first.scatter.0);
         let explanations = self.0.into_iter().map(|(names, factor, one)| {
             let (deviating, explained) = one.account(given);
             let mistakes = names.iter().map(|name| mistake(name)).collect();
@@ -263,44 +291,64 @@ fn models(given: &[Given], withheld: &[&str], least: f64) -> Found {
 }
 
 /// The inputs of which one factor explains the answers.
-fn inputs(given: &[Given], least: f64) -> Found {
-    let all = (0..INPUTS.len()).filter_map(|input| {
-        let rate = |g: &Given| g.item.rates[input];
-        // The weighted median of what each answer says of the factor.
-        let mut says: Vec<(f64, f64)> = given
-            .iter()
-            .filter_map(|g| {
-                let (x, c) = g.value.number().zip(g.item.value.number())?;
-                let says = (x - c) / c / rate(g);
-                let weight = rate(g).abs() / g.condition.sqrt();
-                says.is_finite().then_some((says, weight))
-            })
-            .collect();
-        says.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let half = 0.5 * says.iter().map(|s| s.1).sum::<f64>();
-        let mut sum = 0.0;
-        let middle = says.iter().find(|s| {
-            sum += s.1;
-            sum >= half
-        });
-        let by = middle?.0;
-        let moved: Vec<f64> = given
-            .iter()
-            .map(|g| g.value.number().map_or(0.0, |_| rate(g) * by))
-            .collect();
-        let left = given.iter().zip(&moved).map(|(g, moved)| {
-            let Some((x, c)) = g.value.number().zip(g.item.value.number())
-            else {
-                return g.error;
-            };
-            // What is left of a straight line: of the second order.
+fn inputs(all: &[Given]) -> Found {
+    let found = (0..INPUTS.len()).flat_map(|input| {
+        let Some(by) = factor_less_one(all, input) else {
+            return Found(Vec::new()).0;
+        };
+        // Where a straight line holds, which must be most of the answers.
+        let holds = |g: &&Given| by.abs() * g.condition < STRAIGHT;
+        let given: Vec<Given> = all.iter().filter(holds).cloned().collect();
+        if 2 * given.len() < all.len() {
+            return Found(Vec::new()).0;
+        }
+        input_off(&given, input, by).0
+    });
+    let mut found: Vec<_> = found.collect();
+    found.sort_by(|a, b| b.2.likelihood.total_cmp(&a.2.likelihood));
+    found.truncate(1);
+    Found(found)
+}
+
+/// The factor on an input that the answers say, less one: the weighted median.
+fn factor_less_one(given: &[Given], input: usize) -> Option<f64> {
+    let says = given.iter().filter_map(|g| {
+        let (x, c) = g.value.number().zip(g.item.value.number())?;
+        let rate = g.rate(input);
+        let says = (x - c) / c / rate;
+        says.is_finite().then_some((says, rate.abs() / g.condition))
+    });
+    let mut says: Vec<(f64, f64)> = says.collect();
+    says.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = 0.5 * says.iter().map(|s| s.1).sum::<f64>();
+    let mut sum = 0.0;
+    let middle = says.iter().find(|s| {
+        sum += s.1;
+        sum >= half
+    });
+    Some(middle?.0).filter(|by| *by != 0.0)
+}
+
+/// The answers explained by a factor on one input, if they are.
+fn input_off(given: &[Given], input: usize, by: f64) -> Found {
+    let moved: Vec<f64> = given
+        .iter()
+        .map(|g| g.value.number().map_or(0.0, |_| g.rate(input) * by))
+        .collect();
+    let left = given.iter().zip(&moved).map(|(g, moved)| {
+        let numbers = g.value.number().zip(g.item.value.number());
+        numbers.map_or(g.error, |(x, c)| {
+            // What is left of a straight line is of the second order.
             let curved = (by * g.condition).powi(2);
             (((x - c) / c - moved).abs() - curved).clamp(0.0, 1.0)
-        });
-        let left = left.collect();
-        let moved = moved.into_iter().map(|m| m.abs().min(1.0)).collect();
-        let one = Hypothesis::new(given, left, moved);
-        Some((vec![INPUTS[input].to_owned()], Some(1.0 + by), one))
+        })
     });
-    Found::of(all.collect(), given, least)
+    let left = left.collect();
+    let moved = moved.into_iter().map(|m| m.abs().min(1.0)).collect();
+    let one = Hypothesis::new(given, left, moved);
+    let names = vec![INPUTS[input].to_owned()];
+    let errors = given.iter().map(|g| g.error).collect();
+    let none = Hypothesis::new(given, errors, vec![0.0; given.len()]);
+    let least = none.likelihood + GAIN;
+    Found::of(vec![(names, Some(1.0 + by), one)], given, least)
 }

@@ -16,7 +16,7 @@ use crate::input;
 /// units, and what is asked of each lie in fixtures/benchmark, whose README
 /// needs no other file. A missing line is no answer. Digits are -log10 of
 /// the relative error, up to what double precision can get. The diagnosis
-/// compares all answers with those of 34 wrong models and of 36 pairs of
+/// compares all answers with those of 34 wrong models and of 15 pairs of
 /// them, and says which one explains the answers: none, one or several that
 /// the answers cannot tell apart, or an unknown one.
 #[derive(clap::Args)]

@@ -354,6 +354,27 @@ def text(found: object) -> str:
     return json.dumps(found, indent=1, sort_keys=True)
 
 
+def test_a_score_is_that_of_the_command_line(
+    house: House, command: Command
+) -> None:
+    lines = ["scene,quantity,value", "free-half,fate,rocked"]
+    lines += ["sine,uplift_time_s,0.12", "sine,impacts,3"]
+    answers = house.file("answers.csv", lines)
+
+    def solve(scene: dict[str, Any]) -> dict[str, Any]:
+        if scene["name"] == "free-half":
+            return {"fate": "rocked"}
+        if scene["name"] == "sine":
+            return {"uplift_time_s": 0.12, "impacts": 3}
+        return {}
+
+    said = json.loads(command("score", answers, "--json"))
+    for key in ("schema", "version"):
+        del said[key]
+    for found in (rk.score(answers), rk.score(solve)):
+        assert text(json.loads(found.to_json())) == text(said)
+
+
 def test_every_procedure_of_the_core_has_a_pair() -> None:
     paired = {name.split("::")[-1] for name, _ in PAIRS}
     # The sample is the file that the command writes, the next test; draws of

@@ -107,9 +107,16 @@ struct Given {
 }
 
 /// Relative distance of two values, 1 at most; 1 where one has no value.
+///
+/// Two counts beyond the certified one are alike: where a block rests too
+/// soon, its impacts are infinitely many, and a code stops somewhere.
 fn apart(item: &Item, a: &Value, b: Option<&Value>) -> f64 {
-    match (a.number(), b.and_then(Value::number), item.value.number()) {
-        (Some(a), Some(b), Some(unit)) => ((a - b) / unit).abs().min(1.0),
+    use Value::{Count, Number};
+    match (a, b, &item.value) {
+        (Number(a), Some(Number(b)), Number(unit)) => {
+            ((a - b) / unit).abs().min(1.0)
+        }
+        (Count(a), Some(Count(b)), Count(due)) if a > due && b > due => 0.0,
         _ => f64::from(u8::from(Some(a) != b)),
     }
 }

@@ -142,13 +142,14 @@ impl Hypothesis {
             let terms = given.iter().zip(&left).map(|(given, left)| {
                 let allowed = given.allowed(scatter);
                 let x = left / allowed;
-                let own = given.value.number().map_or(0.0, |_| allowed.ln());
-                -own - (x * x).ln_1p()
+                let own =
+                    given.value.number().map_or(0.0, |_| libm::log(allowed));
+                -own - libm::log1p(x * x)
             });
             (scatter, terms.sum::<f64>())
         };
         let fits = SCATTERS.flat_map(|k| {
-            let scatter = 10_f64.powf(0.25 * f64::from(k));
+            let scatter = libm::exp10(0.25 * f64::from(k));
             POWERS.map(|power| fit(Scatter(scatter, power)))
         });
         let best = fits.max_by(|a, b| a.1.total_cmp(&b.1));
@@ -187,7 +188,7 @@ impl Given {
     }
 
     fn allowed(&self, Scatter(scatter, power): Scatter) -> f64 {
-        scatter * self.condition.powf(power)
+        scatter * libm::pow(self.condition, power)
     }
 }
 
@@ -346,7 +347,8 @@ fn input_off(given: &[Given], input: usize, by: f64) -> Found {
         let numbers = g.value.number().zip(g.item.value.number());
         numbers.map_or(g.error, |(x, c)| {
             // What is left of a straight line is of the second order.
-            let curved = (by * g.condition).powi(2);
+            let bent = by * g.condition;
+            let curved = bent * bent;
             (((x - c) / c - moved).abs() - curved).clamp(0.0, 1.0)
         })
     });

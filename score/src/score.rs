@@ -102,7 +102,7 @@ pub fn codes() -> Vec<Code> {
 fn quantity_score(item: &'static Item, value: &Value) -> QuantityScore {
     let exact = item.value.number().zip(value.number());
     // The least error that a double can show is 0; it has every digit.
-    let found = exact.map(|(c, x)| -((x - c) / c).abs().log10());
+    let found = exact.map(|(c, x)| -libm::log10(((x - c) / c).abs()));
     let cap = item.attainable;
     let attained = match (found, cap) {
         (Some(digits), Some(cap)) => digits >= cap,
@@ -173,8 +173,8 @@ fn level_score(
     digits.sort_by(f64::total_cmp);
     let attained = given.iter().filter(|row| row.attained).count();
     let any = !given.is_empty();
-    let (fate, impacts): (fn(&Value) -> bool, fn(&Value) -> bool) =
-        (|v| matches!(v, Value::Fate(_)), |v| matches!(v, Value::Count(_)));
+    let fate: fn(&Value) -> bool = |v| matches!(v, Value::Fate(_));
+    let impacts: fn(&Value) -> bool = |v| matches!(v, Value::Count(_));
     LevelScore {
         level,
         kind: kind.unwrap_or_default(),

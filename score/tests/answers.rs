@@ -79,7 +79,7 @@ fn our_own_answers_have_every_digit_that_double_precision_can_get() {
         .filter(|q| !q.attained)
         .map(|q| {
             let (x, c) = (q.value.number(), q.certified.number());
-            let e = x.zip(c).map(|(x, c)| -((x - c) / c).abs().log10());
+            let e = x.zip(c).map(|(x, c)| ((x - c) / c).abs());
             format!(
                 "{} {}: {e:?} of {:?}",
                 q.scene, q.quantity, q.attainable_digits

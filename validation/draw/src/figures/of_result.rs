@@ -177,7 +177,7 @@ pub fn score_svg(score: &Score, conditions: &[f64], codes: &[Code]) -> String {
         all.filter_map(|(q, k)| Some((k.max(1.0), q.digits?))).collect();
     let (x, y): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
     let most = x.iter().fold(1e3, |most: f64, x| most.max(*x));
-    let line = [1.0, 1e12].map(|k: f64| (k, 15.0 - k.log10()));
+    let line = [1.0, 1e12].map(|k: f64| (k, 15.0 - libm::log10(k)));
     let (line_x, line_y) = line.into_iter().unzip();
     let digits = || ChartAxis::linear("digits", (0.0, 15.5));
     let left = ChartPanel::new(

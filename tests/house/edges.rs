@@ -16,7 +16,7 @@ const CORE: Edges = "
     names
     number
     procedures block capacity excitation fragility ida integrator intensity \
-        statistics stop
+        record statistics stop
     record stop units
     statistics names number stop streams
     stop

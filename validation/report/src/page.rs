@@ -4,10 +4,10 @@
 //! [`page`] is a pure function: findings, cases and figures arrive as they
 //! are, the rest as words and numbers already formatted.
 
-mod figures;
+pub(crate) mod figures;
 mod input;
 mod sections;
-mod table;
+pub(crate) mod table;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -17,7 +17,7 @@ use input::Part;
 
 pub use input::{AnswerRow, Chapter, Column, ReportInput, Shown};
 
-const STYLE: &str = include_str!("page/page.css");
+pub(crate) const STYLE: &str = include_str!("page/page.css");
 
 /// The page.
 ///

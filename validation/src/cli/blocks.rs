@@ -12,7 +12,8 @@ use crate::input;
 
 /// The columns that a table of blocks has.
 const EXPECTED: &str = "numbers in the columns alpha and p, or width_m and \
-                        height_m, and where wanted id, eta and sample";
+                        height_m, and where wanted id, eta, sample, \
+                        friction and limit_ratio";
 
 /// The cells of a row; an empty one is none.
 #[derive(Deserialize)]
@@ -25,6 +26,8 @@ struct Cells {
     height_m: Option<f64>,
     eta: Option<f64>,
     sample: Option<String>,
+    friction: Option<f64>,
+    limit_ratio: Option<f64>,
 }
 
 /// A row of the table.
@@ -40,11 +43,26 @@ pub struct Row {
     pub eta: Option<f64>,
     /// Its own sample files beside the table, one a limit state.
     pub samples: Vec<PathBuf>,
+    /// Coefficient of friction of the floor.
+    pub friction: Option<f64>,
+    /// Rotation over slenderness that must not be exceeded.
+    pub limit_ratio: Option<f64>,
+}
+
+impl Row {
+    /// A block that no table holds.
+    #[must_use]
+    pub fn of(id: Id, block: Block) -> Self {
+        let place = id.to_string();
+        let samples = Vec::new();
+        let (eta, friction, limit_ratio) = (None, None, None);
+        Self { place, id, block, eta, samples, friction, limit_ratio }
+    }
 }
 
 /// Reads a table with the columns `alpha,p` (rad, rad/s) or
-/// `width_m,height_m`, and where wanted `id`, `eta`, and `sample` with files
-/// separated by `;`.
+/// `width_m,height_m`, and where wanted `id`, `eta`, `sample` with files
+/// separated by `;`, `friction` and `limit_ratio`.
 ///
 /// # Errors
 /// [`Failure`] with the line for another column, a cell of another form, a
@@ -87,7 +105,22 @@ pub fn read(path: &Path, gravity_m_s2: f64) -> Result<Vec<Row>, Failure> {
         let samples = cells.sample.map_or(Vec::new(), |names| {
             names.split(';').map(|name| folder.join(name.trim())).collect()
         });
-        rows.push(Row { place, id, block, eta: cells.eta, samples });
+        let Cells { eta, friction, limit_ratio, .. } = cells;
+        let mu = friction.filter(|mu| !(*mu > 0.0 && mu.is_finite()));
+        if let Some(mu) = mu {
+            return Err(at(format!(
+                "friction {mu}: expected a positive number"
+            )));
+        }
+        rows.push(Row {
+            place,
+            id,
+            block,
+            eta,
+            samples,
+            friction,
+            limit_ratio,
+        });
     }
     if rows.is_empty() {
         return Err(Failure::input(format!("{place}: no block")));

@@ -17,9 +17,9 @@ use serde::Serialize;
 use super::measure::GroundArgs;
 use super::names;
 use super::shared::{JsonArg, positive};
-use crate::threads::with_threads;
 use crate::failure::Failure;
 use crate::input;
+use crate::threads::with_threads;
 use rocking_common::files::Outputs;
 use rocking_common::paper::Intensity;
 

@@ -8,11 +8,11 @@ use rocking::excitation::{
 };
 use rocking::record::{Accelerogram, Record, Remarked, SetAside, read_file};
 
-use crate::failure::Failure;
 use super::names::{self, named};
 use super::processing::{ProcessingArgs, words};
 use super::reading::ReadArgs;
 use super::shared::positive;
+use crate::failure::Failure;
 use rocking_common::paper::Intensity;
 use rocking_common::suites::remarks::Remarks;
 

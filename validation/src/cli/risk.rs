@@ -38,17 +38,8 @@ pub struct Args {
     /// Hazard curve, CSV; `-` is standard input.
     #[arg(long, value_name = "HAZARD.csv")]
     hazard: PathBuf,
-    /// Longitude and latitude of the site, in OpenQuake's CSV of several.
-    #[arg(
-        long,
-        value_name = "LON,LAT",
-        value_parser = site,
-        allow_hyphen_values = true
-    )]
-    site: Option<(f64, f64)>,
-    /// Years of probabilities, also of a curve's without its own [default: 50].
-    #[arg(long, value_name = "T")]
-    years: Option<f64>,
+    #[command(flatten)]
+    site: SiteArgs,
     /// Median of the fragility, in the unit of the hazard curve.
     #[arg(
         long,
@@ -76,8 +67,48 @@ pub struct Args {
     json: JsonArg,
 }
 
+/// Where and for how long a hazard curve holds.
+#[derive(ClapArgs, Clone, Copy, Debug)]
+pub struct SiteArgs {
+    /// Longitude and latitude of the site, in OpenQuake's CSV of several.
+    #[arg(
+        long,
+        value_name = "LON,LAT",
+        value_parser = site,
+        allow_hyphen_values = true
+    )]
+    site: Option<(f64, f64)>,
+    /// Years of probabilities, also of a curve's without its own [default: 50].
+    #[arg(long, value_name = "T")]
+    years: Option<f64>,
+}
+
 /// Years of the probabilities that are printed, where none are given.
 const YEARS: f64 = 50.0;
+
+impl SiteArgs {
+    /// Years of the probabilities that are printed.
+    #[must_use]
+    pub fn years(self) -> f64 {
+        self.years.unwrap_or(YEARS)
+    }
+
+    /// Reads a hazard curve; what is set aside is said on standard error,
+    /// too.
+    ///
+    /// # Errors
+    /// [`Failure`] with file and line.
+    pub fn read(self, path: &Path) -> Result<Hazard, Failure> {
+        let place = path.display().to_string();
+        let text = input::text(path)?;
+        let options = HazardOptions { years: self.years, site_deg: self.site };
+        let hazard = Hazard::parse(&place, &text, &options)?;
+        for remark in &hazard.remarks {
+            note(&format!("{place}: {remark}"));
+        }
+        Ok(hazard)
+    }
+}
 
 fn site(text: &str) -> Result<(f64, f64), String> {
     let degrees = text.split_once(',').and_then(|(lon, lat)| {
@@ -99,27 +130,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             "--hazard - and another file -: expected one of them as a file",
         ));
     }
-    let hazard = read(args)?;
+    let hazard = args.site.read(&args.hazard)?;
     let options = args.fit.options(QuantileType::default());
     let fragilities = match (args.median, args.dispersion) {
         (Some(median), Some(beta)) => given(options.shift, median, beta)?,
         _ => args.threads.run(|| of_source(args, options, &hazard))??,
     };
-    let years = args.years.unwrap_or(YEARS);
+    let years = args.site.years();
     let found = args.threads.run(|| risk(&hazard, &fragilities, years))?;
     args.json.show(&found?)
-}
-
-/// Reads the hazard curve; what is set aside is said on standard error, too.
-fn read(args: &Args) -> Result<Hazard, Failure> {
-    let place = args.hazard.display().to_string();
-    let text = input::text(&args.hazard)?;
-    let options = HazardOptions { years: args.years, site_deg: args.site };
-    let hazard = Hazard::parse(&place, &text, &options)?;
-    for remark in &hazard.remarks {
-        note(&format!("{place}: {remark}"));
-    }
-    Ok(hazard)
 }
 
 /// The fragility of given parameters.

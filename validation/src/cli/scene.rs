@@ -5,9 +5,9 @@ use rocking::block::{Block, Restitution};
 use rocking::integrator::{Model, Overturning};
 use rocking::units::STANDARD_GRAVITY_M_S2;
 
-use crate::failure::Failure;
 use super::names;
 use super::shared::positive;
+use crate::failure::Failure;
 
 /// The block, by its parameters or by its size.
 #[derive(clap::Args, Clone, Debug)]

@@ -17,9 +17,9 @@ use super::reading::ReadArgs;
 use super::shared::{JsonArg, ThreadsArg, positive};
 use super::{blocks, names};
 use crate::failure::Failure;
+use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use crate::terminal::{SOFTWARE, note, print, say};
 use crate::threads::until;
-use crate::sweep::{self, Content, Given, Levels, Planned, State, Wanted};
 use rocking_common::suites::inputs::read_suite;
 use rocking_common::suites::remarks::Remarks;
 

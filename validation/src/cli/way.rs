@@ -3,8 +3,8 @@
 use clap::ValueEnum;
 use rocking::number::dispatch::Isa;
 
-use crate::failure::Failure;
 use super::names::named;
+use crate::failure::Failure;
 use rocking_common::curves::Execution;
 
 /// How curves are made; results are the same bits.

@@ -37,7 +37,7 @@ pub fn figure(shown: &Figure) -> Markup {
 }
 
 /// The SVG without its own style sheet, which the page has once.
-fn inline(svg: &str) -> String {
+pub fn inline(svg: &str) -> String {
     let style = format!("<style>{}</style>\n", colour::STYLE);
     svg.replacen(&style, "", 1)
 }

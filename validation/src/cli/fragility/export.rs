@@ -8,9 +8,9 @@ use serde::Serialize;
 
 use super::fit::FitArgs;
 use super::source::SourceArgs;
-use crate::failure::Failure;
 use crate::cli::names::named;
 use crate::cli::shared::JsonArg;
+use crate::failure::Failure;
 use rocking_common::files::Outputs;
 
 /// What the help says of the formats.

@@ -172,8 +172,7 @@ impl SourceArgs {
                 let block = self.block.block(gravity_m_s2)?;
                 let id = self.id.clone().map_or_else(|| Id::of(&block), Ok);
                 let id = id.map_err(Failure::input)?;
-                let (place, samples) = (id.to_string(), Vec::new());
-                vec![Row { place, id, block, eta: None, samples }]
+                vec![Row::of(id, block)]
             }
         };
         let mut samples = BTreeMap::new();

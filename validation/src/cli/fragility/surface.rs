@@ -3,9 +3,9 @@
 use rocking::units::STANDARD_GRAVITY_M_S2;
 use rocking_surrogate::Surrogate;
 
-use crate::failure::Failure;
 use crate::cli::scene::BlockArgs;
 use crate::cli::shared::JsonArg;
+use crate::failure::Failure;
 
 /// Overturning fragility of a block under the embedded suites, by a fitted
 /// surface and without an analysis, with its errors.

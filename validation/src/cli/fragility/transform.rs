@@ -3,8 +3,8 @@
 use clap::Args as ClapArgs;
 use rocking::procedures::fit::Transformed;
 
-use crate::failure::Failure;
 use crate::cli::shared::JsonArg;
+use crate::failure::Failure;
 
 /// Eqs. 5 to 7: a shifted fragility from unshifted numbers.
 ///
